@@ -1,0 +1,59 @@
+"""US and SI side by side: quantities, their units in both systems, and the one number formatter.
+
+Values are SI everywhere else; only what a person reads or types passes through here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+KG_M_S2_PER_LB = 4.4482216152605
+G_MPS2 = 9.80665
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit: its symbol, its size in SI, and how many decimals a page prints."""
+
+    symbol: str
+    si: float
+    decimals: int
+
+
+class Quantity(Enum):
+    """What a number measures: (US unit, SI unit)."""
+
+    DISPLACEMENT = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
+    SIZE = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
+    PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
+    WEIGHT = (Unit("lb", KG_M_S2_PER_LB, 0), Unit("kN", 1e3, 2))
+
+    @property
+    def us(self) -> Unit:
+        """The unit in the US system."""
+        return self.value[0]
+
+    @property
+    def si(self) -> Unit:
+        """The unit in the SI."""
+        return self.value[1]
+
+
+def number(value: float, decimals: int) -> str:
+    """Return a number for print: fixed decimals, a true minus, an em dash for NaN."""
+    if value != value:
+        return "—"
+    text = f"{value:.{decimals}f}"
+    if float(text) == 0.0:
+        text = text.lstrip("-")
+    return text.replace("-", "−")
+
+
+def pair(value_si: float, quantity: Quantity, us_first: bool = True) -> str:
+    """Return a value in both systems, such as `81.6 in (2072 mm)`, the wanted one first."""
+    first, second = (
+        f"{number(value_si / unit.si, unit.decimals)} {unit.symbol}"
+        for unit in (quantity.value if us_first else quantity.value[::-1])
+    )
+    return f"{first} ({second})"

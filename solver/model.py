@@ -1,0 +1,159 @@
+"""What the solver takes and gives: frozen records, outcomes, the two kinds of error.
+
+Owns no mathematics and no files. Read `solver.solve` next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class InputError(ValueError):
+    """What a user can fix: every problem found, each with its place, what was found, what would do.
+
+    Attributes
+    ----------
+    problems : tuple of str
+        One line for each problem.
+    """
+
+    def __init__(self, problems: str | Sequence[str]):
+        self.problems = (problems,) if isinstance(problems, str) else tuple(problems)
+        super().__init__("\n".join(self.problems))
+
+
+class DefectError(RuntimeError):
+    """What only the developers can fix: a state that the code holds impossible."""
+
+
+class Status(StrEnum):
+    """Outcome of one run; `sentence` says it to a reader."""
+
+    OK = "ok"
+    SLIDING_AT_END = "sliding_at_end"
+    UPLIFT = "uplift"
+
+    @property
+    def sentence(self) -> str:
+        """The outcome in words."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Status.OK: "followed to the end of the record, at rest there",
+    Status.SLIDING_AT_END: "still sliding when the record ends: the displacement is not final",
+    Status.UPLIFT: "the normal force falls below zero: outside the model, no displacement given",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SlideResult:
+    """One block under one motion. Displacements are horizontal, relative to the roof.
+
+    With `Status.UPLIFT` every displacement and time of displacement is NaN.
+
+    Attributes
+    ----------
+    status : Status
+    prd_m : float
+        Peak relative displacement, the largest |u| [m].
+    residual_m : float
+        u at the end of the record [m], positive down the slope for a positive slope.
+    down_m, up_m : float
+        Largest excursion in positive and in negative u [m], both >= 0.
+    t_prd_s : float
+        Time of the PRD [s]; 0 when nothing moves.
+    n_stops : int
+        How often the sliding speed came to zero, reversals included.
+    n_min_g : float
+        Least normal force over the record / (m g).
+    t_uplift_s : float
+        When the normal force first falls below zero [s]; NaN if it never does.
+    end_speed_mps : float
+        Horizontal relative velocity at the end of the record [m/s].
+    """
+
+    status: Status
+    prd_m: float
+    residual_m: float
+    down_m: float
+    up_m: float
+    t_prd_s: float
+    n_stops: int
+    n_min_g: float
+    t_uplift_s: float
+    end_speed_mps: float
+
+
+class EventKind(StrEnum):
+    """What happens at an event of a sliding motion."""
+
+    SLIP = "slip"
+    STOP = "stop"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Event:
+    """Slip begins or ends: time [s], kind, horizontal relative displacement [m]."""
+
+    t_s: float
+    kind: EventKind
+    u_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SlideHistory:
+    """The motion at the samples of the record, with its events.
+
+    Attributes
+    ----------
+    t_s, u_m, v_mps : array, shape (n,)
+        Time [s], horizontal relative displacement [m] and velocity [m/s]; NaN after uplift.
+    events : tuple of Event
+    result : SlideResult
+    """
+
+    t_s: Floats
+    u_m: Floats
+    v_mps: Floats
+    events: tuple[Event, ...]
+    result: SlideResult
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Motion:
+    """A roof motion ready to run: scaled, in m/s2, evenly sampled, arrays read-only.
+
+    Attributes
+    ----------
+    id, source : str
+    dt_s : float
+        Sampling interval [s].
+    ax_mps2, az_mps2 : array, shape (n,)
+        Horizontal and vertical (positive up) acceleration, unscaled [m/s2]; az of shape (0,)
+        where there is no vertical record.
+    scale : float
+        Factor for both components.
+    signs : tuple of int
+        Polarities of the horizontal component to run, from {+1, -1}.
+    """
+
+    id: str
+    source: str
+    dt_s: float
+    ax_mps2: Floats
+    az_mps2: Floats
+    scale: float
+    signs: tuple[int, ...]
+
+    @property
+    def has_vertical(self) -> bool:
+        """Whether a vertical component goes with the horizontal one."""
+        return len(self.az_mps2) > 0
