@@ -1,0 +1,20 @@
+"""The sliding block: exact response of ballasted arrays, and the code rules it is held against.
+
+Public names are listed here; everything is SI. Imports no files, pages or pictures.
+"""
+
+from solver.model import Event, EventKind, InputError, Motion, SlideHistory, SlideResult, Status
+from solver.solve import METHODS, slide, slide_history
+
+__all__ = [
+    "METHODS",
+    "Event",
+    "EventKind",
+    "InputError",
+    "Motion",
+    "SlideHistory",
+    "SlideResult",
+    "Status",
+    "slide",
+    "slide_history",
+]

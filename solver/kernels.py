@@ -1,0 +1,226 @@
+"""Every jitted function: plain functions of floats and arrays.
+
+Never raises, never allocates for its caller, knows no units but SI; numpy and numba only.
+Read `solver.solve` for what the numbers mean and `solver.motion` for spectra.
+
+Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
+    x, z     horizontal (right) and vertical (up) acceleration of the plane     [m/s2]
+    g        acceleration of gravity                                            [m/s2]
+    sn, cs   sine and cosine of the roof slope theta, positive down to the right
+    mu       friction coefficient, static and kinetic
+    s, w     distance slid down the slope [m]; speed in the direction of sliding, >= 0 [m/s]
+    sigma    direction of sliding: +1 down the slope, -1 up, 0 at rest
+    q, r     acceleration in the direction of sliding [m/s2] and its rate in an interval [m/s3]
+    dt, tau  sampling interval and time since the interval began                [s]
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+# Outcome codes; `solver.solve` maps them to `Status`.
+FOLLOWED = 0
+UPLIFTED = 1
+
+# Kinds of event in the `events` array.
+SLIP = 1.0
+STOP = 0.0
+
+TINY = 2.3e-308
+
+
+@njit(cache=True, inline="always")
+def _vertical(az, i):
+    """Vertical acceleration at sample i; an empty record means none."""
+    return az[i] if az.size > 0 else 0.0
+
+
+@njit(cache=True)
+def least_normal(ax, az, dt, sn, cs, g, scale):
+    """Least N / (m g) over the record, and when N first falls below zero (NaN: never).
+
+    N = (g + a_v) cos(theta) + a_h sin(theta), Eq. 6 with the vertical added. N is linear between
+    samples, so its minimum is at one of them.
+    """
+    least = np.inf
+    t_uplift = np.nan
+    before = 0.0
+    for i in range(ax.size):
+        normal = cs * (g + scale * _vertical(az, i)) + sn * (scale * ax[i])
+        if normal < least:
+            if normal < 0.0 and not least < 0.0:
+                t_uplift = 0.0 if i == 0 else (i - 1 + before / (before - normal)) * dt
+            least = normal
+        before = normal
+    return least / g, t_uplift
+
+
+@njit(cache=True, inline="always")
+def _first_stop(w, q, r, h):
+    """First tau in (0, h] where the speed w + q tau + r tau^2 / 2 is zero, or -1.
+
+    The end value alone is not enough: the speed may touch or cross zero inside and be positive
+    again at the end, so the vertex is looked at too.
+    """
+    ends_moving = w + h * (q + 0.5 * r * h) > 0.0
+    dips = r > 0.0 and q < 0.0 and -q < r * h
+    if ends_moving and not dips:
+        return -1.0
+    discriminant = q * q - 2.0 * r * w
+    if discriminant < 0.0:
+        if ends_moving:
+            return -1.0
+        discriminant = 0.0  # a rounding below zero: the speed touches zero
+    # The form of the quadratic formula without cancellation.
+    if q < 0.0:
+        tau = 2.0 * w / (math.sqrt(discriminant) - q)
+    elif r < 0.0:
+        tau = (q + math.sqrt(discriminant)) / -r
+    else:
+        tau = h
+    return min(tau, h)
+
+
+@njit(cache=True, inline="always")
+def _onset(q, r, tau, dt):
+    """When a push q + r tau out of rest first becomes positive, in [tau, dt), or dt."""
+    if q + r * tau > 0.0:
+        return tau
+    if r <= 0.0:
+        return dt
+    return min(max(-q / r, tau), dt)
+
+
+@njit(cache=True)
+def slide_exact(ax, az, dt, sn, cs, mu, g, scale, events, history):
+    """Follow the linearly interpolated record exactly, event by event.
+
+    In each interval N and the driving acceleration are linear, so s' is quadratic and s cubic
+    between events, and each event is the root of a linear or quadratic polynomial.
+
+    Parameters
+    ----------
+    events : array, shape (m, 3)
+        Filled with time, kind and s of the first m events; shape (0, 3) for none.
+    history : array, shape (2, n) or (2, 0)
+        Filled with s and s' at the samples.
+
+    Returns
+    -------
+    tuple
+        s at its largest, s at its least, s at the end, s' at the end, time of the largest |s|,
+        number of stops, number of events.
+    """
+    c_down, k_down = sn - mu * cs, cs + mu * sn
+    c_up, k_up = -sn - mu * cs, mu * sn - cs
+    x = scale * ax[0]
+    gz = g + scale * _vertical(az, 0)
+    down, up = c_down * gz - k_down * x, c_up * gz - k_up * x
+    s = w = s_max = s_min = s_peak = t_peak = 0.0
+    sigma = n_stops = n_events = 0
+    for i in range(ax.size - 1):
+        if history.shape[1] > 0:
+            history[0, i], history[1, i] = s, sigma * w
+        x = scale * ax[i + 1]
+        gz = g + scale * _vertical(az, i + 1)
+        down_0, up_0 = down, up
+        down, up = c_down * gz - k_down * x, c_up * gz - k_up * x
+        # At rest and pushed over at neither end: linear, so nowhere between.
+        if sigma == 0 and down <= 0.0 and up <= 0.0 and down_0 <= 0.0 and up_0 <= 0.0:
+            continue
+        r_down, r_up = (down - down_0) / dt, (up - up_0) / dt
+        tau = 0.0
+        while tau < dt:
+            if sigma == 0:
+                t_down, t_up = _onset(down_0, r_down, tau, dt), _onset(up_0, r_up, tau, dt)
+                tau = min(t_down, t_up)
+                if tau >= dt:
+                    break
+                sigma = 1 if t_down <= t_up else -1
+                if n_events < events.shape[0]:
+                    events[n_events, 0], events[n_events, 1] = i * dt + tau, SLIP
+                    events[n_events, 2] = s
+                n_events += 1
+            r = r_down if sigma > 0 else r_up
+            q = (down_0 if sigma > 0 else up_0) + r * tau
+            if w == 0.0:
+                q = max(q, 0.0)  # an onset has no push against it: what is left is rounding
+            h = dt - tau
+            stop = _first_stop(w, q, r, h) if w > 0.0 or r < 0.0 else -1.0
+            step = h if stop < 0.0 else stop
+            s += sigma * step * (w + step * (0.5 * q + step * r / 6.0))
+            if stop < 0.0:
+                w += h * (q + 0.5 * r * h)
+                break
+            # Where the step is lost in rounding, time must pass all the same.
+            tau = tau + step if tau + step > tau else tau * (1.0 + 2.3e-16) + TINY
+            if abs(s) > abs(s_peak):
+                s_peak, t_peak = s, i * dt + tau
+            s_max, s_min = max(s_max, s), min(s_min, s)
+            if n_events < events.shape[0]:
+                events[n_events, 0], events[n_events, 1] = i * dt + tau, STOP
+                events[n_events, 2] = s
+            n_events += 1
+            n_stops += 1
+            sigma, w = 0, 0.0
+    t_end = (ax.size - 1) * dt
+    if abs(s) > abs(s_peak):
+        t_peak = t_end
+    s_max, s_min = max(s_max, s), min(s_min, s)
+    if history.shape[1] > 0:
+        history[0, -1], history[1, -1] = s, sigma * w
+    return s_max, s_min, s, sigma * w, t_peak, n_stops, n_events
+
+
+@njit(cache=True)
+def slide_paper(ax, dt, sn, cs, mu, g, scale, substeps, history):
+    """Follow the paper's own algorithm: constant acceleration over each of `substeps` sub-steps.
+
+    Equation by equation, sign(0) = 0 included (Eq. 13), so that the first sub-step of a slip has
+    no friction. First order in dt / substeps.
+
+    Returns
+    -------
+    tuple
+        Code, u = u_x - u_p at its largest, at its least, at the end, its rate at the end, time
+        of the largest |u|, number of stops, time of uplift.
+    """
+    tn = sn / cs
+    step = dt / substeps
+    v_p = u_p = v_x = u_x = dv = dv_before = 0.0  # Eq. 19
+    u_max = u_min = u_peak = t_peak = 0.0
+    n_stops = 0
+    for k in range((ax.size - 1) * substeps):
+        i, j = k // substeps, k % substeps
+        a_p = scale * (ax[i] + (ax[i + 1] - ax[i]) * (j / substeps))
+        if history.shape[1] > 0 and j == 0:
+            history[0, i], history[1, i] = u_x - u_p, dv
+        slow = dv == 0.0 or dv * dv_before < 0.0
+        if dv * dv_before < 0.0:
+            n_stops += 1
+        normal = g * cs + a_p * sn
+        # Eqs. 6, 8, 9
+        if slow and abs(a_p * cs - g * sn) < mu * abs(normal):
+            v_x, a_x, dv = v_p, a_p, 0.0
+        else:
+            sign = 1.0 if dv > 0.0 else (-1.0 if dv < 0.0 else 0.0)
+            a_k = sn - mu * sign * cs  # Eq. 13
+            b_k = cs + mu * sign * sn  # Eq. 15
+            c_k = g + a_p * tn  # Eq. 16
+            normal = c_k / (a_k * tn + b_k)  # Eq. 17, N / m
+            a_x = normal * a_k  # Eq. 18
+        if normal < 0.0:
+            return UPLIFTED, np.nan, np.nan, np.nan, np.nan, np.nan, n_stops, k * step
+        u_p += v_p * step + 0.5 * a_p * step * step
+        v_p += a_p * step
+        u_x += v_x * step + 0.5 * a_x * step * step
+        v_x += a_x * step
+        dv_before, dv = dv, v_x - v_p
+        u = u_x - u_p
+        if abs(u) > abs(u_peak):
+            u_peak, t_peak = u, (k + 1) * step
+        u_max, u_min = max(u_max, u), min(u_min, u)
+    if history.shape[1] > 0:
+        history[0, -1], history[1, -1] = u_x - u_p, dv
+    return FOLLOWED, u_max, u_min, u_x - u_p, dv, t_peak, n_stops, np.nan
