@@ -1,0 +1,212 @@
+"""A field of the input taken apart: label, unit, range, choices.
+
+Template, reader, echo and documentation ask here and never look at pydantic themselves. What the
+fields are is in `report.schema`.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import math
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache
+from typing import Annotated, Any, get_args
+
+from annotated_types import Ge, Gt, Le, Lt
+from pydantic import BaseModel, ConfigDict, TypeAdapter
+from pydantic.fields import FieldInfo
+
+from report.units import Quantity
+
+
+class YesNo(StrEnum):
+    """A yes or a no, as a cell shows it."""
+
+    YES = "Yes"
+    NO = "No"
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """How a field is put to a person.
+
+    Attributes
+    ----------
+    label, help : str
+        Heading, and the message shown when the cell is chosen.
+    example : str, float, int or date
+        A plausible value, in the US unit of `unit` where that is a quantity.
+    unit : Quantity or str
+        What the number measures, or a unit that is the same everywhere; empty for none.
+    """
+
+    label: str
+    help: str
+    example: str | float | int | dt.date
+    unit: Quantity | str = ""
+
+
+class Frozen(BaseModel):
+    """What all models here share: frozen, complete, finite."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, str_strip_whitespace=True
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """A part of the workbook: a block of single cells, or a table.
+
+    Attributes
+    ----------
+    key : str
+        Its attribute of `ProjectInput`, and the stem of its names in the workbook.
+    sheet, title, hint : str
+        Sheet it is made on, its heading, and one line of instruction.
+    model : type
+        What one block or one row is.
+    is_table : bool
+    """
+
+    key: str
+    sheet: str
+    title: str
+    hint: str
+    model: type[Frozen]
+    is_table: bool
+
+    @property
+    def table_name(self) -> str:
+        """Name of its Excel table."""
+        return f"{self.key}_table"
+
+    def cell_name(self, field: str) -> str:
+        """Return the defined name of a single cell."""
+        return f"{self.key}_{field}"
+
+    def unit_name(self, field: str) -> str:
+        """Return the defined name of the cell that holds a single cell's unit."""
+        return f"{self.cell_name(field)}_unit"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bounds:
+    """Range of a number, in SI or in the field's own unit; infinite where open."""
+
+    low: float = -math.inf
+    high: float = math.inf
+    excludes_low: bool = False
+    excludes_high: bool = False
+
+    def words(self, si_per_unit: float = 1.0) -> str:
+        """Return the range in words, in a unit: `0 to 1.5`, `more than 0`; empty for any."""
+        low, high = (f"{bound / si_per_unit:.6g}" for bound in (self.low, self.high))
+        if math.isinf(self.low):
+            return "" if math.isinf(self.high) else f"at most {high}"
+        if math.isinf(self.high):
+            return f"more than {low}" if self.excludes_low else f"{low} or more"
+        above = f"more than {low}" if self.excludes_low else low
+        return f"{above} to {'less than ' if self.excludes_high else ''}{high}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entry:
+    """One field of a model, taken apart for template, reader and echo.
+
+    Attributes
+    ----------
+    name : str
+    cell : Cell
+    kind : type
+        float, int, str, bool, date or one of the enums here.
+    is_required : bool
+    default : object
+        What a blank cell means; None where it is required.
+    bounds : Bounds
+    max_length : int
+        Of a text.
+    """
+
+    name: str
+    cell: Cell
+    kind: type[Any]
+    is_required: bool
+    default: Any
+    bounds: Bounds
+    max_length: int
+
+    @property
+    def quantity(self) -> Quantity | None:
+        """What the number measures, where its unit is a choice."""
+        return self.cell.unit if isinstance(self.cell.unit, Quantity) else None
+
+    @property
+    def spoken(self) -> str:
+        """The label as it reads within a sentence."""
+        label = self.cell.label
+        return label[0].lower() + label[1:] if label[1:2].islower() else label
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """The texts to choose from; empty where it is no choice."""
+        if self.kind is bool:
+            return tuple(YesNo)
+        return tuple(self.kind) if issubclass(self.kind, StrEnum) else ()
+
+
+@cache
+def entries(model: type[Frozen]) -> tuple[Entry, ...]:
+    """Return the fields of a model in order, those without a `Cell` left out."""
+    fields = model.model_fields.items()
+    return tuple(_entry(name, info) for name, info in fields if _cells(info))
+
+
+def _cells(info: FieldInfo) -> list[Cell]:
+    return [item for item in info.metadata if isinstance(item, Cell)]
+
+
+def _entry(name: str, info: FieldInfo) -> Entry:
+    kind, constraints = _taken_apart(info)
+    return Entry(
+        name=name,
+        cell=_cells(info)[0],
+        kind=kind,
+        is_required=info.is_required(),
+        default=None if info.is_required() else info.default,
+        bounds=_bounds(constraints),
+        max_length=min(
+            (m for c in constraints if (m := getattr(c, "max_length", None))), default=0
+        ),
+    )
+
+
+def _taken_apart(info: FieldInfo) -> tuple[type[Any], list[Any]]:
+    """Return the plain type behind `Annotated[...] | None`, and all its constraints."""
+    constraints = list(info.metadata)
+    kind: Any = info.annotation
+    while args := [arg for arg in get_args(kind) if arg is not type(None)]:
+        kind = args[0]
+        for field in args[1:]:
+            constraints += getattr(field, "metadata", [])
+    return kind, constraints
+
+
+def _bounds(constraints: list[Any]) -> Bounds:
+    found: dict[str, Any] = {}
+    for constraint in constraints:
+        match constraint:
+            case Ge(ge=low) | Gt(gt=low):
+                found |= {"low": low, "excludes_low": isinstance(constraint, Gt)}
+            case Le(le=high) | Lt(lt=high):
+                found |= {"high": high, "excludes_high": isinstance(constraint, Lt)}
+    return Bounds(**found)
+
+
+@cache
+def adapter(model: type[Frozen], name: str) -> TypeAdapter[Any]:
+    """Return the validator of a single field."""
+    info = model.model_fields[name]
+    annotated: Any = Annotated[info.annotation, *info.metadata]
+    return TypeAdapter(annotated)
