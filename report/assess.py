@@ -1,0 +1,334 @@
+"""Runs every array under every motion and holds the result against the rule set.
+
+Orders the work and keeps what came out; computes no physics (`solver.solve`) and reads no code
+rule itself (`solver.provisions`). Read `report.package` next, which turns this into pages.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from report.schema import (
+    Array,
+    Clearance,
+    ObjectKind,
+    ProjectInput,
+    RoofObject,
+    Statistic,
+)
+from solver import provisions
+from solver.model import Motion, SlideHistory, SlideResult, Status
+from solver.provisions import (
+    AnalysisValue,
+    Basis,
+    Check,
+    Neighbour,
+    Prescriptive,
+    RequiredSpectrum,
+    RuleSet,
+)
+from solver.solve import slide_motion
+
+_BASES = {
+    Statistic.RULE_SET: None,
+    Statistic.MEAN_1_1: Basis.MEAN_FACTORED,
+    Statistic.LARGEST_1_1: Basis.LARGEST_FACTORED,
+    Statistic.MEAN: Basis.MEAN,
+}
+_KINDS = {
+    ObjectKind.FIXED: Neighbour.FIXED,
+    ObjectKind.UNLIKE_ARRAY: Neighbour.UNLIKE,
+    ObjectKind.EDGE_WITHOUT_PARAPET: Neighbour.EDGE,
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PolarityRun:
+    """One motion with one sign of its horizontal component."""
+
+    sign: int
+    history: SlideHistory
+
+    @property
+    def result(self) -> SlideResult:
+        """The numbers of the run."""
+        return self.history.result
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MotionRun:
+    """One array under one motion, in the polarities that were asked for."""
+
+    motion: Motion
+    runs: tuple[PolarityRun, ...]
+
+    @property
+    def governing(self) -> PolarityRun:
+        """The run with the largest PRD; one without a displacement governs over all."""
+        return max(self.runs, key=lambda run: _nan_is_worst(run.result.prd_m))
+
+
+def _nan_is_worst(value: float) -> float:
+    return math.inf if math.isnan(value) else value
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrayAssessment:
+    """One array: its runs, the value from analysis, the prescriptive value, the design value.
+
+    Attributes
+    ----------
+    floor_m : float
+        Least design displacement without peer review [m]; 0 with it.
+    design_m : float
+        Design displacement [m]: the larger of the value from analysis and the floor. NaN where
+        there is no value from analysis.
+    checks : tuple of Check
+        Limits that the array must keep for the analysis route.
+    prescriptive_checks : tuple of Check
+        Limits that it would have to keep to use the prescriptive value instead.
+    """
+
+    array: Array
+    motions: tuple[MotionRun, ...]
+    analysis: AnalysisValue
+    prescriptive: Prescriptive
+    floor_m: float
+    design_m: float
+    checks: tuple[Check, ...]
+    prescriptive_checks: tuple[Check, ...]
+    interconnection_n: float
+
+    @property
+    def governs(self) -> str:
+        """What the design displacement comes from."""
+        if math.isnan(self.design_m):
+            return "no value"
+        return "floor" if self.floor_m > self.analysis.value_m else "analysis"
+
+    @property
+    def ratio(self) -> float:
+        """Design displacement / prescriptive displacement."""
+        return self.design_m / self.prescriptive.value_m
+
+    @property
+    def worst(self) -> MotionRun:
+        """The motion with the largest PRD."""
+        return max(self.motions, key=lambda run: _nan_is_worst(run.governing.result.prd_m))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClearanceCheck:
+    """A clearance: what lies across it, the displacement that counts, required and provided.
+
+    Attributes
+    ----------
+    governing_array : str
+        Whose design displacement counts: the larger of the two between arrays.
+    is_least_value : bool
+        Whether a least separation of the rule set governs over factor x displacement.
+    """
+
+    clearance: Clearance
+    neighbour: Neighbour
+    governing_array: str
+    design_m: float
+    factor: float
+    required_m: float
+    is_least_value: bool
+
+    @property
+    def demand_capacity(self) -> float:
+        """Required / provided separation."""
+        provided = self.clearance.provided_m
+        return self.required_m / provided if provided > 0.0 else math.inf
+
+    @property
+    def ok(self) -> bool:
+        """Whether the room suffices; without a design displacement it does not."""
+        return self.required_m <= self.clearance.provided_m
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assessment:
+    """Everything that was computed for a project."""
+
+    rules: RuleSet
+    horizontal_target: RequiredSpectrum
+    vertical_target: RequiredSpectrum
+    building_checks: tuple[Check, ...]
+    arrays: tuple[ArrayAssessment, ...]
+    clearances: tuple[ClearanceCheck, ...]
+    solver_seconds: float
+
+    @property
+    def ok(self) -> bool:
+        """Whether every limit and every clearance is kept and every run gave a final value."""
+        checks = [*self.building_checks, *(check for a in self.arrays for check in a.checks)]
+        return all(item.ok for item in (*checks, *self.clearances)) and not self.warnings
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Runs whose displacement is missing or not final, in words."""
+        return tuple(
+            f"Array {assessed.array.id}, motion {motion.motion.id}"
+            f"{' reversed' if run.sign < 0 else ''}: {_trouble(run.result)}."
+            for assessed in self.arrays
+            for motion in assessed.motions
+            for run in motion.runs
+            if run.result.status is not Status.OK
+        )
+
+    def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
+        """Return the clearance of an array with the largest D/C, if it has any."""
+        of_array = [c for c in self.clearances if same_id(c.clearance.array, array_id)]
+        return max(of_array, key=lambda c: _nan_is_worst(c.demand_capacity), default=None)
+
+
+def _trouble(result: SlideResult) -> str:
+    if result.status is Status.UPLIFT:
+        return f"{result.status.sentence} (at {result.t_uplift_s:.3f} s)"
+    return f"{result.status.sentence} (at {abs(result.end_speed_mps):.3f} m/s)"
+
+
+def same_id(one: str, other: str) -> bool:
+    """Whether two ids name the same thing; capitals do not tell things apart."""
+    return one.casefold() == other.casefold()
+
+
+def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
+    """Run every array under every motion and check every limit and clearance.
+
+    Raises
+    ------
+    InputError
+        For an override of a provision that the rule set does not have.
+    """
+    site = data.site
+    rules = provisions.RULE_SETS[site.rule_set].overridden(
+        {row.provision: (row.value, row.reason) for row in data.overrides}
+    )
+    started = time.perf_counter()
+    runs = [_run_motions(array, motions) for array in data.arrays]
+    seconds = time.perf_counter() - started
+    arrays = tuple(
+        _assess_array(data, rules, array, found)
+        for array, found in zip(data.arrays, runs, strict=True)
+    )
+    return Assessment(
+        rules=rules,
+        horizontal_target=provisions.ac156_horizontal(
+            rules, s_ds_g=site.s_ds, z_over_h=site.roof_height_m / site.structure_height_m
+        ),
+        vertical_target=provisions.ac156_vertical(s_ds_g=site.s_ds),
+        building_checks=provisions.building_checks(
+            rules,
+            risk_category=list(type(site.risk_category)).index(site.risk_category) + 1,
+            storeys=site.storeys,
+        ),
+        arrays=arrays,
+        clearances=tuple(_check_clearance(data, rules, arrays, row) for row in data.clearances),
+        solver_seconds=seconds,
+    )
+
+
+def _run_motions(array: Array, motions: Sequence[Motion]) -> tuple[MotionRun, ...]:
+    return tuple(
+        MotionRun(
+            motion=motion,
+            runs=tuple(
+                PolarityRun(
+                    sign=sign,
+                    history=slide_motion(motion, slope_rad=array.slope_rad, mu=array.mu, sign=sign),
+                )
+                for sign in motion.signs
+            ),
+        )
+        for motion in motions
+    )
+
+
+def _assess_array(
+    data: ProjectInput, rules: RuleSet, array: Array, runs: tuple[MotionRun, ...]
+) -> ArrayAssessment:
+    site = data.site
+    prescriptive = provisions.prescriptive_displacement(
+        rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
+    )
+    analysis = provisions.analysis_value(
+        rules, [run.governing.result.prd_m for run in runs], _BASES[data.options.statistic]
+    )
+    floor = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
+    no_value = math.isnan(analysis.value_m)
+    return ArrayAssessment(
+        array=array,
+        motions=runs,
+        analysis=analysis,
+        prescriptive=prescriptive,
+        floor_m=floor,
+        design_m=math.nan if no_value else max(analysis.value_m, floor),
+        checks=(
+            *provisions.array_checks(
+                rules,
+                cg_height_m=array.cg_height_m,
+                support_spacing_m=array.support_spacing_m,
+            ),
+            *provisions.analysis_checks(rules, slope_rad=array.slope_rad, n_motions=len(runs)),
+        ),
+        prescriptive_checks=provisions.prescriptive_checks(
+            rules, slope_rad=array.slope_rad, mu=array.mu
+        ),
+        # The lighter side of a section is at most half of the array.
+        interconnection_n=provisions.interconnection_strength_n(
+            rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
+        ),
+    )
+
+
+def _check_clearance(
+    data: ProjectInput,
+    rules: RuleSet,
+    arrays: Sequence[ArrayAssessment],
+    row: Clearance,
+) -> ClearanceCheck:
+    near = _by_id(arrays, row.array)
+    others = [a for a in arrays if same_id(a.array.id, row.object)]
+    governing = max([near, *others], key=lambda a: _nan_is_worst(a.design_m))
+    if others:
+        alike = same_id(near.array.construction, others[0].array.construction)
+        neighbour = Neighbour.LIKE if alike else Neighbour.UNLIKE
+    else:
+        found = next(item for item in data.objects if same_id(item.id, row.object))
+        neighbour = _neighbour(rules, found, near.array)
+    required = provisions.required_separation(
+        rules, neighbour, design_m=governing.design_m, importance=data.site.i_e
+    )
+    factor = rules[provisions.SEPARATION_KEYS[neighbour]]
+    if rules.importance_in_separation:
+        factor *= data.site.i_e
+    return ClearanceCheck(
+        clearance=row,
+        neighbour=neighbour,
+        governing_array=governing.array.id,
+        design_m=governing.design_m,
+        factor=factor,
+        required_m=required,
+        is_least_value=required > factor * governing.design_m,
+    )
+
+
+def _by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
+    return next(item for item in arrays if same_id(item.array.id, wanted))
+
+
+def _neighbour(rules: RuleSet, found: RoofObject, array: Array) -> Neighbour:
+    """Return what lies across the gap; a parapet that is too low leaves an edge without."""
+    if found.kind is not ObjectKind.EDGE_WITH_PARAPET:
+        return _KINDS[found.kind]
+    qualifies = found.height_m is not None and provisions.parapet_qualifies(
+        rules, parapet_height_m=found.height_m, cg_height_m=array.cg_height_m
+    )
+    return Neighbour.PARAPET if qualifies else Neighbour.EDGE
