@@ -168,7 +168,8 @@ class Assessment:
     def ok(self) -> bool:
         """Whether every limit and every clearance is kept and every run gave a final value."""
         checks = [*self.building_checks, *(check for a in self.arrays for check in a.checks)]
-        return all(item.ok for item in (*checks, *self.clearances)) and not self.warnings
+        limits_kept = all(check.ok for check in checks)
+        return limits_kept and all(gap.ok for gap in self.clearances) and not self.warnings
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -316,7 +317,8 @@ def _check_clearance(
         design_m=governing.design_m,
         factor=factor,
         required_m=required,
-        is_least_value=required > factor * governing.design_m,
+        # The margin tells a least value from rounding.
+        is_least_value=required > factor * governing.design_m * (1.0 + 1e-9),
     )
 
 
