@@ -7,9 +7,7 @@ that look at more than one cell are in `report.checks`. Read `report.workbook` n
 from __future__ import annotations
 
 import datetime as dt
-import importlib
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated
@@ -19,8 +17,11 @@ from pydantic import Field, model_validator
 from report.fields import Cell, Frozen, Section
 from report.fields import YesNo as YesNo
 from report.units import Quantity
+from solver.provisions import OVERRIDABLE
 
 MAX_TEXT = 2000
+PROVISION_KEYS = OVERRIDABLE
+"""Provisions that can be overridden, each with what it is and its unit."""
 
 
 class RuleSetName(StrEnum):
@@ -546,9 +547,3 @@ SECTIONS = (
         Override,
     ),
 )
-
-
-def provision_keys() -> Mapping[str, str]:
-    """Return the provisions that can be overridden, each with what it is and its unit."""
-    overridable: Mapping[str, str] = importlib.import_module("solver.provisions").OVERRIDABLE
-    return overridable

@@ -5,11 +5,24 @@ Values are SI everywhere else; only what a person reads or types passes through 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
 KG_M_S2_PER_LB = 4.4482216152605
 G_MPS2 = 9.80665
+
+LENGTHS = {"in": 0.0254, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+"""Lengths in m."""
+
+WEIGHTS = {
+    "lb": KG_M_S2_PER_LB,
+    "kip": 1e3 * KG_M_S2_PER_LB,
+    "N": 1.0,
+    "kN": 1e3,
+    "kg": G_MPS2,
+}
+"""Weights in N; a mass counts with standard gravity."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,9 +38,14 @@ class Quantity(Enum):
     """What a number measures: (US unit, SI unit)."""
 
     DISPLACEMENT = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
-    SIZE = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
+    SIZE = DISPLACEMENT
     PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
     WEIGHT = (Unit("lb", KG_M_S2_PER_LB, 0), Unit("kN", 1e3, 2))
+
+    @property
+    def accepted(self) -> Mapping[str, float]:
+        """Symbols that an input may use, each with its size in SI."""
+        return WEIGHTS if self is Quantity.WEIGHT else LENGTHS
 
     @property
     def us(self) -> Unit:

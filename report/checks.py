@@ -1,0 +1,311 @@
+"""Checks of the input that look at more than one cell; each fault names the cell to change.
+
+Works on a draft: rows of the values that were readable, so that one bad cell hides no other fault.
+Single cells are checked by `report.schema`; files and sheets by `report.workbook`.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from report.schema import (
+    PROVISION_KEYS,
+    ObjectKind,
+    Rectangle,
+    RiskCategory,
+    Scaling,
+    Sdc,
+    SlopeUnit,
+    UnitsFirst,
+    s_ds,
+    slope_rad,
+)
+from report.units import Quantity, pair
+
+Row = Mapping[str, Any]
+Draft = Mapping[str, Sequence[Row]]
+
+LEAST_I_E = {
+    RiskCategory.I: 1.0,
+    RiskCategory.II: 1.0,
+    RiskCategory.III: 1.25,
+    RiskCategory.IV: 1.5,
+}
+MAX_SLOPE_DEG = 45.0
+# Between a permit sheet's S_DS, rounded to three decimals or cut to two, and 2/3 F_a S_S.
+S_DS_AGREES_G = 0.0051
+GAP_TOLERANCE = 0.01
+GAP_TOLERANCE_M = 0.5 * 0.0254
+SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
+
+
+class Place(NamedTuple):
+    """A cell by meaning: section, row of its table, field; a whole table without the last two."""
+
+    section: str
+    row: int = 0
+    field: str = ""
+
+
+class Fault(NamedTuple):
+    """What is wrong at a place: what it is, and what would do."""
+
+    place: Place
+    text: str
+
+
+Where = Callable[[Place], str]
+
+
+def faults(draft: Draft, where: Where) -> list[Fault]:
+    """Return everything in a draft that contradicts itself.
+
+    Parameters
+    ----------
+    draft : mapping of section to rows
+        A row lacks the fields that could not be read; a blank optional field is its default.
+    where : callable
+        Gives the address of a place, for faults that point to a second cell.
+    """
+    checks = (_tables, _ids, _site, _arrays, _objects, _clearances, _motions, _overrides)
+    return [fault for check in checks for fault in check(draft, where)]
+
+
+def rectangle(row: Row) -> Rectangle | None:
+    """Return a row's rectangle, where all four sides are given and in order."""
+    sides = [row[side] for side in SIDES if row.get(side) is not None]
+    if len(sides) < len(SIDES):
+        return None
+    x_from, x_to, y_from, y_to = sides
+    return Rectangle(*sides) if x_from < x_to and y_from < y_to else None
+
+
+def gap_m(a: Rectangle, b: Rectangle) -> float:
+    """Return the least distance of two rectangles [m]; negative where they overlap."""
+    dx = max(a.x_from_m - b.x_to_m, b.x_from_m - a.x_to_m)
+    dy = max(a.y_from_m - b.y_to_m, b.y_from_m - a.y_to_m)
+    return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
+
+
+def least_sdc(s_ds_g: float, risk_category: RiskCategory, s_1_g: float | None) -> Sdc:
+    """Return the mildest category that S_DS and S_1 allow (ASCE 7 section 11.6, Table 11.6-1)."""
+    is_essential = risk_category is RiskCategory.IV
+    if s_1_g is not None and s_1_g >= 0.75:
+        return Sdc.F if is_essential else Sdc.E
+    steps = "ACDD" if is_essential else "ABCD"
+    return Sdc(steps[sum(s_ds_g >= limit for limit in (0.167, 0.33, 0.50))])
+
+
+def _tables(draft: Draft, where: Where) -> Iterator[Fault]:
+    for section, noun in (("arrays", "array"), ("motions", "motion")):
+        if not draft[section]:
+            yield Fault(Place(section), f"no {noun} is given; fill at least one row")
+
+
+def _ids(draft: Draft, where: Where) -> Iterator[Fault]:
+    # Objects are named after arrays, so that an array keeps the name that both have.
+    for sections in (("arrays", "objects"), ("motions",)):
+        seen: dict[str, Place] = {}
+        for place, value in _column(draft, sections, "id"):
+            first = seen.setdefault(value.casefold(), place)
+            if first is not place:
+                text = f"ID is '{value}', as at {where(first)}; give each its own"
+                yield Fault(place, text)
+
+
+def _column(draft: Draft, sections: Sequence[str], field: str) -> Iterator[tuple[Place, Any]]:
+    for section in sections:
+        for index, row in enumerate(draft[section]):
+            if field in row:
+                yield Place(section, index, field), row[field]
+
+
+def _site(draft: Draft, where: Where) -> Iterator[Fault]:
+    for row in draft["site"]:
+        yield from _importance(row)
+        yield from _s_ds(row)
+        yield from _sdc(row)
+
+
+def _importance(row: Row) -> Iterator[Fault]:
+    risk_category, i_e = row.get("risk_category"), row.get("i_e")
+    if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
+        return
+    yield Fault(
+        Place("site", 0, "i_e"),
+        f"importance factor I_e is {i_e:g}; give at least {LEAST_I_E[risk_category]:g} for risk"
+        f" category {risk_category}",
+    )
+
+
+def _s_ds(row: Row) -> Iterator[Fault]:
+    if any(name not in row for name in ("s_ds_g", "s_s_g", "f_a")):
+        return
+    given, s_s_g, f_a = row["s_ds_g"], row["s_s_g"], row["f_a"]
+    if given is None:
+        missing = [n for n, v in (("s_s_g", s_s_g), ("f_a", f_a)) if v is None]
+        if missing:
+            field = "s_ds_g" if len(missing) == 2 else missing[0]
+            label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
+            text = f"{label} is missing; give S_DS, or both S_S and F_a"
+            yield Fault(Place("site", 0, field), text)
+        return
+    computed = s_ds(None, s_s_g, f_a)
+    if computed is not None and abs(given - computed) > S_DS_AGREES_G:
+        text = (
+            f"S_DS is {given:g} g, but 2/3 F_a S_S is {computed:.4f} g; leave one of them blank,"
+            " or correct it"
+        )
+        yield Fault(Place("site", 0, "s_ds_g"), text)
+
+
+def _sdc(row: Row) -> Iterator[Fault]:
+    sdc, risk_category = row.get("sdc"), row.get("risk_category")
+    s_ds_g = s_ds(row.get("s_ds_g"), row.get("s_s_g"), row.get("f_a"))
+    if sdc is None or risk_category is None or s_ds_g is None:
+        return
+    s_1_g = row.get("s_1_g")
+    least = least_sdc(s_ds_g, risk_category, s_1_g)
+    if sdc >= least:
+        return
+    near_fault = least in (Sdc.E, Sdc.F)
+    reason = f"S_1 = {s_1_g:g} g" if near_fault else f"S_DS = {s_ds_g:.3f} g"
+    clause = "ASCE 7 section 11.6" if near_fault else "ASCE 7 Table 11.6-1"
+    yield Fault(
+        Place("site", 0, "sdc"),
+        f"seismic design category is '{sdc}'; {reason} in risk category {risk_category} needs"
+        f" {least} or more severe ({clause})",
+    )
+
+
+def _arrays(draft: Draft, where: Where) -> Iterator[Fault]:
+    for index, row in enumerate(draft["arrays"]):
+        yield from _slope(index, row)
+        yield from _sides("arrays", index, row, _us_first(draft))
+
+
+def _slope(index: int, row: Row) -> Iterator[Fault]:
+    value, unit = row.get("slope_value"), row.get("slope_unit")
+    if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
+        return
+    most = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
+    text = f"slope is {value:g} {unit}; give 0 to less than {most} {unit}"
+    yield Fault(Place("arrays", index, "slope_value"), text)
+
+
+def _sides(section: str, index: int, row: Row, us_first: bool) -> Iterator[Fault]:
+    for axis in "xy":
+        low, high = row.get(f"{axis}_from_m"), row.get(f"{axis}_to_m")
+        if low is None or high is None or low < high:
+            continue
+        found, least = (pair(value, Quantity.PLAN, us_first) for value in (high, low))
+        text = f"{axis} to is {found}; give more than {axis} from, {least}"
+        yield Fault(Place(section, index, f"{axis}_to_m"), text)
+
+
+def _objects(draft: Draft, where: Where) -> Iterator[Fault]:
+    for index, row in enumerate(draft["objects"]):
+        yield from _sides("objects", index, row, _us_first(draft))
+        yield from _whole_rectangle(index, row)
+        if row.get("kind") is ObjectKind.EDGE_WITH_PARAPET and row.get("height_m", 1.0) is None:
+            text = "height is missing; give the parapet's height above the roof"
+            yield Fault(Place("objects", index, "height_m"), text)
+
+
+def _whole_rectangle(index: int, row: Row) -> Iterator[Fault]:
+    blank = [side for side in SIDES if side in row and row[side] is None]
+    if not 0 < len(blank) < len(SIDES):
+        return
+    for side in blank:
+        label = side.removesuffix("_m").replace("_", " ")
+        text = f"{label} is missing; give all four sides of the rectangle, or none"
+        yield Fault(Place("objects", index, side), text)
+
+
+def _clearances(draft: Draft, where: Where) -> Iterator[Fault]:
+    arrays = {row["id"]: row for row in draft["arrays"] if "id" in row}
+    objects = {row["id"]: row for row in draft["objects"] if "id" in row}
+    yield from _known(draft, "array", arrays, "Arrays")
+    yield from _known(draft, "object", objects | arrays, "Objects or Arrays")
+    yield from _repeated(draft, where)
+    for index, row in enumerate(draft["clearances"]):
+        yield from _room(index, row, objects | arrays, _us_first(draft))
+
+
+def _known(draft: Draft, field: str, ids: Mapping[str, Row], sheets: str) -> Iterator[Fault]:
+    for place, value in _column(draft, ("clearances",), field):
+        if value not in ids:
+            text = f"{field} is '{value}', which is not in {sheets}; {_suggestion(value, ids)}"
+            yield Fault(place, text)
+
+
+def _suggestion(value: str, ids: Mapping[str, Row]) -> str:
+    folded = {name.casefold(): name for name in ids}
+    close = difflib.get_close_matches(value.casefold(), folded, n=1)
+    if close:
+        return f"write '{folded[close[0]]}'?"
+    names = ", ".join(list(ids)[:8])
+    return f"give one of {names}" if names else "add it there first"
+
+
+def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
+    seen: dict[tuple[Any, ...], int] = {}
+    for index, row in enumerate(draft["clearances"]):
+        key = tuple(row.get(field) for field in ("array", "object", "direction"))
+        if None in key:
+            continue
+        first = seen.setdefault(key, index)
+        if first != index:
+            at = where(Place("clearances", first, "array"))
+            text = f"array is '{key[0]}', with the same object and direction as at {at}; keep one"
+            yield Fault(Place("clearances", index, "array"), text)
+
+
+def _room(index: int, row: Row, scene: Mapping[str, Row], us_first: bool) -> Iterator[Fault]:
+    array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
+    if array is not None and array == other:
+        text = f"object is '{other}', the array itself; give an object or another array"
+        yield Fault(Place("clearances", index, "object"), text)
+        return
+    a, b = (rectangle(scene.get(str(name), {})) for name in (array, other))
+    if a is None or b is None or provided is None:
+        return
+    gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
+    found = pair(provided, Quantity.SIZE, us_first)
+    if gap < -1e-9:
+        text = f"provided is {found}, but {array} and {other} overlap in plan; correct their"
+        yield Fault(place, f"{text} rectangles")
+    elif provided > gap + max(GAP_TOLERANCE * gap, GAP_TOLERANCE_M):
+        most = pair(max(gap, 0.0), Quantity.SIZE, us_first)
+        text = f"provided is {found}, but the plan leaves {most} between {array} and {other}"
+        yield Fault(place, f"{text}; give no more, or correct the rectangles")
+
+
+def _motions(draft: Draft, where: Where) -> Iterator[Fault]:
+    for index, row in enumerate(draft["motions"]):
+        scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
+        value = row.get("scale_value")
+        if scaling is Scaling.AS_RECORDED and value not in (None, 1.0):
+            text = f"factor or PPA is {value:g}, but scaling is 'as recorded'; choose a scaling or"
+            yield Fault(place, f"{text} leave it blank")
+        elif scaling in (Scaling.FACTOR, Scaling.PPA) and "scale_value" in row and value is None:
+            wanted = "the PPA in g" if scaling is Scaling.PPA else "the factor"
+            yield Fault(place, f"factor or PPA is missing; give {wanted}")
+
+
+def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:
+    seen: dict[str, Place] = {}
+    for place, key in _column(draft, ("overrides",), "provision"):
+        first = seen.setdefault(key, place)
+        if key not in PROVISION_KEYS:
+            text = f"provision is '{key}'; choose one of {', '.join(PROVISION_KEYS)}"
+            yield Fault(place, text)
+        elif first is not place:
+            yield Fault(place, f"provision is '{key}', as at {where(first)}; keep one")
+
+
+def _us_first(draft: Draft) -> bool:
+    return all(row.get("units_first") is not UnitsFirst.SI for row in draft["project"])
