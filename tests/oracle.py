@@ -1,0 +1,95 @@
+"""The sliding block in high-precision arithmetic: slow, plain, and apart from the kernels.
+
+Written in the paper's own variables (horizontal, Eqs. 12-18 with g + a_v for g), not along the
+slope, and by a queue of events, so that a slip in the kernels' algebra would show.
+"""
+
+from dataclasses import dataclass
+
+from mpmath import mp, mpf
+
+mp.dps = 40
+
+
+@dataclass
+class Oracle:
+    prd: mpf
+    residual: mpf
+    down: mpf
+    up: mpf
+    n_stops: int
+
+
+def _relative_acceleration(sign, a_h, a_v, theta, mu, g):
+    """u_x'' - u_p'' while sliding with the sign of the relative velocity, Eq. 18."""
+    a = mp.sin(theta) - mu * sign * mp.cos(theta)
+    b = mp.cos(theta) + mu * sign * mp.sin(theta)
+    c = g + a_v + a_h * mp.tan(theta)
+    return a * c / (a * mp.tan(theta) + b) - a_h
+
+
+def _first_zero(v, a0, a1, h):
+    """Earliest root in (0, h] of v + a0 t + (a1 - a0) t^2 / (2 H), given as coefficients."""
+    roots = []
+    if a1 == 0:
+        if a0 != 0:
+            roots = [-v / a0]
+    else:
+        square = a0 * a0 - 2 * a1 * v
+        if square >= 0:
+            root = mp.sqrt(square)
+            roots = [(-a0 - root) / a1, (-a0 + root) / a1]
+    roots = [t for t in roots if mpf("1e-36") < t <= h]
+    return min(roots) if roots else None
+
+
+def slide(ax, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665):
+    """Return the exact motion of the linearly interpolated record, to 40 digits."""
+    theta, mu, g, dt, scale = (mpf(v) for v in (slope_rad, mu, g, dt, scale))
+    a_h = [scale * mpf(float(v)) for v in ax]
+    a_v = [scale * mpf(float(v)) for v in az] if az is not None else [mpf(0)] * len(a_h)
+    # The relative acceleration is affine in (a_h, g + a_v): three evaluations give its weights.
+    weights = {}
+    for sign in (1, -1):
+        base = _relative_acceleration(sign, mpf(0), mpf(0), theta, mu, g)
+        weights[sign] = (
+            base,
+            _relative_acceleration(sign, mpf(1), mpf(0), theta, mu, g) - base,
+            _relative_acceleration(sign, mpf(0), mpf(1), theta, mu, g) - base,
+        )
+
+    def acceleration(sign, i):
+        base, per_h, per_v = weights[sign]
+        return base + per_h * a_h[i] + per_v * a_v[i]
+
+    u = v = peak = low = high = mpf(0)
+    moving, n_stops = 0, 0
+    ends = {sign: acceleration(sign, 0) for sign in (1, -1)}
+    for i in range(len(a_h) - 1):
+        starts, ends = ends, {sign: acceleration(sign, i + 1) for sign in (1, -1)}
+        rates = {sign: (ends[sign] - starts[sign]) / dt for sign in (1, -1)}
+        t = mpf(0)
+        while t < dt:
+            if not moving:
+                onsets = []
+                for sign in (1, -1):
+                    push, rate = sign * (starts[sign] + rates[sign] * t), sign * rates[sign]
+                    if push > mpf("1e-36"):
+                        onsets.append((t, sign))
+                    elif rate > 0 and t - push / rate < dt:
+                        onsets.append((max(t, t - push / rate), sign))
+                if not onsets:
+                    break
+                t, moving = min(onsets)
+            a0, rate = starts[moving] + rates[moving] * t, rates[moving]
+            stop = _first_zero(v, a0, rate, dt - t)
+            h = dt - t if stop is None else stop
+            u += v * h + a0 * h**2 / 2 + rate * h**3 / 6
+            v += a0 * h + rate * h**2 / 2
+            t = dt if stop is None else t + h
+            if stop is not None:
+                v, moving = mpf(0), 0
+                n_stops += 1
+            low, high = min(low, u), max(high, u)
+    peak = max(high, -low)
+    return Oracle(prd=peak, residual=u, down=high, up=-low, n_stops=n_stops)
