@@ -5,6 +5,7 @@ Values are SI everywhere else; only what a person reads or types passes through 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
@@ -27,18 +28,22 @@ WEIGHTS = {
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit: its symbol, its size in SI, and how many decimals a page prints."""
+    """A unit: its symbol, its size in SI, and how many decimals a page prints.
+
+    From 1000 up, `significant` digits are printed where that is not 0: 2072 mm reads 2070 mm.
+    """
 
     symbol: str
     si: float
     decimals: int
+    significant: int = 0
 
 
 class Quantity(Enum):
     """What a number measures: (US unit, SI unit)."""
 
-    DISPLACEMENT = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
-    SIZE = DISPLACEMENT
+    DISPLACEMENT = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0, significant=3))
+    SIZE = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
     PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
     WEIGHT = (Unit("lb", KG_M_S2_PER_LB, 0), Unit("kN", 1e3, 2))
 
@@ -68,10 +73,18 @@ def number(value: float, decimals: int) -> str:
     return text.replace("-", "−")
 
 
+def measured(value_si: float, unit: Unit) -> str:
+    """Return a value in a unit, for print, without the symbol."""
+    value = value_si / unit.si
+    if unit.significant and 1000.0 <= abs(value) < math.inf:
+        value = round(value, unit.significant - 1 - math.floor(math.log10(abs(value))))
+    return number(value, unit.decimals)
+
+
 def pair(value_si: float, quantity: Quantity, us_first: bool = True) -> str:
-    """Return a value in both systems, such as `81.6 in (2072 mm)`, the wanted one first."""
+    """Return a value in both systems, such as `81.6 in (2070 mm)`, the wanted one first."""
     first, second = (
-        f"{number(value_si / unit.si, unit.decimals)} {unit.symbol}"
+        f"{measured(value_si, unit)} {unit.symbol}"
         for unit in (quantity.value if us_first else quantity.value[::-1])
     )
     return f"{first} ({second})"
