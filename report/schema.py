@@ -479,8 +479,10 @@ class Options(Frozen):
 class Override(Frozen):
     """A provision's number, replaced, with the reason that the package prints."""
 
-    provision: Annotated[RequiredText, Cell("Provision", "Choose which number to replace.", "")]
-    value: Annotated[float, Cell("Value", "In the unit named with the provision.", 0.5)]
+    provision: Annotated[
+        RequiredText, Cell("Provision", "Choose which number to replace.", "parapet_height_in")
+    ]
+    value: Annotated[float, Cell("Value", "In the unit that the sheet Provisions names.", 18.0)]
     reason: Annotated[
         RequiredText,
         Cell(

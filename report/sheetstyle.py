@@ -1,0 +1,178 @@
+"""How a made sheet looks and helps: colours, cells, dropdowns, input messages, print set-up.
+
+Knows fields (`report.fields`) but no section of the workbook. Read `report.template` next.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from datetime import date
+from enum import StrEnum
+from typing import Any
+
+from openpyxl.cell import Cell as SheetCell
+from openpyxl.styles import Alignment, Border, Font, PatternFill, Protection, Side
+from openpyxl.worksheet.datavalidation import DataValidation
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.fields import Entry, YesNo
+from report.units import Unit
+
+INK = "1F3A4D"
+GREY = "7A7F85"
+WHITE = "FFFFFF"
+INPUT_FILL = PatternFill("solid", start_color="FFF6CC")
+REQUIRED_FILL = PatternFill("solid", start_color=INK)
+OPTIONAL_FILL = PatternFill("solid", start_color="6C8796")
+HINT_FILL = PatternFill("solid", start_color="F3F4F5")
+HAIR = Side(style="thin", color="C9CDD1")
+BOX = Border(left=HAIR, right=HAIR, top=HAIR, bottom=HAIR)
+LINE = Border(bottom=HAIR)
+OPEN = Protection(locked=False)
+WRAPPED = Alignment(vertical="center", horizontal="left", wrap_text=True, indent=1)
+NUMBER_LIMIT = 1e9
+
+
+def put(
+    sheet: Worksheet,
+    row: int,
+    column: int,
+    text: str,
+    *,
+    color: str = INK,
+    bold: bool = False,
+    italic: bool = False,
+    size: int = 10,
+    wrap: bool = True,
+) -> SheetCell:
+    """Write a locked text and return its cell."""
+    cell = sheet.cell(row, column)
+    assert isinstance(cell, SheetCell)  # nothing is merged here
+    cell.value = text
+    cell.data_type = "s"
+    cell.font = Font(name="Calibri", size=size, bold=bold, italic=italic, color=color)
+    indent = 1 if wrap and column > 1 else 0
+    cell.alignment = Alignment(vertical="center", horizontal="left", wrap_text=wrap, indent=indent)
+    return cell
+
+
+def put_input(cell: Any, entry: Entry, value: object, unit: Unit | None) -> None:
+    """Make a cell an input of a field, holding a value in SI or nothing."""
+    style_input(cell, entry.kind)
+    shown = in_cell(value, unit)
+    if shown is None:
+        return
+    cell.value = shown
+    if isinstance(shown, str):
+        cell.data_type = "s"  # a text that starts with = is no formula
+    elif isinstance(shown, date):
+        cell.number_format = "yyyy-mm-dd"
+
+
+def style_input(cell: Any, kind: type[Any]) -> None:
+    """Give a cell the look of an input; texts keep what is typed, such as 3-5."""
+    is_number = kind in (int, float)
+    cell.font = Font(name="Calibri", size=11, color="000000")
+    cell.fill, cell.border, cell.protection = INPUT_FILL, BOX, OPEN
+    side = "right" if is_number else "left"
+    cell.alignment = Alignment(
+        vertical="center", horizontal=side, wrap_text=not is_number, indent=1
+    )
+    if kind is date:
+        cell.number_format = "yyyy-mm-dd"
+    elif not is_number:
+        cell.number_format = "@"
+
+
+def in_cell(value: object, unit: Unit | None) -> str | float | int | date | None:
+    """Return a value as a cell holds it: in the sheet's unit, free of rounding dust."""
+    match value:
+        case None | "":
+            return None
+        case bool():
+            return str(YesNo.YES if value else YesNo.NO)
+        case StrEnum():
+            return str(value)
+        case float() if unit is not None:
+            return float(f"{value / unit.si:.12g}")
+        case str() | int() | float() | date():
+            return value
+    raise TypeError(f"no cell holds a {type(value).__name__}")
+
+
+def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
+    """Add the dropdown or the range of a field to cells, with its message and its alert."""
+    if entry.choices:
+        offer(sheet, cells, entry.choices, entry.cell.label, entry.cell.help)
+    elif entry.kind in (int, float):
+        _add(sheet, cells, _number_rule(entry, si), entry.cell.label, _message(entry, si))
+    elif entry.kind is date:
+        rule = DataValidation(type="date", operator="greaterThan", formula1="36526")
+        _add(sheet, cells, rule, entry.cell.label, f"{entry.cell.help} Such as 2026-03-05.")
+    else:
+        rule = DataValidation(type="textLength", operator="lessThanOrEqual")
+        rule.formula1 = str(entry.max_length)
+        _add(sheet, cells, rule, entry.cell.label, entry.cell.help)
+
+
+def offer(
+    sheet: Worksheet, cells: str, choices: Iterable[str] | str, title: str, message: str
+) -> None:
+    """Add a dropdown of texts, or of a range of cells, that admits nothing else."""
+    formula = choices if isinstance(choices, str) else f'"{",".join(choices)}"'
+    _add(sheet, cells, DataValidation(type="list", formula1=formula), title, message)
+
+
+def suggest(sheet: Worksheet, cells: str, source: str, title: str, message: str) -> None:
+    """Add a dropdown of a range of cells that admits other texts too."""
+    rule = DataValidation(type="list", formula1=source)
+    _add(sheet, cells, rule, title, message)
+    rule.showErrorMessage = False
+
+
+def _add(sheet: Worksheet, cells: str, rule: DataValidation, title: str, message: str) -> None:
+    rule.allow_blank = True
+    rule.showInputMessage = rule.showErrorMessage = True
+    rule.promptTitle = rule.errorTitle = title[:32]
+    rule.prompt = message[:255]
+    rule.error = message[:225]
+    rule.add(cells)
+    sheet.add_data_validation(rule)
+
+
+def _message(entry: Entry, si: float) -> str:
+    allowed = entry.bounds.words(si)
+    return f"{entry.cell.help} Allowed: {allowed}." if allowed else entry.cell.help
+
+
+def _number_rule(entry: Entry, si: float) -> DataValidation:
+    bounds, kind = entry.bounds, "whole" if entry.kind is int else "decimal"
+    if math.isinf(bounds.high) and not math.isinf(bounds.low):
+        operator = "greaterThan" if bounds.excludes_low else "greaterThanOrEqual"
+        return DataValidation(type=kind, operator=operator, formula1=f"{bounds.low / si:.9g}")
+    low, high = max(bounds.low / si, -NUMBER_LIMIT), min(bounds.high / si, NUMBER_LIMIT)
+    rule = DataValidation(type=kind, operator="between", formula1=f"{low:.9g}")
+    rule.formula2 = f"{high:.9g}"
+    return rule
+
+
+def finish(sheet: Worksheet, is_us: bool) -> None:
+    """Protect a sheet against slips, without a password, and set it up for print."""
+    sheet.sheet_view.showGridLines = False
+    sheet.sheet_view.zoomScale = 100
+    protection = sheet.protection
+    protection.sheet = True
+    # False means that the action stays allowed.
+    for action in ("formatCells", "formatColumns", "formatRows", "insertRows", "deleteRows"):
+        setattr(protection, action, False)
+    page = sheet.page_setup
+    page.orientation, page.fitToWidth, page.fitToHeight = "landscape", 1, 0
+    page.paperSize = 1 if is_us else 9
+    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    margins = sheet.page_margins
+    margins.left = margins.right = margins.top = 0.4
+    margins.bottom, margins.footer = 0.6, 0.3
+    sheet.oddFooter.left.text = "Roofslip input"
+    sheet.oddFooter.center.text = "&A"
+    sheet.oddFooter.right.text = "&P of &N"
