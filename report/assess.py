@@ -128,8 +128,8 @@ class ClearanceCheck:
     ----------
     governing_array : str
         Whose design displacement counts: the larger of the two between arrays.
-    is_least_value : bool
-        Whether a least separation of the rule set governs over factor x displacement.
+    least_m : float
+        Least separation of the rule set for this neighbour [m]; 0 for none.
     """
 
     clearance: Clearance
@@ -137,14 +137,19 @@ class ClearanceCheck:
     governing_array: str
     design_m: float
     factor: float
+    least_m: float
     required_m: float
-    is_least_value: bool
 
     @property
     def demand_capacity(self) -> float:
         """Required / provided separation."""
         provided = self.clearance.provided_m
         return self.required_m / provided if provided > 0.0 else math.inf
+
+    @property
+    def is_least_value(self) -> bool:
+        """Whether the least separation governs over factor x displacement."""
+        return self.least_m > self.factor * self.design_m
 
     @property
     def ok(self) -> bool:
@@ -316,9 +321,8 @@ def _check_clearance(
         governing_array=governing.array.id,
         design_m=governing.design_m,
         factor=factor,
+        least_m=provisions.least_separation_m(rules, neighbour),
         required_m=required,
-        # The margin tells a least value from rounding.
-        is_least_value=required > factor * governing.design_m * (1.0 + 1e-9),
     )
 
 
