@@ -1,4 +1,280 @@
-"""The command line."""
+"""The command line: the only place that prints and catches.
+
+Parses, calls, reports; heavy imports stay inside the commands so that `--help` is quick.
+Exit codes: 0 done, 2 the input is at fault, 1 a defect of ours (with the traceback).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from report.assess import ArrayAssessment, Assessment
+    from report.workbook import InputBook
+
+_QUIET_SECONDS = 1.0
+_SCENE = click.Path(path_type=Path)
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 96})
+@click.version_option(package_name="roofslip", prog_name="roofslip")
 def main() -> None:
-    """Run."""
-    print("hi")
+    """Calculation packages for the seismic sliding of ballasted rooftop solar arrays.
+
+    Begin with `roofslip new DIR`, fill DIR/input.xlsx, then run `roofslip report DIR`.
+    """
+
+
+@main.command()
+@click.argument("folder", metavar="DIR", type=_SCENE)
+@click.option("--units", type=click.Choice(["US", "SI"]), default="US", show_default=True,
+              help="Units of the input cells, and the ones printed first.")  # fmt: skip
+def new(folder: Path, units: str) -> None:
+    """Write DIR/input.xlsx, ready to fill, and DIR/records/ for the motions."""
+    with _input_errors(folder):
+        from report.schema import UnitsFirst
+        from report.template import new_project
+
+        path = new_project(folder, UnitsFirst(units))
+    click.echo(f"{path}: fill the yellow cells, put the roof motions into {folder / 'records'},")
+    click.echo(f"then run: roofslip report {folder}")
+
+
+@main.command()
+@click.argument("source", metavar="DIR|WORKBOOK", type=_SCENE)
+def check(source: Path) -> None:
+    """Read and validate the input; write nothing."""
+    with _input_errors(source):
+        book = _read(source)
+    data = book.input
+    click.echo(
+        f"{book.path}: no problems found. {len(data.arrays)} arrays, {len(data.clearances)} "
+        f"clearances, {len(data.motions)} motions, S_DS {data.site.s_ds:.3f} g, "
+        f"{data.site.rule_set}."
+    )
+
+
+@main.command()
+@click.argument("source", metavar="DIR|WORKBOOK", type=_SCENE)
+@click.option("--out", type=_SCENE, help="Folder for the outputs; default: out/ beside the input.")
+def report(source: Path, out: Path | None) -> None:
+    """Write calc-package.pdf, results.xlsx and results.json, and print the governing numbers."""
+    with _input_errors(source), _Progress() as progress:
+        progress("reading the workbook")
+        book = _read(source)
+        folder = out or book.path.parent / "out"
+        progress("running the motions (the first run compiles the solver)")
+        assessment = _assess(book)
+        files = _outputs(book, assessment, progress)
+        progress("putting the files in place")
+        _publish(files, folder)
+    _print_summary(book, assessment)
+    click.echo("")
+    for name in files:
+        click.echo(folder / name)
+
+
+@main.command()
+@click.argument("record", type=_SCENE)
+@click.option("--slope-deg", type=float, required=True, help="Roof slope [deg], positive down "
+              "in the direction of positive acceleration.")  # fmt: skip
+@click.option("--mu", type=float, required=True, help="Friction coefficient.")
+@click.option("--ppa-g", type=float, help="Scale to this peak horizontal acceleration [g].")
+@click.option("--factor", type=float, help="Scale by this factor.")
+@click.option("--dt", type=float, help="Time step [s], where the record has no column of times.")
+@click.option("--units", type=click.Choice(["g", "m/s2", "cm/s2", "mm/s2"]), default="g",
+              show_default=True, help="Units of the records.")  # fmt: skip
+@click.option("--vertical", type=_SCENE, help="Vertical record, positive up.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
+def slide(
+    record: Path,
+    slope_deg: float,
+    mu: float,
+    ppa_g: float | None,
+    factor: float | None,
+    dt: float | None,
+    units: str,
+    vertical: Path | None,
+    as_json: bool,
+) -> None:
+    """Slide one block under one RECORD: a quick look, or a step of a script."""
+    if ppa_g is not None and factor is not None:
+        raise click.UsageError("give --ppa-g or --factor, not both")
+    with _input_errors(record):
+        found = _slide_record(record, vertical, units, dt, slope_deg, mu, ppa_g, factor)
+    if as_json:
+        click.echo(json.dumps({k: None if v != v else v for k, v in found.items()}))
+        return
+    for key, value in found.items():
+        click.echo(f"{key:>14}  {value:.6g}" if isinstance(value, float) else f"{key:>14}  {value}")
+
+
+def _slide_record(
+    path: Path,
+    vertical: Path | None,
+    units: str,
+    dt_s: float | None,
+    slope_deg: float,
+    mu: float,
+    ppa_g: float | None,
+    factor: float | None,
+) -> dict[str, Any]:
+    """Run one block under one record and return the result by name, with the scene."""
+    from solver.model import InputError
+    from solver.motion import read_record
+    from solver.solve import STANDARD_GRAVITY_MPS2, slide
+
+    record = read_record(path, units=units, dt_s=dt_s)
+    lift = read_record(vertical, units=units, dt_s=dt_s) if vertical else None
+    if lift and lift.dt_s != record.dt_s:
+        raise InputError(
+            f"{lift.name}: time step is {lift.dt_s} s; give {record.dt_s} s as in {record.name}"
+        )
+    peak = float(abs(record.a_mps2).max())
+    if ppa_g is not None and peak == 0.0:
+        raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a PPA")
+    scale = 1.0 if factor is None else factor
+    if ppa_g is not None:
+        scale = ppa_g * STANDARD_GRAVITY_MPS2 / peak
+    result = slide(
+        record.a_mps2,
+        record.dt_s,
+        slope_rad=math.radians(slope_deg),
+        mu=mu,
+        az_mps2=lift.a_mps2 if lift else None,
+        scale=scale,
+    )
+    scene = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": record.dt_s}
+    return scene | asdict(result) | {"outcome": result.status.sentence}
+
+
+# The steps of a report
+
+
+def _read(source: Path) -> InputBook:
+    from report.workbook import read_workbook
+
+    return read_workbook(source)
+
+
+def _assess(book: InputBook) -> Assessment:
+    from report.assess import assess
+
+    return assess(book.input, book.motions)
+
+
+def _outputs(
+    book: InputBook, assessment: Assessment, progress: Callable[[str], None]
+) -> dict[str, bytes]:
+    """Return every output as finished bytes, by file name."""
+    from report.outputs import results_json
+    from report.package import render
+    from report.results_book import results_xlsx
+
+    package = render(book, assessment, progress)
+    progress("writing the result tables")
+    return {
+        "calc-package.pdf": package,
+        "results.xlsx": results_xlsx(book, assessment),
+        "results.json": results_json(book, assessment),
+    }
+
+
+def _publish(files: dict[str, bytes], folder: Path) -> None:
+    from report.outputs import publish
+
+    publish(files, folder)
+
+
+# What is printed
+
+
+def _print_summary(book: InputBook, assessment: Assessment) -> None:
+    us_first = book.input.project.units_first == "US"
+    columns = ("array", "computed", "prescriptive", "design", "governing clearance", "D/C", "")
+    rows = [_summary_row(assessment, item, us_first) for item in assessment.arrays]
+    widths = [max(map(len, column)) for column in zip(columns, *rows, strict=True)]
+    for row in (columns, *rows):
+        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
+        click.echo("  ".join(cells).rstrip())
+    for warning in assessment.warnings:
+        click.echo(f"warning: {warning}")
+    checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]
+    for failed in (c for c in checks if not c.ok):
+        click.echo(f"warning: outside {failed.provision.clause}: {failed.title}")
+
+
+def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) -> tuple[str, ...]:
+    from report.units import Quantity, number, pair
+
+    def shown(value_m: float) -> str:
+        if value_m != value_m:
+            return "no value"
+        return pair(value_m, Quantity.DISPLACEMENT, us_first)
+
+    gap = assessment.governing_clearance(item.array.id)
+    clearance = (
+        (f"to {gap.clearance.object}", number(gap.demand_capacity, 2), "OK" if gap.ok else "NG")
+        if gap
+        else ("none given", "", "")
+    )
+    return (
+        item.array.id,
+        shown(item.analysis.value_m),
+        shown(item.prescriptive.value_m),
+        shown(item.design_m),
+        *clearance,
+    )
+
+
+@contextmanager
+def _input_errors(source: Path) -> Iterator[None]:
+    """Print what the user can fix, each problem on its line, and exit 2."""
+    try:
+        yield
+    except Exception as error:
+        from solver.model import InputError
+
+        if not isinstance(error, InputError):
+            raise
+        count = len(error.problems)
+        click.echo(f"{source}: {count} problem{'s' if count > 1 else ''} found.", err=True)
+        for problem in error.problems:
+            click.echo(f"  {problem}", err=True)
+        sys.exit(2)
+
+
+class _Progress:
+    """Says what is being done: one changing line on a terminal, plain lines elsewhere.
+
+    Silent for the first second, so that quick work says nothing.
+    """
+
+    def __init__(self) -> None:
+        self._started = time.monotonic()
+        self._terminal = sys.stderr.isatty()
+
+    def __enter__(self) -> _Progress:
+        return self
+
+    def __call__(self, doing: str) -> None:
+        seconds = time.monotonic() - self._started
+        line = f"[{seconds:4.1f} s] {doing}"
+        if self._terminal:
+            click.echo(f"\r\x1b[2K{line}", nl=False, err=True)
+        elif seconds > _QUIET_SECONDS:
+            click.echo(line, err=True)
+
+    def __exit__(self, *_: Any) -> None:
+        if self._terminal:
+            click.echo("\r\x1b[2K", nl=False, err=True)
