@@ -65,20 +65,12 @@ def _first_stop(w, q, r, h):
     """
     ends_moving = w + h * (q + 0.5 * r * h) > 0.0
     dips = r > 0.0 and q < 0.0 and -q < r * h
-    if ends_moving and not dips:
-        return -1.0
     discriminant = q * q - 2.0 * r * w
-    if discriminant < 0.0:
-        if ends_moving:
-            return -1.0
-        discriminant = 0.0  # a rounding below zero: the speed touches zero
-    # The form of the quadratic formula without cancellation.
-    if q < 0.0:
-        tau = 2.0 * w / (math.sqrt(discriminant) - q)
-    elif r < 0.0:
-        tau = (q + math.sqrt(discriminant)) / -r
-    else:
-        tau = h
+    if ends_moving and not (dips and discriminant >= 0.0):
+        return -1.0
+    root = math.sqrt(max(discriminant, 0.0))  # a rounding below zero: it touches zero
+    # The forms of the quadratic formula without cancellation; unless q < 0, here r < 0.
+    tau = 2.0 * w / (root - q) if q < 0.0 else (q + root) / -r
     return min(tau, h)
 
 
