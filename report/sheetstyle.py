@@ -30,7 +30,7 @@ HAIR = Side(style="thin", color="C9CDD1")
 BOX = Border(left=HAIR, right=HAIR, top=HAIR, bottom=HAIR)
 LINE = Border(bottom=HAIR)
 OPEN = Protection(locked=False)
-WRAPPED = Alignment(vertical="center", horizontal="left", wrap_text=True, indent=1)
+WRAPPED = Alignment(vertical="center", horizontal="left", wrap_text=True)
 NUMBER_LIMIT = 1e9
 
 

@@ -30,7 +30,7 @@ BLOCK_HEADS = ("", "Value", "Unit", "Allowed", "Example", "Note")
 BLOCK_WIDTHS = (28, 36, 11, 36, 32, 48)
 HINT_ROWS = ("Needed", "Allowed", "Example")
 PROVISIONS = "Provisions"
-CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 13, 13, 32
+CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 14, 14, 32
 
 STEPS = (
     "Fill the yellow cells, sheet by sheet. Each says what it wants when you choose it.",
@@ -138,8 +138,8 @@ def _write_block_row(
     if entry.quantity is None or unit is None:
         style.put(sheet, row, 3, str(entry.cell.unit), color=style.GREY)
         return
-    cell = sheet.cell(row, 3, unit.symbol)
-    style.style_input(cell, str)
+    sheet.cell(row, 3).value = unit.symbol
+    style.style_input(sheet.cell(row, 3), str)
     _name(book, section.unit_name(entry.name), sheet, row, 3)
     style.offer(sheet, f"C{row}", entry.quantity.accepted, "Unit", "Unit of the value beside.")
 
@@ -169,7 +169,7 @@ def _write_table(
     _add_table(sheet, section, header, size, [_header(entry, units) for entry in fields])
     if not has_block:
         sheet.column_dimensions["A"].width = 10
-        sheet.freeze_panes = sheet.cell(header + 1, 3)
+        sheet.freeze_panes = f"C{header + 1}"
         sheet.print_title_rows = f"{header}:{header}"
 
 
@@ -182,8 +182,8 @@ def _write_hints(sheet: Worksheet, top: int, fields: Sequence[Entry], units: Uni
         texts = (needed, _allowed(entry, unit.si if unit else 1.0), _example(entry, unit))
         for row, text in enumerate(texts, start=top):
             is_example = row == top + 2
-            cell = style.put(sheet, row, column, text, color=style.GREY, size=9, italic=is_example)
-            cell.fill, cell.border = style.HINT_FILL, style.BOX
+            hint = style.put(sheet, row, column, text, color=style.GREY, size=9, italic=is_example)
+            hint.fill, hint.border = style.HINT_FILL, style.BOX
     widths = [_width(entry) for entry in fields]
     for row in (top + 1, top + 2):
         said = [str(sheet.cell(row, column).value) for column in range(2, 2 + len(fields))]
@@ -194,7 +194,7 @@ def _write_header(sheet: Worksheet, row: int, column: int, entry: Entry, units: 
     cell = style.put(sheet, row, column, _header(entry, units), bold=True, color=style.WHITE)
     cell.fill = style.REQUIRED_FILL if entry.is_required else style.OPTIONAL_FILL
     cell.border = style.BOX
-    sheet.row_dimensions[row].height = 34
+    sheet.row_dimensions[row].height = 44
 
 
 def _write_inputs(
@@ -330,7 +330,9 @@ def _allowed(entry: Entry, si: float) -> str:
 def _example(entry: Entry, unit: Unit | None) -> str:
     value = entry.cell.example
     if unit is not None and entry.quantity is not None and isinstance(value, float):
-        return f"{value * entry.quantity.us.si / unit.si:.4g}"
+        # Enough for 42000 lb, and 187 rather than 186.825 kN.
+        digits = 5 if unit == entry.quantity.us else 3
+        return f"{value * entry.quantity.us.si / unit.si:.{digits}g}"
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 

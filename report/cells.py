@@ -1,0 +1,245 @@
+"""From what a cell holds to the value of a field, or to a sentence that says what would do.
+
+Knows neither sheets nor files: `report.workbook` finds the cells.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from datetime import date, datetime, time, timedelta
+from enum import StrEnum
+from typing import Any
+
+from pydantic import ValidationError
+
+from report.fields import Entry, Frozen, YesNo, adapter
+from solver.model import InputError
+
+SHOWN = 60
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
+_THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
+_QUOTED = re.compile(r'"[^"]*"|\\.|\[[^\]]*\]')
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]")
+
+
+class CellError(InputError):
+    """A cell that does not hold what its field asks; the message says `is ...; give ...`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Found:
+    """What a cell holds.
+
+    Attributes
+    ----------
+    sheet, cell : str
+    value : object
+        As typed, or as last computed where a formula was typed.
+    formula : str
+        Empty where none was typed.
+    is_error : bool
+        Whether the value is one of Excel's, such as ``#DIV/0!``.
+    number_format : str
+    """
+
+    sheet: str
+    cell: str
+    value: Any
+    formula: str = ""
+    is_error: bool = False
+    number_format: str = "General"
+
+    @property
+    def address(self) -> str:
+        """Where it stands: `Arrays!D7`."""
+        return f"{self.sheet}!{self.cell}"
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether nothing was typed, or only blanks."""
+        blank = self.value is None or (isinstance(self.value, str) and not self.value.strip())
+        return blank and not self.formula
+
+    @property
+    def text(self) -> str:
+        """What was typed, for the echo; a formula with what came of it."""
+        shown = "" if self.value is None else plain(self.value)
+        return f"{self.formula} → {shown}" if self.formula else shown
+
+
+def plain(value: object) -> str:
+    """Return a cell's value as a person would type it."""
+    match value:
+        case bool():
+            return "TRUE" if value else "FALSE"
+        case datetime() if value.time() == time():
+            return value.date().isoformat()
+        case float() if value.is_integer() and abs(value) < 1e15:
+            return str(int(value))
+        case date() | time():
+            return value.isoformat()
+        case _:
+            return str(value)
+
+
+def read_cell(found: Found, entry: Entry, model: type[Frozen], unit: str, si: float) -> Any:
+    """Return a field's value in SI from a cell that is not blank.
+
+    Parameters
+    ----------
+    found : Found
+    entry, model : Entry, type
+        The field and the model that holds it.
+    unit : str
+        Unit of the number in the cell, for messages.
+    si : float
+        Size of that unit in SI.
+
+    Raises
+    ------
+    CellError
+    """
+    check_saved(found)
+    wanted = wish(entry, unit, si)
+    value = _converted(found, entry, wanted)
+    if isinstance(value, float):
+        value *= si
+    try:
+        return adapter(model, entry.name).validate_python(value)
+    except ValidationError as error:
+        raise CellError(f"{_is(found, entry)}; {wanted}") from error
+
+
+def check_saved(found: Found) -> None:
+    """Raise if a cell holds one of Excel's errors, or a formula that was never computed."""
+    if found.is_error:
+        cause = f" (from {_cut(found.formula)})" if found.formula else ""
+        raise CellError(f"is {found.value}{cause}; correct it")
+    if found.formula and found.value is None:
+        raise CellError(
+            f"is a formula with no saved value ({_cut(found.formula)}); open the workbook in Excel"
+            " or LibreOffice and save it"
+        )
+
+
+def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
+    """Return what would do for a field: `give a number from 0 to 1.5`."""
+    if entry.choices:
+        return f"choose {_either(entry.choices)}"
+    if entry.kind in (int, float):
+        noun = "a whole number" if entry.kind is int else "a number"
+        suffix = f" [{unit}]" if unit else ""
+        return f"give {noun}{_range(entry, si)}{suffix}"
+    if entry.kind is date:
+        return "give a date such as 2026-03-05"
+    return f"give a text of at most {entry.max_length} characters"
+
+
+def _range(entry: Entry, si: float) -> str:
+    words = entry.bounds.words(si)
+    if not words:
+        return ""
+    is_closed = math.isfinite(entry.bounds.low) and math.isfinite(entry.bounds.high)
+    return f" {'from' if is_closed and not entry.bounds.excludes_low else 'of'} {words}"
+
+
+def _either(choices: tuple[str, ...]) -> str:
+    return f"{', '.join(choices[:-1])} or {choices[-1]}"
+
+
+def _is(found: Found, entry: Entry) -> str:
+    if isinstance(found.value, str) and len(found.value) > SHOWN and entry.kind is str:
+        return f"is {len(found.value)} characters long"
+    return f"is {_quoted(found.value)}"
+
+
+def _quoted(value: object) -> str:
+    text = _cut(plain(value))
+    return f"'{text}'" if isinstance(value, str) else text
+
+
+def _cut(text: str) -> str:
+    text = _CONTROL.sub("?", text).replace("\n", " ")
+    return text if len(text) <= SHOWN else f"{text[: SHOWN - 1]}…"
+
+
+def _converted(found: Found, entry: Entry, wanted: str) -> Any:
+    if entry.kind in (int, float):
+        value = number(found, wanted)
+        return int(value) if entry.kind is int and value.is_integer() else value
+    if entry.kind is date:
+        return _date(found, wanted)
+    if entry.choices:
+        return _choice(found, entry, wanted)
+    return _text(found)
+
+
+def number(found: Found, wanted: str = "give a number") -> float:
+    """Return the number in a cell, in the cell's unit; clean numeric text counts.
+
+    Raises
+    ------
+    CellError
+    """
+    value = found.value
+    if isinstance(value, str):
+        return _number_in_text(value.strip(), wanted)
+    if isinstance(value, bool):
+        raise CellError(f"is {plain(value)}, a truth value; {wanted}")
+    if isinstance(value, date | time | timedelta):
+        raise CellError(f"is a date or time ({plain(value)}); {wanted}, formatted as a number")
+    if "%" in _QUOTED.sub("", found.number_format):
+        raise CellError(
+            f"is a percentage ({100 * value:g}%, which Excel holds as {value:g}); {wanted},"
+            " formatted as a number"
+        )
+    if not math.isfinite(value):
+        raise CellError(f"is {value}; {wanted}")
+    return float(value)
+
+
+def _number_in_text(text: str, wanted: str) -> float:
+    if _NUMBER.fullmatch(text) and math.isfinite(float(text)):
+        return float(text)
+    if _THOUSANDS.fullmatch(text):
+        whole = text.replace(",", "")
+        raise CellError(f"is '{_cut(text)}'; write {whole}, without a comma")
+    if match := _DECIMAL_COMMA.fullmatch(text):
+        raise CellError(f"is '{_cut(text)}'; write {match[1] or '0'}.{match[2]}")
+    raise CellError(f"is '{_cut(text)}'; {wanted}")
+
+
+def _date(found: Found, wanted: str) -> date:
+    value = found.value
+    if isinstance(value, datetime):
+        return value.date()
+    if isinstance(value, date):
+        return value
+    try:
+        return date.fromisoformat(str(value).strip() if isinstance(value, str) else "")
+    except ValueError as error:
+        raise CellError(f"is {_quoted(value)}; {wanted}") from error
+
+
+def _choice(found: Found, entry: Entry, wanted: str) -> StrEnum | bool:
+    said = " ".join(str(plain(found.value)).split()).casefold()
+    if entry.kind is bool:
+        said = {"true": "yes", "false": "no"}.get(said, said)
+    for choice in entry.choices:
+        if choice.casefold() == said:
+            return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
+    raise CellError(f"is {_quoted(found.value)}; {wanted}")
+
+
+def _text(found: Found) -> str:
+    if isinstance(found.value, date | time | timedelta | bool):
+        raise CellError(
+            f"is {plain(found.value)}, which is no text; format the cell as text and type it again"
+        )
+    text = plain(found.value).strip()
+    if _CONTROL.search(text):
+        raise CellError(f"is '{_cut(text)}', with control characters; type it again")
+    return text

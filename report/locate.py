@@ -1,0 +1,340 @@
+"""Finds the inputs of a workbook by defined name, table name and heading, wherever they stand.
+
+Never looks at positions or styles, which people change. What the cells hold is for `report.cells`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from openpyxl.utils import get_column_letter, range_boundaries
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.archive import OpenBook
+from report.cells import Found
+from report.fields import Entry, Section, entries
+from solver.model import InputError
+
+MAX_ROWS = 2000
+MAX_COLUMNS = 200
+SCANNED_ROWS = 200
+_HEADING = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\])?")
+FRESH = "copy it from a fresh workbook (roofslip new)"
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A cell by its place."""
+
+    sheet: str
+    row: int
+    column: int
+
+    @property
+    def cell(self) -> str:
+        """Its coordinate: `D7`."""
+        return f"{get_column_letter(self.column)}{self.row}"
+
+    @property
+    def address(self) -> str:
+        """Where it stands: `Arrays!D7`."""
+        return f"{self.sheet}!{self.cell}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Column:
+    """A column of a table: where it is, and the unit that its heading names."""
+
+    number: int
+    unit: str
+    si: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableFound:
+    """A table of inputs.
+
+    Attributes
+    ----------
+    heading : Spot
+        Its first heading.
+    columns : mapping of field to Column
+        Of the headings that are there and readable.
+    rows : range
+        Rows that may hold inputs.
+    others : tuple of Spot
+        Headings that no field has.
+    problems : tuple of str
+        Finished lines about headings and merged cells.
+    """
+
+    heading: Spot
+    columns: Mapping[str, Column]
+    rows: Sequence[int]
+    others: tuple[Spot, ...]
+    problems: tuple[str, ...]
+
+
+def found_at(book: OpenBook, spot: Spot) -> Found:
+    """Return what a cell holds, as typed and as computed."""
+    typed = book.typed[spot.sheet].cell(spot.row, spot.column)
+    computed = book.computed[spot.sheet].cell(spot.row, spot.column)
+    formula = ""
+    if typed.data_type == "f":
+        # An array formula is an object that has its text.
+        formula = str(getattr(typed.value, "text", None) or typed.value)
+    return Found(
+        sheet=spot.sheet,
+        cell=spot.cell,
+        value=computed.value,
+        formula=formula,
+        is_error=computed.data_type == "e",
+        number_format=str(computed.number_format),
+    )
+
+
+def find_cell(book: OpenBook, section: Section, entry: Entry) -> Spot:
+    """Return the cell of a single field, by its defined name, else beside its label.
+
+    Raises
+    ------
+    InputError
+    """
+    spot = _named(book, section.cell_name(entry.name)) or _beside_label(book, section, entry)
+    if spot is None:
+        raise InputError(
+            f"{section.sheet}: {entry.spoken} is not there (no name {section.cell_name(entry.name)}"
+            f" and no label '{entry.cell.label}'); {FRESH}"
+        )
+    return spot
+
+
+def find_unit_cell(book: OpenBook, section: Section, entry: Entry, value: Spot) -> Spot:
+    """Return the cell that holds the unit of a single field, by name, else next to the value."""
+    spot = _named(book, section.unit_name(entry.name))
+    return spot or Spot(value.sheet, value.row, value.column + 1)
+
+
+def _sheets(book: OpenBook) -> list[Worksheet]:
+    return list(book.typed.worksheets)
+
+
+def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
+    """Return the sheet of a title, whatever its capitals."""
+    wanted = title.strip().casefold()
+    return next((s for s in _sheets(book) if s.title.strip().casefold() == wanted), None)
+
+
+def _named(book: OpenBook, name: str) -> Spot | None:
+    for defined in book.typed.defined_names.values():
+        if str(defined.name).casefold() != name:
+            continue
+        titles = [sheet.title for sheet in _sheets(book)]
+        for title, reference in defined.destinations:
+            bounds = _bounds(str(reference).replace("$", ""))
+            if bounds and title in titles and bounds[:2] == bounds[2:]:
+                return Spot(title, bounds[1], bounds[0])
+    return None
+
+
+def _bounds(reference: str) -> tuple[int, int, int, int] | None:
+    """Return left, top, right, bottom of a range that has all four."""
+    try:
+        left, top, right, bottom = range_boundaries(reference)
+    except (ValueError, TypeError):
+        return None
+    if left is None or top is None or right is None or bottom is None:
+        return None
+    return left, top, right, bottom
+
+
+def _beside_label(book: OpenBook, section: Section, entry: Entry) -> Spot | None:
+    sheet = sheet_titled(book, section.sheet)
+    if sheet is None:
+        return None
+    for spot in _scanned(book, sheet):
+        if _key(sheet.cell(spot.row, spot.column).value) == _key(entry.cell.label):
+            return Spot(spot.sheet, spot.row, spot.column + 1)
+    return None
+
+
+def _scanned(book: OpenBook, sheet: Worksheet) -> Iterator[Spot]:
+    extent = book.extent(sheet.title)
+    for row in range(1, min(extent.last_row, SCANNED_ROWS) + 1):
+        for column in range(1, min(extent.last_column, MAX_COLUMNS) + 1):
+            yield Spot(sheet.title, row, column)
+
+
+def _key(text: object) -> str:
+    """Return a label as it is compared: without unit, star, capitals and extra blanks."""
+    return " ".join(_split(text)[0].replace("*", " ").split()).casefold()
+
+
+def _split(text: object) -> tuple[str, str]:
+    """Return a heading's label and the unit in its brackets."""
+    match = _HEADING.fullmatch(" ".join(str(text or "").split()))
+    return (match[1], (match[2] or "").strip()) if match else (str(text), "")
+
+
+def find_table(book: OpenBook, section: Section) -> TableFound:
+    """Return a table of inputs, by its name, else by a row of its headings.
+
+    Raises
+    ------
+    InputError
+        If there is neither, or the sheet reaches absurdly far.
+    """
+    sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
+    _check_reach(book, sheet, top)
+    last_column = _last_heading(sheet, top, right)
+    headings = [Spot(sheet.title, top, column) for column in range(left, last_column + 1)]
+    columns, others, problems = _columns(book, section, headings)
+    used = [column.number for column in columns.values()]
+    last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
+    problems += _merged(sheet, top, last_row, used)
+    return TableFound(
+        heading=headings[0],
+        columns=columns,
+        rows=[row for row in range(top + 1, last_row + 1) if row not in below],
+        others=tuple(others),
+        problems=tuple(problems),
+    )
+
+
+_Place = tuple[Worksheet, int, int, int, range]
+
+
+def _table_named(book: OpenBook, section: Section) -> _Place | None:
+    """Return sheet, left, heading row, right and rows of totals of a section's table."""
+    for sheet in _sheets(book):
+        for table in sheet.tables.values():
+            names = {str(table.displayName).casefold(), str(table.name).casefold()}
+            bounds = _bounds(table.ref)
+            if section.table_name in names and bounds and bounds[2] <= MAX_COLUMNS:
+                left, top, right, bottom = bounds
+                totals = table.totalsRowCount or 0
+                return sheet, left, top, right, range(bottom - totals + 1, bottom + 1)
+    return None
+
+
+def _headings(book: OpenBook, section: Section) -> _Place:
+    """Return the row that has most of a section's headings, its own sheet first."""
+    own = sheet_titled(book, section.sheet)
+    wanted = {_key(entry.cell.label) for entry in entries(section.model)}
+    for sheet in [own] if own else _sheets(book):
+        rows: dict[int, list[int]] = {}
+        for spot in _scanned(book, sheet):
+            if _key(sheet.cell(spot.row, spot.column).value) in wanted:
+                rows.setdefault(spot.row, []).append(spot.column)
+        best = max(rows, key=lambda row: len(rows[row]), default=0)
+        if best and len(rows[best]) > len(wanted) / 2:
+            return sheet, min(rows[best]), best, max(rows[best]), range(0)
+    what = f"no table {section.table_name} and no row of its headings"
+    missing = "" if own else "the sheet is missing: "
+    raise InputError(f"{section.sheet}: {missing}{what}; {FRESH}")
+
+
+def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
+    extent, far = book.extent(sheet.title), []
+    if extent.last_row > top + MAX_ROWS:
+        far.append((extent.row_cell, f"more than {MAX_ROWS} rows below the headings"))
+    if extent.last_column > MAX_COLUMNS:
+        far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
+    if far:
+        raise InputError(
+            [f"{sheet.title}!{cell}: holds something {where}; clear it" for cell, where in far]
+        )
+
+
+def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
+    """Return the last column that has a heading, or is within the table."""
+    while right < MAX_COLUMNS and sheet.cell(top, right + 1).value is not None:
+        right += 1
+    return right
+
+
+def _columns(
+    book: OpenBook, section: Section, headings: Sequence[Spot]
+) -> tuple[dict[str, Column], list[Spot], list[str]]:
+    fields = {_key(entry.cell.label): entry for entry in entries(section.model)}
+    columns: dict[str, Column] = {}
+    others, problems, seen = [], [], set()
+    for spot in headings:
+        text = found_at(book, spot).value
+        entry = fields.get(_key(text))
+        if entry is None:
+            others += [spot] if text is not None else []
+        elif entry.name in seen:
+            problems.append(
+                f"{spot.address}: heading '{entry.cell.label}' is there twice; keep one"
+            )
+        else:
+            seen.add(entry.name)
+            try:
+                columns[entry.name] = _column(spot, entry, _split(text)[1])
+            except InputError as error:
+                problems += error.problems
+    problems += [
+        f"{headings[0].address}: heading '{entry.cell.label}' is missing; {FRESH}"
+        for entry in fields.values()
+        if entry.name not in seen
+    ]
+    return columns, others, problems
+
+
+def _column(spot: Spot, entry: Entry, unit: str) -> Column:
+    try:
+        symbol, si = unit_size(entry, unit)
+    except InputError as error:
+        raise InputError(f"{spot.address}: {error.problems[0]}") from error
+    return Column(number=spot.column, unit=symbol, si=si)
+
+
+def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
+    """Return a unit's symbol and its size in SI, as a field accepts it.
+
+    Raises
+    ------
+    InputError
+    """
+    fixed = "" if entry.quantity else str(entry.cell.unit)
+    accepted = entry.quantity.accepted if entry.quantity else {fixed: 1.0}
+    if not entry.quantity and not unit:
+        return fixed, 1.0
+    for symbol, si in accepted.items():
+        if symbol.casefold() == unit.casefold():
+            return symbol, si
+    found = f"is '{unit}'" if unit else "is missing"
+    wanted = ", ".join(symbol for symbol in accepted if symbol) or "none"
+    raise InputError(f"unit of {entry.spoken} {found}; write one of {wanted}")
+
+
+def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
+    """Return the row at which another table begins below, or one that is never reached."""
+    starts = [sheet.max_row + 1]
+    for table in sheet.tables.values():
+        bounds = _bounds(table.ref)
+        if bounds and bounds[1] > top and any(bounds[0] <= c <= bounds[2] for c in columns):
+            starts.append(bounds[1])
+    return min(starts)
+
+
+def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -> list[str]:
+    problems = []
+    for area in sorted(sheet.merged_cells.ranges, key=str):
+        reaches = any(area.min_col <= column <= area.max_col for column in columns)
+        if reaches and area.min_row <= last_row and area.max_row >= top:
+            problems.append(f"{sheet.title}!{area.coord}: cells are merged; unmerge them")
+    return problems
+
+
+def values_below(book: OpenBook, heading: Spot) -> list[Any]:
+    """Return what the cells below a heading hold, as far as the sheet's values reach."""
+    last = book.extent(heading.sheet).last_row
+    return [
+        found_at(book, Spot(heading.sheet, row, heading.column))
+        for row in range(heading.row + 1, last + 1)
+    ]

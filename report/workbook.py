@@ -1,0 +1,295 @@
+"""Reads an input workbook: every value with its cell, or every error with its cell.
+
+Joins opening (`report.archive`), finding (`report.locate`), converting (`report.cells`), checking
+(`report.checks`) and records (`report.motionfiles`). Start at `read_workbook`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from report.archive import OpenBook, open_book
+from report.cells import CellError, Found, plain, read_cell, wish
+from report.checks import Fault, Place, faults
+from report.fields import Entry, Section, YesNo, entries
+from report.locate import (
+    Column,
+    Spot,
+    TableFound,
+    find_cell,
+    find_table,
+    find_unit_cell,
+    found_at,
+    unit_size,
+)
+from report.motionfiles import Loaded, RecordFile, load_motion
+from report.schema import SECTIONS, ProjectInput
+from report.units import Quantity
+from solver.model import InputError, Motion
+
+__all__ = ["EchoRow", "InputBook", "RecordFile", "read_workbook"]
+
+SI_SYMBOLS = {Quantity.SIZE: "m", Quantity.PLAN: "m", Quantity.WEIGHT: "N"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EchoRow:
+    """One cell as it was read, in finished text.
+
+    Attributes
+    ----------
+    sheet, cell, label : str
+    typed, unit : str
+        As typed; a formula with the value that it had when the workbook was saved.
+    value : str
+        As taken, in SI where the unit is a choice.
+    """
+
+    sheet: str
+    cell: str
+    label: str
+    typed: str
+    unit: str
+    value: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InputBook:
+    """A workbook, read and found consistent, with its motions ready to run.
+
+    Attributes
+    ----------
+    path : Path
+    sha256 : str
+        Of the workbook.
+    input : ProjectInput
+    echo : tuple of EchoRow
+        Every field in the order of the template.
+    motions : tuple of Motion
+    records : tuple of RecordFile
+    """
+
+    path: Path
+    sha256: str
+    input: ProjectInput
+    echo: tuple[EchoRow, ...]
+    motions: tuple[Motion, ...]
+    records: tuple[RecordFile, ...]
+
+
+def read_workbook(path: Path) -> InputBook:
+    """Read the input workbook at a path, or `input.xlsx` in a folder.
+
+    Raises
+    ------
+    InputError
+        With every problem, each as `Sheet!Cell: what is found; what would do`.
+    """
+    book = open_book(path)
+    gathered = _Gathered()
+    for section in SECTIONS:
+        _read_section(book, section, gathered)
+    gathered.take(faults(gathered.draft, gathered.where))
+    loaded = _load_motions(book, gathered)
+    if gathered.problems:
+        raise InputError(gathered.finished())
+    return InputBook(
+        path=book.path,
+        sha256=book.sha256,
+        input=_project_input(gathered),
+        echo=tuple(gathered.echo),
+        motions=tuple(item.motion for item in loaded),
+        records=tuple(file for item in loaded for file in item.files),
+    )
+
+
+@dataclass(slots=True)
+class _Gathered:
+    """What has been read so far; problems are lines with the place that orders them."""
+
+    draft: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+    echo: list[EchoRow] = field(default_factory=list)
+    problems: list[tuple[Place, str]] = field(default_factory=list)
+    addresses: dict[Place, str] = field(default_factory=dict)
+    unfound: set[str] = field(default_factory=set)
+
+    def where(self, place: Place) -> str:
+        """Return the address of a place; of its table or sheet where it has no cell."""
+        whole = self.addresses.get(Place(place.section), place.section)
+        return self.addresses.get(place, whole)
+
+    def add(self, place: Place, lines: Iterable[str]) -> None:
+        """Take in finished lines."""
+        self.problems += [(place, line) for line in lines]
+
+    def take(self, found: Iterable[Fault]) -> None:
+        """Take in faults, apart from those that only follow from a table that is not there."""
+        for place, text in found:
+            follows = place.section == "clearances" and self.unfound & {"arrays", "objects"}
+            if place.section not in self.unfound and not follows:
+                self.add(place, [f"{self.where(place)}: {text}"])
+
+    def finished(self) -> list[str]:
+        """Return the lines in the order of the template."""
+        order = {section.key: i for i, section in enumerate(SECTIONS)}
+        fields = {
+            (section.key, entry.name): i
+            for section in SECTIONS
+            for i, entry in enumerate(entries(section.model))
+        }
+        ranked = sorted(
+            self.problems,
+            key=lambda p: (
+                order[p[0].section],
+                p[0].row,
+                fields.get((p[0].section, p[0].field), -1),
+            ),
+        )
+        return list(dict.fromkeys(line for _, line in ranked))
+
+
+def _read_section(book: OpenBook, section: Section, gathered: _Gathered) -> None:
+    gathered.draft[section.key] = []
+    try:
+        if section.is_table:
+            _read_table(book, section, find_table(book, section), gathered)
+        else:
+            _read_block(book, section, gathered)
+    except InputError as error:
+        gathered.unfound.add(section.key)
+        gathered.add(Place(section.key), error.problems)
+
+
+def _read_block(book: OpenBook, section: Section, gathered: _Gathered) -> None:
+    row: dict[str, Any] = {}
+    gathered.draft[section.key].append(row)
+    for entry in entries(section.model):
+        place = Place(section.key, 0, entry.name)
+        try:
+            spot = find_cell(book, section, entry)
+            gathered.addresses[place] = spot.address
+            column = _block_column(book, section, entry, spot)
+        except InputError as error:
+            gathered.add(place, error.problems)
+            continue
+        _read_field(section, entry, place, found_at(book, spot), column, row, gathered)
+
+
+def _block_column(book: OpenBook, section: Section, entry: Entry, spot: Spot) -> Column:
+    if entry.quantity is None:
+        return Column(number=spot.column, unit=str(entry.cell.unit), si=1.0)
+    unit = found_at(book, find_unit_cell(book, section, entry, spot))
+    text = "" if unit.value is None else plain(unit.value).strip()
+    try:
+        symbol, si = unit_size(entry, text)
+    except InputError as error:
+        raise InputError(f"{unit.address}: {error.problems[0]}") from error
+    return Column(number=spot.column, unit=symbol, si=si)
+
+
+def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: _Gathered) -> None:
+    gathered.addresses[Place(section.key)] = table.heading.address
+    gathered.add(Place(section.key), table.problems)
+    gathered.echo += [_ignored(book, spot) for spot in table.others]
+    sheet = table.heading.sheet
+    for number in table.rows:
+        cells = {
+            name: found_at(book, Spot(sheet, number, column.number))
+            for name, column in table.columns.items()
+        }
+        if not all(cell.is_blank for cell in cells.values()):
+            _read_row(section, table, cells, gathered)
+
+
+def _read_row(
+    section: Section, table: TableFound, cells: dict[str, Found], gathered: _Gathered
+) -> None:
+    row: dict[str, Any] = {}
+    rows = gathered.draft[section.key]
+    rows.append(row)
+    for entry in entries(section.model):
+        if entry.name in cells:
+            place, found = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
+            gathered.addresses[place] = found.address
+            _read_field(section, entry, place, found, table.columns[entry.name], row, gathered)
+
+
+def _read_field(
+    section: Section,
+    entry: Entry,
+    place: Place,
+    found: Found,
+    column: Column,
+    row: dict[str, Any],
+    gathered: _Gathered,
+) -> None:
+    try:
+        row[entry.name] = _value(section, entry, found, column)
+    except CellError as error:
+        gathered.add(place, [f"{found.address}: {entry.spoken} {error.problems[0]}"])
+        return
+    gathered.echo.append(_echoed(entry, found, column, row[entry.name]))
+
+
+def _value(section: Section, entry: Entry, found: Found, column: Column) -> Any:
+    if not found.is_blank:
+        return read_cell(found, entry, section.model, column.unit, column.si)
+    if entry.is_required:
+        raise CellError(f"is missing; {wish(entry, column.unit, column.si)}")
+    return entry.default
+
+
+def _echoed(entry: Entry, found: Found, column: Column, value: Any) -> EchoRow:
+    shown = _shown(value, SI_SYMBOLS[entry.quantity] if entry.quantity else column.unit)
+    if found.is_blank and shown:
+        shown += " (default)"
+    return EchoRow(
+        sheet=found.sheet,
+        cell=found.cell,
+        label=entry.cell.label,
+        typed=found.text,
+        unit=column.unit,
+        value=shown or "—",
+    )
+
+
+def _shown(value: Any, unit: str) -> str:
+    if isinstance(value, bool):
+        return str(YesNo.YES if value else YesNo.NO)
+    if isinstance(value, float):
+        return f"{value:.6g} {unit}".rstrip()
+    return "" if value is None else plain(value)
+
+
+def _ignored(book: OpenBook, spot: Spot) -> EchoRow:
+    text = plain(found_at(book, spot).value)
+    return EchoRow(
+        sheet=spot.sheet,
+        cell=spot.cell,
+        label=f"column '{text}'",
+        typed="",
+        unit="",
+        value="not an input: not read",
+    )
+
+
+def _load_motions(book: OpenBook, gathered: _Gathered) -> list[Loaded]:
+    loaded = []
+    for index, row in enumerate(gathered.draft["motions"]):
+        match load_motion(book, index, row):
+            case Loaded() as motion:
+                loaded.append(motion)
+            case found:
+                gathered.take(found)
+    return loaded
+
+
+def _project_input(gathered: _Gathered) -> ProjectInput:
+    def made(section: Section) -> Any:
+        rows: Sequence[Any] = [section.model(**row) for row in gathered.draft[section.key]]
+        return tuple(rows) if section.is_table else rows[0]
+
+    return ProjectInput(**{section.key: made(section) for section in SECTIONS})
