@@ -42,12 +42,28 @@ def main() -> None:
 def new(folder: Path, units: str) -> None:
     """Write DIR/input.xlsx, ready to fill, and DIR/records/ for the motions."""
     with _input_errors(folder):
-        from report.schema import UnitsFirst
-        from report.template import new_project
-
-        path = new_project(folder, UnitsFirst(units))
+        path = _new_project(folder, units)
     click.echo(f"{path}: fill the yellow cells, put the roof motions into {folder / 'records'},")
     click.echo(f"then run: roofslip report {folder}")
+
+
+def _new_project(folder: Path, units: str) -> Path:
+    """Write a blank workbook and an empty records folder; never over a workbook that is there."""
+    from report.schema import UnitsFirst
+    from report.template import write_template
+    from solver.model import InputError
+
+    path = folder / "input.xlsx"
+    if path.exists():
+        raise InputError(f"{path}: is there already; choose another folder, or move it away")
+    try:
+        (folder / "records").mkdir(parents=True, exist_ok=True)
+        write_template(path, units=UnitsFirst(units))
+    except OSError as error:
+        raise InputError(
+            f"{path}: cannot be written ({error.strerror}); choose another folder"
+        ) from error
+    return path
 
 
 @main.command()

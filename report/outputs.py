@@ -1,0 +1,180 @@
+"""results.json, and putting finished files in place: all of them or none.
+
+Computes nothing: the numbers come from `report.assess`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import shutil
+import tempfile
+from collections.abc import Mapping
+from dataclasses import asdict
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from report.assess import ArrayAssessment, Assessment, ClearanceCheck
+from report.workbook import InputBook, RecordFile
+from solver.model import InputError
+from solver.provisions import Check
+
+
+def results_json(book: InputBook, assessment: Assessment) -> bytes:
+    """Return everything as JSON: SI, units in the keys, null where there is no value."""
+    document = {
+        "roofslip_version": version("roofslip"),
+        "workbook": {"name": book.path.name, "sha256": book.sha256},
+        "records": [_record(record) for record in book.records],
+        "input": book.input.model_dump(mode="json"),
+        "s_ds_g": book.input.site.s_ds,
+        "rule_set": assessment.rules.name,
+        "ok": assessment.ok,
+        "warnings": list(assessment.warnings),
+        "building_checks": [_check(check) for check in assessment.building_checks],
+        "arrays": [_array(item) for item in assessment.arrays],
+        "clearances": [_clearance(item) for item in assessment.clearances],
+    }
+    return json.dumps(_nan_to_none(document), indent=1, ensure_ascii=False).encode() + b"\n"
+
+
+def _record(record: RecordFile) -> dict[str, Any]:
+    return {
+        "motion": record.motion_id,
+        "component": record.component,
+        "name": record.name,
+        "sha256": record.sha256,
+        "npts": record.npts,
+        "dt_s": record.dt_s,
+        "peak_g": record.peak_g,
+    }
+
+
+def _array(item: ArrayAssessment) -> dict[str, Any]:
+    return {
+        "id": item.array.id,
+        "slope_rad": item.array.slope_rad,
+        "mu": item.array.mu,
+        "computed_m": item.analysis.value_m,
+        "computed_basis": item.analysis.basis,
+        "mean_prd_m": item.analysis.mean_m,
+        "largest_prd_m": item.analysis.largest_m,
+        "prescriptive_m": item.prescriptive.value_m,
+        "prescriptive_governs": item.prescriptive.governs,
+        "floor_m": item.floor_m,
+        "design_m": item.design_m,
+        "design_governs": item.governs,
+        "interconnection_n": item.interconnection_n,
+        "checks": [_check(check) for check in item.checks],
+        "prescriptive_checks": [_check(check) for check in item.prescriptive_checks],
+        "runs": [
+            {
+                "motion": motion.motion.id,
+                "polarity": run.sign,
+                "scale": motion.motion.scale,
+                "dt_s": motion.motion.dt_s,
+                **asdict(run.result),
+            }
+            for motion in item.motions
+            for run in motion.runs
+        ],
+    }
+
+
+def _clearance(item: ClearanceCheck) -> dict[str, Any]:
+    return {
+        "array": item.clearance.array,
+        "object": item.clearance.object,
+        "direction": item.clearance.direction,
+        "neighbour": item.neighbour,
+        "governing_array": item.governing_array,
+        "design_m": item.design_m,
+        "factor": item.factor,
+        "required_m": item.required_m,
+        "provided_m": item.clearance.provided_m,
+        "demand_capacity": item.demand_capacity,
+        "ok": item.ok,
+    }
+
+
+def _check(check: Check) -> dict[str, Any]:
+    unit = {"deg": "_deg", "m": "_m", "count": "", "": ""}[check.measure]
+    return {
+        "title": check.title,
+        f"found{unit}": check.found,
+        f"limit{unit}": check.limit,
+        "clause": check.provision.clause,
+        "ok": check.ok,
+    }
+
+
+def _nan_to_none(value: Any) -> Any:
+    """Return the document with null for every NaN or infinity: JSON has neither."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {key: _nan_to_none(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_nan_to_none(item) for item in value]
+    return value
+
+
+def publish(files: Mapping[str, bytes], folder: Path) -> None:
+    """Put files into a folder, all of them or none; what was there stays until then.
+
+    Raises
+    ------
+    InputError
+        If the folder or a file in it cannot be written, with what would do.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        staging = Path(tempfile.mkdtemp(prefix=".roofslip-", dir=folder))
+    except OSError as error:
+        raise InputError(
+            f"{folder}: cannot be written ({error.strerror}); choose another folder with --out"
+        ) from error
+    try:
+        _stage(files, folder, staging)
+        _replace_all(files, folder, staging)
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
+def _stage(files: Mapping[str, bytes], folder: Path, staging: Path) -> None:
+    """Write the new files, and copies of the old ones to go back to."""
+    try:
+        for name, content in files.items():
+            (staging / name).write_bytes(content)
+            if (folder / name).is_file():
+                shutil.copy2(folder / name, staging / f"{name}.old")
+    except OSError as error:
+        raise InputError(
+            f"{folder}: cannot be written ({error.strerror}); make room or choose another folder "
+            "with --out"
+        ) from error
+
+
+def _replace_all(files: Mapping[str, bytes], folder: Path, staging: Path) -> None:
+    done: list[str] = []
+    for name in files:
+        try:
+            os.replace(staging / name, folder / name)
+        except OSError as error:
+            for earlier in done:
+                _put_back(earlier, folder, staging)
+            raise InputError(
+                f"{folder / name}: cannot be replaced ({error.strerror}); close it where it is "
+                "open, or choose another folder with --out. Nothing was changed"
+            ) from error
+        done.append(name)
+
+
+def _put_back(name: str, folder: Path, staging: Path) -> None:
+    old = staging / f"{name}.old"
+    if old.exists():
+        os.replace(old, folder / name)
+    else:
+        (folder / name).unlink()

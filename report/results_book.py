@@ -1,0 +1,271 @@
+"""results.xlsx: the tables, and live formulas from the peaks to the separations.
+
+Computes nothing of its own: each formula is written with the value that `report.assess` found,
+and beside it that value as a number, so that a checker can follow, change and compare.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+from xlsxwriter.utility import xl_rowcol_to_cell
+from xlsxwriter.workbook import Workbook
+from xlsxwriter.worksheet import Worksheet
+
+from report.assess import ArrayAssessment, Assessment, ClearanceCheck
+from report.workbook import InputBook
+from solver.provisions import Basis
+
+METRES_PER_INCH = 0.0254
+
+
+def results_xlsx(book: InputBook, assessment: Assessment) -> bytes:
+    """Return the tables as a workbook, with live formulas from the peaks to the separations."""
+    buffer = io.BytesIO()
+    # Text from a stranger's workbook stays text, whatever it begins with.
+    options = {"strings_to_formulas": False, "strings_to_urls": False, "nan_inf_to_errors": True}
+    with pd.ExcelWriter(buffer, engine="xlsxwriter", engine_kwargs={"options": options}) as writer:
+        workbook: Workbook = writer.book
+        pages = _Pages(workbook)
+        runs = _runs_table(assessment)
+        for name in ("Design", "Clearances"):
+            workbook.add_worksheet(name)
+        _write_table(writer, runs, "Runs", pages)
+        _write_table(writer, _records_table(book), "Records", pages)
+        design_cells = _write_design(pages, book, assessment, runs)
+        _write_clearances(pages, book, assessment, design_cells)
+        workbook.set_calc_mode("auto")
+    return buffer.getvalue()
+
+
+class _Pages:
+    """The formats that all sheets share."""
+
+    def __init__(self, workbook: Workbook):
+        self.workbook = workbook
+        self.title = workbook.add_format({"bold": True, "font_size": 14})
+        self.head = workbook.add_format(
+            {"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"}
+        )
+        self.note = workbook.add_format({"italic": True, "font_color": "#555555"})
+        self.plain = workbook.add_format({})
+        self.numbers = {
+            decimals: workbook.add_format({"num_format": f"0.{'0' * decimals}"})
+            for decimals in (1, 2, 3, 4)
+        }
+
+    def sheet(self, name: str, title: str, note: str) -> Worksheet:
+        """Return a sheet with its heading written."""
+        sheet: Worksheet = self.workbook.get_worksheet_by_name(name)
+        sheet.write_string(0, 0, title, self.title)
+        sheet.write_string(1, 0, note, self.note)
+        return sheet
+
+
+def _runs_table(assessment: Assessment) -> pd.DataFrame:
+    """One row for each array, motion and polarity, arrays together."""
+    return pd.DataFrame(
+        {
+            "Array": item.array.id,
+            "Motion": motion.motion.id,
+            "Polarity": "as recorded" if run.sign > 0 else "reversed",
+            "Governs": "yes" if run is motion.governing else "",
+            "Scale": motion.motion.scale,
+            "PRD [in]": run.result.prd_m / METRES_PER_INCH,
+            "PRD [mm]": run.result.prd_m * 1e3,
+            "Residual [in]": run.result.residual_m / METRES_PER_INCH,
+            "Residual [mm]": run.result.residual_m * 1e3,
+            "Down [mm]": run.result.down_m * 1e3,
+            "Up [mm]": run.result.up_m * 1e3,
+            "Time of PRD [s]": run.result.t_prd_s,
+            "Stops": run.result.n_stops,
+            "Least N/(m g)": run.result.n_min_g,
+            "Outcome": run.result.status.sentence,
+        }
+        for item in assessment.arrays
+        for motion in item.motions
+        for run in motion.runs
+    )
+
+
+def _records_table(book: InputBook) -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            "Motion": record.motion_id,
+            "Component": record.component,
+            "Record": record.name,
+            "Samples": record.npts,
+            "Time step [s]": record.dt_s,
+            "Peak [g]": record.peak_g,
+            "SHA-256": record.sha256,
+        }
+        for record in book.records
+    )
+
+
+def _write_table(writer: Any, table: pd.DataFrame, name: str, pages: _Pages) -> None:
+    table.to_excel(writer, sheet_name=name, index=False, na_rep="no value")
+    sheet: Worksheet = writer.sheets[name]
+    sheet.freeze_panes(1, 0)
+    for column, heading in enumerate(table.columns):
+        values = [str(heading)] if table.empty else [str(heading), *map(str, table[heading][:50])]
+        is_number = pd.api.types.is_float_dtype(table[heading])
+        width = 11 if is_number else min(max(map(len, values)) + 2, 66)
+        sheet.set_column(column, column, width, pages.numbers[3] if is_number else None)
+        sheet.write_string(0, column, str(heading), pages.head)
+
+
+_DESIGN_HEADINGS = (
+    "Array", "S_DS [g]", "Factor [in]", "I_e in displacement", "Minimum [in]",
+    "Prescriptive [in]", "Number of motions", "Mean PRD [in]", "Largest PRD [in]",
+    "Analysis factor", "Computed [in]", "Floor / prescriptive", "Floor [in]", "Design [in]",
+    "Design [mm]", "Design / prescriptive", "Design by Roofslip [in]", "Difference [in]",
+)  # fmt: skip
+
+
+def _write_design(
+    pages: _Pages, book: InputBook, assessment: Assessment, runs: pd.DataFrame
+) -> dict[str, str]:
+    """Write the design displacement of each array as formulas; return its cell by array id."""
+    sheet = pages.sheet(
+        "Design",
+        "Design displacement",
+        f"{assessment.rules.name}. From the peaks on the sheet Runs; change a number and follow.",
+    )
+    _headings(pages, sheet, 3, _DESIGN_HEADINGS)
+    cells = {}
+    for row, item in enumerate(assessment.arrays, start=4):
+        _write_design_row(pages, sheet, row, book, assessment, item, _peak_range(runs, item))
+        cells[item.array.id.casefold()] = f"Design!$N${row + 1}"
+    return cells
+
+
+def _peak_range(runs: pd.DataFrame, item: ArrayAssessment) -> str:
+    """Return the governing peaks of one array as a list of cells of the sheet Runs."""
+    column = list(runs.columns).index("PRD [in]")
+    rows = [
+        index + 1
+        for index, (array, governs) in enumerate(zip(runs["Array"], runs["Governs"], strict=True))
+        if array == item.array.id and governs
+    ]
+    return ",".join(f"Runs!{xl_rowcol_to_cell(row, column)}" for row in rows)
+
+
+def _write_design_row(
+    pages: _Pages,
+    sheet: Worksheet,
+    row: int,
+    book: InputBook,
+    assessment: Assessment,
+    item: ArrayAssessment,
+    peaks: str,
+) -> None:
+    rules, analysis, prescriptive = assessment.rules, item.analysis, item.prescriptive
+    flat = prescriptive.governs == "SDC A, B, C"
+    importance = 1.0 if rules.importance_in_separation else book.input.site.i_e
+    r = row + 1
+    statistic = "I" if analysis.basis is Basis.LARGEST_FACTORED else "H"
+    floor_share = 0.0 if book.input.options.peer_reviewed else rules["analysis_floor"]
+    no_value = math.isnan(analysis.value_m)
+    inch = METRES_PER_INCH
+    sheet.write_string(row, 0, item.array.id)
+    sheet.write_number(row, 1, book.input.site.s_ds, pages.numbers[4])
+    # The flat value of the low categories leaves nothing to the formula.
+    sheet.write_number(row, 2, 0.0 if flat else rules["prescriptive_factor_in"], pages.numbers[1])
+    sheet.write_number(row, 3, importance, pages.numbers[2])
+    sheet.write_number(row, 4, prescriptive.minimum_m / inch, pages.numbers[1])
+    formulas: list[tuple[int, str, float, int]] = [
+        (5, f"=MAX(C{r}*D{r}*MAX(B{r}-0.4,0)^2,E{r})", prescriptive.value_m / inch, 1),
+        (6, f"=COUNT({peaks})", analysis.n_motions, 1),
+        (7, f"=AVERAGE({peaks})", analysis.mean_m / inch, 2),
+        (8, f"=MAX({peaks})", analysis.largest_m / inch, 2),
+        (12, f"=L{r}*F{r}", item.floor_m / inch, 2),
+    ]
+    if no_value:
+        formulas = [formulas[0], formulas[4]]
+        for column in (7, 8, 10, 13, 14, 15):
+            sheet.write_string(row, column, "no value")
+    else:
+        formulas += [
+            (10, f"=J{r}*{statistic}{r}", analysis.value_m / inch, 2),
+            (13, f"=MAX(K{r},M{r})", item.design_m / inch, 2),
+            (14, f"=N{r}*25.4", item.design_m * 1e3, 1),
+            (15, f"=N{r}/F{r}", item.ratio, 3),
+            (17, f"=N{r}-Q{r}", 0.0, 4),
+        ]
+        sheet.write_number(row, 16, item.design_m / inch, pages.numbers[2])
+    sheet.write_number(row, 9, analysis.factor, pages.numbers[2])
+    sheet.write_number(row, 11, floor_share, pages.numbers[2])
+    for column, formula, value, decimals in formulas:
+        sheet.write_formula(row, column, formula, pages.numbers[decimals], value)
+
+
+_CLEARANCE_HEADINGS = (
+    "Array", "Object", "Direction", "Condition", "Governing array", "Design [in]", "Factor",
+    "Least [in]", "Required [in]", "Required [mm]", "Provided [in]", "D/C", "Result",
+    "Required by Roofslip [in]", "Difference [in]",
+)  # fmt: skip
+
+
+def _write_clearances(
+    pages: _Pages, book: InputBook, assessment: Assessment, design_cells: Mapping[str, str]
+) -> None:
+    sheet = pages.sheet(
+        "Clearances",
+        "Clearances",
+        f"{assessment.rules.name}. Factor includes the importance factor where it belongs here.",
+    )
+    _headings(pages, sheet, 3, _CLEARANCE_HEADINGS)
+    for row, item in enumerate(assessment.clearances, start=4):
+        _write_clearance_row(pages, sheet, row, assessment, item, design_cells)
+
+
+def _write_clearance_row(
+    pages: _Pages,
+    sheet: Worksheet,
+    row: int,
+    assessment: Assessment,
+    item: ClearanceCheck,
+    design_cells: Mapping[str, str],
+) -> None:
+    clearance, inch, r = item.clearance, METRES_PER_INCH, row + 1
+    texts = (
+        clearance.array, clearance.object, clearance.direction, item.neighbour,
+        item.governing_array,
+    )  # fmt: skip
+    for column, text in enumerate(texts):
+        sheet.write_string(row, column, text)
+    sheet.write_number(row, 6, item.factor, pages.numbers[2])
+    sheet.write_number(row, 7, item.least_m / inch, pages.numbers[1])
+    sheet.write_number(row, 10, clearance.provided_m / inch, pages.numbers[1])
+    if math.isnan(item.required_m):
+        for column in (5, 8, 9, 11):
+            sheet.write_string(row, column, "no value")
+        sheet.write_string(row, 12, "NG")
+        return
+    design = design_cells[item.governing_array.casefold()]
+    numbers = [
+        (5, f"={design}", item.design_m / inch, 2),
+        (8, f"=MAX(F{r}*G{r},H{r})", item.required_m / inch, 2),
+        (9, f"=I{r}*25.4", item.required_m * 1e3, 1),
+        (14, f"=I{r}-N{r}", 0.0, 4),
+    ]
+    if clearance.provided_m > 0.0:
+        numbers.append((11, f"=I{r}/K{r}", item.demand_capacity, 3))
+    for column, formula, value, decimals in numbers:
+        sheet.write_formula(row, column, formula, pages.numbers[decimals], value)
+    result = "OK" if item.ok else "NG"
+    sheet.write_formula(row, 12, f'=IF(I{r}<=K{r},"OK","NG")', pages.plain, result)
+    sheet.write_number(row, 13, item.required_m / inch, pages.numbers[2])
+
+
+def _headings(pages: _Pages, sheet: Worksheet, row: int, headings: tuple[str, ...]) -> None:
+    for column, heading in enumerate(headings):
+        sheet.write_string(row, column, heading, pages.head)
+    sheet.set_row(row, 48)
+    sheet.set_column(0, len(headings) - 1, 13)
+    sheet.freeze_panes(row + 1, 1)

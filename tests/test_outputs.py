@@ -1,0 +1,117 @@
+"""results.json, and that files appear complete or not at all."""
+
+import json
+import math
+import os
+
+import pytest
+import stand_in
+
+from report.outputs import publish, results_json
+from solver.model import InputError
+
+
+@pytest.fixture(scope="module")
+def document():
+    book = stand_in.book()
+    return json.loads(results_json(book, stand_in.assessed(book)))
+
+
+def test_json_holds_what_was_assessed_in_si(document):
+    book = stand_in.book()
+    assessment = stand_in.assessed(book)
+    assert [array["design_m"] for array in document["arrays"]] == [
+        item.design_m for item in assessment.arrays
+    ]
+    assert document["arrays"][0]["prescriptive_m"] == pytest.approx(1.166**2 * 60 * 0.0254)
+    assert len(document["arrays"][1]["runs"]) == 14
+    assert document["clearances"][4]["required_m"] == assessment.clearances[4].required_m
+    assert document["ok"] is assessment.ok
+    assert document["s_ds_g"] == 1.566
+
+
+def test_every_number_in_json_says_its_unit_or_has_none(document):
+    units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2")
+    plain = {
+        "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
+        "f_v", "storeys", "slope_value", "found", "limit", "scale_value", "value",
+    }  # fmt: skip
+
+    def walk(value, key=""):
+        if isinstance(value, dict):
+            for name, item in value.items():
+                walk(item, name)
+        elif isinstance(value, list):
+            for item in value:
+                walk(item, key)
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
+            assert key.endswith(units) or key in plain, key
+
+    walk(document)
+
+
+def test_a_missing_value_is_null_in_json():
+    book = stand_in.book(found=stand_in.motions(2))
+    document = json.loads(results_json(book, stand_in.assessed(book)))
+    assert document["arrays"][0]["design_m"] is None
+    assert document["clearances"][0]["required_m"] is None
+    assert document["clearances"][0]["ok"] is False
+    assert document["ok"] is False
+
+
+def test_files_are_published_together(tmp_path):
+    publish({"a.txt": b"1", "b.txt": b"2"}, tmp_path / "out")
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a.txt", "b.txt"]
+    publish({"a.txt": b"3", "b.txt": b"4"}, tmp_path / "out")
+    assert (tmp_path / "out" / "a.txt").read_bytes() == b"3"
+
+
+def test_a_locked_file_changes_nothing_and_is_named(tmp_path, monkeypatch):
+    publish({"a.txt": b"old a"}, tmp_path)
+    replace = os.replace
+
+    def locked(source, target):
+        if str(target).endswith("c.txt"):
+            raise PermissionError(13, "Permission denied")
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", locked)
+    with pytest.raises(InputError, match=r"c\.txt: cannot be replaced .*close it"):
+        publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+    assert (tmp_path / "a.txt").read_bytes() == b"old a"
+
+
+def test_a_folder_in_the_place_of_a_file_is_told(tmp_path):
+    (tmp_path / "a.txt").mkdir()
+    with pytest.raises(InputError, match=r"a\.txt: cannot be replaced"):
+        publish({"a.txt": b"1"}, tmp_path)
+    assert (tmp_path / "a.txt").is_dir()
+
+
+def test_a_folder_that_cannot_be_made_is_told(tmp_path):
+    (tmp_path / "out").write_text("a file")
+    with pytest.raises(InputError, match=r"out: cannot be written .*--out"):
+        publish({"a.txt": b"1"}, tmp_path / "out")
+
+
+def test_a_full_disk_leaves_the_old_package(tmp_path, monkeypatch):
+    publish({"a.txt": b"old"}, tmp_path)
+
+    def full(self, data):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.write_bytes", full)
+    with pytest.raises(InputError, match="No space left"):
+        publish({"a.txt": b"new"}, tmp_path)
+    assert [p.read_bytes() for p in tmp_path.iterdir()] == [b"old"]
+
+
+def test_infinite_demand_over_no_room_is_null():
+    data = stand_in.project(clearances=[stand_in.clearance("A1", "RTU-1", 0.0)])
+    book = stand_in.book(data)
+    assessment = stand_in.assessed(book)
+    assert math.isinf(assessment.clearances[0].demand_capacity)
+    document = json.loads(results_json(book, assessment))
+    assert document["clearances"][0]["demand_capacity"] is None
+    assert document["clearances"][0]["ok"] is False

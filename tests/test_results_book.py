@@ -1,0 +1,92 @@
+"""results.xlsx: its formulas, computed here by a few lines of their own, give its values."""
+
+import io
+import re
+
+import openpyxl
+import pytest
+import stand_in
+
+from report.results_book import results_xlsx
+
+
+def made(book):
+    content = results_xlsx(book, stand_in.assessed(book))
+    formulas, values = (
+        openpyxl.load_workbook(io.BytesIO(content), data_only=flag) for flag in (False, True)
+    )
+    return formulas, values
+
+
+def compute(book, sheet, cell):
+    """Evaluate a cell of a workbook: only what the result formulas use."""
+    value = book[sheet][cell].value
+    if not (isinstance(value, str) and value.startswith("=")):
+        return value
+
+    def reference(match):
+        where = match["sheet"] or sheet
+        return repr(compute(book, where, match["cell"].replace("$", "")))
+
+    text = re.sub(r"(?:(?P<sheet>\w+)!)?(?P<cell>\$?[A-Z]{1,2}\$?\d+)\b", reference, value[1:])
+    text = re.sub(r"(?<![<>])=(?!=)", "==", text).replace("^", "**")
+    functions = {
+        "MAX": max,
+        "COUNT": lambda *items: len(items),
+        "AVERAGE": lambda *items: sum(items) / len(items),
+        "IF": lambda test, yes, no: yes if test else no,
+    }
+    return eval(text, {"__builtins__": {}}, functions)
+
+
+SITE = stand_in.project().site.model_dump()
+CASES = {
+    "PV1": {},
+    "PV1, low category": {"site": SITE | {"sdc": "C", "s_ds_g": 0.45}},
+    "ASCE 7-16": {"site": SITE | {"rule_set": "ASCE 7-16", "risk_category": "III", "i_e": 1.25}},
+    "peer reviewed": {"options": {"peer_reviewed": True, "statistic": "1.1 x largest"}},
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_formula_gives_the_value_written_with_it(case):
+    formulas, values = made(stand_in.book(stand_in.project(**CASES[case])))
+    checked = 0
+    for sheet in formulas:
+        for row in sheet.iter_rows():
+            for cell in row:
+                if cell.data_type == "f":
+                    cached = values[sheet.title][cell.coordinate].value
+                    found = compute(formulas, sheet.title, cell.coordinate)
+                    if not isinstance(cached, str):
+                        cached = pytest.approx(cached, rel=1e-12, abs=1e-12)
+                    assert found == cached, cell
+                    checked += 1
+    assert checked > 50
+
+
+def test_the_prescriptive_value_is_a_live_formula():
+    formulas, values = made(stand_in.book())
+    assert formulas["Design"]["F5"].value == "=MAX(C5*D5*MAX(B5-0.4,0)^2,E5)"
+    assert values["Design"]["F5"].value == pytest.approx(81.573, abs=5e-4)
+
+
+def test_without_a_value_the_book_says_so_and_ng():
+    _, values = made(stand_in.book(found=stand_in.motions(2)))
+    assert values["Design"]["N5"].value == "no value"
+    assert values["Clearances"]["I5"].value == "no value"
+    assert values["Clearances"]["M5"].value == "NG"
+
+
+def test_text_that_looks_like_a_formula_stays_text():
+    data = stand_in.project(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
+    formulas, _ = made(stand_in.book(data))
+    for sheet, cell in (("Design", "A5"), ("Runs", "A2")):
+        assert (formulas[sheet][cell].value, formulas[sheet][cell].data_type) == ("=1+1", "s")
+
+
+def test_every_run_is_listed():
+    _, values = made(stand_in.book())
+    rows = list(values["Runs"].iter_rows(min_row=2, values_only=True))
+    assert len(rows) == 3 * 7 * 2
+    assert sum(row[3] == "yes" for row in rows) == 3 * 7
