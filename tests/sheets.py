@@ -1,0 +1,146 @@
+"""A small project with its records, and ways to spoil its workbook. For the tests of the input."""
+
+from __future__ import annotations
+
+import datetime as dt
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from openpyxl import Workbook, load_workbook
+
+from report.schema import ProjectInput, UnitsFirst
+from report.template import write_template
+from report.workbook import read_workbook
+from solver.model import InputError
+
+FT, INCH, LB = 0.3048, 0.0254, 4.4482216152605
+
+
+def project(**changes: object) -> ProjectInput:
+    """Return a complete input: two arrays, five objects, six clearances, three motions."""
+    parts: dict[str, object] = {
+        "project": {
+            "name": "Alameda Warehouse",
+            "number": "007",
+            "client": "Harbor Logistics",
+            "address": "1200 Alameda St",
+            "prepared_by": "RG",
+            "checked_by": "MT",
+            "date": dt.date(2026, 3, 5),
+            "revision": "1",
+            "units_first": "US",
+        },
+        "revisions": [
+            {"revision": "0", "date": dt.date(2026, 1, 5), "description": "Draft", "by": "RG"},
+            {"revision": "1", "date": dt.date(2026, 3, 5), "description": "Permit"},
+        ],
+        "site": {
+            "rule_set": "SEAOC PV1-2012",
+            "risk_category": "II",
+            "i_e": 1.0,
+            "s_1_g": 0.7,
+            "site_class": "D",
+            "s_ds_g": 1.566,
+            "sdc": "D",
+            "storeys": 1,
+            "structure_height_m": 36 * FT,
+            "roof_height_m": 36 * FT,
+        },
+        "arrays": [
+            _array("A1", 20, 100, 0.5, "degrees"),
+            _array("A2", 110, 200, 3.5, "percent"),
+        ],
+        "objects": [
+            _object("RTU-1", "fixed object", 42, (130, 140, 80, 90)),
+            _object("OLD", "unlike array", None, None),
+            _object("N", "edge with parapet", 36, (0, 300, 120, 121)),
+            _object("S", "edge without parapet", None, (0, 300, -1, 0)),
+        ],
+        "clearances": [
+            _clearance("A1", "A2", "across", 120),
+            _clearance("A1", "S", "down", 180),
+            _clearance("A2", "RTU-1", "any", 60),
+            _clearance("A2", "OLD", "any", 400),
+            _clearance("A2", "N", "up", 540),
+        ],
+        "motions": [
+            _motion("M1", vertical="records/z.csv", source="made"),
+            _motion("M2", scaling="factor", scale_value=2.0, polarity="reversed"),
+            _motion("M3", scaling="PPA", scale_value=1.5, polarity="as recorded", dt_s=0.02),
+        ],
+        "options": {"statistic": "1.1 x mean", "peer_reviewed": True},
+        "overrides": [
+            {"provision": "parapet_height_in", "value": 18.0, "reason": "Agreed 2026-02-10"}
+        ],
+    }
+    return ProjectInput(**(parts | changes))
+
+
+def _array(name: str, x_from: float, x_to: float, slope: float, unit: str) -> dict[str, object]:
+    return {
+        "id": name,
+        "slope_value": slope,
+        "slope_unit": unit,
+        "mu": 0.45,
+        "mu_report": "Lab 12",
+        "construction": "Tray 10 deg",
+        "weight_n": 42000 * LB,
+        "cg_height_m": 9 * INCH,
+        "support_spacing_m": 40 * INCH,
+        "x_from_m": x_from * FT,
+        "x_to_m": x_to * FT,
+        "y_from_m": 15 * FT,
+        "y_to_m": 75 * FT,
+        "downslope_deg": 270.0,
+    }
+
+
+def _object(
+    name: str, kind: str, height: float | None, sides: tuple[float, ...] | None
+) -> dict[str, object]:
+    names = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
+    rectangle = dict(zip(names, (side * FT for side in sides), strict=True)) if sides else {}
+    return {"id": name, "kind": kind, "height_m": height and height * INCH, **rectangle}
+
+
+def _clearance(array: str, other: str, direction: str, provided: float) -> dict[str, object]:
+    return {
+        "array": array,
+        "object": other,
+        "direction": direction,
+        "provided_m": provided * INCH,
+    }
+
+
+def _motion(name: str, **changes: object) -> dict[str, object]:
+    return {"id": name, "record": "records/x.csv", "units": "g", "dt_s": 0.01, **changes}
+
+
+def make(folder: Path, units: UnitsFirst = UnitsFirst.US, **changes: object) -> Path:
+    """Write the project's workbook and records into a folder; return the workbook."""
+    records = folder / "records"
+    records.mkdir(parents=True, exist_ok=True)
+    for name, peak in (("x", 0.5), ("z", 0.25)):
+        samples = (peak * math.sin(0.3 * i) for i in range(200))
+        text = "".join(f"{sample:.6f}\n" for sample in samples)
+        (records / f"{name}.csv").write_text(text)
+    path = folder / "input.xlsx"
+    write_template(path, units=units, example=project(**changes))
+    return path
+
+
+def edit(path: Path, change: Callable[[Workbook], object]) -> Path:
+    """Change a workbook in place."""
+    book = load_workbook(path)
+    change(book)
+    book.save(path)
+    return path
+
+
+def problems(path: Path) -> tuple[str, ...]:
+    """Return what the reader finds wrong with a workbook."""
+    with pytest.raises(InputError) as caught:
+        read_workbook(path)
+    return caught.value.problems

@@ -1,0 +1,179 @@
+"""The workbook that is made: names, tables, help, protection, looks that matter."""
+
+import pytest
+from openpyxl import load_workbook
+from openpyxl.utils import range_boundaries
+from sheets import make, project
+
+from report.fields import entries
+from report.schema import SECTIONS, UnitsFirst
+from report.template import write_template
+
+SHEETS = ["README", "Project", "Site", "Arrays", "Objects", "Clearances", "Motions", "Options"]
+
+
+@pytest.fixture(scope="module", params=list(UnitsFirst))
+def blank(request, tmp_path_factory):
+    path = tmp_path_factory.mktemp("blank") / "input.xlsx"
+    write_template(path, units=request.param)
+    return request.param, load_workbook(path)
+
+
+def tables(book):
+    return {t.name: (s, t) for s in book.worksheets for t in s.tables.values()}
+
+
+def validations(sheet):
+    return list(sheet.data_validations.dataValidation)
+
+
+def validation(sheet, cell):
+    return next(rule for rule in validations(sheet) if cell in rule.sqref)
+
+
+def test_sheets_stand_in_the_order_of_work(blank):
+    assert blank[1].sheetnames == [*SHEETS, "Provisions"]
+
+
+def test_every_single_field_has_a_defined_name(blank):
+    names = blank[1].defined_names
+    for section in SECTIONS:
+        if not section.is_table:
+            for entry in entries(section.model):
+                assert section.cell_name(entry.name) in names
+                assert (section.unit_name(entry.name) in names) == (entry.quantity is not None)
+
+
+def test_every_table_has_its_name_and_twenty_blank_rows(blank):
+    found = tables(blank[1])
+    for section in SECTIONS:
+        if section.is_table:
+            sheet, table = found[section.table_name]
+            left, top, right, bottom = range_boundaries(table.ref)
+            assert bottom - top == 20
+            cells = sheet.iter_rows(top + 1, bottom, left, right, values_only=True)
+            assert all(value is None for row in cells for value in row)
+
+
+def test_headings_name_the_units_of_the_system(blank):
+    units, book = blank
+    sheet, table = tables(book)["arrays_table"]
+    headings = [cell.value for cell in sheet[table.ref][0]]
+    weight, size, plan = ("lb", "in", "ft") if units is UnitsFirst.US else ("kN", "mm", "m")
+    for heading in (f"Weight [{weight}]", f"CG height [{size}]", f"x from [{plan}]"):
+        assert heading in headings
+
+
+def test_table_columns_are_named_as_their_headings(blank):
+    for sheet, table in tables(blank[1]).values():
+        headings = [cell.value for cell in sheet[table.ref][0]]
+        assert headings == [column.name for column in table.tableColumns]
+        assert table.autoFilter is None
+
+
+def test_only_inputs_are_unlocked_and_sheets_are_protected_without_password(blank):
+    for sheet in blank[1].worksheets:
+        assert sheet.protection.sheet
+        assert not sheet.protection.password
+        assert not sheet.protection.insertRows
+    site = blank[1]["Site"]
+    assert site["A5"].protection.locked
+    assert not site["B5"].protection.locked
+    assert site["B5"].fill.start_color.rgb == "00FFF6CC"
+
+
+def test_rows_below_the_prepared_ones_are_open_too(blank):
+    assert not blank[1]["Arrays"].column_dimensions["D"].protection.locked
+
+
+def test_choices_are_dropdowns_with_a_message_and_an_alert(blank):
+    rule = validation(blank[1]["Arrays"], "D8")
+    assert rule.formula1 == '"degrees,percent,in/12"'
+    assert rule.showInputMessage
+    assert rule.showErrorMessage
+    assert rule.prompt
+
+
+def test_numbers_are_held_to_their_range(blank):
+    rule = validation(blank[1]["Arrays"], "E8")
+    assert (rule.type, rule.operator, rule.formula1, rule.formula2) == (
+        "decimal",
+        "between",
+        "0",
+        "1.5",
+    )
+    assert "0 to 1.5" in rule.prompt
+
+
+def test_clearances_offer_the_arrays_and_objects_but_take_others(blank):
+    sheet = blank[1]["Clearances"]
+    assert validation(sheet, "B8").formula1 == "Arrays!$B$8:$B$500"
+    assert validation(sheet, "C8").formula1 == "Objects!$B$8:$B$500"
+    assert not validation(sheet, "C8").showErrorMessage
+
+
+def test_overrides_offer_the_provisions(blank):
+    book = blank[1]
+    target = validation(book["Options"], "B16").formula1
+    first = target.split("!")[1].split(":")[0].replace("$", "")
+    assert book["Provisions"][first].value == "prescriptive_factor_in"
+
+
+def test_no_cell_has_two_validations(blank):
+    for sheet in blank[1].worksheets:
+        areas = [area for rule in validations(sheet) for area in rule.sqref.ranges]
+        for i, area in enumerate(areas):
+            assert all(area.isdisjoint(other) for other in areas[i + 1 :])
+
+
+def test_messages_keep_the_limits_of_excel(blank):
+    for sheet in blank[1].worksheets:
+        for rule in validations(sheet):
+            assert len(rule.promptTitle) <= 32
+            assert len(rule.prompt) <= 255
+            assert len(rule.error) <= 225
+            assert len(rule.formula1) <= 255
+
+
+def test_headings_stay_in_view_and_sheets_print_one_page_wide(blank):
+    for name in SHEETS[1:]:
+        sheet = blank[1][name]
+        assert sheet.freeze_panes
+        assert sheet.page_setup.orientation == "landscape"
+        assert sheet.page_setup.fitToHeight == 0
+        assert sheet.sheet_properties.pageSetUpPr.fitToPage
+
+
+def test_defaults_are_filled_and_the_rest_is_blank(blank):
+    units, book = blank
+    assert book["Project"]["B13"].value == units
+    assert book["Options"]["B5"].value == "rule set"
+    assert book["Options"]["B6"].value == "No"
+    assert all(book["Site"].cell(row, 2).value is None for row in range(5, 18))
+
+
+def test_readme_names_the_steps_and_the_commands(blank):
+    text = "\n".join(
+        str(value) for row in blank[1]["README"].values for value in row if value is not None
+    )
+    for part in ("roofslip check FOLDER", "roofslip report FOLDER", "records", "Unprotect"):
+        assert part in text
+
+
+def test_values_of_a_project_are_written_in_the_units_of_the_sheets_without_dust(tmp_path):
+    us, si = (load_workbook(make(tmp_path / str(units), units))["Arrays"] for units in UnitsFirst)
+    assert [us[f"{c}8"].value for c in "HIJKL"] == [42000, 9, 40, 20, 100]
+    assert [si[f"{c}8"].value for c in "IJKL"] == [228.6, 1016, 6.096, 30.48]
+
+
+def test_a_project_of_many_arrays_gets_a_table_that_holds_them(tmp_path):
+    array = project().arrays[0].model_dump()
+    arrays = [array | {"id": f"A{i}"} for i in range(40)]
+    book = load_workbook(make(tmp_path, arrays=arrays, clearances=[]))
+    assert book["Arrays"].tables["arrays_table"].ref == "B7:O52"
+
+
+def test_a_text_that_looks_like_a_formula_is_written_as_text(tmp_path):
+    data = project().project.model_dump() | {"name": "=1+1", "client": "#N/A"}
+    sheet = load_workbook(make(tmp_path, project=data))["Project"]
+    assert (sheet["B5"].value, sheet["B5"].data_type) == ("=1+1", "s")
