@@ -294,3 +294,7 @@ class _Progress:
     def __exit__(self, *_: Any) -> None:
         if self._terminal:
             click.echo("\r\x1b[2K", nl=False, err=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,204 @@
+"""The commands as a person or a script calls them."""
+
+import json
+import math
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import report.package
+from report.cli import main
+from solver.motion import read_record
+from solver.solve import slide
+
+ROOT = Path(__file__).resolve().parents[1]
+EXAMPLE = ROOT / "projects" / "example"
+RECORD = str(EXAMPLE / "records" / "RM1-h.csv")
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, [str(item) for item in arguments])
+
+
+def test_help_names_the_commands_and_imports_nothing_heavy():
+    code = (
+        "import sys; from report.cli import main; main(['--help'], standalone_mode=False); "
+        "print(sorted({'numpy', 'numba', 'pandas', 'openpyxl', 'matplotlib'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+    for command in ("new", "check", "report", "slide"):
+        assert f"\n  {command} " in done.stdout
+
+
+def test_new_writes_a_workbook_and_never_over_one(tmp_path):
+    first = run("new", tmp_path / "job")
+    assert first.exit_code == 0
+    assert (tmp_path / "job" / "records").is_dir()
+    before = (tmp_path / "job" / "input.xlsx").read_bytes()
+    second = run("new", tmp_path / "job", "--units", "SI")
+    assert second.exit_code == 2
+    assert "is there already" in second.output
+    assert (tmp_path / "job" / "input.xlsx").read_bytes() == before
+
+
+def test_check_finds_nothing_wrong_with_the_example():
+    done = run("check", EXAMPLE)
+    assert done.exit_code == 0
+    assert "no problems found. 3 arrays, 5 clearances, 7 motions, S_DS 1.566 g" in done.output
+
+
+def test_check_of_a_blank_workbook_names_every_cell_and_exits_2(tmp_path):
+    run("new", tmp_path)
+    done = run("check", tmp_path)
+    assert done.exit_code == 2
+    assert "Project!B5: project name is missing" in done.output
+    assert "Arrays!B7: no array is given" in done.output
+
+
+def test_check_of_what_is_not_there_exits_2(tmp_path):
+    assert run("check", tmp_path / "nothing").exit_code == 2
+    assert run("check", Path(RECORD)).exit_code == 2
+
+
+def test_slide_gives_what_the_solver_gives():
+    done = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--json")
+    assert done.exit_code == 0
+    record = read_record(Path(RECORD), units="g")
+    expected = slide(record.a_mps2, record.dt_s, slope_rad=math.radians(2), mu=0.5)
+    found = json.loads(done.output)
+    assert found["prd_m"] == expected.prd_m
+    assert found["residual_m"] == expected.residual_m
+    assert found["t_uplift_s"] is None
+    assert found["dt_s"] == 0.005
+
+
+def test_slide_scales_to_a_ppa_and_by_a_factor():
+    peak = np.abs(read_record(Path(RECORD), units="g").a_mps2).max() / 9.80665
+    one = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--ppa-g", 2 * peak, "--json")
+    two = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--factor", 2, "--json")
+    assert json.loads(one.output)["prd_m"] == pytest.approx(json.loads(two.output)["prd_m"])
+
+
+def test_slide_takes_a_vertical_record():
+    plain = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5)
+    lifted = run(
+        "slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--vertical", RECORD.replace("-h", "-v")
+    )
+    assert (plain.exit_code, lifted.exit_code) == (0, 0)
+    assert "prd_m" in plain.output
+    assert plain.output != lifted.output
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--slope-deg", "95", "--mu", "0.5"], "give an angle between"),
+        (["--slope-deg", "2", "--mu", "-1"], "give a friction coefficient of 0 or more"),
+        (["--slope-deg", "2", "--mu", "0.5", "--dt", "0.01"], "0.01"),
+        (["--slope-deg", "2", "--mu", "0.5", "--ppa-g", "1", "--factor", "1"], "not both"),
+        (["--slope-deg", "2"], "--mu"),
+    ],
+)
+def test_slide_says_what_is_wrong_and_exits_2(arguments, message):
+    done = run("slide", RECORD, *arguments)
+    assert done.exit_code == 2
+    assert message in done.output
+
+
+def test_a_defect_of_ours_exits_1_with_the_traceback(tmp_path, monkeypatch):
+    shutil.copytree(EXAMPLE, tmp_path / "job", ignore=shutil.ignore_patterns("out"))
+
+    def broken(*_):
+        raise RuntimeError("a defect")
+
+    monkeypatch.setattr(report.package, "render", broken)
+    done = run("report", tmp_path / "job")
+    assert done.exit_code == 1
+    assert isinstance(done.exception, RuntimeError)
+    assert not (tmp_path / "job" / "out").exists()
+
+
+def test_a_failed_run_leaves_the_older_package(tmp_path):
+    shutil.copytree(EXAMPLE, tmp_path / "job", ignore=shutil.ignore_patterns("out"))
+    out = tmp_path / "job" / "out"
+    out.mkdir()
+    (out / "calc-package.pdf").write_bytes(b"older")
+    (tmp_path / "job" / "records" / "RM3-h.csv").write_text("time_s,acceleration_g\n0,abc\n")
+    done = run("report", tmp_path / "job")
+    assert done.exit_code == 2
+    assert "RM3-h.csv" in done.output
+    assert [p.read_bytes() for p in out.iterdir()] == [b"older"]
+
+
+@pytest.fixture(scope="module")
+def reported(tmp_path_factory):
+    """The example, reported from a folder of its own, as by a script."""
+    job = tmp_path_factory.mktemp("example") / "job"
+    shutil.copytree(EXAMPLE, job, ignore=shutil.ignore_patterns("out"))
+    done = subprocess.run(
+        [sys.executable, "-m", "report.cli", "report", str(job)],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=ROOT,
+        timeout=120,
+    )
+    return job, done
+
+
+def test_report_prints_each_array_and_where_the_files_are(reported):
+    job, done = reported
+    lines = done.stdout.splitlines()
+    assert lines[0].split("  ")[0] == "array"
+    assert [line.split()[0] for line in lines[1:4]] == ["A1", "A2", "A3"]
+    assert all("81.6 in (2070 mm)" in line for line in lines[1:4])
+    assert all(line.endswith("OK") for line in lines[1:4])
+    for name in ("calc-package.pdf", "results.xlsx", "results.json"):
+        assert str(job / "out" / name) in lines
+        assert (job / "out" / name).stat().st_size > 1000
+
+
+def test_progress_is_plain_lines_when_piped(reported):
+    _, done = reported
+    assert "\x1b" not in done.stderr
+    assert "\r" not in done.stderr
+    assert all(line.startswith("[") for line in done.stderr.splitlines())
+
+
+def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
+    job, _ = reported
+    document = json.loads((job / "out" / "results.json").read_text())
+    runs = [(array, run) for array in document["arrays"] for run in array["runs"]]
+    assert len(runs) == 3 * 7 * 2
+    for array, run_ in runs:
+        columns = [
+            np.loadtxt(
+                job / "records" / f"{run_['motion']}-{letter}.csv", delimiter=",", skiprows=1
+            )
+            for letter in "hv"
+        ]
+        ax, az = (9.80665 * column[:, 1] for column in columns)
+        found = slide(
+            run_["polarity"] * ax,
+            0.005,
+            slope_rad=array["slope_rad"],
+            mu=array["mu"],
+            az_mps2=az,
+        )
+        assert run_["prd_m"] == pytest.approx(found.prd_m, rel=1e-12)
+        assert run_["residual_m"] == pytest.approx(found.residual_m, rel=1e-12, abs=1e-15)
+        assert run_["status"] == found.status
+    for array in document["arrays"]:
+        peaks = [
+            max(r["prd_m"] for r in array["runs"] if r["motion"] == f"RM{k}") for k in range(1, 8)
+        ]
+        computed = 1.1 * sum(peaks) / 7
+        floor = 0.5 * 60 * 0.0254 * (1.566 - 0.4) ** 2
+        assert array["computed_m"] == pytest.approx(computed, rel=1e-12)
+        assert array["design_m"] == pytest.approx(max(computed, floor), rel=1e-12)

@@ -1,0 +1,93 @@
+"""What is shipped, what is locked, and what tracked files must not hold."""
+
+import os
+import re
+import subprocess
+import sys
+import tarfile
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+TOP_LEVEL = {
+    "pyproject.toml", "requirements.lock", "README.md", "roofslip", "solver", "report", "templates",
+    "projects", "tests", ".ci", ".gitignore",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def tracked():
+    """Every tracked file, or every file of the checkout where git is not there."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    names = [name for name in listed.stdout.split("\0") if name]
+    return [ROOT / name for name in names if (ROOT / name).exists()]
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """The wheel and the sdist, built offline."""
+    folder = tmp_path_factory.mktemp("dist")
+    subprocess.run(
+        [sys.executable, "-m", "hatchling", "build", "-d", str(folder)],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        timeout=60,
+    )
+    return folder
+
+
+def test_the_wheel_holds_two_packages_and_their_templates(built):
+    with zipfile.ZipFile(next(built.glob("*.whl"))) as wheel:
+        names = wheel.namelist()
+    tops = {name.split("/")[0] for name in names}
+    assert {top for top in tops if not top.endswith(".dist-info")} == {"solver", "report"}
+    assert any(re.fullmatch(r"report/templates/.*\.html", name) for name in names)
+    assert any(re.fullmatch(r"report/templates/fonts/.*OFL.*", name) for name in names)
+
+
+def test_the_sdist_holds_no_projects(built):
+    with tarfile.open(next(built.glob("*.tar.gz"))) as sdist:
+        names = sdist.getnames()
+    assert not [name for name in names if "/projects" in name]
+    assert any(name.endswith("solver/kernels.py") for name in names)
+
+
+def test_the_top_level_is_as_planned(tracked):
+    assert {path.relative_to(ROOT).parts[0] for path in tracked} <= TOP_LEVEL
+
+
+def test_every_dependency_is_locked_with_hashes_and_without_addresses():
+    lock = (ROOT / "requirements.lock").read_text()
+    locked = {m.lower() for m in re.findall(r"^([\w.-]+)==", lock, re.MULTILINE)}
+    declared = PROJECT["project"]["dependencies"] + PROJECT["dependency-groups"]["dev"]
+    assert {name.lower() for name in declared} <= locked
+    for entry in re.split(r"^(?=[\w.-]+==)", lock, flags=re.MULTILINE)[1:]:
+        assert "--hash=sha256:" in entry, entry.splitlines()[0]
+    assert "://" not in lock
+
+
+def test_no_tracked_file_names_a_registry_or_a_path_of_one_machine(tracked):
+    hosts = ["py" + "pi.org", "python" + "hosted", "debian" + ".org", "npm" + "js"]
+    path = re.compile(r"(?<![\w.])/(?:work|root|home)/\w")
+    for file in tracked:
+        if file.suffix in {".py", ".md", ".toml", ".lock", ".html", ".css", ".sh", ""}:
+            text = file.read_text(errors="replace")
+            assert not [host for host in hosts if host in text], file
+            assert not path.search(text), file
+
+
+def test_the_launcher_is_posix_sh():
+    done = subprocess.run(["sh", "-n", str(ROOT / "roofslip")], capture_output=True, check=False)
+    assert done.returncode == 0
+    assert os.access(ROOT / "roofslip", os.X_OK)
+
+
+def test_the_continuous_integration_calls_the_one_command():
+    assert "./roofslip test" in (ROOT / ".ci" / "run").read_text()
