@@ -1,0 +1,515 @@
+"""Charts of the package, each a function from what was computed to the text of an SVG.
+
+Computes nothing but where ink goes; reads well in black and white (line style, marker and
+hatching carry the meaning). Two runs give the same bytes. Read `report.package` next.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib import font_manager
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyArrowPatch
+from matplotlib.patches import Rectangle as Box
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+
+from report.assess import ArrayAssessment, Assessment, MotionRun
+from report.schema import ObjectKind, ProjectInput, Rectangle
+from report.units import Quantity, Unit, measured, number
+from solver.model import Floats
+from solver.provisions import RequiredSpectrum
+
+WIDTH_IN = 6.7
+INK, GREY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
+FAMILY = "Source Sans 3"
+MAX_POINTS = 700
+
+_STYLE: Mapping[str, Any] = {
+    "font.family": FAMILY,
+    "font.size": 8.0,
+    "axes.titlesize": 8.0,
+    "axes.labelsize": 8.0,
+    "axes.linewidth": 0.6,
+    "axes.edgecolor": INK,
+    "axes.labelcolor": INK,
+    "axes.unicode_minus": True,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.direction": "out",
+    "ytick.direction": "out",
+    "grid.color": PALE,
+    "grid.linewidth": 0.5,
+    "legend.frameon": False,
+    "legend.fontsize": 7.5,
+    "hatch.linewidth": 0.5,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "roofslip",
+    "path.simplify": True,
+    "text.parse_math": False,  # a dollar sign in a name is a dollar sign
+}
+
+
+def load_fonts(folder: Path) -> None:
+    """Make the shipped fonts known to the charts."""
+    known = {entry.fname for entry in font_manager.fontManager.ttflist}
+    for path in sorted(folder.glob("SourceSans3-*.ttf")):
+        if str(path) not in known:
+            font_manager.fontManager.addfont(str(path))
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Draw in the package's style, whatever the machine's settings are."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_STYLE)
+        yield
+
+
+def _svg(figure: Figure) -> str:
+    out = io.StringIO()
+    figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    text = out.getvalue()
+    return text[text.index("<svg") :]
+
+
+def _bare(axes: Axes) -> None:
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def _ticks(unit: Unit) -> FuncFormatter:
+    return FuncFormatter(lambda value, _: number(value, 0 if abs(value) >= 10 else 1).rstrip())
+
+
+def roof_plan(data: ProjectInput, us_first: bool) -> str:
+    """Arrays, objects and edges to scale, with the gaps that are checked and the slope's fall."""
+    unit = Quantity.PLAN.us if us_first else Quantity.PLAN.si
+    shapes = {item.id: item.rectangle for item in [*data.arrays, *data.objects]}
+    drawn = [shape for shape in shapes.values() if shape is not None]
+    x0, x1 = min(r.x_from_m for r in drawn), max(r.x_to_m for r in drawn)
+    y0, y1 = min(r.y_from_m for r in drawn), max(r.y_to_m for r in drawn)
+    span = max(x1 - x0, y1 - y0)
+    height = min(max(WIDTH_IN * (y1 - y0) / max(x1 - x0, 1e-9), 2.4), 6.4) + 0.4
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, height), layout="constrained")
+        axes = figure.subplots()
+        _objects(axes, data, span)
+        for array in data.arrays:
+            _array(axes, array.id, array.rectangle, array.downslope_deg, array.slope_rad)
+        _gaps(axes, data, shapes, unit)
+        _plan_axes(axes, unit, (x0, x1, y0, y1), span)
+        return _svg(figure)
+
+
+def _plan_axes(axes: Axes, unit: Unit, box: tuple[float, float, float, float], span: float) -> None:
+    x0, x1, y0, y1 = box
+    pad = 0.03 * span
+    axes.set_xlim(x0 - pad, x1 + pad)
+    axes.set_ylim(y0 - pad, y1 + pad)
+    axes.set_aspect("equal")
+    _bare(axes)
+    for axis, name in ((axes.xaxis, "x"), (axes.yaxis, "y")):
+        ticks = MaxNLocator(8).tick_values(*(v / unit.si for v in axis.get_view_interval()))
+        low, high = axis.get_view_interval()
+        kept = [t for t in ticks if low <= t * unit.si <= high]
+        axis.set_major_locator(FixedLocator([t * unit.si for t in kept]))
+        axis.set_major_formatter(FuncFormatter(lambda v, _: number(v / unit.si, 0)))
+        axis.set_label_text(f"{name} [{unit.symbol}]")
+
+
+_FILLS: Mapping[ObjectKind, dict[str, Any]] = {
+    ObjectKind.FIXED: {"facecolor": PALE, "hatch": "////"},
+    ObjectKind.UNLIKE_ARRAY: {"facecolor": "white", "hatch": "...."},
+    ObjectKind.EDGE_WITH_PARAPET: {"facecolor": GREY},
+    ObjectKind.EDGE_WITHOUT_PARAPET: {"facecolor": "white", "linestyle": "--"},
+}
+
+
+def _objects(axes: Axes, data: ProjectInput, span: float) -> None:
+    for item in data.objects:
+        shape = item.rectangle
+        if shape is None:
+            continue
+        axes.add_patch(_box(shape, linewidth=0.7, edgecolor=INK, **_FILLS[item.kind]))
+        wide, tall = shape.x_to_m - shape.x_from_m, shape.y_to_m - shape.y_from_m
+        axes.text(
+            (shape.x_from_m + shape.x_to_m) / 2,
+            (shape.y_from_m + shape.y_to_m) / 2,
+            item.id,
+            ha="center",
+            va="center",
+            fontsize=7,
+            rotation=90 if tall > 3 * wide else 0,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
+        )
+
+
+def _box(shape: Rectangle, **look: Any) -> Box:
+    wide, tall = shape.x_to_m - shape.x_from_m, shape.y_to_m - shape.y_from_m
+    return Box((shape.x_from_m, shape.y_from_m), wide, tall, **look)
+
+
+def _array(axes: Axes, name: str, shape: Rectangle, downslope_deg: float, slope: float) -> None:
+    axes.add_patch(_box(shape, facecolor="#e8eef5", edgecolor=ACCENT, linewidth=1.2))
+    x, y = (shape.x_from_m + shape.x_to_m) / 2, (shape.y_from_m + shape.y_to_m) / 2
+    reach = 0.22 * min(shape.x_to_m - shape.x_from_m, shape.y_to_m - shape.y_from_m)
+    dx, dy = (reach * f(math.radians(downslope_deg)) for f in (math.cos, math.sin))
+    axes.text(x - 1.2 * dx, y - 1.2 * dy, name, ha="center", va="center", weight="semibold")
+    axes.add_patch(
+        FancyArrowPatch(
+            (x - 0.4 * dx, y - 0.4 * dy),
+            (x + 1.6 * dx, y + 1.6 * dy),
+            arrowstyle="-|>",
+            mutation_scale=8,
+            color=INK,
+            linewidth=1.0,
+        )
+    )
+    label = f"{number(math.degrees(slope), 2)}°"
+    axes.text(x + 2.1 * dx, y + 2.1 * dy, label, ha="center", va="center", fontsize=7)
+
+
+def _gaps(
+    axes: Axes, data: ProjectInput, shapes: Mapping[str, Rectangle | None], unit: Unit
+) -> None:
+    known = {name.casefold(): shape for name, shape in shapes.items()}
+    for count, row in enumerate(data.clearances, start=1):
+        near, far = known.get(row.array.casefold()), known.get(row.object.casefold())
+        if near is None or far is None:
+            continue
+        (xa, ya), (xb, yb) = _closest(near, far)
+        axes.annotate(
+            "",
+            (xa, ya),
+            (xb, yb),
+            arrowprops={
+                "arrowstyle": "|-|,widthA=0.25,widthB=0.25",
+                "shrinkA": 0,
+                "shrinkB": 0,
+                "linewidth": 0.8,
+                "color": INK,
+            },
+        )
+        axes.text(
+            (xa + xb) / 2,
+            (ya + yb) / 2,
+            str(count),
+            fontsize=6.5,
+            ha="center",
+            va="center",
+            bbox={
+                "boxstyle": "circle,pad=0.18",
+                "facecolor": "white",
+                "edgecolor": INK,
+                "linewidth": 0.6,
+            },
+        )
+
+
+def _closest(a: Rectangle, b: Rectangle) -> tuple[tuple[float, float], tuple[float, float]]:
+    xa, xb = _nearest((a.x_from_m, a.x_to_m), (b.x_from_m, b.x_to_m))
+    ya, yb = _nearest((a.y_from_m, a.y_to_m), (b.y_from_m, b.y_to_m))
+    return (xa, ya), (xb, yb)
+
+
+def _nearest(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
+    """Return where two ranges come closest; the middle of what they share where they overlap."""
+    if a[1] <= b[0]:
+        return a[1], b[0]
+    if b[1] <= a[0]:
+        return a[0], b[1]
+    middle = (max(a[0], b[0]) + min(a[1], b[1])) / 2
+    return middle, middle
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spectra:
+    """Response spectra of one component [g] of all motions, over periods [s].
+
+    Attributes
+    ----------
+    periods_s : array, shape (m,)
+    sa_g : array, shape (n, m)
+    """
+
+    ids: tuple[str, ...]
+    periods_s: Floats
+    sa_g: Floats
+    target: RequiredSpectrum
+    title: str
+
+    @property
+    def mean_g(self) -> Floats:
+        """Mean over the motions."""
+        return np.asarray(self.sa_g.mean(axis=0))
+
+    @property
+    def target_g(self) -> Floats:
+        """Ordinates of the target at the periods."""
+        return self.target.at(1.0 / self.periods_s)
+
+
+def spectra(found: Sequence[Spectra]) -> str:
+    """Return the spectra of each motion thin, mean and target thick, a panel a component."""
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 3.05 * len(found)), layout="constrained")
+        for axes, part in zip(np.atleast_1d(figure.subplots(len(found), 1)), found, strict=True):
+            for row in part.sa_g:
+                axes.plot(part.periods_s, row, color=GREY, linewidth=0.45)
+            axes.plot([], [], color=GREY, linewidth=0.45, label="each motion")
+            axes.plot(part.periods_s, part.mean_g, color=ACCENT, linewidth=1.8, label="mean")
+            axes.plot(
+                part.periods_s,
+                part.target_g,
+                color=INK,
+                linewidth=1.8,
+                linestyle=(0, (5, 1.5)),
+                label="AC156 target",
+            )
+            _spectrum_axes(axes, part)
+        return _svg(figure)
+
+
+def _spectrum_axes(axes: Axes, part: Spectra) -> None:
+    axes.set_xscale("log")
+    axes.set_xlim(part.periods_s[0], part.periods_s[-1])
+    axes.set_ylim(0, None)
+    axes.xaxis.set_major_locator(
+        FixedLocator([t for t in _PERIOD_TICKS if part.periods_s[0] <= t <= part.periods_s[-1]])
+    )
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xlabel("Period T [s]")
+    axes.set_ylabel("Pseudo-acceleration [g]")
+    axes.set_title(part.title, loc="left", weight="semibold")
+    axes.grid(True)
+    axes.axvline(1 / 1.3, color=INK, linewidth=0.6, linestyle=":")
+    axes.text(
+        1.04 / 1.3, 0.98, "1.3 Hz", transform=axes.get_xaxis_transform(), va="top", fontsize=7
+    )
+    _bare(axes)
+    axes.legend(loc="upper right")
+
+
+_PERIOD_TICKS = (0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
+
+
+def histories(assessed: ArrayAssessment, motions: Sequence[MotionRun], us_first: bool) -> str:
+    """Return the relative displacement under each motion, its governing polarity, PRD marked."""
+    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
+    columns = 2 if len(motions) <= 8 else 3
+    rows = math.ceil(len(motions) / columns)
+    low, high = _range(motions, unit)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 1.1 * rows + 0.35), layout=None)
+        grid = figure.subplots(rows, columns, sharex=False, sharey=True, squeeze=False)
+        figure.subplots_adjust(
+            left=0.075,
+            right=0.995,
+            bottom=0.38 / (1.1 * rows + 0.35),
+            top=1 - 0.2 / (1.1 * rows + 0.35),
+            hspace=0.42,
+            wspace=0.06,
+        )
+        for axes, run in zip(grid.flat, motions, strict=False):
+            _history(axes, run, unit, us_first)
+        for axes in grid.flat[len(motions) :]:
+            axes.set_axis_off()
+        for axes in grid[:, 0]:
+            axes.set_ylabel(f"u [{unit.symbol}]")
+        for axes in grid.flat[max(len(motions) - columns, 0) : len(motions)]:
+            axes.set_xlabel("Time [s]")
+        grid[0, 0].set_ylim(low, high)
+        return _svg(figure)
+
+
+def _range(motions: Sequence[MotionRun], unit: Unit) -> tuple[float, float]:
+    results = [run.governing.result for run in motions]
+    high = np.nanmax([0.0, *(r.down_m for r in results)]) / unit.si
+    low = -np.nanmax([0.0, *(r.up_m for r in results)]) / unit.si
+    pad = 0.08 * (high - low) or 1.0
+    return float(low - pad), float(high + pad)
+
+
+def _history(axes: Axes, run: MotionRun, unit: Unit, us_first: bool) -> None:
+    history, result = run.governing.history, run.governing.result
+    title = f"{run.motion.id}, {'as recorded' if run.governing.sign > 0 else 'reversed'}"
+    axes.axhline(0.0, color=GREY, linewidth=0.5)
+    _bare(axes)
+    axes.yaxis.set_major_locator(MaxNLocator(4))
+    axes.xaxis.set_major_locator(MaxNLocator(6))
+    axes.set_xlim(0, history.t_s[-1])
+    if math.isnan(result.prd_m):
+        axes.text(0.5, 0.5, "no value", transform=axes.transAxes, ha="center", va="center")
+        axes.set_title(title, loc="left", pad=2)
+        return
+    t, u = envelope(history.t_s, history.u_m / unit.si)
+    axes.plot(t, u, color=ACCENT, linewidth=0.9)
+    peak = (result.down_m if result.down_m >= result.up_m else -result.up_m) / unit.si
+    axes.plot([result.t_prd_s], [peak], marker="o", markersize=3.5, color=INK, clip_on=False)
+    first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
+    prd = (
+        f"PRD {measured(result.prd_m, first)} {first.symbol}"
+        f" ({measured(result.prd_m, second)} {second.symbol})"
+    )
+    axes.set_title(title, loc="left", pad=2, weight="semibold")
+    axes.set_title(prd, loc="right", pad=2)
+
+
+def envelope(t: Floats, u: Floats, most: int = MAX_POINTS) -> tuple[Floats, Floats]:
+    """Return at most `most` points: least and largest of each stretch, in their order."""
+    if len(u) <= most:
+        return t, u
+    edges = np.linspace(0, len(u), most // 2, dtype=int)[:-1]
+    parts = [*edges.tolist(), len(u)]
+    kept: list[int] = [0]
+    for start, stop in zip(parts, parts[1:], strict=False):
+        piece = u[start:stop]
+        kept += sorted({start + int(piece.argmin()), start + int(piece.argmax())})
+    kept.append(len(u) - 1)
+    index = np.unique(kept)
+    return t[index], u[index]
+
+
+def comparison(assessment: Assessment, us_first: bool) -> str:
+    """Return prescriptive value, floor, each motion's PRD, mean and design value by array."""
+    first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
+    arrays = assessment.arrays
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 1.5 + 0.55 * len(arrays)), layout="constrained")
+        axes = figure.subplots()
+        for row, found in enumerate(arrays):
+            _compare(axes, row, found, first, labelled=row == 0)
+        axes.set_yticks(range(len(arrays)), [_tick_text(a.array.id) for a in arrays])
+        axes.set_ylim(len(arrays) - 0.45, -0.55)
+        axes.set_xlim(0, None)
+        axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
+        _second_scale(axes, first, second)
+        axes.grid(True, axis="x")
+        axes.set_axisbelow(True)
+        figure.legend(loc="outside lower center", ncols=5, handlelength=2.2)
+        return _svg(figure)
+
+
+def _tick_text(name: str) -> str:
+    return name if len(name) <= 14 else f"{name[:13]}…"
+
+
+def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
+    ratio = first.si / second.si
+    other = axes.secondary_xaxis("top", functions=(lambda x: x * ratio, lambda x: x / ratio))
+    other.set_xlabel(f"[{second.symbol}]")
+    axes.spines["right"].set_visible(False)
+
+
+def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labelled: bool) -> None:
+    def text(label: str) -> str:
+        return label if labelled else "_"
+
+    prescriptive = found.prescriptive.value_m / unit.si
+    axes.barh(
+        [row],
+        [prescriptive],
+        0.62,
+        facecolor="white",
+        edgecolor=GREY,
+        linewidth=0.8,
+        label=text("prescriptive"),
+    )
+    if found.floor_m > 0:
+        floor = found.floor_m / unit.si
+        axes.plot(
+            [floor, floor],
+            [row - 0.4, row + 0.4],
+            color=INK,
+            linestyle=(0, (3, 2)),
+            linewidth=1.2,
+            label=text("floor"),
+        )
+    peaks = np.array([run.governing.result.prd_m for run in found.motions]) / unit.si
+    axes.plot(
+        peaks,
+        np.full(peaks.shape, float(row)),
+        linestyle="",
+        marker="o",
+        markersize=4,
+        markerfacecolor="none",
+        markeredgecolor=ACCENT,
+        markeredgewidth=0.8,
+        label=text("PRD of each motion"),
+    )
+    mean = found.analysis.mean_m / unit.si
+    axes.plot(
+        [mean, mean], [row - 0.25, row + 0.25], color=ACCENT, linewidth=2.0, label=text("mean")
+    )
+    design = found.design_m / unit.si
+    axes.plot(
+        [design], [row], linestyle="", marker="D", markersize=6, color=INK, label=text("design")
+    )
+    if math.isnan(found.design_m):
+        axes.text(prescriptive / 2, row, "no value", ha="center", va="center")
+
+
+def clearances(assessment: Assessment, us_first: bool) -> str:
+    """Return required against provided separations as bars."""
+    first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
+    gaps = assessment.clearances
+    provided = [gap.clearance.provided_m / first.si for gap in gaps]
+    required = [gap.required_m / first.si for gap in gaps]
+    rows = np.arange(len(gaps), dtype=float)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 1.2 + 0.42 * len(gaps)), layout="constrained")
+        axes = figure.subplots()
+        axes.barh(
+            rows - 0.18,
+            provided,
+            0.34,
+            facecolor="white",
+            edgecolor=INK,
+            linewidth=0.8,
+            label="provided",
+        )
+        axes.barh(
+            rows + 0.18,
+            np.nan_to_num(required),
+            0.34,
+            facecolor="#b8c7d9",
+            edgecolor=INK,
+            linewidth=0.8,
+            hatch="////",
+            label="required",
+        )
+        names = [
+            f"{count}  {_tick_text(gap.clearance.array)} to {_tick_text(gap.clearance.object)}"
+            for count, gap in enumerate(gaps, start=1)
+        ]
+        axes.set_yticks(rows, names)
+        axes.set_ylim(len(gaps) - 0.45, -0.55)
+        for row, gap in zip(rows, gaps, strict=True):
+            text = "no value  NG" if math.isnan(gap.required_m) else "OK" if gap.ok else "NG"
+            reach = np.nanmax([provided[int(row)], required[int(row)]])
+            axes.text(
+                reach, row, f"  {text}", va="center", weight="normal" if gap.ok else "semibold"
+            )
+        axes.set_xlabel(f"Separation [{first.symbol}]")
+        axes.margins(x=0.12)
+        axes.set_xlim(0, None)
+        _second_scale(axes, first, second)
+        axes.grid(True, axis="x")
+        axes.set_axisbelow(True)
+        figure.legend(loc="outside lower center", ncols=2)
+        return _svg(figure)

@@ -1,0 +1,192 @@
+"""The calculation package: finished strings and pictures, placed by the templates, as a PDF.
+
+Computes no physics and reads no code rule. The pages are made in `report.pages_*`; read
+`report.pages_parts` first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from report import (
+    figures,
+    pages_appendix,
+    pages_checks,
+    pages_front,
+    pages_inputs,
+    pages_method,
+    pages_motions,
+    pages_results,
+)
+from report.assess import ArrayAssessment, Assessment
+from report.pages_parts import Part, Picture, Scene
+from report.pdf import TEMPLATES, html_to_pdf
+from report.workbook import InputBook
+
+PANELS = 12  # histories in one figure
+Stage = Callable[[str], None]
+
+
+def render(book: InputBook, assessment: Assessment, on_stage: Stage | None = None) -> bytes:
+    """Return the calculation package as a PDF.
+
+    Parameters
+    ----------
+    book : InputBook
+    assessment : Assessment
+        Of this very book.
+    on_stage : callable, optional
+        Called with "figures", "pages" and "pdf" as each of them begins.
+
+    Raises
+    ------
+    DefectError
+        Where the renderer complains.
+    """
+    tell = on_stage or (lambda stage: None)
+    scene = Scene(data=book.input, assessment=assessment)
+    figures.load_fonts(TEMPLATES / "fonts")
+    tell("figures")
+    found = pages_motions.spectra(scene, book.motions)
+    pictures = _pictures(scene, found)
+    tell("pages")
+    html = _html(_context(book, scene, found, pictures))
+    tell("pdf")
+    return html_to_pdf(html)
+
+
+def _html(context: Mapping[str, Any]) -> str:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        undefined=StrictUndefined,
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("package.html").render(context)
+
+
+def _context(
+    book: InputBook,
+    scene: Scene,
+    found: Sequence[figures.Spectra],
+    pictures: Mapping[str, Any],
+) -> Mapping[str, Any]:
+    governing = scene.governing
+    return {
+        "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
+        "sheet": pages_front.sheet(scene),
+        "cover": pages_front.cover(scene),
+        "parts": parts(scene.assessment),
+        "summary": pages_front.summary(scene),
+        "basis": pages_front.basis(scene),
+        "inputs": pages_inputs.inputs(scene),
+        "motions": pages_motions.page(scene, book.motions, found),
+        "method": {
+            "array": governing.array.id,
+            "demand": pages_method.demand_lines(scene),
+            "motion": pages_method.motion_lines(governing),
+            "prescriptive": pages_method.prescriptive_line(scene, governing),
+            "design": pages_method.design_lines(scene, governing),
+            "separations": pages_method.separation_lines(scene),
+            "interconnection": pages_method.interconnection_line(scene, governing),
+        },
+        "results": [pages_results.array_results(scene, one) for one in scene.assessment.arrays],
+        "comparison": pages_results.comparison(scene),
+        "clearances": pages_checks.clearances(scene),
+        "limits": pages_checks.limits(scene),
+        "provisions": pages_checks.provisions(scene),
+        "appendix": {
+            "echo": pages_appendix.echo(book.echo),
+            "records": pages_appendix.records(book.records),
+            "software": pages_appendix.software(),
+            "method": pages_appendix.METHOD,
+            "workbook": book.path.name,
+            "sha256": book.sha256,
+        },
+        "pictures": pictures,
+    }
+
+
+def parts(assessment: Assessment) -> tuple[Part, ...]:
+    """Return the parts of the package in order, as the contents list them."""
+    titles: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+        ("summary", "Summary", ()),
+        ("basis", "Basis and limits of the method", ()),
+        ("inputs", "Inputs", ("Site and seismic parameters", "Arrays and objects", "Roof plan")),
+        ("motions", "Roof motions", ("Motions", "Response spectra")),
+        (
+            "method",
+            "Method and equations",
+            ("Seismic demand", "Motion of an array", "Design displacement", "Separations"),
+        ),
+        ("results", "Results", tuple(f"Array {one.array.id}" for one in assessment.arrays)),
+        ("comparison", "Comparison with the prescriptive displacement", ()),
+        ("clearances", "Clearances", ()),
+        ("limits", "Limits and interconnection strength", ()),
+        ("provisions", "Provisions and overrides", ()),
+    )
+    numbered = [
+        Part(id=name, number=str(count), title=title, parts=_below(name, str(count), below))
+        for count, (name, title, below) in enumerate(titles, start=1)
+    ]
+    appendices = [
+        Part(id="echo", number="A", title="Input echo"),
+        Part(id="records", number="B", title="Records and software"),
+    ]
+    return (*numbered, *appendices)
+
+
+def _below(name: str, number: str, titles: Sequence[str]) -> tuple[Part, ...]:
+    return tuple(
+        Part(id=f"{name}-{count}", number=f"{number}.{count}", title=title)
+        for count, title in enumerate(titles, start=1)
+    )
+
+
+def _pictures(scene: Scene, found: Sequence[figures.Spectra]) -> Mapping[str, Any]:
+    us_first, assessment = scene.say.us_first, scene.assessment
+    return {
+        "plan": Picture(
+            svg=figures.roof_plan(scene.data, us_first),
+            caption="Roof plan to scale: arrays with their fall and slope, objects, roof edges, "
+            "and the clearances by their numbers in part 8.",
+            alt="Roof plan with arrays, objects, edges and clearances",
+        ),
+        "spectra": Picture(
+            svg=figures.spectra(found),
+            caption="Response spectra of the motions as run, 5 % damping, against the AC156 "
+            "required response spectrum.",
+            alt="Response spectra of all motions, their mean and the target",
+        ),
+        "histories": [list(_histories(one, us_first)) for one in assessment.arrays],
+        "comparison": Picture(
+            svg=figures.comparison(assessment, us_first),
+            caption="Prescriptive displacement, floor, peak relative displacement (PRD) of each "
+            "motion, their mean, and design displacement.",
+            alt="Chart of displacements by array",
+        ),
+        "clearances": [
+            Picture(
+                svg=figures.clearances(assessment, us_first),
+                caption="Required against provided separation.",
+                alt="Chart of required and provided separations",
+            )
+        ]
+        if assessment.clearances
+        else [],
+    }
+
+
+def _histories(found: ArrayAssessment, us_first: bool) -> Iterator[Picture]:
+    for start in range(0, len(found.motions), PANELS):
+        chosen = found.motions[start : start + PANELS]
+        yield Picture(
+            svg=figures.histories(found, chosen, us_first),
+            caption=f"Array {found.array.id}: horizontal relative displacement u, positive down "
+            "the slope, in the polarity that counts; the dot marks the PRD.",
+            alt=f"Relative displacement histories of array {found.array.id}",
+        )

@@ -1,0 +1,177 @@
+"""What every page carries, the cover, the summary, and what the analysis rests on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from report.assess import ArrayAssessment
+from report.pages_checks import all_checks, clearance_table, failed_limits
+from report.pages_parts import Column, Row, Scene, Table, ratio, shortened, verdict
+from report.units import number
+
+
+def sheet(scene: Scene) -> Mapping[str, str]:
+    """Return what every page carries."""
+    project = scene.data.project
+    return {
+        "title": f"{project.number} {project.name}: seismic displacement of rooftop solar arrays",
+        "author": project.prepared_by,
+        "created": project.date.isoformat(),
+        "name": shortened(project.name, 60),
+        "number": shortened(project.number, 24),
+        "date": project.date.isoformat(),
+        "by": shortened(project.prepared_by, 22),
+        "checked": shortened(project.checked_by, 22) or "—",
+        "revision": shortened(project.revision, 8),
+        "edition": scene.assessment.rules.name,
+    }
+
+
+def cover(scene: Scene) -> Mapping[str, object]:
+    """Return the cover."""
+    project = scene.data.project
+    rows = [
+        (row.revision, row.date.isoformat(), row.description, row.by or "—")
+        for row in scene.data.revisions
+    ] or [(project.revision, project.date.isoformat(), "First issue", project.prepared_by)]
+    return {
+        "name": project.name,
+        "block": (
+            ("Project number", project.number),
+            ("Client", project.client or "—"),
+            ("Address", project.address or "—"),
+            ("Code edition", scene.assessment.rules.title),
+            ("Prepared by", project.prepared_by),
+            ("Checked by", project.checked_by or "not yet checked"),
+            ("Date", project.date.isoformat()),
+            ("Revision", project.revision),
+        ),
+        "revisions": Table(
+            caption="",
+            columns=(
+                Column(head="Rev.", share=0.6, align="left"),
+                Column(head="Date", share=1.2, align="left"),
+                Column(head="Description", share=4.0, align="left"),
+                Column(head="By", share=1.8, align="left"),
+            ),
+            rows=tuple(Row(cells=cells) for cells in rows),
+        ),
+    }
+
+
+def summary(scene: Scene) -> Mapping[str, object]:
+    """Return the summary page: governing numbers and a verdict for everything."""
+    return {
+        "verdict": verdict(scene.assessment.ok),
+        "sentence": _sentence(scene),
+        "numbers": _numbers(scene),
+        "arrays": _array_table(scene),
+        "clearances": clearance_table(scene, brief=True),
+        "troubles": (*scene.assessment.warnings, *failed_limits(scene)),
+    }
+
+
+def _sentence(scene: Scene) -> str:
+    if scene.assessment.ok:
+        return "Every limit and every clearance is kept, and every run gave a final value."
+    counts = (
+        ("array", [scene.array_ok(found) for found in scene.assessment.arrays]),
+        ("clearance", [gap.ok for gap in scene.assessment.clearances]),
+        ("limit", [check.ok for _, check in all_checks(scene)]),
+    )
+    failed = [
+        f"{oks.count(False)} of {len(oks)} {name}{'s' if len(oks) != 1 else ''}"
+        for name, oks in counts
+        if False in oks
+    ]
+    return f"Marked NG: {', '.join(failed)}."
+
+
+def _numbers(scene: Scene) -> Sequence[tuple[str, str, str]]:
+    site, rules, found = scene.data.site, scene.assessment.rules, scene.governing
+    key = scene.prescriptive_key(found)
+    motions = f"{found.analysis.n_motions} motion{'s' if found.analysis.n_motions != 1 else ''}"
+    return (
+        (
+            "Seismic demand",
+            f"S_DS = {number(site.s_ds, 3)} g, SDC {site.sdc.value}, "
+            f"I_e = {number(site.i_e, 2)}, risk category {site.risk_category.value}",
+            "input",
+        ),
+        (
+            "Prescriptive displacement",
+            scene.say.both(found.prescriptive.value_m) + scene.mark(key),
+            rules.values[key].clause,
+        ),
+        (
+            "Design value from the peaks",
+            f"{found.analysis.basis.value} of {motions}{scene.mark('analysis_factor')}",
+            rules.values["analysis_factor"].clause,
+        ),
+        (
+            f"Largest design displacement (array {found.array.id})",
+            scene.say.both(found.design_m) + scene.design_mark(found),
+            f"governed by: {found.governs}",
+        ),
+    )
+
+
+def _array_table(scene: Scene) -> Table:
+    say = scene.say
+    return Table(
+        caption="Arrays: displacement by analysis, prescriptive and design",
+        columns=(
+            Column(head="Array", align="left", share=1.3),
+            Column(head="Slope", unit="deg", share=0.8),
+            Column(head="μ", share=0.7),
+            *say.columns("Analysis"),
+            *say.columns("Prescriptive"),
+            *say.columns("Design"),
+            Column(head="Governs", align="left", share=1.2),
+            Column(head="Limits", align="center", share=0.9),
+            Column(head="Largest D/C", share=1.0),
+            Column(head="Verdict", align="center", share=1.0),
+        ),
+        rows=tuple(_array_row(scene, found) for found in scene.assessment.arrays),
+        notes=(
+            "D/C: required over provided separation, rounded up; the largest among the array's "
+            "clearances, on either side of them.",
+        ),
+    )
+
+
+def _array_row(scene: Scene, found: ArrayAssessment) -> Row:
+    prescriptive = scene.mark(scene.prescriptive_key(found))
+    demands = [gap.demand_capacity for gap in scene.gaps_of(found)]
+    largest = math.nan if any(map(math.isnan, demands)) else max(demands, default=math.nan)
+    return Row(
+        cells=(
+            found.array.id,
+            number(math.degrees(found.array.slope_rad), 2),
+            number(found.array.mu, 2),
+            *scene.say.cells(found.analysis.value_m),
+            *scene.say.cells(found.prescriptive.value_m, mark=prescriptive),
+            *scene.say.cells(found.design_m, mark=scene.design_mark(found)),
+            found.governs,
+            verdict(all(check.ok for check in found.checks)),
+            ratio(largest) if demands else "none given",
+            verdict(scene.array_ok(found)),
+        )
+    )
+
+
+def basis(scene: Scene) -> Mapping[str, object]:
+    """Return what the page on basis and limits adds to its fixed text."""
+    with_vertical = sum(run.motion.has_vertical for run in scene.governing.motions)
+    count = len(scene.governing.motions)
+    both = sum(len(run.motion.signs) == 2 for run in scene.governing.motions)
+    return {
+        "title": scene.assessment.rules.title,
+        "vertical": f"{with_vertical} of {count} motions have a vertical component",
+        "both": f"{both} of {count} motions are run in both polarities",
+        "peer": "is stated to be peer reviewed"
+        if scene.data.options.peer_reviewed
+        else "is not stated to be peer reviewed",
+        "failed": failed_limits(scene),
+    }

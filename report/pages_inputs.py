@@ -1,0 +1,217 @@
+"""Site parameters in the order of a permit sheet, arrays, objects."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from markupsafe import Markup
+
+from report.equations import symbol
+from report.pages_parts import Column, Row, Scene, Table
+from report.schema import Site
+from report.units import Quantity, number
+
+NOT_GIVEN = "not given"
+
+
+def inputs(scene: Scene) -> Mapping[str, object]:
+    """Return the part on inputs, without the roof plan."""
+    return {
+        "site": _site(scene),
+        "arrays": _arrays(scene),
+        "sizes": _sizes(scene),
+        "objects": _objects(scene),
+        "note": _s_ds_note(scene.data.site),
+    }
+
+
+def _site(scene: Scene) -> Table:
+    return Table(
+        caption="Site and seismic parameters",
+        columns=(
+            Column(head="Description", align="left", share=3.4),
+            Column(head="Symbol", align="left", share=0.8),
+            Column(head="Value", share=2.0),
+            Column(head="Reference", align="left", share=2.4),
+            Column(head="From", align="left", share=1.0),
+        ),
+        rows=tuple(
+            Row(cells=(words, symbol(name) if name else "", value, reference, origin))
+            for words, name, value, reference, origin in _parameters(scene)
+        ),
+    )
+
+
+def _parameters(scene: Scene) -> Sequence[tuple[str, str, str, str, str]]:
+    site, say = scene.data.site, scene.say
+    s_ms = None if site.s_s_g is None or site.f_a is None else site.f_a * site.s_s_g
+    s_m1 = None if site.s_1_g is None or site.f_v is None else site.f_v * site.s_1_g
+    s_d1 = None if s_m1 is None else 2.0 / 3.0 * s_m1
+    t_s = None if s_d1 is None else s_d1 / site.s_ds
+    given, made = "input", "computed"
+    s_ds_origin = made if site.s_ds_g is None else given
+    site_class = NOT_GIVEN if site.site_class is None else site.site_class.value
+    return (
+        ("Rule set", "", scene.assessment.rules.name, "adopted provisions", given),
+        ("Risk category", "", site.risk_category.value, "ASCE 7 Table 1.5-1", given),
+        ("Importance factor", "I_e", number(site.i_e, 2), "ASCE 7 Table 1.5-2", given),
+        ("Storeys above grade", "", str(site.storeys), "", given),
+        (
+            "Height of the array above the base",
+            "z",
+            say.both(site.roof_height_m, Quantity.PLAN),
+            "ASCE 7 13.3",
+            given,
+        ),
+        (
+            "Structure height",
+            "h",
+            say.both(site.structure_height_m, Quantity.PLAN),
+            "ASCE 7 13.3",
+            given,
+        ),
+        (
+            "Relative height",
+            "z/h",
+            number(site.roof_height_m / site.structure_height_m, 3),
+            "ASCE 7 13.3",
+            made,
+        ),
+        ("Mapped acceleration, 0.2 s", "S_S", _g(site.s_s_g), "ASCE 7 11.4", given),
+        ("Mapped acceleration, 1 s", "S_1", _g(site.s_1_g), "ASCE 7 11.4", given),
+        ("Site class", "", site_class, "ASCE 7 Chapter 20", given),
+        ("Site coefficient, 0.2 s", "F_a", _plain(site.f_a), "ASCE 7 11.4", given),
+        ("Site coefficient, 1 s", "F_v", _plain(site.f_v), "ASCE 7 11.4", given),
+        ("MCE acceleration, 0.2 s", "S_MS", _g(s_ms), "ASCE 7 Eq. 11.4-1", made),
+        ("MCE acceleration, 1 s", "S_M1", _g(s_m1), "ASCE 7 Eq. 11.4-2", made),
+        ("Design acceleration, 0.2 s", "S_DS", _g(site.s_ds), "ASCE 7 Eq. 11.4-3", s_ds_origin),
+        ("Design acceleration, 1 s", "S_D1", _g(s_d1), "ASCE 7 Eq. 11.4-4", made),
+        (
+            "Corner period",
+            "T_S",
+            NOT_GIVEN if t_s is None else f"{number(t_s, 3)} s",
+            "ASCE 7 11.4",
+            made,
+        ),
+        ("Seismic design category", "SDC", site.sdc.value, "ASCE 7 11.6", given),
+    )
+
+
+def _g(value: float | None) -> str:
+    return NOT_GIVEN if value is None else f"{number(value, 3)} g"
+
+
+def _plain(value: float | None) -> str:
+    return NOT_GIVEN if value is None else number(value, 3)
+
+
+def _s_ds_note(site: Site) -> str:
+    if site.s_ds_g is None:
+        return "S_DS is computed from S_S and F_a in full precision and rounded only for print."
+    if site.s_s_g is None or site.f_a is None:
+        return "S_DS is taken as given in the workbook."
+    other = 2.0 / 3.0 * site.f_a * site.s_s_g
+    return (
+        f"S_DS is taken as given in the workbook. From S_S and F_a it would be "
+        f"{number(other, 3)} g, which is not used."
+    )
+
+
+def _arrays(scene: Scene) -> Table:
+    return Table(
+        caption="Arrays: slope and friction",
+        columns=(
+            Column(head="Array", align="left", share=0.9),
+            Column(head="Slope", unit="deg", share=0.7),
+            Column(head="Slope", unit="%", share=0.7),
+            Column(head="Downslope", unit="deg in plan", share=1.0),
+            Column(head="μ", share=0.7),
+            Column(head="Friction test report", align="left", share=2.6),
+            Column(head="Construction", align="left", share=2.2),
+        ),
+        rows=tuple(
+            Row(
+                cells=(
+                    array.id,
+                    number(math.degrees(array.slope_rad), 2),
+                    number(100.0 * math.tan(array.slope_rad), 1),
+                    number(array.downslope_deg, 0),
+                    number(array.mu, 3),
+                    array.mu_report or NOT_GIVEN,
+                    array.construction,
+                )
+            )
+            for array in scene.data.arrays
+        ),
+        notes=("Down-slope direction counter-clockwise from +x of the roof plan.",),
+    )
+
+
+def _sizes(scene: Scene) -> Table:
+    say = scene.say
+    return Table(
+        caption="Arrays: weight and size",
+        columns=(
+            Column(head="Array", align="left", share=0.9),
+            *say.columns("Weight", Quantity.WEIGHT),
+            *say.columns("Centre of gravity", Quantity.SIZE),
+            *say.columns("Support spacing", Quantity.SIZE),
+            *say.columns("Plan x", Quantity.PLAN),
+            *say.columns("Plan y", Quantity.PLAN),
+        ),
+        rows=tuple(
+            Row(
+                cells=(
+                    array.id,
+                    *say.cells(array.weight_n, Quantity.WEIGHT),
+                    *say.cells(array.cg_height_m, Quantity.SIZE),
+                    *say.cells(array.support_spacing_m, Quantity.SIZE),
+                    *say.cells(array.x_to_m - array.x_from_m, Quantity.PLAN),
+                    *say.cells(array.y_to_m - array.y_from_m, Quantity.PLAN),
+                )
+            )
+            for array in scene.data.arrays
+        ),
+        notes=("Centre of gravity above the roof surface; plan x and y: the array's own size.",),
+    )
+
+
+def _objects(scene: Scene) -> Table:
+    say = scene.say
+    return Table(
+        caption="Objects and roof edges",
+        columns=(
+            Column(head="Object", align="left", share=1.2),
+            Column(head="Kind", align="left", share=1.8),
+            *say.columns("Height", Quantity.SIZE),
+            *say.columns("x from", Quantity.PLAN),
+            *say.columns("x to", Quantity.PLAN),
+            *say.columns("y from", Quantity.PLAN),
+            *say.columns("y to", Quantity.PLAN),
+        ),
+        rows=tuple(
+            Row(
+                cells=(
+                    item.id,
+                    item.kind.value,
+                    *_optional(scene, item.height_m, Quantity.SIZE),
+                    *_optional(scene, item.x_from_m, Quantity.PLAN),
+                    *_optional(scene, item.x_to_m, Quantity.PLAN),
+                    *_optional(scene, item.y_from_m, Quantity.PLAN),
+                    *_optional(scene, item.y_to_m, Quantity.PLAN),
+                )
+            )
+            for item in scene.data.objects
+        ),
+        kind="compact",
+    )
+
+
+def _optional(scene: Scene, value_m: float | None, quantity: Quantity) -> tuple[str, str]:
+    return ("—", "—") if value_m is None else scene.say.cells(value_m, quantity)
+
+
+def unit_note() -> Markup:
+    """Return the line on rounding."""
+    return Markup("Values are kept in full precision and rounded only for print.")

@@ -1,0 +1,288 @@
+"""What pages are made of: tables, pictures, formula lines; and how values are put in words.
+
+Templates place these and nothing else. Owns no content: see the other `report.pages_*` modules.
+"""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+
+from markupsafe import Markup
+
+from report.assess import ArrayAssessment, Assessment, ClearanceCheck
+from report.equations import Formula
+from report.schema import ProjectInput
+from report.units import Quantity, Unit, measured, number, pair
+from solver.model import DefectError
+from solver.provisions import SEPARATION_KEYS, Check, Measure, Provision
+
+NO_VALUE = "no value"
+OK, NG = "OK", "NG"
+
+
+def data_uri(svg: str) -> str:
+    """Return the `data:` address of an SVG."""
+    return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Column:
+    """A column: heading, unit below it, width in shares of the table, alignment."""
+
+    head: str
+    unit: str = ""
+    share: float = 1.0
+    align: str = "right"
+
+
+@dataclass(frozen=True, slots=True)
+class Wide:
+    """A cell over several columns, set from the left."""
+
+    text: str
+    span: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """A row of finished strings; `kind` is a style: total, counts or empty."""
+
+    cells: tuple[str | Wide, ...]
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Table:
+    """A table with its caption; heads of neighbours that read the same are joined."""
+
+    caption: str
+    columns: tuple[Column, ...]
+    rows: tuple[Row, ...]
+    notes: tuple[str, ...] = ()
+    kind: str = ""
+
+    @property
+    def heads(self) -> tuple[tuple[str, int, str], ...]:
+        """Headings with how many columns each spans, and their alignment."""
+        groups = [list(found) for _, found in groupby(self.columns, key=lambda c: c.head)]
+        return tuple(
+            (found[0].head, len(found), "center" if len(found) > 1 else found[0].align)
+            for found in groups
+        )
+
+    @property
+    def body(self) -> tuple[tuple[str, tuple[tuple[str, int, str], ...]], ...]:
+        """Rows as style and cells, each with how many columns it spans and its alignment."""
+        aligns = [column.align for column in self.columns]
+        return tuple((row.kind, tuple(_placed(row.cells, aligns))) for row in self.rows)
+
+    @property
+    def has_units(self) -> bool:
+        """Whether any column has a unit."""
+        return any(column.unit for column in self.columns)
+
+    @property
+    def widths(self) -> tuple[str, ...]:
+        """Column widths."""
+        whole = sum(column.share for column in self.columns)
+        return tuple(f"{100.0 * column.share / whole:.2f}%" for column in self.columns)
+
+
+def _placed(cells: Sequence[str | Wide], aligns: Sequence[str]) -> Iterator[tuple[str, int, str]]:
+    at = 0
+    for cell in cells:
+        if isinstance(cell, Wide):
+            yield cell.text, cell.span, "left"
+            at += cell.span
+        else:
+            yield cell, 1, aligns[at]
+            at += 1
+    if at != len(aligns):
+        raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Picture:
+    """A figure: address, caption and what it shows in words."""
+
+    svg: str
+    caption: str
+    alt: str
+
+    @property
+    def src(self) -> str:
+        """Its address."""
+        return data_uri(self.svg)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Line:
+    """A step of the calculation: formula, numbers put in, result, where it comes from."""
+
+    formula: Formula
+    reference: str
+    substituted: str = ""
+    result: str = ""
+    note: str = ""
+
+    @property
+    def src(self) -> str:
+        """Address of the formula."""
+        return data_uri(self.formula.svg)
+
+    @property
+    def size(self) -> str:
+        """Its size on the page, as a style."""
+        return f"width: {self.formula.width_pt:.2f}pt; height: {self.formula.height_pt:.2f}pt"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
+    """A numbered part of the package; `parts` are those below it."""
+
+    id: str
+    number: str
+    title: str
+    parts: tuple[Part, ...] = field(default=())
+
+
+@dataclass(frozen=True, slots=True)
+class Say:
+    """Puts values into words, the wanted system of units first."""
+
+    us_first: bool
+
+    def both(self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT) -> str:
+        """Return `81.6 in (2070 mm)`; `no value` for NaN."""
+        return NO_VALUE if math.isnan(value_si) else pair(value_si, quantity, self.us_first)
+
+    def cells(
+        self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT, *, mark: str = ""
+    ) -> tuple[str, str]:
+        """Return the value in both systems, for two columns; `no value` for NaN."""
+        if math.isnan(value_si):
+            return NO_VALUE, NO_VALUE
+        first, second = self.units(quantity)
+        return measured(value_si, first) + mark, measured(value_si, second) + mark
+
+    def units(self, quantity: Quantity = Quantity.DISPLACEMENT) -> tuple[Unit, Unit]:
+        """Return the units of a quantity in order."""
+        return (quantity.us, quantity.si) if self.us_first else (quantity.si, quantity.us)
+
+    def columns(
+        self, head: str, quantity: Quantity = Quantity.DISPLACEMENT, share: float = 1.0
+    ) -> tuple[Column, Column]:
+        """Return the two columns of a quantity."""
+        first, second = self.units(quantity)
+        return (
+            Column(head=head, unit=first.symbol, share=share),
+            Column(head=head, unit=second.symbol, share=share),
+        )
+
+
+def ratio(value: float) -> str:
+    """Return a demand/capacity ratio, rounded up so that 1.00 never hides a failure."""
+    if math.isnan(value):
+        return NO_VALUE
+    if math.isinf(value):
+        return "∞"
+    return number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)
+
+
+def verdict(ok: bool) -> Markup:
+    """Return OK or NG, the latter not to be overlooked."""
+    return Markup('<b class="{}">{}</b>').format(*(("ok", OK) if ok else ("ng", NG)))
+
+
+def dagger(provision: Provision) -> str:
+    """Return the marks of a number: unverified, overridden."""
+    return ("" if provision.verified else "†") + ("‡" if provision.reason else "")
+
+
+def check_value(check: Check, value: float, say: Say) -> str:
+    """Return a number of a check in its measure."""
+    match check.measure:
+        case Measure.ANGLE_DEG:
+            percent = 100.0 * math.tan(math.radians(value))
+            return f"{number(value, 2)}° ({number(percent, 1)} %)"
+        case Measure.LENGTH_M:
+            return say.both(value, Quantity.SIZE)
+        case Measure.COUNT:
+            return number(value, 0)
+        case _:
+            return number(value, 3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """All that the pages are made from."""
+
+    data: ProjectInput
+    assessment: Assessment
+
+    @property
+    def say(self) -> Say:
+        """How values are put into words."""
+        return Say(us_first=self.data.project.units_first == "US")
+
+    def mark(self, key: str) -> str:
+        """Return the marks of a provision."""
+        return dagger(self.assessment.rules.values[key])
+
+    def clause(self, key: str) -> str:
+        """Return the clause of a provision with its marks."""
+        return self.assessment.rules.values[key].clause + self.mark(key)
+
+    @property
+    def governing(self) -> ArrayAssessment:
+        """The array with the largest design displacement; one without a value over all."""
+        return max(
+            self.assessment.arrays,
+            key=lambda a: math.inf if math.isnan(a.design_m) else a.design_m,
+        )
+
+    def prescriptive_key(self, found: ArrayAssessment) -> str:
+        """Return which provision the prescriptive displacement comes from."""
+        return {
+            "formula": "prescriptive_factor_in",
+            "minimum": "prescriptive_minimum_in",
+        }.get(found.prescriptive.governs, "prescriptive_low_sdc_in")
+
+    def design_mark(self, found: ArrayAssessment) -> str:
+        """Return the marks of a design displacement."""
+        key = "analysis_floor" if found.governs == "floor" else "analysis_factor"
+        return "" if math.isnan(found.design_m) else self.mark(key)
+
+    def separation_mark(self, gap: ClearanceCheck) -> str:
+        """Return the marks of what a required separation is taken from."""
+        key = SEPARATION_KEYS[gap.neighbour]
+        return self.mark("separation_edge_min_in" if gap.is_least_value else key)
+
+    def array_ok(self, found: ArrayAssessment) -> bool:
+        """Whether an array keeps its limits, has final values, and all its room."""
+        near = self.gaps_of(found)
+        return (
+            not math.isnan(found.design_m)
+            and all(check.ok for check in found.checks)
+            and all(gap.ok for gap in near)
+            and all(run.result.status == "ok" for m in found.motions for run in m.runs)
+        )
+
+    def gaps_of(self, found: ArrayAssessment) -> Sequence[ClearanceCheck]:
+        """Return the clearances that name an array, on either side."""
+        name = found.array.id.casefold()
+        return [
+            gap
+            for gap in self.assessment.clearances
+            if name in (gap.clearance.array.casefold(), gap.clearance.object.casefold())
+        ]
+
+
+def shortened(text: str, most: int) -> str:
+    """Return a text cut to a length for places that cannot grow."""
+    text = " ".join(text.split())
+    return text if len(text) <= most else text[: most - 1].rstrip() + "…"

@@ -1,0 +1,181 @@
+"""A project as a workbook would give it, for tests of the package alone."""
+
+from __future__ import annotations
+
+import datetime as dt
+from pathlib import Path
+
+import numpy as np
+
+from report.assess import Assessment, assess
+from report.motionfiles import RecordFile
+from report.schema import ProjectInput
+from report.workbook import EchoRow, InputBook
+from solver.model import Motion
+
+G = 9.80665
+FOOT = 0.3048
+INCH = 0.0254
+DT_S = 0.005
+
+
+def motions(count=7, *, seconds=30.0, peak_g=1.7, vertical_peak_g=0.4, seed=11):
+    """Seeded noise with the envelope of a shake-table test, vertical component included."""
+    rng = np.random.default_rng(seed)
+    return tuple(
+        Motion(
+            id=f"M{k}",
+            source=f"Seeded noise, number {k}",
+            dt_s=DT_S,
+            ax_mps2=_noise(rng, seconds, peak_g * G),
+            az_mps2=_noise(rng, seconds, vertical_peak_g * G),
+            scale=1.0,
+            signs=(1, -1),
+        )
+        for k in range(1, count + 1)
+    )
+
+
+def _noise(rng, seconds, peak):
+    n = round(seconds / DT_S)
+    freq = np.fft.rfftfreq(n, DT_S)
+    shape = np.interp(freq, [0.0, 0.15, 1.3, 8.3, 33.3, 100.0], [0.0, 0.3, 1.0, 0.6, 0.1, 0.0])
+    wave = np.fft.irfft(shape * np.exp(2j * np.pi * rng.random(freq.size)), n)
+    t = np.arange(n) * DT_S
+    wave *= np.clip(np.minimum(t / 5.0, (seconds - t) / 5.0), 0.0, 1.0)
+    wave -= wave.mean()
+    record = peak * wave / np.abs(wave).max()
+    record[0] = record[-1] = 0.0
+    record.setflags(write=False)
+    return record
+
+
+def project(**changes) -> ProjectInput:
+    """Three arrays, five kinds of clearance; `changes` replace whole sections."""
+    data = {
+        "project": {
+            "name": "Alameda Warehouse",
+            "number": "24-117",
+            "client": "Harbor Logistics LLC",
+            "address": "1200 Alameda St, Los Angeles, CA",
+            "prepared_by": "Engineer of record",
+            "checked_by": "",
+            "date": dt.date(2026, 3, 5),
+            "revision": "0",
+        },
+        "revisions": [
+            {
+                "revision": "0",
+                "date": dt.date(2026, 3, 5),
+                "description": "Issued for permit",
+                "by": "Engineer of record",
+            }
+        ],
+        "site": {
+            "rule_set": "SEAOC PV1-2012",
+            "risk_category": "II",
+            "i_e": 1.0,
+            "s_s_g": 1.97,
+            "s_1_g": 0.70,
+            "site_class": "D",
+            "f_a": 1.2,
+            "f_v": 1.7,
+            "s_ds_g": 1.566,
+            "sdc": "D",
+            "storeys": 1,
+            "structure_height_m": 36 * FOOT,
+            "roof_height_m": 36 * FOOT,
+        },
+        "arrays": [array("A1", 0.5), array("A2", 2.0, x=120), array("A3", 3.0, mu=0.55, y=90)],
+        "objects": [
+            roof_object("RTU-1", "fixed object", 107, 112, 35, 42, height=42 * INCH),
+            roof_object("T-1", "unlike array", 107, 160, 90, 120),
+            roof_object("N edge", "edge with parapet", 0, 220, 170, 171, height=30 * INCH),
+            roof_object("S edge", "edge without parapet", 0, 220, -1, 0),
+        ],
+        "clearances": [
+            clearance("A1", "A3", 15 * FOOT),
+            clearance("A1", "RTU-1", 7 * FOOT),
+            clearance("A3", "T-1", 7 * FOOT),
+            clearance("A3", "N edge", 20 * FOOT, "up"),
+            clearance("A2", "S edge", 6.5 * FOOT, "down"),
+        ],
+        "motions": [{"id": "M1", "record": "records/m1-x.csv", "units": "g"}],
+    }
+    return ProjectInput.model_validate(data | changes)
+
+
+def array(name, slope, *, mu=0.45, x=20, y=15, **changes):
+    """One array of 80 ft x 60 ft."""
+    return {
+        "id": name,
+        "slope_value": slope,
+        "slope_unit": "degrees",
+        "mu": mu,
+        "mu_report": "ASTM G115, Lab 1234, 2025-06-12",
+        "construction": "Tray 10 deg, landscape",
+        "weight_n": 42000 * 4.4482216152605,
+        "cg_height_m": 9 * INCH,
+        "support_spacing_m": 40 * INCH,
+        "x_from_m": x * FOOT,
+        "x_to_m": (x + 80) * FOOT,
+        "y_from_m": y * FOOT,
+        "y_to_m": (y + 60) * FOOT,
+        "downslope_deg": 270.0,
+    } | changes
+
+
+def roof_object(name, kind, x0, x1, y0, y1, height=None):
+    """One object, its rectangle in feet."""
+    sides = {"x_from_m": x0, "x_to_m": x1, "y_from_m": y0, "y_to_m": y1}
+    plan = {side: value * FOOT for side, value in sides.items()}
+    return {"id": name, "kind": kind, "height_m": height} | plan
+
+
+def clearance(near, far, provided_m, direction="any"):
+    """One clearance."""
+    return {"array": near, "object": far, "direction": direction, "provided_m": provided_m}
+
+
+def book(data=None, found=None):
+    """What the workbook reader gives."""
+    data = data or project()
+    found = found or motions()
+    return InputBook(
+        path=Path("input.xlsx"),
+        sha256="5f" * 32,
+        input=data,
+        echo=tuple(_echo(data)),
+        motions=found,
+        records=tuple(
+            RecordFile(
+                motion_id=motion.id,
+                component=component,
+                name=f"records/{motion.id.lower()}-{component[0]}.csv",
+                sha256="ab" * 32,
+                npts=len(motion.ax_mps2),
+                dt_s=motion.dt_s,
+                peak_g=float(np.abs(values).max() / G),
+            )
+            for motion in found
+            for component, values in (("horizontal", motion.ax_mps2), ("vertical", motion.az_mps2))
+            if len(values)
+        ),
+    )
+
+
+def _echo(data):
+    for section, values in data.model_dump(mode="json").items():
+        rows = values if isinstance(values, list) else [values]
+        for index, row in enumerate(rows):
+            for column, (key, value) in enumerate(row.items()):
+                cell = f"{chr(66 + column % 20)}{7 + index}"
+                typed = "" if value is None else str(value)
+                yield EchoRow(
+                    sheet=section.title(), cell=cell, label=key, typed=typed, unit="", value=typed
+                )
+
+
+def assessed(made) -> Assessment:
+    """Run the book."""
+    return assess(made.input, made.motions)
