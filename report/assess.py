@@ -189,8 +189,12 @@ class Assessment:
         )
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
-        """Return the clearance of an array with the largest D/C, if it has any."""
-        of_array = [c for c in self.clearances if same_id(c.clearance.array, array_id)]
+        """Return the clearance of an array, from either side, with the largest D/C, if any."""
+        of_array = [
+            item
+            for item in self.clearances
+            if same_id(item.clearance.array, array_id) or same_id(item.clearance.object, array_id)
+        ]
         return max(of_array, key=lambda c: _nan_is_worst(c.demand_capacity), default=None)
 
 
