@@ -146,6 +146,11 @@ class ClearanceCheck:
         provided = self.clearance.provided_m
         return self.required_m / provided if provided > 0.0 else math.inf
 
+    def across_from(self, array_id: str) -> str:
+        """Return what lies across the gap, seen from one of its two sides."""
+        seen_from_object = same_id(self.clearance.object, array_id)
+        return self.clearance.array if seen_from_object else self.clearance.object
+
     @property
     def is_least_value(self) -> bool:
         """Whether the least separation governs over factor x displacement."""

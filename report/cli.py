@@ -240,7 +240,11 @@ def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) 
 
     gap = assessment.governing_clearance(item.array.id)
     clearance = (
-        (f"to {gap.clearance.object}", number(gap.demand_capacity, 2), "OK" if gap.ok else "NG")
+        (
+            f"to {gap.across_from(item.array.id)}",
+            number(gap.demand_capacity, 2),
+            "OK" if gap.ok else "NG",
+        )
         if gap
         else ("none given", "", "")
     )

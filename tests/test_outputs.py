@@ -5,8 +5,8 @@ import math
 import os
 
 import pytest
-import stand_in
 
+import stand_in
 from report.outputs import publish, results_json
 from solver.model import InputError
 

@@ -5,8 +5,8 @@ import re
 
 import openpyxl
 import pytest
-import stand_in
 
+import stand_in
 from report.results_book import results_xlsx
 
 

@@ -4,11 +4,11 @@ import itertools
 import math
 
 import numpy as np
-import oracle
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import oracle
 from solver import problems
 from solver.model import EventKind, InputError, Status
 from solver.solve import slide, slide_history

@@ -1,0 +1,189 @@
+"""What is held against the rule set, and how a missing value never passes."""
+
+import math
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.assess import assess
+from solver.model import Motion, Status
+from solver.provisions import Basis, Neighbour
+from solver.solve import slide
+
+G = 9.80665
+
+
+def assessed(found=None, **changes):
+    return assess(stand_in.project(**changes), found or stand_in.motions())
+
+
+def site(**changes):
+    return stand_in.project().site.model_dump() | changes
+
+
+def resting(count=7, **changes):
+    """Motions too weak to move anything."""
+    return stand_in.motions(count, peak_g=0.05, vertical_peak_g=0.01, **changes)
+
+
+def lifting():
+    """A motion whose vertical component lifts the array."""
+    ax = np.zeros(400)
+    az = np.concatenate([np.zeros(200), np.full(200, -1.2 * G)])
+    return Motion(id="UP", source="", dt_s=0.01, ax_mps2=ax, az_mps2=az, scale=1.0, signs=(1, -1))
+
+
+@pytest.fixture(scope="module")
+def done():
+    return assessed()
+
+
+def test_each_motion_counts_with_its_worse_polarity(done):
+    item = done.arrays[1]
+    peaks = []
+    for motion in stand_in.motions():
+        both = [
+            slide(
+                sign * motion.ax_mps2,
+                motion.dt_s,
+                slope_rad=math.radians(2.0),
+                mu=0.45,
+                az_mps2=motion.az_mps2,
+            ).prd_m
+            for sign in (1, -1)
+        ]
+        peaks.append(max(both))
+    assert [run.governing.result.prd_m for run in item.motions] == peaks
+    assert item.analysis.mean_m == pytest.approx(sum(peaks) / 7)
+    assert item.analysis.value_m == pytest.approx(1.1 * sum(peaks) / 7)
+    assert item.worst.governing.result.prd_m == max(peaks)
+
+
+def test_a_reversed_motion_is_the_motion_on_the_opposite_slope(done):
+    motion = stand_in.motions()[0]
+    reversed_ = done.arrays[2].motions[0].runs[1].result
+    opposite = slide(
+        motion.ax_mps2, motion.dt_s, slope_rad=-math.radians(3.0), mu=0.55, az_mps2=motion.az_mps2
+    )
+    assert reversed_.prd_m == opposite.prd_m
+
+
+def test_a_fixed_polarity_runs_once():
+    one = Motion(
+        **{f: getattr(stand_in.motions()[0], f) for f in Motion.__slots__} | {"signs": (-1,)}
+    )
+    done = assessed((one,) * 3)
+    assert [run.sign for run in done.arrays[0].motions[0].runs] == [-1]
+
+
+def test_the_floor_governs_unless_peer_reviewed():
+    for reviewed, governs in ((False, "floor"), (True, "analysis")):
+        done = assessed(resting(), options={"peer_reviewed": reviewed})
+        item = done.arrays[0]
+        assert item.governs == governs
+        assert item.design_m == (0.0 if reviewed else 0.5 * item.prescriptive.value_m)
+
+
+def test_clearances_take_the_factor_of_what_lies_across(done):
+    kinds = [item.neighbour for item in done.clearances]
+    assert kinds == [
+        Neighbour.LIKE,
+        Neighbour.FIXED,
+        Neighbour.UNLIKE,
+        Neighbour.PARAPET,
+        Neighbour.EDGE,
+    ]
+    assert [item.factor for item in done.clearances] == [0.5, 1.0, 1.0, 1.0, 2.0]
+    for item in done.clearances:
+        assert item.required_m == pytest.approx(item.factor * item.design_m)
+        assert item.demand_capacity == item.required_m / item.clearance.provided_m
+
+
+def test_between_arrays_the_larger_displacement_counts_for_both():
+    arrays = [stand_in.array("A1", 0.5, mu=0.6), stand_in.array("A2", 3.0, mu=0.3, x=120)]
+    done = assessed(
+        arrays=arrays,
+        clearances=[stand_in.clearance("A1", "a2", 3.0)],
+        options={"peer_reviewed": True},
+    )
+    gap = done.clearances[0]
+    assert gap.governing_array == "A2"
+    assert gap.design_m == done.arrays[1].design_m > done.arrays[0].design_m
+    assert done.governing_clearance("A2") is gap
+    assert (gap.across_from("A2"), gap.across_from("A1")) == ("A1", "a2")
+
+
+def test_arrays_of_other_construction_are_unlike():
+    arrays = [
+        stand_in.array("A1", 0.5),
+        stand_in.array("A2", 0.5, x=120, construction="Tray 5 deg, portrait"),
+    ]
+    done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)])
+    assert done.clearances[0].neighbour is Neighbour.UNLIKE
+
+
+def test_a_low_parapet_leaves_an_edge_without():
+    objects = [stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)]
+    done = assessed(objects=objects, clearances=[stand_in.clearance("A1", "N", 5.0)])
+    assert done.clearances[0].neighbour is Neighbour.EDGE
+
+
+def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7():
+    pv1 = assessed(site=site(risk_category="III", i_e=1.25))
+    asce = assessed(site=site(risk_category="III", i_e=1.25, rule_set="ASCE 7-16"))
+    assert pv1.clearances[1].factor == 1.25
+    assert asce.clearances[1].factor == 1.0
+    ratio = asce.arrays[0].prescriptive.value_m / pv1.arrays[0].prescriptive.value_m
+    assert ratio == pytest.approx(1.25)
+
+
+def test_asce_keeps_four_feet_to_an_edge():
+    done = assessed(
+        resting(), site=site(rule_set="ASCE 7-16", s_ds_g=0.5), options={"peer_reviewed": True}
+    )
+    edge = done.clearances[4]
+    assert edge.required_m == pytest.approx(4 * 0.3048)
+    assert edge.is_least_value
+    assert not done.clearances[1].is_least_value
+
+
+def test_uplift_withholds_the_displacement_and_fails_every_clearance():
+    done = assessed((*stand_in.motions(6), lifting()))
+    item = done.arrays[0]
+    assert item.worst.motion.id == "UP"
+    assert item.worst.governing.result.status is Status.UPLIFT
+    assert math.isnan(item.design_m)
+    assert item.governs == "no value"
+    assert not any(gap.ok for gap in done.clearances)
+    assert not done.ok
+    assert any("normal force falls below zero" in line and "(at " in line for line in done.warnings)
+
+
+def test_two_motions_are_too_few():
+    done = assessed(stand_in.motions(2))
+    assert done.arrays[0].analysis.basis is Basis.TOO_FEW
+    assert math.isnan(done.arrays[0].design_m)
+    assert not done.ok
+
+
+def test_a_motion_that_ends_while_sliding_is_warned_of():
+    ax = np.concatenate([np.zeros(100), np.full(100, -12.0)])
+    cut = Motion(
+        id="CUT", source="", dt_s=0.01, ax_mps2=ax, az_mps2=np.empty(0), scale=1.0, signs=(1,)
+    )
+    done = assessed((*stand_in.motions(6), cut))
+    assert any("CUT" in line and "still sliding" in line for line in done.warnings)
+    assert not done.ok
+
+
+def test_a_limit_of_the_building_fails_the_whole():
+    assert not assessed(site=site(risk_category="IV", i_e=1.5)).ok
+    assert not assessed(site=site(storeys=7)).ok
+
+
+def test_an_override_changes_the_result_and_is_kept_with_its_reason():
+    change = {"provision": "separation_fixed", "value": 1.5, "reason": "plan check comment 4"}
+    done = assessed(overrides=[change])
+    assert done.clearances[1].factor == 1.5
+    assert done.rules.values["separation_fixed"].reason == "plan check comment 4"
