@@ -6,6 +6,7 @@ Knows fields (`report.fields`) but no section of the workbook. Read `report.temp
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from datetime import date
 from enum import StrEnum
@@ -14,6 +15,7 @@ from typing import Any
 from openpyxl.cell import Cell as SheetCell
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Protection, Side
 from openpyxl.worksheet.datavalidation import DataValidation
+from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.fields import Entry, YesNo
@@ -32,6 +34,7 @@ LINE = Border(bottom=HAIR)
 OPEN = Protection(locked=False)
 WRAPPED = Alignment(vertical="center", horizontal="left", wrap_text=True)
 NUMBER_LIMIT = 1e9
+_ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 
 
 def put(
@@ -96,7 +99,9 @@ def in_cell(value: object, unit: Unit | None) -> str | float | int | date | None
             return str(value)
         case float() if unit is not None:
             return float(f"{value / unit.si:.12g}")
-        case str() | int() | float() | date():
+        case str():
+            return _ESCAPE.sub("_x005F_", value)  # else Excel reads _x0041_ as A
+        case int() | float() | date():
             return value
     raise TypeError(f"no cell holds a {type(value).__name__}")
 
@@ -147,13 +152,14 @@ def _message(entry: Entry, si: float) -> str:
 
 
 def _number_rule(entry: Entry, si: float) -> DataValidation:
-    bounds, kind = entry.bounds, "whole" if entry.kind is int else "decimal"
+    bounds = entry.bounds
+    rule = DataValidation(type="whole" if entry.kind is int else "decimal")
     if math.isinf(bounds.high) and not math.isinf(bounds.low):
-        operator = "greaterThan" if bounds.excludes_low else "greaterThanOrEqual"
-        return DataValidation(type=kind, operator=operator, formula1=f"{bounds.low / si:.9g}")
+        rule.operator = "greaterThan" if bounds.excludes_low else "greaterThanOrEqual"
+        rule.formula1 = f"{bounds.low / si:.9g}"
+        return rule
     low, high = max(bounds.low / si, -NUMBER_LIMIT), min(bounds.high / si, NUMBER_LIMIT)
-    rule = DataValidation(type=kind, operator="between", formula1=f"{low:.9g}")
-    rule.formula2 = f"{high:.9g}"
+    rule.operator, rule.formula1, rule.formula2 = "between", f"{low:.9g}", f"{high:.9g}"
     return rule
 
 
@@ -169,10 +175,10 @@ def finish(sheet: Worksheet, is_us: bool) -> None:
     page = sheet.page_setup
     page.orientation, page.fitToWidth, page.fitToHeight = "landscape", 1, 0
     page.paperSize = 1 if is_us else 9
-    sheet.sheet_properties.pageSetUpPr.fitToPage = True
+    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     margins = sheet.page_margins
     margins.left = margins.right = margins.top = 0.4
     margins.bottom, margins.footer = 0.6, 0.3
-    sheet.oddFooter.left.text = "Roofslip input"
-    sheet.oddFooter.center.text = "&A"
-    sheet.oddFooter.right.text = "&P of &N"
+    footer = ("left", "Roofslip input"), ("center", "&A"), ("right", "&P of &N")
+    for side, text in footer:
+        getattr(sheet.oddFooter, side).text = text
