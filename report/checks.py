@@ -9,8 +9,9 @@ from __future__ import annotations
 import difflib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
+from report.fields import Fault, Place
 from report.schema import (
     PROVISION_KEYS,
     ObjectKind,
@@ -40,21 +41,6 @@ S_DS_AGREES_G = 0.0051
 GAP_TOLERANCE = 0.01
 GAP_TOLERANCE_M = 0.5 * 0.0254
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
-
-
-class Place(NamedTuple):
-    """A cell by meaning: section, row of its table, field; a whole table without the last two."""
-
-    section: str
-    row: int = 0
-    field: str = ""
-
-
-class Fault(NamedTuple):
-    """What is wrong at a place: what it is, and what would do."""
-
-    place: Place
-    text: str
 
 
 Where = Callable[[Place], str]

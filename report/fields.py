@@ -11,13 +11,28 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any, NamedTuple, get_args
 
 from annotated_types import Ge, Gt, Le, Lt
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 from pydantic.fields import FieldInfo
 
 from report.units import Quantity
+
+
+class Place(NamedTuple):
+    """A cell by meaning: section, row of its table, field; a whole table without the last two."""
+
+    section: str
+    row: int = 0
+    field: str = ""
+
+
+class Fault(NamedTuple):
+    """What is wrong at a place: what it is, and what would do."""
+
+    place: Place
+    text: str
 
 
 class YesNo(StrEnum):

@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.worksheet import Worksheet
@@ -80,8 +79,12 @@ class TableFound:
 
 def found_at(book: OpenBook, spot: Spot) -> Found:
     """Return what a cell holds, as typed and as computed."""
-    typed = book.typed[spot.sheet].cell(spot.row, spot.column)
-    computed = book.computed[spot.sheet].cell(spot.row, spot.column)
+    return _found(spot, book.typed[spot.sheet], book.computed[spot.sheet])
+
+
+def _found(spot: Spot, typed_sheet: Worksheet, computed_sheet: Worksheet) -> Found:
+    typed = typed_sheet.cell(spot.row, spot.column)
+    computed = computed_sheet.cell(spot.row, spot.column)
     formula = ""
     if typed.data_type == "f":
         # An array formula is an object that has its text.
@@ -331,10 +334,11 @@ def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -
     return problems
 
 
-def values_below(book: OpenBook, heading: Spot) -> list[Any]:
+def cells_below(book: OpenBook, heading: Spot) -> list[Found]:
     """Return what the cells below a heading hold, as far as the sheet's values reach."""
     last = book.extent(heading.sheet).last_row
+    typed, computed = book.typed[heading.sheet], book.computed[heading.sheet]
     return [
-        found_at(book, Spot(heading.sheet, row, heading.column))
+        _found(Spot(heading.sheet, row, heading.column), typed, computed)
         for row in range(heading.row + 1, last + 1)
     ]

@@ -1,7 +1,7 @@
 """Reads an input workbook: every value with its cell, or every error with its cell.
 
 Joins opening (`report.archive`), finding (`report.locate`), converting (`report.cells`), checking
-(`report.checks`) and records (`report.motionfiles`). Start at `read_workbook`.
+(`report.checks`) and records (`report.records`). Start at `read_workbook`.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Any
 
 from report.archive import OpenBook, open_book
 from report.cells import CellError, Found, plain, read_cell, wish
-from report.checks import Fault, Place, faults
-from report.fields import Entry, Section, YesNo, entries
+from report.checks import faults
+from report.fields import Entry, Fault, Place, Section, YesNo, entries
 from report.locate import (
     Column,
     Spot,
@@ -25,7 +25,7 @@ from report.locate import (
     found_at,
     unit_size,
 )
-from report.motionfiles import Loaded, RecordFile, load_motion
+from report.records import Loaded, RecordFile, load_motion
 from report.schema import SECTIONS, ProjectInput
 from report.units import Quantity
 from solver.model import InputError, Motion

@@ -15,8 +15,8 @@ import numpy as np
 
 from report.archive import OpenBook
 from report.cells import CellError, Found, check_saved, number
-from report.checks import Fault, Place
-from report.locate import MAX_COLUMNS, Spot, values_below
+from report.fields import Fault, Place
+from report.locate import MAX_COLUMNS, Spot, cells_below
 from report.schema import Polarity, Scaling
 from report.units import G_MPS2
 from solver.model import Floats, InputError, Motion
@@ -182,7 +182,7 @@ def _read_column(
             f"{heading.sheet}!{extent.row_cell} holds something more than {MAX_SAMPLES:,} rows"
             " below the heading; clear it, or give the record as a file"
         )
-    values = _numbers(values_below(book, heading))
+    values = _numbers(cells_below(book, heading))
     record = record_from_values(name, values, units=units, dt_s=dt_s)
     data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()
     return _Component(record, hashlib.sha256(data).hexdigest())
