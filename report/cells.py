@@ -12,6 +12,7 @@ from datetime import date, datetime, time, timedelta
 from enum import StrEnum
 from typing import Any
 
+from openpyxl.utils.escape import unescape
 from pydantic import ValidationError
 
 from report.fields import Entry, Frozen, YesNo, adapter
@@ -239,7 +240,8 @@ def _text(found: Found) -> str:
         raise CellError(
             f"is {plain(found.value)}, which is no text; format the cell as text and type it again"
         )
-    text = plain(found.value).strip()
+    # Excel writes what XML cannot hold, and a pasted CR, as _x000D_.
+    text = unescape(plain(found.value)).replace("\r\n", "\n").replace("\r", "\n").strip()
     if _CONTROL.search(text):
         raise CellError(f"is '{_cut(text)}', with control characters; type it again")
     return text

@@ -5,7 +5,9 @@ from __future__ import annotations
 import datetime as dt
 import math
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from openpyxl import Workbook, load_workbook
@@ -127,8 +129,19 @@ def make(folder: Path, units: UnitsFirst = UnitsFirst.US, **changes: object) -> 
         text = "".join(f"{sample:.6f}\n" for sample in samples)
         (records / f"{name}.csv").write_text(text)
     path = folder / "input.xlsx"
-    write_template(path, units=units, example=project(**changes))
+    if changes:
+        write_template(path, units=units, example=project(**changes))
+    else:
+        path.write_bytes(_sample(units))
     return path
+
+
+@cache
+def _sample(units: UnitsFirst) -> bytes:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "input.xlsx"
+        write_template(path, units=units, example=project())
+        return path.read_bytes()
 
 
 def edit(path: Path, change: Callable[[Workbook], object]) -> Path:
