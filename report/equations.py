@@ -11,38 +11,50 @@ from functools import cache
 
 from markupsafe import Markup, escape
 
+from solver.model import DefectError
+
 SIZE_PT = 11.0
 _SIZE = re.compile(r'<svg [^>]*?width="([\d.]+)" height="([\d.]+)" viewBox="([-\d. ]+)"')
+_PATH = re.compile(r'<path d="([^"]+)"')
+_BAR = re.compile(r"<rect [^>]+>")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Formula:
-    """A formula as a picture: width and height [pt], depth below the baseline [pt]."""
+    """A formula as a picture: width and height [pt]."""
 
     svg: str
     width_pt: float
     height_pt: float
-    depth_pt: float
     latex: str
 
 
 @cache
 def formula(latex: str) -> Formula:
     """Return a LaTeX formula as a picture."""
-    from ziamath import Latex
+    from ziamath.config import config
+    from ziamath.zmath import Latex
 
+    config.svg2 = False  # outlines in place: symbols that are used again cost the page far more
     svg: str = Latex(latex, size=SIZE_PT).svg()
     found = _SIZE.match(svg)
-    if found is None:
-        raise ValueError(f"no size in the picture of {latex}")
-    top = float(found[3].split()[1])
+    outlines = _PATH.findall(svg)
+    # Fraction bars are rectangles.
+    bars = ["M{0} {1}h{2}v{3}h-{2}Z".format(*_bar(bar)) for bar in _BAR.findall(svg)]
+    if found is None or not outlines:
+        raise DefectError(f"no outlines in the picture of {latex}")
+    width, height, box = found.groups()
     return Formula(
-        svg=svg,
-        width_pt=float(found[1]),
-        height_pt=float(found[2]),
-        depth_pt=float(found[2]) + top,
+        svg=f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+        f'viewBox="{box}"><path d="{" ".join([*outlines, *bars])}"/></svg>',
+        width_pt=float(width),
+        height_pt=float(height),
         latex=latex,
     )
+
+
+def _bar(tag: str) -> list[str]:
+    return [re.findall(rf'\b{name}="([-\d.]+)"', tag)[0] for name in ("x", "y", "width", "height")]
 
 
 def symbol(text: str) -> Markup:

@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -25,16 +26,16 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLoca
 
 from report.assess import ArrayAssessment, Assessment, MotionRun
 from report.schema import ObjectKind, ProjectInput, Rectangle
-from report.units import Quantity, Unit, measured, number
+from report.units import Quantity, Unit, number, pair
 from solver.model import Floats
 from solver.provisions import RequiredSpectrum
 
 WIDTH_IN = 6.7
 INK, GREY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
 FAMILY = "Source Sans 3"
-MAX_POINTS = 700
+MAX_POINTS = 400  # in a history; a panel is 200 points of paper wide
 
-_STYLE: Mapping[str, Any] = {
+_STYLE: Any = {
     "font.family": FAMILY,
     "font.size": 8.0,
     "axes.titlesize": 8.0,
@@ -56,7 +57,7 @@ _STYLE: Mapping[str, Any] = {
     "legend.frameon": False,
     "legend.fontsize": 7.5,
     "hatch.linewidth": 0.5,
-    "svg.fonttype": "path",
+    "svg.fonttype": "none",  # text stays text: the pages load the same fonts
     "svg.hashsalt": "roofslip",
     "path.simplify": True,
     "text.parse_math": False,  # a dollar sign in a name is a dollar sign
@@ -98,7 +99,8 @@ def _ticks(unit: Unit) -> FuncFormatter:
 def roof_plan(data: ProjectInput, us_first: bool) -> str:
     """Arrays, objects and edges to scale, with the gaps that are checked and the slope's fall."""
     unit = Quantity.PLAN.us if us_first else Quantity.PLAN.si
-    shapes = {item.id: item.rectangle for item in [*data.arrays, *data.objects]}
+    shapes: dict[str, Rectangle | None] = {item.id: item.rectangle for item in data.objects}
+    shapes |= {item.id: item.rectangle for item in data.arrays}
     drawn = [shape for shape in shapes.values() if shape is not None]
     x0, x1 = min(r.x_from_m for r in drawn), max(r.x_to_m for r in drawn)
     y0, y1 = min(r.y_from_m for r in drawn), max(r.y_to_m for r in drawn)
@@ -132,8 +134,8 @@ def _plan_axes(axes: Axes, unit: Unit, box: tuple[float, float, float, float], s
 
 
 _FILLS: Mapping[ObjectKind, dict[str, Any]] = {
-    ObjectKind.FIXED: {"facecolor": PALE, "hatch": "////"},
-    ObjectKind.UNLIKE_ARRAY: {"facecolor": "white", "hatch": "...."},
+    ObjectKind.FIXED: {"facecolor": PALE, "hatch": "//"},
+    ObjectKind.UNLIKE_ARRAY: {"facecolor": "white", "hatch": "\\\\"},
     ObjectKind.EDGE_WITH_PARAPET: {"facecolor": GREY},
     ObjectKind.EDGE_WITHOUT_PARAPET: {"facecolor": "white", "linestyle": "--"},
 }
@@ -308,66 +310,96 @@ def _spectrum_axes(axes: Axes, part: Spectra) -> None:
 _PERIOD_TICKS = (0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 
 
-def histories(assessed: ArrayAssessment, motions: Sequence[MotionRun], us_first: bool) -> str:
-    """Return the relative displacement under each motion, its governing polarity, PRD marked."""
-    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
-    columns = 2 if len(motions) <= 8 else 3
-    rows = math.ceil(len(motions) / columns)
-    low, high = _range(motions, unit)
+def histories(motions: Sequence[MotionRun], us_first: bool) -> str:
+    """Return the relative displacement under each motion, its governing polarity, PRD marked.
+
+    All panels share one pair of axes, moved apart: a pair for each would take ten times as long.
+    """
+    grid = _Grid(motions, Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si)
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.1 * rows + 0.35), layout=None)
-        grid = figure.subplots(rows, columns, sharex=False, sharey=True, squeeze=False)
-        figure.subplots_adjust(
-            left=0.075,
-            right=0.995,
-            bottom=0.38 / (1.1 * rows + 0.35),
-            top=1 - 0.2 / (1.1 * rows + 0.35),
-            hspace=0.42,
-            wspace=0.06,
-        )
-        for axes, run in zip(grid.flat, motions, strict=False):
-            _history(axes, run, unit, us_first)
-        for axes in grid.flat[len(motions) :]:
-            axes.set_axis_off()
-        for axes in grid[:, 0]:
-            axes.set_ylabel(f"u [{unit.symbol}]")
-        for axes in grid.flat[max(len(motions) - columns, 0) : len(motions)]:
-            axes.set_xlabel("Time [s]")
-        grid[0, 0].set_ylim(low, high)
+        figure = Figure(figsize=(WIDTH_IN, 1.06 * grid.rows + 0.3))
+        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        axes.set_axis_off()
+        axes.set_xlim(-0.08 * grid.columns, grid.columns)
+        axes.set_ylim(-grid.rows - 0.26, 0.0)
+        for index, run in enumerate(motions):
+            _panel(axes, grid, index, run, us_first)
         return _svg(figure)
 
 
-def _range(motions: Sequence[MotionRun], unit: Unit) -> tuple[float, float]:
-    results = [run.governing.result for run in motions]
-    high = np.nanmax([0.0, *(r.down_m for r in results)]) / unit.si
-    low = -np.nanmax([0.0, *(r.up_m for r in results)]) / unit.si
-    pad = 0.08 * (high - low) or 1.0
-    return float(low - pad), float(high + pad)
+class _Grid:
+    """Where the panels of a figure lie, and what their scales are."""
+
+    def __init__(self, motions: Sequence[MotionRun], unit: Unit) -> None:
+        results = [run.governing.result for run in motions]
+        self.unit = unit
+        self.columns = 2 if len(motions) <= 8 else 3
+        self.rows = math.ceil(len(motions) / self.columns)
+        self.last = len(motions) - self.columns  # panels from here on have none below them
+        high = np.nanmax([0.0, *(r.down_m for r in results)]) / unit.si
+        low = -np.nanmax([0.0, *(r.up_m for r in results)]) / unit.si
+        self.ticks = [float(t) for t in MaxNLocator(4).tick_values(low, high or 1.0)]
+        self.low, self.high = self.ticks[0], self.ticks[-1]
+        longest = max(float(run.governing.history.t_s[-1]) for run in motions)
+        self.seconds = longest
+
+    def x(self, index: int, t_s: Any) -> Any:
+        """Return where times lie, as given: one or an array."""
+        return index % self.columns + 0.94 * t_s / self.seconds
+
+    def y(self, index: int, value: Any) -> Any:
+        """Return where displacements in the grid's unit lie, as given: one or an array."""
+        share = (value - self.low) / (self.high - self.low)
+        return -(index // self.columns) - 0.95 + 0.72 * share
 
 
-def _history(axes: Axes, run: MotionRun, unit: Unit, us_first: bool) -> None:
+def _panel(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool) -> None:
+    left, right = grid.x(index, 0.0), grid.x(index, grid.seconds)
+    for tick in grid.ticks:
+        level = grid.y(index, tick)
+        axes.plot([left, right], [level, level], color=PALE if tick else GREY, linewidth=0.5)
+        if index % grid.columns == 0:
+            label = number(tick, 0 if abs(grid.ticks[1] - grid.ticks[0]) >= 1 else 1)
+            axes.text(left - 0.012, level, label, ha="right", va="center", fontsize=7)
+    if index >= grid.last:
+        _times(axes, grid, index)
+    if index == 0:
+        axes.text(left - 0.012, -0.13, f"u [{grid.unit.symbol}]", ha="right", fontsize=7.5)
+    polarity = "as recorded" if run.governing.sign > 0 else "reversed"
+    top = grid.y(index, grid.high) + 0.045
+    axes.text(left, top, f"{_tick_text(run.motion.id)}, {polarity}", weight="semibold")
+    axes.text(right, top, _prd_text(run, us_first), ha="right")
+    _trace(axes, grid, index, run)
+
+
+def _times(axes: Axes, grid: _Grid, index: int) -> None:
+    level = grid.y(index, grid.low)
+    for t in MaxNLocator(5).tick_values(0.0, grid.seconds):
+        if 0.0 <= t <= grid.seconds:
+            at = grid.x(index, float(t))
+            axes.plot([at, at], [level, level - 0.025], color=INK, linewidth=0.6)
+            text = f"{t:g} s" if t else "0"
+            axes.text(at, level - 0.05, text, ha="center", va="top", fontsize=7)
+
+
+def _trace(axes: Axes, grid: _Grid, index: int, run: MotionRun) -> None:
     history, result = run.governing.history, run.governing.result
-    title = f"{run.motion.id}, {'as recorded' if run.governing.sign > 0 else 'reversed'}"
-    axes.axhline(0.0, color=GREY, linewidth=0.5)
-    _bare(axes)
-    axes.yaxis.set_major_locator(MaxNLocator(4))
-    axes.xaxis.set_major_locator(MaxNLocator(6))
-    axes.set_xlim(0, history.t_s[-1])
     if math.isnan(result.prd_m):
-        axes.text(0.5, 0.5, "no value", transform=axes.transAxes, ha="center", va="center")
-        axes.set_title(title, loc="left", pad=2)
+        middle = grid.y(index, (grid.low + grid.high) / 2)
+        axes.text(grid.x(index, grid.seconds / 2), middle, "no value", ha="center", va="center")
         return
-    t, u = envelope(history.t_s, history.u_m / unit.si)
-    axes.plot(t, u, color=ACCENT, linewidth=0.9)
-    peak = (result.down_m if result.down_m >= result.up_m else -result.up_m) / unit.si
-    axes.plot([result.t_prd_s], [peak], marker="o", markersize=3.5, color=INK, clip_on=False)
-    first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
-    prd = (
-        f"PRD {measured(result.prd_m, first)} {first.symbol}"
-        f" ({measured(result.prd_m, second)} {second.symbol})"
-    )
-    axes.set_title(title, loc="left", pad=2, weight="semibold")
-    axes.set_title(prd, loc="right", pad=2)
+    t, u = envelope(history.t_s, history.u_m / grid.unit.si)
+    axes.plot(grid.x(index, t), grid.y(index, u), color=ACCENT, linewidth=0.9)
+    peak = (result.down_m if result.down_m >= result.up_m else -result.up_m) / grid.unit.si
+    at = grid.x(index, result.t_prd_s)
+    axes.plot([at], [grid.y(index, peak)], marker="o", markersize=3.2, color=INK)
+
+
+def _prd_text(run: MotionRun, us_first: bool) -> str:
+    prd_m = run.governing.result.prd_m
+    if math.isnan(prd_m):
+        return "PRD: no value"
+    return f"PRD {pair(prd_m, Quantity.DISPLACEMENT, us_first)}"
 
 
 def envelope(t: Floats, u: Floats, most: int = MAX_POINTS) -> tuple[Floats, Floats]:
@@ -377,7 +409,7 @@ def envelope(t: Floats, u: Floats, most: int = MAX_POINTS) -> tuple[Floats, Floa
     edges = np.linspace(0, len(u), most // 2, dtype=int)[:-1]
     parts = [*edges.tolist(), len(u)]
     kept: list[int] = [0]
-    for start, stop in zip(parts, parts[1:], strict=False):
+    for start, stop in pairwise(parts):
         piece = u[start:stop]
         kept += sorted({start + int(piece.argmin()), start + int(piece.argmax())})
     kept.append(len(u) - 1)
@@ -411,7 +443,14 @@ def _tick_text(name: str) -> str:
 
 def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
     ratio = first.si / second.si
-    other = axes.secondary_xaxis("top", functions=(lambda x: x * ratio, lambda x: x / ratio))
+
+    def forth(value: Any) -> Any:
+        return value * ratio
+
+    def back(value: Any) -> Any:
+        return value / ratio
+
+    other = axes.secondary_xaxis("top", functions=(forth, back))
     other.set_xlabel(f"[{second.symbol}]")
     axes.spines["right"].set_visible(False)
 
@@ -490,7 +529,7 @@ def clearances(assessment: Assessment, us_first: bool) -> str:
             facecolor="#b8c7d9",
             edgecolor=INK,
             linewidth=0.8,
-            hatch="////",
+            hatch="///",
             label="required",
         )
         names = [

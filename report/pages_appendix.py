@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from importlib import metadata
 from itertools import groupby
 
-from report.motionfiles import RecordFile
-from report.pages_parts import Column, Row, Table
+from report.pages_parts import shortened
+from report.records import RecordFile
 from report.units import number
 from report.workbook import EchoRow
 
@@ -26,6 +26,7 @@ LIBRARIES = (
 )
 METHOD = "exact, event by event, on straight lines between samples"
 _WIDTHS = (8, 24, 24, 10, 26)
+_RECORD_WIDTHS = (10, 12, 9, 10, 10, 64)
 _HEADS = ("Cell", "Asked for", "Typed", "Unit", "Taken as")
 
 
@@ -38,50 +39,37 @@ def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, str], ...]:
 
 
 def _lines(rows: Sequence[EchoRow]) -> Iterator[str]:
-    yield _line(_HEADS)
+    yield _even(_HEADS, _WIDTHS)
     for row in rows:
-        texts = (row.cell, row.label, row.typed, row.unit, row.value)
+        asked = (row.cell, row.label, row.typed, row.unit, row.value)
         wrapped = [
             textwrap.wrap(str(text), width - 1) or [""]
-            for text, width in zip(texts, _WIDTHS, strict=True)
+            for text, width in zip(asked, _WIDTHS, strict=True)
         ]
         for index in range(max(map(len, wrapped))):
-            yield _line([part[index] if index < len(part) else "" for part in wrapped])
+            texts = [part[index] if index < len(part) else "" for part in wrapped]
+            yield _even(texts, _WIDTHS)
 
 
-def _line(texts: Sequence[str]) -> str:
-    return "".join(text.ljust(width) for text, width in zip(texts, _WIDTHS, strict=True)).rstrip()
+def _even(texts: Sequence[str], widths: Sequence[int]) -> str:
+    return "".join(text.ljust(width) for text, width in zip(texts, widths, strict=True)).rstrip()
 
 
-def records(rows: Sequence[RecordFile]) -> Table:
-    """Return the record files with their hashes."""
-    return Table(
-        caption="Records as read",
-        columns=(
-            Column(head="Motion", align="left", share=0.7),
-            Column(head="Component", align="left", share=0.9),
-            Column(head="File", align="left", share=1.5),
-            Column(head="Samples", share=0.8),
-            Column(head="Step", unit="s", share=0.6),
-            Column(head="Peak", unit="g", share=0.7),
-            Column(head="SHA-256", align="left", share=3.2),
-        ),
-        rows=tuple(
-            Row(
-                cells=(
-                    row.motion_id,
-                    row.component,
-                    row.name,
-                    str(row.npts),
-                    f"{row.dt_s:g}",
-                    number(row.peak_g, 4),
-                    row.sha256,
-                )
-            )
-            for row in rows
-        ),
-        kind="compact hashes",
-    )
+def records(rows: Sequence[RecordFile]) -> str:
+    """Return the record files with their hashes as lines of even columns."""
+    heads = ("Motion", "Component", "Samples", "Step [s]", "Peak [g]", "File, SHA-256")
+    lines = [_even(heads, _RECORD_WIDTHS)]
+    for row in rows:
+        texts = (
+            shortened(row.motion_id, _RECORD_WIDTHS[0] - 1),
+            row.component,
+            str(row.npts),
+            f"{row.dt_s:g}",
+            number(row.peak_g, 4),
+            row.name,
+        )
+        lines += [_even(texts, _RECORD_WIDTHS), " " * sum(_RECORD_WIDTHS[:-1]) + row.sha256]
+    return "\n".join(lines)
 
 
 def software() -> Mapping[str, str]:

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
-from report.assess import ArrayAssessment
+from report.assess import ArrayAssessment, ClearanceCheck
 from report.equations import formula, fraction
-from report.pages_parts import NO_VALUE, Line, Scene
-from report.units import G_MPS2, Quantity, number
+from report.pages_parts import Line, Scene, nan_is_worst
+from report.units import Quantity, number
 from solver.provisions import SEPARATION_KEYS, Basis, Neighbour
 
 
@@ -24,22 +24,24 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
         Line(
             formula=formula(r"N=m\left[(g+a_v)\cos\theta+a_h\sin\theta\right]"),
             reference="Eq. 6, with a_v added",
-            substituted=f"Roof at rest: N/(m g) = cos {degrees}°",
-            result=number(math.cos(theta), 4),
+            steps=((f"Roof at rest: N/(m g) = cos {degrees}°", number(math.cos(theta), 4)),),
         ),
         Line(
             formula=formula(r"G=m\left[(g+a_v)\sin\theta-a_h\cos\theta\right]"),
             reference="Eq. 7, with a_v added",
-            substituted=f"Roof at rest: G/(m g) = sin {degrees}°",
-            result=number(math.sin(theta), 4),
+            steps=((f"Roof at rest: G/(m g) = sin {degrees}°", number(math.sin(theta), 4)),),
         ),
         Line(
             formula=formula(r"\left|G\right|\leq\mu N\;\Rightarrow\;\mathrm{rests}"),
             reference="Eqs. 8, 9",
-            substituted=f"Roof at rest: {number(math.sin(theta), 4)} against "
-            f"{number(mu, 3)} × {number(math.cos(theta), 4)}",
-            result=number(mu * math.cos(theta), 4)
-            + (", rests" if math.tan(theta) <= mu else ", slides"),
+            steps=(
+                (
+                    f"Roof at rest: {number(math.sin(theta), 4)} against "
+                    f"{number(mu, 3)} × {number(math.cos(theta), 4)}",
+                    number(mu * math.cos(theta), 4)
+                    + (", rests" if math.tan(theta) <= mu else ", slides"),
+                ),
+            ),
         ),
         Line(
             formula=formula(r"m\ddot{s}=G-\mu N\,\mathrm{sign}(\dot{s})"),
@@ -50,23 +52,25 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
         Line(
             formula=formula(r"\phi=\arctan\mu"),
             reference="friction angle",
-            substituted=f"arctan {number(mu, 3)}",
-            result=f"{friction}°",
+            steps=((f"arctan {number(mu, 3)}", f"{friction}°"),),
         ),
         Line(
             formula=formula(r"a_{down}=-g\tan(\phi-\theta)"),
             reference="Eqs. 6–9, a_v = 0",
-            substituted=f"−g tan({friction}° − {degrees}°)",
-            result=f"{number(-down, 3)} g",
+            steps=((f"−g tan({friction}° − {degrees}°)", f"{number(-down, 3)} g"),),
             note="Below this horizontal roof acceleration sliding down the slope begins.",
         ),
         Line(
             formula=formula(r"a_{up}=g\tan(\phi+\theta)"),
             reference="Eqs. 6–9, a_v = 0",
-            substituted=f"g tan({friction}° + {degrees}°)",
-            result="none: the array cannot be driven up the slope"
-            if up <= 0.0
-            else f"{number(up, 3)} g",
+            steps=(
+                (
+                    f"g tan({friction}° + {degrees}°)",
+                    "none: the array cannot be driven up the slope"
+                    if up <= 0.0
+                    else f"{number(up, 3)} g",
+                ),
+            ),
             note="Above this horizontal roof acceleration sliding up the slope begins.",
         ),
     )
@@ -83,10 +87,14 @@ def demand_lines(scene: Scene) -> Sequence[Line]:
             Line(
                 formula=formula(r"S_{DS}=\frac{2}{3}F_a S_S"),
                 reference="ASCE 7 Eqs. 11.4-1, 11.4-3",
-                substituted=Markup("{} × {} × {} g").format(
-                    fraction("2", "3"), number(site.f_a, 3), number(site.s_s_g, 3)
+                steps=(
+                    (
+                        Markup("{} × {} × {} g").format(
+                            fraction("2", "3"), number(site.f_a, 3), number(site.s_s_g, 3)
+                        ),
+                        f"{s_ds} g",
+                    ),
                 ),
-                result=f"{s_ds} g",
             )
         )
     newer = scene.assessment.rules.name == "ASCE 7-22"
@@ -105,21 +113,28 @@ def demand_lines(scene: Scene) -> Sequence[Line]:
         Line(
             formula=formula(flexible),
             reference="AC156",
-            substituted=f"min({s_ds} g × {amplified}, 1.6 × {s_ds} g)",
-            result=f"{number(float(found.sa_g[1]), 3)} g",
+            steps=(
+                (
+                    f"min({s_ds} g × {amplified}, 1.6 × {s_ds} g)",
+                    f"{number(float(found.sa_g[1]), 3)} g",
+                ),
+            ),
         ),
         Line(
             formula=formula(rigid),
             reference="AC156",
-            substituted=f"0.4 × {s_ds} g × {amplified}",
-            result=f"{number(float(found.sa_g[3]), 3)} g",
+            steps=((f"0.4 × {s_ds} g × {amplified}", f"{number(float(found.sa_g[3]), 3)} g"),),
         ),
         Line(
             formula=formula(r"A_{FLX,v}=0.67\,S_{DS},\quad A_{RIG,v}=0.27\,S_{DS}"),
             reference="AC156, vertical",
-            substituted=f"0.67 × {s_ds} g, 0.27 × {s_ds} g",
-            result=f"{number(float(vertical.sa_g[1]), 3)} g, "
-            f"{number(float(vertical.sa_g[3]), 3)} g",
+            steps=(
+                (
+                    f"0.67 × {s_ds} g, 0.27 × {s_ds} g",
+                    f"{number(float(vertical.sa_g[1]), 3)} g, "
+                    f"{number(float(vertical.sa_g[3]), 3)} g",
+                ),
+            ),
         ),
     ]
     return lines
@@ -134,8 +149,7 @@ def prescriptive_line(scene: Scene, found: ArrayAssessment) -> Line:
         return Line(
             formula=formula(r"\Delta_{MPV}=\Delta_{A,B,C}"),
             reference=scene.clause(key),
-            substituted=f"SDC {site.sdc.value}",
-            result=say.both(value) + scene.mark(key),
+            steps=((f"SDC {site.sdc.value}", say.both(value) + scene.mark(key)),),
         )
     least = say.both(minimum) + scene.mark("prescriptive_minimum_in")
     factor = f"{rules['prescriptive_factor_in']:g} in" + scene.mark("prescriptive_factor_in")
@@ -149,8 +163,12 @@ def prescriptive_line(scene: Scene, found: ArrayAssessment) -> Line:
     return Line(
         formula=formula(latex),
         reference=scene.clause("prescriptive_factor_in"),
-        substituted=Markup("{}{} × {}, not below {}").format(factor, inside, bracket, least),
-        result=say.both(value) + scene.mark(key),
+        steps=(
+            (
+                Markup("{}{} × {}, not below {}").format(factor, inside, bracket, least),
+                say.both(value) + scene.mark(key),
+            ),
+        ),
         note=f"{found.prescriptive.governs.capitalize()} governs. The same for every array.",
     )
 
@@ -168,80 +186,91 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
     largest = analysis.basis is Basis.LARGEST_FACTORED
     picked = analysis.largest_m if largest else analysis.mean_m
     floor = number(rules["analysis_floor"], 2) + scene.mark("analysis_floor")
-    lines = [
+    return [
         Line(
             formula=formula(r"\overline{\Delta}=\frac{1}{n}\sum_{i=1}^{n}\mathrm{PRD}_i"),
             reference="mean of the motions",
-            substituted=Markup("{} {}").format(fraction(shown, count), unit.symbol),
-            result=say.both(analysis.mean_m),
+            steps=(
+                (
+                    Markup("{} {}").format(fraction(shown, count), unit.symbol),
+                    say.both(analysis.mean_m),
+                ),
+            ),
         ),
         Line(
             formula=formula(r"\Delta_{max}=\mathrm{max}_i\,\mathrm{PRD}_i"),
             reference=f"motion {found.worst.motion.id}",
-            substituted="largest of the motions",
-            result=say.both(analysis.largest_m),
+            steps=(("largest of the motions", say.both(analysis.largest_m)),),
         ),
         Line(
             formula=formula(
                 r"\Delta_{RHA}=k\,\Delta_{max}" if largest else r"\Delta_{RHA}=k\,\overline{\Delta}"
             ),
             reference=scene.clause("analysis_factor"),
-            substituted=f"{factor} × {say.both(picked)}",
-            result=say.both(analysis.value_m),
+            steps=((f"{factor} × {say.both(picked)}", say.both(analysis.value_m)),),
             note=f"Statistic: {analysis.basis.value}.",
         ),
         Line(
             formula=formula(r"\Delta_{floor}=f\,\Delta_{MPV}"),
             reference=scene.clause("analysis_floor"),
-            substituted="peer reviewed, no floor"
-            if scene.data.options.peer_reviewed
-            else f"{floor} × {say.both(found.prescriptive.value_m)}",
-            result=say.both(found.floor_m) + scene.mark("analysis_floor"),
+            steps=(
+                (
+                    "peer reviewed, no floor"
+                    if scene.data.options.peer_reviewed
+                    else f"{floor} × {say.both(found.prescriptive.value_m)}",
+                    say.both(found.floor_m) + scene.mark("analysis_floor"),
+                ),
+            ),
         ),
         Line(
             formula=formula(r"\Delta=\mathrm{max}(\Delta_{RHA},\,\Delta_{floor})"),
             reference="design displacement",
-            substituted=f"max({say.both(analysis.value_m)}, {say.both(found.floor_m)})",
-            result=say.both(found.design_m) + scene.design_mark(found),
+            steps=(
+                (
+                    f"max({say.both(analysis.value_m)}, {say.both(found.floor_m)})",
+                    say.both(found.design_m) + scene.design_mark(found),
+                ),
+            ),
             note=f"Governed by: {found.governs}.",
         ),
     ]
-    return lines
 
 
-def separation_lines(scene: Scene) -> Sequence[Line]:
-    """Return one line for each condition that occurs, at its largest displacement."""
+def separation_line(scene: Scene) -> Line:
+    """Return the separations, each condition that occurs at its largest displacement."""
+    latex = (
+        r"s_{req}=k\,I_e\,\Delta"
+        if scene.assessment.rules.importance_in_separation
+        else r"s_{req}=k\,\Delta"
+    )
+    clauses = {scene.assessment.rules.values[key].clause for key in SEPARATION_KEYS.values()}
+    return Line(
+        formula=formula(latex),
+        reference=", ".join(sorted(clauses)),
+        steps=tuple(
+            _separation(scene, max(gaps, key=lambda gap: nan_is_worst(gap.required_m)))
+            for kind in Neighbour
+            if (gaps := [gap for gap in scene.assessment.clearances if gap.neighbour is kind])
+        ),
+    )
+
+
+def _separation(scene: Scene, gap: ClearanceCheck) -> tuple[str, str]:
     say, rules = scene.say, scene.assessment.rules
-    latex = r"s_{req}=k\,I_e\,\Delta" if rules.importance_in_separation else r"s_{req}=k\,\Delta"
-    lines = []
-    for kind in Neighbour:
-        gaps = [gap for gap in scene.assessment.clearances if gap.neighbour is kind]
-        if not gaps:
-            continue
-        gap = max(gaps, key=lambda g: math.inf if math.isnan(g.required_m) else g.required_m)
-        key = SEPARATION_KEYS[kind]
-        inside = f" × {number(scene.data.site.i_e, 2)}" if rules.importance_in_separation else ""
-        least = (
-            f"; least {say.both(rules.length_m('separation_edge_min_in'))}"
-            f"{scene.mark('separation_edge_min_in')}"
-            if gap.is_least_value
-            else ""
-        )
-        lines.append(
-            Line(
-                formula=formula(latex),
-                reference=scene.clause(key),
-                substituted=f"{kind.value}: {number(rules[key], 2)}{scene.mark(key)}{inside} × "
-                f"{say.both(gap.design_m)}{least}",
-                result=say.both(gap.required_m)
-                + (
-                    ""
-                    if math.isnan(gap.required_m)
-                    else f" = {say.both(gap.required_m, Quantity.PLAN)}"
-                ),
-            )
-        )
-    return lines
+    key = SEPARATION_KEYS[gap.neighbour]
+    inside = f" × {number(scene.data.site.i_e, 2)}" if rules.importance_in_separation else ""
+    least = (
+        f", not below {say.both(rules.length_m('separation_edge_min_in'))}"
+        f"{scene.mark('separation_edge_min_in')}"
+        if gap.is_least_value
+        else ""
+    )
+    feet = "" if math.isnan(gap.required_m) else f" = {say.both(gap.required_m, Quantity.PLAN)}"
+    return (
+        f"To {_ARTICLES[gap.neighbour]}: {number(rules[key], 2)}{scene.mark(key)}{inside} × "
+        f"{say.both(gap.design_m)}{least}",
+        say.both(gap.required_m) + feet,
+    )
 
 
 def interconnection_line(scene: Scene, found: ArrayAssessment) -> Line:
@@ -252,11 +281,20 @@ def interconnection_line(scene: Scene, found: ArrayAssessment) -> Line:
     return Line(
         formula=formula(r"F=\mathrm{max}(c_1 S_{DS},\,c_2)\,W_1,\quad W_1=W/2"),
         reference=scene.clause("interconnection_sds"),
-        substituted=f"max({first} × {number(scene.data.site.s_ds, 3)}, {second}) × "
-        f"{say.both(found.array.weight_n / 2.0, Quantity.WEIGHT)}",
-        result=say.both(found.interconnection_n, Quantity.WEIGHT),
+        steps=(
+            (
+                f"max({first} × {number(scene.data.site.s_ds, 3)}, {second}) × "
+                f"{say.both(found.array.weight_n / 2.0, Quantity.WEIGHT)}",
+                say.both(found.interconnection_n, Quantity.WEIGHT),
+            ),
+        ),
     )
 
 
-GRAVITY = f"g = {G_MPS2} m/s²"
-MISSING = NO_VALUE
+_ARTICLES = {
+    Neighbour.LIKE: "a like array",
+    Neighbour.FIXED: "a fixed object",
+    Neighbour.UNLIKE: "an unlike array",
+    Neighbour.PARAPET: "an edge with a qualifying parapet",
+    Neighbour.EDGE: "an edge without a qualifying parapet",
+}

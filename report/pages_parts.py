@@ -66,11 +66,17 @@ class Table:
     kind: str = ""
 
     @property
-    def heads(self) -> tuple[tuple[str, int, str], ...]:
-        """Headings with how many columns each spans, and their alignment."""
+    def heads(self) -> tuple[tuple[str, int, str, str], ...]:
+        """Headings with how many columns each spans, their alignment and width."""
         groups = [list(found) for _, found in groupby(self.columns, key=lambda c: c.head)]
+        whole = sum(column.share for column in self.columns)
         return tuple(
-            (found[0].head, len(found), "center" if len(found) > 1 else found[0].align)
+            (
+                found[0].head,
+                len(found),
+                "center" if len(found) > 1 else found[0].align,
+                f"{100.0 * sum(column.share for column in found) / whole:.2f}%",
+            )
             for found in groups
         )
 
@@ -84,12 +90,6 @@ class Table:
     def has_units(self) -> bool:
         """Whether any column has a unit."""
         return any(column.unit for column in self.columns)
-
-    @property
-    def widths(self) -> tuple[str, ...]:
-        """Column widths."""
-        whole = sum(column.share for column in self.columns)
-        return tuple(f"{100.0 * column.share / whole:.2f}%" for column in self.columns)
 
 
 def _placed(cells: Sequence[str | Wide], aligns: Sequence[str]) -> Iterator[tuple[str, int, str]]:
@@ -121,12 +121,11 @@ class Picture:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """A step of the calculation: formula, numbers put in, result, where it comes from."""
+    """A step of the calculation: formula, where it comes from, numbers put in with results."""
 
     formula: Formula
     reference: str
-    substituted: str = ""
-    result: str = ""
+    steps: tuple[tuple[str, str], ...] = ()
     note: str = ""
 
     @property
@@ -182,6 +181,11 @@ class Say:
             Column(head=head, unit=first.symbol, share=share),
             Column(head=head, unit=second.symbol, share=share),
         )
+
+
+def nan_is_worst(value: float) -> float:
+    """Return a value to sort by: NaN over all."""
+    return math.inf if math.isnan(value) else value
 
 
 def ratio(value: float) -> str:
@@ -242,7 +246,7 @@ class Scene:
         """The array with the largest design displacement; one without a value over all."""
         return max(
             self.assessment.arrays,
-            key=lambda a: math.inf if math.isnan(a.design_m) else a.design_m,
+            key=lambda found: nan_is_worst(found.design_m),
         )
 
     def prescriptive_key(self, found: ArrayAssessment) -> str:

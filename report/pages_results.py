@@ -175,6 +175,7 @@ def _sentence(scene: Scene, found: ArrayAssessment) -> str:
         share = number(100.0 * scene.assessment.rules["analysis_floor"], 0)
         floor = (
             f"the floor of {share} % of the prescriptive value"
-            f"{scene.mark('analysis_floor')} {'governs' if found.governs == 'floor' else 'does not govern'}"
+            f"{scene.mark('analysis_floor')} "
+            f"{'governs' if found.governs == 'floor' else 'does not govern'}"
         )
     return f"Array {found.array.id}: {floor}; {route}."

@@ -36,7 +36,7 @@ def html_to_pdf(html: str) -> bytes:
 
     with _clean_log():
         document = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=_fetcher())
-        pdf: bytes = document.write_pdf(font_config=FontConfiguration(), pdf_tags=True)
+        pdf: bytes = document.write_pdf(font_config=FontConfiguration())
     return pdf
 
 
@@ -67,7 +67,7 @@ def _clean_log() -> Iterator[None]:
     finally:
         logger.removeHandler(lines)
     if lines.found:
-        raise DefectError("the PDF renderer complained:\n" + "\n".join(lines.found[:20]))
+        raise DefectError("the PDF renderer complained:\n" + "\n".join(dict.fromkeys(lines.found)))
 
 
 class _Lines(logging.Handler):

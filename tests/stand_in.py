@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from report.assess import Assessment, assess
-from report.motionfiles import RecordFile
+from report.records import RecordFile
 from report.schema import ProjectInput
 from report.workbook import EchoRow, InputBook
 from solver.model import Motion
