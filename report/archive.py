@@ -263,7 +263,7 @@ def _walk(name: str, data: bytes, scan: _Scan) -> None:
         raise InputError(f"declares XML entities at {name}, as no workbook does") from error
     except InputError as error:
         raise InputError(f"{name}: {error.problems[0]}") from error
-    except (SAXException, ValueError) as error:
+    except (SAXException, ValueError, LookupError) as error:  # the last for odd encodings
         raise InputError(f"damaged at {name}; {REOPEN}") from error
 
 

@@ -21,6 +21,7 @@ MAX_ROWS = 2000
 MAX_COLUMNS = 200
 SCANNED_ROWS = 200
 _HEADING = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\])?")
+_TARGET = re.compile(r"(?:'((?:[^']|'')+)'|([^'!]+))!(\$?[A-Za-z]{1,3}\$?[0-9]{1,7})")
 FRESH = "copy it from a fresh workbook (roofslip new)"
 
 
@@ -87,8 +88,9 @@ def _found(spot: Spot, typed_sheet: Worksheet, computed_sheet: Worksheet) -> Fou
     computed = computed_sheet.cell(spot.row, spot.column)
     formula = ""
     if typed.data_type == "f":
-        # An array formula is an object that has its text.
-        formula = str(getattr(typed.value, "text", None) or typed.value)
+        # Array formulas are objects that have a text, data tables such that have none.
+        is_text = isinstance(typed.value, str)
+        formula = str(typed.value if is_text else getattr(typed.value, "text", None) or "=TABLE()")
     return Found(
         sheet=spot.sheet,
         cell=spot.cell,
@@ -135,10 +137,11 @@ def _named(book: OpenBook, name: str) -> Spot | None:
     for defined in book.typed.defined_names.values():
         if str(defined.name).casefold() != name:
             continue
-        titles = [sheet.title for sheet in _sheets(book)]
-        for title, reference in defined.destinations:
-            bounds = _bounds(str(reference).replace("$", ""))
-            if bounds and title in titles and bounds[:2] == bounds[2:]:
+        match = _TARGET.fullmatch(str(defined.attr_text))
+        bounds = _bounds(match[3].replace("$", "")) if match else None
+        if match and bounds:
+            title = match[2] or match[1].replace("''", "'")
+            if title in [sheet.title for sheet in _sheets(book)]:
                 return Spot(title, bounds[1], bounds[0])
     return None
 
@@ -149,9 +152,8 @@ def _bounds(reference: str) -> tuple[int, int, int, int] | None:
         left, top, right, bottom = range_boundaries(reference)
     except (ValueError, TypeError):
         return None
-    if left is None or top is None or right is None or bottom is None:
-        return None
-    return left, top, right, bottom
+    # A:C has no rows, and a damaged file may say A0.
+    return (left, top, right, bottom) if left and top and right and bottom else None
 
 
 def _beside_label(book: OpenBook, section: Section, entry: Entry) -> Spot | None:
@@ -216,7 +218,8 @@ def _table_named(book: OpenBook, section: Section) -> _Place | None:
         for table in sheet.tables.values():
             names = {str(table.displayName).casefold(), str(table.name).casefold()}
             bounds = _bounds(table.ref)
-            if section.table_name in names and bounds and bounds[2] <= MAX_COLUMNS:
+            has_headings = table.headerRowCount != 0 and bounds and bounds[2] <= MAX_COLUMNS
+            if section.table_name in names and bounds and has_headings:
                 left, top, right, bottom = bounds
                 totals = table.totalsRowCount or 0
                 return sheet, left, top, right, range(bottom - totals + 1, bottom + 1)

@@ -187,6 +187,13 @@ def test_damaged_xml_is_told_by_its_part(tmp_path):
     assert problems(path) == (f"damaged at xl/styles.xml; {REOPEN}",)
 
 
+def test_an_unknown_encoding_is_told_by_its_part(tmp_path):
+    path = rewritten(
+        make(tmp_path), "xl/styles.xml", lambda old: b'<?xml version="1.0" encoding="none"?><a/>'
+    )
+    assert problems(path) == (f"damaged at xl/styles.xml; {REOPEN}",)
+
+
 def test_a_workbook_that_openpyxl_cannot_read_is_told(tmp_path):
     path = rewritten(make(tmp_path), "xl/styles.xml", lambda old: b"<styleSheet/>")
     (line,) = problems(path)
@@ -247,6 +254,8 @@ def test_a_name_that_leads_nowhere_is_looked_up_by_its_label(tmp_path):
         book.defined_names["project_name"].attr_text = "Project!#REF!"
         book.defined_names["site_i_e"].attr_text = "Gone!$B$5"
         book.defined_names["site_s_1_g"].attr_text = "Site!$A:$XFD"
+        book.defined_names["site_sdc"].attr_text = "Site!$B$0"
+        book.defined_names["site_storeys"].attr_text = '"'
 
     assert read_workbook(edit(make(tmp_path), change)).input.project.name == "Alameda Warehouse"
 

@@ -173,7 +173,12 @@ def type_below_the_table(book):
     sheet.move_range("B9:O9", rows=30)
 
 
+def hide_headings(book):
+    book["Arrays"].tables["arrays_table"].headerRowCount = 0
+
+
 CHANGES = {
+    "a table without heading row": hide_headings,
     "rows inserted above": lambda book: [shift(book, s, 3) for s in ("Site", "Arrays", "Project")],
     "sheets renamed": lambda book: [rename(book, s, f"My {s}") for s in ("Site", "Arrays")],
     "sheets reordered": lambda book: book.move_sheet("Motions", -5),
