@@ -33,7 +33,7 @@ BOX = Border(left=HAIR, right=HAIR, top=HAIR, bottom=HAIR)
 LINE = Border(bottom=HAIR)
 OPEN = Protection(locked=False)
 WRAPPED = Alignment(vertical="center", horizontal="left", wrap_text=True)
-NUMBER_LIMIT = 1e9
+NUMBER_LIMIT = 1e8
 _ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 
 
@@ -75,16 +75,12 @@ def put_input(cell: Any, entry: Entry, value: object, unit: Unit | None) -> None
 
 def style_input(cell: Any, kind: type[Any]) -> None:
     """Give a cell the look of an input; texts keep what is typed, such as 3-5."""
-    is_number = kind in (int, float)
     cell.font = Font(name="Calibri", size=11, color="000000")
     cell.fill, cell.border, cell.protection = INPUT_FILL, BOX, OPEN
-    side = "right" if is_number else "left"
-    cell.alignment = Alignment(
-        vertical="center", horizontal=side, wrap_text=not is_number, indent=1
-    )
+    cell.alignment = Alignment(vertical="center", horizontal="left", wrap_text=True, indent=1)
     if kind is date:
         cell.number_format = "yyyy-mm-dd"
-    elif not is_number:
+    elif kind not in (int, float):
         cell.number_format = "@"
 
 

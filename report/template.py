@@ -27,7 +27,7 @@ BLANK_ROWS = 20
 SPARE_ROWS = 5
 LAST_ROW = 500
 BLOCK_HEADS = ("", "Value", "Unit", "Allowed", "Example", "Note")
-BLOCK_WIDTHS = (28, 36, 11, 36, 32, 48)
+BLOCK_WIDTHS = (28, 36, 13, 36, 32, 48)
 HINT_ROWS = ("Needed", "Allowed", "Example")
 PROVISIONS = "Provisions"
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 14, 14, 32
@@ -132,7 +132,7 @@ def _write_block_row(
     texts = (_allowed(entry, 1.0), _example(entry, unit), entry.cell.help)
     for column, text in enumerate(texts, start=4):
         style.put(sheet, row, column, text, color=style.GREY, italic=column == 5)
-    sheet.row_dimensions[row].height = 7 + 13 * _lines(texts, BLOCK_WIDTHS[3:])
+    sheet.row_dimensions[row].height = 9 + 13 * _lines(texts, BLOCK_WIDTHS[3:])
     _name(book, section.cell_name(entry.name), sheet, row, 2)
     style.validate(sheet, f"B{row}", entry, 1.0)
     if entry.quantity is None or unit is None:
@@ -205,11 +205,14 @@ def _write_inputs(
     unit: Unit | None,
     values: Sequence[object],
 ) -> None:
+    dimension = sheet.column_dimensions[get_column_letter(column)]
     for row, value in enumerate(values, start=header + 1):
         style.put_input(sheet.cell(row, column), entry, value, unit)
-        sheet.row_dimensions[row].height = 17
+        lines = _lines([str(value or "")], [max(int(dimension.width), _width(entry))])
+        height = sheet.row_dimensions[row].height or 0
+        sheet.row_dimensions[row].height = max(height, 3 + 14 * lines)
     # Below the prepared rows the column stays open: what is typed there is read as well.
-    sheet.column_dimensions[get_column_letter(column)].protection = style.OPEN
+    dimension.protection = style.OPEN
 
 
 def _write_help(
@@ -347,6 +350,6 @@ def _width(entry: Entry) -> int:
 def _lines(texts: Sequence[str], widths: Sequence[int]) -> int:
     """Return how many lines the tallest of some texts takes at its column's width."""
     return max(
-        math.ceil(max(len(text), 1) / (width - 1.5))
+        math.ceil(max(len(text), 1) / (1.2 * width))
         for text, width in zip(texts, widths, strict=True)
     )
