@@ -19,7 +19,7 @@ FOOT, INCH, POUND = 0.3048, 0.0254, 4.4482216152605
 S_DS_G = 1.566
 COUNT, SEED = 7, 1566
 ENGINEER = "Engineer of record"
-SOURCE = f"AC156 spectrum at the roof, seeded noise ({SEED})"
+SOURCE = f"AC156 spectrum at the roof, seed {SEED}"
 
 
 def main() -> None:
@@ -114,7 +114,7 @@ def _array(
         "slope_value": slope,
         "slope_unit": "degrees",
         "mu": mu,
-        "mu_report": "Example value; a test by ASTM G115 is needed",
+        "mu_report": "Example value, not a test",
         "construction": "Ballasted tray, 10 deg tilt",
         "weight_n": 5.5 * area_sqft * POUND,
         "cg_height_m": 9 * INCH,
