@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
@@ -88,6 +88,18 @@ def _svg(figure: Figure) -> str:
     return text[text.index("<svg") :]
 
 
+def _framed(height: float, left: float, right: float, top: float, bottom: float) -> Any:
+    """Return a figure and its axes with margins in inches: measuring them takes half the time."""
+    figure = Figure(figsize=(WIDTH_IN, height))
+    box = (
+        left / WIDTH_IN,
+        bottom / height,
+        1.0 - (left + right) / WIDTH_IN,
+        1.0 - (top + bottom) / height,
+    )
+    return figure, figure.add_axes(box)
+
+
 def _bare(axes: Axes) -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
@@ -105,14 +117,13 @@ def roof_plan(data: ProjectInput, us_first: bool) -> str:
     x0, x1 = min(r.x_from_m for r in drawn), max(r.x_to_m for r in drawn)
     y0, y1 = min(r.y_from_m for r in drawn), max(r.y_to_m for r in drawn)
     span = max(x1 - x0, y1 - y0)
-    height = min(max(WIDTH_IN * (y1 - y0) / max(x1 - x0, 1e-9), 2.4), 6.4) + 0.4
+    height = min(max((WIDTH_IN - 0.6) * (y1 - y0) / max(x1 - x0, 1e-9), 2.0), 6.0)
     with style():
-        figure = Figure(figsize=(WIDTH_IN, height), layout="constrained")
-        axes = figure.subplots()
+        figure, axes = _framed(height + 0.55, 0.5, 0.1, 0.1, 0.45)
         _objects(axes, data, span)
         for array in data.arrays:
             _array(axes, array.id, array.rectangle, array.downslope_deg, array.slope_rad)
-        _gaps(axes, data, shapes, unit)
+        _gaps(axes, data, shapes, span)
         _plan_axes(axes, unit, (x0, x1, y0, y1), span)
         return _svg(figure)
 
@@ -148,14 +159,28 @@ def _objects(axes: Axes, data: ProjectInput, span: float) -> None:
             continue
         axes.add_patch(_box(shape, linewidth=0.7, edgecolor=INK, **_FILLS[item.kind]))
         wide, tall = shape.x_to_m - shape.x_from_m, shape.y_to_m - shape.y_from_m
+        x, y = (shape.x_from_m + shape.x_to_m) / 2, (shape.y_from_m + shape.y_to_m) / 2
+        upright = tall > 3 * wide
+        room = (tall if upright else wide) / span
+        if room < 0.012 * len(item.id) + 0.04:  # no room within: below it
+            axes.text(
+                x,
+                shape.y_from_m - 0.008 * span,
+                _tick_text(item.id),
+                ha="center",
+                va="top",
+                fontsize=7,
+            )
+            continue
         axes.text(
-            (shape.x_from_m + shape.x_to_m) / 2,
-            (shape.y_from_m + shape.y_to_m) / 2,
-            item.id,
+            # Off the middle of an edge, where clearances are measured.
+            x if tall > wide or room < 0.6 else shape.x_from_m + 0.2 * wide,
+            y if wide > tall or room < 0.6 else shape.y_from_m + 0.2 * tall,
+            _tick_text(item.id),
             ha="center",
             va="center",
             fontsize=7,
-            rotation=90 if tall > 3 * wide else 0,
+            rotation=90 if upright else 0,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
         )
 
@@ -181,12 +206,17 @@ def _array(axes: Axes, name: str, shape: Rectangle, downslope_deg: float, slope:
             linewidth=1.0,
         )
     )
-    label = f"{number(math.degrees(slope), 2)}°"
-    axes.text(x + 2.1 * dx, y + 2.1 * dy, label, ha="center", va="center", fontsize=7)
+    axes.annotate(
+        f"{number(math.degrees(slope), 2)}°",
+        (x + 0.6 * dx, y + 0.6 * dy),
+        (4 * abs(math.sin(math.radians(downslope_deg))), 4),
+        textcoords="offset points",
+        fontsize=7,
+    )
 
 
 def _gaps(
-    axes: Axes, data: ProjectInput, shapes: Mapping[str, Rectangle | None], unit: Unit
+    axes: Axes, data: ProjectInput, shapes: Mapping[str, Rectangle | None], span: float
 ) -> None:
     known = {name.casefold(): shape for name, shape in shapes.items()}
     for count, row in enumerate(data.clearances, start=1):
@@ -194,6 +224,8 @@ def _gaps(
         if near is None or far is None:
             continue
         (xa, ya), (xb, yb) = _closest(near, far)
+        aside = 0.02 * span
+        across = abs(xb - xa) >= abs(yb - ya)
         axes.annotate(
             "",
             (xa, ya),
@@ -207,8 +239,8 @@ def _gaps(
             },
         )
         axes.text(
-            (xa + xb) / 2,
-            (ya + yb) / 2,
+            (xa + xb) / 2 + (0.0 if across else aside),
+            (ya + yb) / 2 + (aside if across else 0.0),
             str(count),
             fontsize=6.5,
             ha="center",
@@ -268,11 +300,16 @@ class Spectra:
 def spectra(found: Sequence[Spectra]) -> str:
     """Return the spectra of each motion thin, mean and target thick, a panel a component."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.05 * len(found)), layout="constrained")
+        height = 2.3 * len(found)
+        figure = Figure(figsize=(WIDTH_IN, height))
+        figure.subplots_adjust(
+            left=0.065, right=0.99, top=1 - 0.22 / height, bottom=0.42 / height, hspace=0.42
+        )
         for axes, part in zip(np.atleast_1d(figure.subplots(len(found), 1)), found, strict=True):
+            each = _Broken()
             for row in part.sa_g:
-                axes.plot(part.periods_s, row, color=GREY, linewidth=0.45)
-            axes.plot([], [], color=GREY, linewidth=0.45, label="each motion")
+                each.add(part.periods_s, row)
+            axes.plot(each.x, each.y, color=GREY, linewidth=0.45, label="each motion")
             axes.plot(part.periods_s, part.mean_g, color=ACCENT, linewidth=1.8, label="mean")
             axes.plot(
                 part.periods_s,
@@ -317,13 +354,15 @@ def histories(motions: Sequence[MotionRun], us_first: bool) -> str:
     """
     grid = _Grid(motions, Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si)
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.06 * grid.rows + 0.3))
+        figure = Figure(figsize=(WIDTH_IN, 0.92 * grid.rows + 0.3))
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         axes.set_axis_off()
         axes.set_xlim(-0.08 * grid.columns, grid.columns)
-        axes.set_ylim(-grid.rows - 0.26, 0.0)
+        axes.set_ylim(-grid.rows - 0.3, 0.0)
+        _rules(axes, grid, len(motions))
+        _traces(axes, grid, motions)
         for index, run in enumerate(motions):
-            _panel(axes, grid, index, run, us_first)
+            _titles(axes, grid, index, run, us_first)
         return _svg(figure)
 
 
@@ -333,7 +372,7 @@ class _Grid:
     def __init__(self, motions: Sequence[MotionRun], unit: Unit) -> None:
         results = [run.governing.result for run in motions]
         self.unit = unit
-        self.columns = 2 if len(motions) <= 8 else 3
+        self.columns = 2 if len(motions) <= 4 else 3
         self.rows = math.ceil(len(motions) / self.columns)
         self.last = len(motions) - self.columns  # panels from here on have none below them
         high = np.nanmax([0.0, *(r.down_m for r in results)]) / unit.si
@@ -353,46 +392,70 @@ class _Grid:
         return -(index // self.columns) - 0.95 + 0.72 * share
 
 
-def _panel(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool) -> None:
-    left, right = grid.x(index, 0.0), grid.x(index, grid.seconds)
-    for tick in grid.ticks:
-        level = grid.y(index, tick)
-        axes.plot([left, right], [level, level], color=PALE if tick else GREY, linewidth=0.5)
-        if index % grid.columns == 0:
-            label = number(tick, 0 if abs(grid.ticks[1] - grid.ticks[0]) >= 1 else 1)
-            axes.text(left - 0.012, level, label, ha="right", va="center", fontsize=7)
-    if index >= grid.last:
-        _times(axes, grid, index)
-    if index == 0:
-        axes.text(left - 0.012, -0.13, f"u [{grid.unit.symbol}]", ha="right", fontsize=7.5)
-    polarity = "as recorded" if run.governing.sign > 0 else "reversed"
-    top = grid.y(index, grid.high) + 0.045
-    axes.text(left, top, f"{_tick_text(run.motion.id)}, {polarity}", weight="semibold")
-    axes.text(right, top, _prd_text(run, us_first), ha="right")
-    _trace(axes, grid, index, run)
+def _rules(axes: Axes, grid: _Grid, count: int) -> None:
+    """Draw the levels and the ticks of all panels, each kind as one broken line."""
+    levels, zeros, ticks = _Broken(), _Broken(), _Broken()
+    for index in range(count):
+        left, right = grid.x(index, 0.0), grid.x(index, grid.seconds)
+        for value in grid.ticks:
+            level = grid.y(index, value)
+            (levels if value else zeros).add([left, right], [level, level])
+            if index % grid.columns == 0:
+                label = number(value, 0 if abs(grid.ticks[1] - grid.ticks[0]) >= 1 else 1)
+                axes.text(left - 0.012, level, label, ha="right", va="center", fontsize=7)
+        if index >= grid.last:
+            _times(axes, grid, index, ticks)
+    for line, color in ((levels, PALE), (zeros, GREY), (ticks, INK)):
+        axes.plot(line.x, line.y, color=color, linewidth=0.5, clip_on=False)
+    axes.text(grid.x(0, 0.0) - 0.012, -0.13, f"u [{grid.unit.symbol}]", ha="right", fontsize=7.5)
 
 
-def _times(axes: Axes, grid: _Grid, index: int) -> None:
+class _Broken:
+    """A line in pieces: one path instead of many."""
+
+    def __init__(self) -> None:
+        self.x: list[float] = []
+        self.y: list[float] = []
+
+    def add(self, x: Iterable[float], y: Iterable[float]) -> None:
+        """Add a piece."""
+        self.x += [*x, math.nan]
+        self.y += [*y, math.nan]
+
+
+def _times(axes: Axes, grid: _Grid, index: int, ticks: _Broken) -> None:
     level = grid.y(index, grid.low)
     for t in MaxNLocator(5).tick_values(0.0, grid.seconds):
         if 0.0 <= t <= grid.seconds:
             at = grid.x(index, float(t))
-            axes.plot([at, at], [level, level - 0.025], color=INK, linewidth=0.6)
+            ticks.add([at, at], [level, level - 0.025])
             text = f"{t:g} s" if t else "0"
             axes.text(at, level - 0.05, text, ha="center", va="top", fontsize=7)
 
 
-def _trace(axes: Axes, grid: _Grid, index: int, run: MotionRun) -> None:
-    history, result = run.governing.history, run.governing.result
-    if math.isnan(result.prd_m):
-        middle = grid.y(index, (grid.low + grid.high) / 2)
-        axes.text(grid.x(index, grid.seconds / 2), middle, "no value", ha="center", va="center")
-        return
-    t, u = envelope(history.t_s, history.u_m / grid.unit.si)
-    axes.plot(grid.x(index, t), grid.y(index, u), color=ACCENT, linewidth=0.9)
-    peak = (result.down_m if result.down_m >= result.up_m else -result.up_m) / grid.unit.si
-    at = grid.x(index, result.t_prd_s)
-    axes.plot([at], [grid.y(index, peak)], marker="o", markersize=3.2, color=INK)
+def _traces(axes: Axes, grid: _Grid, motions: Sequence[MotionRun]) -> None:
+    """Draw all histories as one broken line, and all peaks."""
+    line, peaks = _Broken(), _Broken()
+    for index, run in enumerate(motions):
+        history, result = run.governing.history, run.governing.result
+        if math.isnan(result.prd_m):
+            middle = grid.y(index, (grid.low + grid.high) / 2)
+            axes.text(grid.x(index, grid.seconds / 2), middle, "no value", ha="center", va="center")
+            continue
+        t, u = envelope(history.t_s, history.u_m / grid.unit.si)
+        line.add(grid.x(index, t), grid.y(index, u))
+        peak = (result.down_m if result.down_m >= result.up_m else -result.up_m) / grid.unit.si
+        peaks.add([grid.x(index, result.t_prd_s)], [grid.y(index, peak)])
+    axes.plot(line.x, line.y, color=ACCENT, linewidth=0.9, clip_on=False)
+    axes.plot(peaks.x, peaks.y, linestyle="", marker="o", markersize=3.2, color=INK, clip_on=False)
+
+
+def _titles(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool) -> None:
+    polarity = "+" if run.governing.sign > 0 else "−"
+    top = grid.y(index, grid.high) + 0.045
+    name = f"{_tick_text(run.motion.id)} {polarity}"
+    axes.text(grid.x(index, 0.0), top, name, weight="semibold")
+    axes.text(grid.x(index, grid.seconds), top, _prd_text(run, us_first), ha="right")
 
 
 def _prd_text(run: MotionRun, us_first: bool) -> str:
@@ -422,23 +485,40 @@ def comparison(assessment: Assessment, us_first: bool) -> str:
     first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
     arrays = assessment.arrays
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.5 + 0.55 * len(arrays)), layout="constrained")
-        axes = figure.subplots()
+        height = 1.3 + 0.5 * len(arrays)
+        names = [_tick_text(one.array.id) for one in arrays]
+        figure, axes = _framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, found in enumerate(arrays):
             _compare(axes, row, found, first, labelled=row == 0)
-        axes.set_yticks(range(len(arrays)), [_tick_text(a.array.id) for a in arrays])
+        axes.set_yticks(range(len(arrays)), names)
         axes.set_ylim(len(arrays) - 0.45, -0.55)
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
         _second_scale(axes, first, second)
         axes.grid(True, axis="x")
         axes.set_axisbelow(True)
-        figure.legend(loc="outside lower center", ncols=5, handlelength=2.2)
+        marks, names = axes.get_legend_handles_labels()
+        order = sorted(range(len(names)), key=lambda k: _LEGEND.index(names[k]))
+        figure.legend(
+            [marks[k] for k in order],
+            [names[k] for k in order],
+            loc="lower center",
+            ncols=5,
+            handlelength=2.2,
+        )
         return _svg(figure)
+
+
+_LEGEND = ("prescriptive", "floor", "PRD of each motion", "mean", "design")
 
 
 def _tick_text(name: str) -> str:
     return name if len(name) <= 14 else f"{name[:13]}…"
+
+
+def _label_in(names: Sequence[str]) -> float:
+    """Return the room that tick labels need [in]."""
+    return 0.2 + 0.06 * max(map(len, names))
 
 
 def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
@@ -511,8 +591,11 @@ def clearances(assessment: Assessment, us_first: bool) -> str:
     required = [gap.required_m / first.si for gap in gaps]
     rows = np.arange(len(gaps), dtype=float)
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 1.2 + 0.42 * len(gaps)), layout="constrained")
-        axes = figure.subplots()
+        names = [
+            f"{count}  {_tick_text(gap.clearance.array)} to {_tick_text(gap.clearance.object)}"
+            for count, gap in enumerate(gaps, start=1)
+        ]
+        figure, axes = _framed(1.3 + 0.4 * len(gaps), _label_in(names), 0.1, 0.48, 0.75)
         axes.barh(
             rows - 0.18,
             provided,
@@ -532,17 +615,18 @@ def clearances(assessment: Assessment, us_first: bool) -> str:
             hatch="///",
             label="required",
         )
-        names = [
-            f"{count}  {_tick_text(gap.clearance.array)} to {_tick_text(gap.clearance.object)}"
-            for count, gap in enumerate(gaps, start=1)
-        ]
         axes.set_yticks(rows, names)
         axes.set_ylim(len(gaps) - 0.45, -0.55)
         for row, gap in zip(rows, gaps, strict=True):
-            text = "no value  NG" if math.isnan(gap.required_m) else "OK" if gap.ok else "NG"
+            text = "no value: NG" if math.isnan(gap.required_m) else "OK" if gap.ok else "NG"
             reach = np.nanmax([provided[int(row)], required[int(row)]])
-            axes.text(
-                reach, row, f"  {text}", va="center", weight="normal" if gap.ok else "semibold"
+            axes.annotate(
+                text,
+                (reach, row),
+                (5, 0),
+                textcoords="offset points",
+                va="center",
+                weight="normal" if gap.ok else "semibold",
             )
         axes.set_xlabel(f"Separation [{first.symbol}]")
         axes.margins(x=0.12)
@@ -550,5 +634,5 @@ def clearances(assessment: Assessment, us_first: bool) -> str:
         _second_scale(axes, first, second)
         axes.grid(True, axis="x")
         axes.set_axisbelow(True)
-        figure.legend(loc="outside lower center", ncols=2)
+        figure.legend(loc="lower center", ncols=2)
         return _svg(figure)

@@ -203,7 +203,7 @@ def _histories(found: ArrayAssessment, us_first: bool) -> Iterator[Picture]:
         chosen = found.motions[start : start + PANELS]
         yield Picture(
             svg=figures.histories(chosen, us_first),
-            caption=f"Array {found.array.id}: horizontal relative displacement u, positive down "
-            "the slope, in the polarity that counts; the dot marks the PRD.",
+            caption=f"Array {found.array.id}: displacement u relative to the roof, positive down "
+            "the slope, in the polarity that counts. Dot: PRD.",
             alt=f"Relative displacement histories of array {found.array.id}",
         )

@@ -25,7 +25,7 @@ LIBRARIES = (
     "weasyprint",
 )
 METHOD = "exact, event by event, on straight lines between samples"
-_WIDTHS = (8, 24, 24, 10, 26)
+_WIDTHS = (7, 27, 34, 8, 40)
 _RECORD_WIDTHS = (10, 12, 9, 10, 10, 64)
 _HEADS = ("Cell", "Asked for", "Typed", "Unit", "Taken as")
 

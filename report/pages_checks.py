@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
+from markupsafe import Markup, escape
+
 from report.assess import ClearanceCheck
-from report.pages_parts import Column, Row, Scene, Table, check_value, dagger, ratio, verdict
+from report.equations import symbol
+from report.pages_parts import (
+    NG,
+    OK,
+    Column,
+    Row,
+    Scene,
+    Table,
+    check_value,
+    dagger,
+    ratio,
+    verdict,
+)
 from report.units import Quantity, number
 from solver.provisions import OVERRIDABLE, SEPARATION_KEYS, Check
 
@@ -14,33 +27,35 @@ from solver.provisions import OVERRIDABLE, SEPARATION_KEYS, Check
 def clearance_table(scene: Scene, *, brief: bool) -> Table:
     """Return the clearances, required against provided."""
     say = scene.say
+    factor = " × I" if scene.assessment.rules.importance_in_separation else ""
     more = (
         ()
         if brief
         else (
-            Column(head="Governing array", align="left", share=1.1),
-            *say.columns("Its design displ.", share=0.8),
-            Column(head="Factor × I", share=0.7),
-            Column(head="Clause", align="left", share=1.2),
+            *say.columns("Displ.", share=0.75),
+            Column(head="Of", align="left", share=0.8),
+            Column(head="Factor" + factor, share=0.85),
+            Column(head="Clause", align="left", share=1.9),
         )
     )
     return Table(
         caption="Clearances: required and provided separation",
         columns=(
-            Column(head="No.", share=0.5),
+            Column(head="No.", share=0.55),
             Column(head="From", align="left", share=1.0),
             Column(head="To", align="left", share=1.1),
-            Column(head="Condition", align="left", share=2.2 if brief else 1.6),
+            Column(head="Condition", align="left", share=2.2 if brief else 2.3),
             *more,
             *say.columns("Required", share=0.85),
             *say.columns("Provided", share=0.85),
             Column(head="D/C", share=0.7),
-            Column(head="Verdict", align="center", share=0.9),
+            Column(head="Verdict", align="center", share=1.0),
         ),
         rows=tuple(
             _clearance_row(scene, count, gap, brief)
             for count, gap in enumerate(scene.assessment.clearances, start=1)
         ),
+        kind="" if brief else "compact",
     )
 
 
@@ -52,8 +67,8 @@ def _clearance_row(scene: Scene, count: int, gap: ClearanceCheck, brief: bool) -
         ()
         if brief
         else (
-            gap.governing_array,
             *say.cells(gap.design_m),
+            gap.governing_array,
             number(gap.factor, 2) + scene.mark(key),
             scene.clause(key),
         )
@@ -96,18 +111,23 @@ def failed_limits(scene: Scene) -> Sequence[str]:
     ]
 
 
-def check_table(caption: str, scene: Scene, checks: Sequence[tuple[str, Check]]) -> Table:
-    """Return limits against what the project has."""
+def check_table(
+    caption: str,
+    scene: Scene,
+    checks: Sequence[tuple[str, Check]],
+    words: tuple[str, str] = (OK, NG),
+) -> Table:
+    """Return limits against what the project has; `words` say kept and not kept."""
     return Table(
         caption=caption,
         columns=(
-            Column(head="On", align="left", share=1.1),
-            Column(head="Limit on", align="left", share=2.8),
-            Column(head="Found", share=1.7),
+            Column(head="On", align="left", share=0.9),
+            Column(head="Limit on", align="left", share=3.1),
+            Column(head="Found", share=1.6),
             Column(head="", align="center", share=0.3),
-            Column(head="Limit", share=1.8),
-            Column(head="Clause", align="left", share=1.6),
-            Column(head="Verdict", align="center", share=0.8),
+            Column(head="Limit", share=1.7),
+            Column(head="Clause", align="left", share=1.7),
+            Column(head="Verdict", align="center", share=0.9),
         ),
         rows=tuple(
             Row(
@@ -118,7 +138,7 @@ def check_table(caption: str, scene: Scene, checks: Sequence[tuple[str, Check]])
                     "≤" if check.at_most else "≥",
                     check_value(check, check.limit, scene.say) + dagger(check.provision),
                     check.provision.clause + dagger(check.provision),
-                    verdict(check.ok),
+                    verdict(check.ok, words),
                 )
             )
             for place, check in checks
@@ -167,7 +187,7 @@ def _interconnection(scene: Scene) -> Table:
         columns=(
             Column(head="Array", align="left", share=1.2),
             *say.columns("Weight W", Quantity.WEIGHT),
-            *say.columns("Lighter part W1 = W/2", Quantity.WEIGHT),
+            *say.columns(Markup("Lighter part {} = W/2").format(symbol("W_1")), Quantity.WEIGHT),
             *say.columns("Strength required", Quantity.WEIGHT),
             Column(head="Clause", align="left", share=1.4),
         ),
@@ -205,7 +225,7 @@ def provisions(scene: Scene) -> Mapping[str, object]:
             rows=tuple(
                 Row(
                     cells=(
-                        OVERRIDABLE[key],
+                        _sentence_case(OVERRIDABLE[key]),
                         f"{provision.value:.4g}" + dagger(provision),
                         provision.clause,
                         _standing(provision.reason, provision.verified),
@@ -223,19 +243,26 @@ def provisions(scene: Scene) -> Mapping[str, object]:
                 Column(head="Reason given in the workbook", align="left", share=4.0),
             ),
             rows=tuple(
-                Row(cells=(OVERRIDABLE[row.provision], f"{row.value:.6g}†‡", row.reason))
+                Row(
+                    cells=(
+                        _sentence_case(OVERRIDABLE[row.provision]),
+                        f"{row.value:.6g}†‡",
+                        row.reason,
+                    )
+                )
                 for row in scene.data.overrides
             ),
         ),
     }
 
 
+def _sentence_case(text: str) -> Markup:
+    """Set a provision's meaning as a person would write it."""
+    plain = escape(text[0].upper() + text[1:]).replace(" - ", " − ").replace("^2", "²")
+    return plain.replace("S_DS", symbol("S_DS")).replace("W1", symbol("W_1"))
+
+
 def _standing(reason: str, verified: bool) -> str:
     if reason:
         return "overridden, see below"
     return "confirmed" if verified else "to be verified"
-
-
-def has_clearances(scene: Scene) -> bool:
-    """Whether there is anything to draw."""
-    return any(not math.isnan(gap.clearance.provided_m) for gap in scene.assessment.clearances)

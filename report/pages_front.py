@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from markupsafe import Markup
+
 from report.assess import ArrayAssessment
+from report.equations import symbol
 from report.pages_checks import all_checks, clearance_table, failed_limits
 from report.pages_parts import Column, Row, Scene, Table, ratio, shortened, verdict
 from report.units import number
@@ -95,8 +98,14 @@ def _numbers(scene: Scene) -> Sequence[tuple[str, str, str]]:
     return (
         (
             "Seismic demand",
-            f"S_DS = {number(site.s_ds, 3)} g, SDC {site.sdc.value}, "
-            f"I_e = {number(site.i_e, 2)}, risk category {site.risk_category.value}",
+            Markup("{} = {} g, SDC {}, {} = {}, risk category {}").format(
+                symbol("S_DS"),
+                number(site.s_ds, 3),
+                site.sdc.value,
+                symbol("I_e"),
+                number(site.i_e, 2),
+                site.risk_category.value,
+            ),
             "input",
         ),
         (
@@ -122,7 +131,7 @@ def _array_table(scene: Scene) -> Table:
     return Table(
         caption="Arrays: displacement by analysis, prescriptive and design",
         columns=(
-            Column(head="Array", align="left", share=1.3),
+            Column(head="Array", align="left", share=1.2),
             Column(head="Slope", unit="deg", share=0.8),
             Column(head="μ", share=0.7),
             *say.columns("Analysis"),
@@ -130,8 +139,8 @@ def _array_table(scene: Scene) -> Table:
             *say.columns("Design"),
             Column(head="Governs", align="left", share=1.2),
             Column(head="Limits", align="center", share=0.9),
-            Column(head="Largest D/C", share=1.0),
-            Column(head="Verdict", align="center", share=1.0),
+            Column(head="D/C", share=0.9),
+            Column(head="Verdict", align="center", share=1.1),
         ),
         rows=tuple(_array_row(scene, found) for found in scene.assessment.arrays),
         notes=(

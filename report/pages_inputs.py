@@ -37,7 +37,15 @@ def _site(scene: Scene) -> Table:
             Column(head="From", align="left", share=1.0),
         ),
         rows=tuple(
-            Row(cells=(words, symbol(name) if name else "", value, reference, origin))
+            Row(
+                cells=(
+                    words,
+                    symbol(name) if name else "",
+                    value,
+                    reference,
+                    "—" if value == NOT_GIVEN else origin,
+                )
+            )
             for words, name, value, reference, origin in _parameters(scene)
         ),
     )
@@ -108,14 +116,15 @@ def _plain(value: float | None) -> str:
 
 def _s_ds_note(site: Site) -> str:
     if site.s_ds_g is None:
-        return "S_DS is computed from S_S and F_a in full precision and rounded only for print."
+        return Markup(
+            "{} is computed from {} and {} in full precision, rounded only for print."
+        ).format(symbol("S_DS"), symbol("S_S"), symbol("F_a"))
     if site.s_s_g is None or site.f_a is None:
-        return "S_DS is taken as given in the workbook."
+        return Markup("{} is taken as given in the workbook.").format(symbol("S_DS"))
     other = 2.0 / 3.0 * site.f_a * site.s_s_g
-    return (
-        f"S_DS is taken as given in the workbook. From S_S and F_a it would be "
-        f"{number(other, 3)} g, which is not used."
-    )
+    return Markup(
+        "{} is taken as given in the workbook. From {} and {} it would be {} g, not used here."
+    ).format(symbol("S_DS"), symbol("S_S"), symbol("F_a"), number(other, 3))
 
 
 def _arrays(scene: Scene) -> Table:
@@ -210,8 +219,3 @@ def _objects(scene: Scene) -> Table:
 
 def _optional(scene: Scene, value_m: float | None, quantity: Quantity) -> tuple[str, str]:
     return ("—", "—") if value_m is None else scene.say.cells(value_m, quantity)
-
-
-def unit_note() -> Markup:
-    """Return the line on rounding."""
-    return Markup("Values are kept in full precision and rounded only for print.")

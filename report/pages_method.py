@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from report.assess import ArrayAssessment, ClearanceCheck
-from report.equations import formula, fraction
+from report.equations import formula, fraction, symbol
 from report.pages_parts import Line, Scene, nan_is_worst
 from report.units import Quantity, number
 from solver.provisions import SEPARATION_KEYS, Basis, Neighbour
@@ -23,12 +23,12 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
     return (
         Line(
             formula=formula(r"N=m\left[(g+a_v)\cos\theta+a_h\sin\theta\right]"),
-            reference="Eq. 6, with a_v added",
+            reference=Markup("Eq. 6, with {} added").format(symbol("a_v")),
             steps=((f"Roof at rest: N/(m g) = cos {degrees}°", number(math.cos(theta), 4)),),
         ),
         Line(
             formula=formula(r"G=m\left[(g+a_v)\sin\theta-a_h\cos\theta\right]"),
-            reference="Eq. 7, with a_v added",
+            reference=Markup("Eq. 7, with {} added").format(symbol("a_v")),
             steps=((f"Roof at rest: G/(m g) = sin {degrees}°", number(math.sin(theta), 4)),),
         ),
         Line(
@@ -56,13 +56,13 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
         ),
         Line(
             formula=formula(r"a_{down}=-g\tan(\phi-\theta)"),
-            reference="Eqs. 6–9, a_v = 0",
+            reference=Markup("Eqs. 6–9, {} = 0").format(symbol("a_v")),
             steps=((f"−g tan({friction}° − {degrees}°)", f"{number(-down, 3)} g"),),
             note="Below this horizontal roof acceleration sliding down the slope begins.",
         ),
         Line(
             formula=formula(r"a_{up}=g\tan(\phi+\theta)"),
-            reference="Eqs. 6–9, a_v = 0",
+            reference=Markup("Eqs. 6–9, {} = 0").format(symbol("a_v")),
             steps=(
                 (
                     f"g tan({friction}° + {degrees}°)",

@@ -76,16 +76,17 @@ def motion_table(scene: Scene, motions: Sequence[Motion]) -> Table:
         caption="Roof motions as run, after scaling",
         columns=(
             Column(head="Motion", align="left", share=1.0),
-            Column(head="Source", align="left", share=3.0),
-            Column(head="Peak horizontal", unit="g", share=1.1),
-            Column(head="Peak vertical", unit="g", share=1.0),
+            Column(head="Source", align="left", share=4.2),
+            Column(head="Peak, hor.", unit="g", share=0.9),
+            Column(head="Peak, ver.", unit="g", share=0.9),
             Column(head="Step", unit="s", share=0.7),
             Column(head="Duration", unit="s", share=0.9),
-            Column(head="Scaling", align="left", share=1.2),
+            Column(head="Scaling", align="left", share=1.3),
             Column(head="Factor", share=0.8),
             Column(head="Polarity", align="center", share=0.9),
         ),
         rows=tuple(rows),
+        kind="compact",
     )
 
 

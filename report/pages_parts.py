@@ -81,8 +81,8 @@ class Table:
         )
 
     @property
-    def body(self) -> tuple[tuple[str, tuple[tuple[str, int, str], ...]], ...]:
-        """Rows as style and cells, each with how many columns it spans and its alignment."""
+    def body(self) -> tuple[tuple[str, tuple[tuple[str, str, int, str], ...]], ...]:
+        """Rows as style and cells: text, marks behind it, columns spanned, alignment."""
         aligns = [column.align for column in self.columns]
         return tuple((row.kind, tuple(_placed(row.cells, aligns))) for row in self.rows)
 
@@ -92,15 +92,19 @@ class Table:
         return any(column.unit for column in self.columns)
 
 
-def _placed(cells: Sequence[str | Wide], aligns: Sequence[str]) -> Iterator[tuple[str, int, str]]:
+def _placed(
+    cells: Sequence[str | Wide], aligns: Sequence[str]
+) -> Iterator[tuple[str, str, int, str]]:
     at = 0
     for cell in cells:
         if isinstance(cell, Wide):
-            yield cell.text, cell.span, "left"
+            yield cell.text, "", cell.span, "left"
             at += cell.span
-        else:
-            yield cell, 1, aligns[at]
-            at += 1
+            continue
+        # Behind a numeral marks hang, so that the digits stay below each other.
+        text = cell.rstrip("†‡") if aligns[at] == "right" else cell
+        yield text, cell[len(text) :], 1, aligns[at]
+        at += 1
     if at != len(aligns):
         raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
 
@@ -197,9 +201,10 @@ def ratio(value: float) -> str:
     return number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)
 
 
-def verdict(ok: bool) -> Markup:
+def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
     """Return OK or NG, the latter not to be overlooked."""
-    return Markup('<b class="{}">{}</b>').format(*(("ok", OK) if ok else ("ng", NG)))
+    good, bad = words
+    return Markup('<b class="{}">{}</b>').format(*(("ok", good) if ok else ("ng", bad)))
 
 
 def dagger(provision: Provision) -> str:

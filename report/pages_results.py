@@ -56,9 +56,9 @@ def _peaks(scene: Scene, found: ArrayAssessment) -> Table:
         ),
         rows=(*rows, *_statistics(scene, found)),
         notes=(
-            "Horizontal, relative to the roof; positive down the slope. PRD in bold: the "
-            "polarity that counts. Stops: how often the sliding speed came to zero. "
-            "N min: least normal force over the record.",
+            "Horizontal, relative to the roof, positive down the slope; + as recorded, "
+            "− reversed, bold what counts. Stops: of the sliding, reversals included. "
+            "N min: least normal force.",
         ),
         kind="compact",
     )
@@ -119,7 +119,9 @@ def comparison(scene: Scene) -> Mapping[str, object]:
     ]
     return {
         "table": _ratios(scene),
-        "routes": check_table("Whether the prescriptive route is open", scene, checks),
+        "routes": check_table(
+            "Whether the prescriptive route is open", scene, checks, ("kept", "not kept")
+        ),
         "sentences": tuple(_sentence(scene, found) for found in scene.assessment.arrays),
     }
 
