@@ -6,6 +6,7 @@ Knows no values of a project: `report.pages_method` puts numbers beside the symb
 from __future__ import annotations
 
 import re
+import warnings
 from dataclasses import dataclass
 from functools import cache
 
@@ -32,11 +33,7 @@ class Formula:
 @cache
 def formula(latex: str) -> Formula:
     """Return a LaTeX formula as a picture."""
-    from ziamath.config import config
-    from ziamath.zmath import Latex
-
-    config.svg2 = False  # outlines in place: symbols that are used again cost the page far more
-    svg: str = Latex(latex, size=SIZE_PT).svg()
+    svg = _typeset(latex)
     found = _SIZE.match(svg)
     outlines = _PATH.findall(svg)
     # Fraction bars are rectangles.
@@ -51,6 +48,16 @@ def formula(latex: str) -> Formula:
         height_pt=float(height),
         latex=latex,
     )
+
+
+def _typeset(latex: str) -> str:
+    with warnings.catch_warnings():
+        # On import ziamath asks for its font in a way that Python is going to drop.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        from ziamath.config import config
+        from ziamath.zmath import Latex
+    config.svg2 = False  # outlines in place: symbols that are used again cost the page far more
+    return str(Latex(latex, size=SIZE_PT).svg())
 
 
 def _bar(tag: str) -> list[str]:

@@ -35,7 +35,7 @@ def clearance_table(scene: Scene, *, brief: bool) -> Table:
             *say.columns("Displ.", share=0.75),
             Column(head="Of", align="left", share=0.8),
             Column(head="Factor" + factor, share=0.85),
-            Column(head="Clause", align="left", share=1.9),
+            Column(head="Clause", align="left", share=2.0),
         )
     )
     return Table(
@@ -207,6 +207,7 @@ def _interconnection(scene: Scene) -> Table:
             )
             for found in scene.assessment.arrays
         ),
+        notes=("The lighter side of any section through an array is at most half of it.",),
     )
 
 

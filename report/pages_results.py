@@ -57,8 +57,7 @@ def _peaks(scene: Scene, found: ArrayAssessment) -> Table:
         rows=(*rows, *_statistics(scene, found)),
         notes=(
             "Horizontal, relative to the roof, positive down the slope; + as recorded, "
-            "− reversed, bold what counts. Stops: of the sliding, reversals included. "
-            "N min: least normal force.",
+            "− reversed, bold what counts. Stops include reversals. N min: least normal force.",
         ),
         kind="compact",
     )
@@ -137,11 +136,12 @@ def _ratios(scene: Scene) -> Table:
             *say.columns("Analysis"),
             *say.columns("Floor"),
             *say.columns("Design"),
-            Column(head="Analysis / prescr.", share=1.1),
-            Column(head="Design / prescr.", share=1.1),
-            Column(head="Governs", align="left", share=1.1),
+            Column(head="Analysis / prescr.", share=1.2),
+            Column(head="Design / prescr.", share=1.2),
+            Column(head="Governs", align="left", share=1.4),
         ),
         rows=tuple(_ratio_row(scene, found) for found in scene.assessment.arrays),
+        kind="compact",
     )
 
 
