@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver import kernels
+from solver import kernels, rivals
 from solver.model import (
     Event,
     EventKind,
@@ -192,10 +192,10 @@ def _exact_kernel(
 
 def _paper(scene: _Scene, samples: Floats, n_min_g: float) -> SlideResult:
     c = scene
-    code, u_max, u_min, u_end, v_end, t_prd, n_stops, t_uplift = kernels.slide_paper(
+    code, u_max, u_min, u_end, v_end, t_prd, n_stops, t_uplift = rivals.slide_paper(
         c.ax, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, c.substeps, samples
     )
-    if code == kernels.UPLIFTED:
+    if code == rivals.UPLIFTED:
         return _uplift(n_min_g, t_uplift)
     return _result(u_max, u_min, u_end, v_end, t_prd, n_stops, n_min_g)
 

@@ -48,11 +48,10 @@ def cosine(sn):
 
 def run_all(compiled):
     """Return the outcome of every scene by every kernel, compiled or as plain Python."""
-    exact, paper, normal, oscillator = (
+    exact, normal, oscillator = (
         f if compiled else getattr(f, "py_func", f)
         for f in (
             kernels.slide_exact,
-            kernels.slide_paper,
             kernels.least_normal,
             kernels.oscillator_peaks,
         )
@@ -64,8 +63,6 @@ def run_all(compiled):
             events = np.full((8, 3), np.nan)
             found += exact(ax, az, 0.25, sn, cs, mu, G, 1.0, events, samples)
             found += [*events.ravel(), *samples.ravel()]
-            found += paper(ax, 0.25, sn, cs, mu, G, 1.0, 3, samples)
-            found += samples.ravel().tolist()
         found += normal(ax, az, 0.25, sn, cs, G, 1.0)
         for omega in (1e-6, 1e-2, 1.0, 50.0):
             peak, at = np.empty(1), np.empty(1, dtype=np.int64)

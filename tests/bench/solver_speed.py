@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from numba import njit
 
-from solver import kernels
+from solver import kernels, rivals
 from solver.motion import read_record
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -67,7 +67,7 @@ def measure(path: Path) -> tuple[int, float, float, float]:
             kernels.slide_exact(ax, NO_RECORD, dt, sn, cs, mu, G, k, NO_EVENTS, NO_HISTORY)
 
         def run_paper(sn: float = sn, cs: float = cs, mu: float = mu, k: float = scale) -> None:
-            kernels.slide_paper(ax, dt, sn, cs, mu, G, k, 64, NO_HISTORY)
+            rivals.slide_paper(ax, dt, sn, cs, mu, G, k, 64, NO_HISTORY)
 
         run_exact(), run_paper()
         exact += seconds(run_exact, 7, 50) / len(SCENES)

@@ -1,0 +1,86 @@
+"""The rival methods with the compiler off: the same bits, and every line run."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solver import rivals
+
+ROOT = Path(__file__).resolve().parents[1]
+G = 10.0
+
+
+def readonly(values):
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+# Horizontal samples, vertical samples, sine of the slope, friction, chosen so that together they
+# reach every line: pulses, reversals, dips to zero, equal samples, no friction, free sliding.
+SCENES = [
+    ([0.0, 4.0, 4.0, -8.0, 0.0, 0.0], [], 0.0, 0.2),
+    ([-4.0, 0.5, -8.0], [], 0.0, 0.2),
+    ([-4.0, 2.0, 2.0, -8.0], [], 0.0, 0.2),
+    ([2.0, 2.0, 2.0, -2.0, -2.0], [], 0.0, 0.2),
+    ([3.0, -3.0, 3.0, 3.0, -9.0, 5.0], [], 0.0, 0.0),
+    ([0.0, 0.0, 0.0, 0.0], [], 0.3, 0.1),
+    ([0.0, -6.0, 6.0, -6.0, 0.0, 0.0], [0.0, 2.0, -3.0, 1.0, 0.0, 0.0], 0.1, 0.4),
+    ([0.0, 0.0, -30.0, 0.0], [], 0.5, 0.4),
+    ([0.0, -20.0, 0.0, 12.0, 0.0], [], -0.6, 0.3),
+    # The speed comes down to touch zero at the vertex, within a rounding.
+    ([-4.0, 0.0, -4.0, -4.0], [], 0.0, 0.2),
+    ([0.0, -3.0, 1.0, -3.0, -3.0], [], 0.0, 0.1),
+    # The speed dips within an interval and stays above zero.
+    ([-8.0, -1.0, -8.0, 0.0], [], 0.0, 0.2),
+]
+
+
+def cosine(sn):
+    return float(np.sqrt(1.0 - sn * sn))
+
+
+def run_all(compiled):
+    """Return the outcome of every scene by every kernel, compiled or as plain Python."""
+    paper = (
+        rivals.slide_paper
+        if compiled
+        else getattr(rivals.slide_paper, "py_func", rivals.slide_paper)
+    )
+    found = []
+    for horizontal, _, sn, mu in SCENES:
+        ax, cs = readonly(horizontal), cosine(sn)
+        for samples in (np.full((2, ax.size), np.nan), np.empty((2, 0))):
+            found += paper(ax, 0.25, sn, cs, mu, G, 1.0, 3, samples)
+            found += samples.ravel().tolist()
+    return np.array(found, dtype=float)
+
+
+def test_compiled_and_plain_rivals_give_the_same_bits():
+    np.testing.assert_array_equal(run_all(compiled=True), run_all(compiled=False))
+
+
+@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+def test_every_line_of_the_rivals_is_run_with_the_compiler_off(tmp_path):
+    data = f"--data-file={tmp_path / 'coverage'}"
+    coverage = [sys.executable, "-m", "coverage"]
+    include = f"--include={ROOT / 'solver' / 'rivals.py'}"
+    tests = [str(Path(__file__)), "-p", "no:cacheprovider"]
+    for command in (
+        [*coverage, "run", data, include, "-m", "pytest", *tests],
+        [*coverage, "report", data, "--show-missing", "--fail-under=100"],
+    ):
+        done = subprocess.run(
+            command,
+            cwd=ROOT,
+            env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=120,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
