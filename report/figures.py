@@ -10,7 +10,6 @@ import io
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -24,11 +23,11 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.patches import Rectangle as Box
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from report.assess import ArrayAssessment, Assessment, MotionRun
+from report.assess import ArrayAssessment, ClearanceCheck, MotionRun
 from report.schema import ObjectKind, ProjectInput, Rectangle
+from report.spectra import Spectra
 from report.units import Quantity, Unit, number, pair
 from solver.model import Floats
-from solver.provisions import RequiredSpectrum
 
 WIDTH_IN = 6.7
 INK, GREY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
@@ -270,33 +269,6 @@ def _nearest(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, flo
     return middle, middle
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Spectra:
-    """Response spectra of one component [g] of all motions, over periods [s].
-
-    Attributes
-    ----------
-    periods_s : array, shape (m,)
-    sa_g : array, shape (n, m)
-    """
-
-    ids: tuple[str, ...]
-    periods_s: Floats
-    sa_g: Floats
-    target: RequiredSpectrum
-    title: str
-
-    @property
-    def mean_g(self) -> Floats:
-        """Mean over the motions."""
-        return np.asarray(self.sa_g.mean(axis=0))
-
-    @property
-    def target_g(self) -> Floats:
-        """Ordinates of the target at the periods."""
-        return self.target.at(1.0 / self.periods_s)
-
-
 def spectra(found: Sequence[Spectra]) -> str:
     """Return the spectra of each motion thin, mean and target thick, a panel a component."""
     with style():
@@ -480,12 +452,11 @@ def envelope(t: Floats, u: Floats, most: int = MAX_POINTS) -> tuple[Floats, Floa
     return t[index], u[index]
 
 
-def comparison(assessment: Assessment, us_first: bool) -> str:
+def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
     """Return prescriptive value, floor, each motion's PRD, mean and design value by array."""
     first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
-    arrays = assessment.arrays
     with style():
-        height = 1.3 + 0.5 * len(arrays)
+        height = 1.3 + _row_in(len(arrays)) * len(arrays)
         names = [_tick_text(one.array.id) for one in arrays]
         figure, axes = _framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, found in enumerate(arrays):
@@ -519,6 +490,11 @@ def _tick_text(name: str) -> str:
 def _label_in(names: Sequence[str]) -> float:
     """Return the room that tick labels need [in]."""
     return 0.2 + 0.06 * max(map(len, names))
+
+
+def _row_in(count: int) -> float:
+    """Return the height of a row of a chart with so many [in]."""
+    return min(0.48, 5.4 / count)
 
 
 def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
@@ -583,19 +559,20 @@ def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labell
         axes.text(prescriptive / 2, row, "no value", ha="center", va="center")
 
 
-def clearances(assessment: Assessment, us_first: bool) -> str:
-    """Return required against provided separations as bars."""
+def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -> str:
+    """Return required against provided separations as bars, numbered from `start`."""
     first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
-    gaps = assessment.clearances
     provided = [gap.clearance.provided_m / first.si for gap in gaps]
     required = [gap.required_m / first.si for gap in gaps]
     rows = np.arange(len(gaps), dtype=float)
     with style():
         names = [
             f"{count}  {_tick_text(gap.clearance.array)} to {_tick_text(gap.clearance.object)}"
-            for count, gap in enumerate(gaps, start=1)
+            for count, gap in enumerate(gaps, start=start)
         ]
-        figure, axes = _framed(1.3 + 0.4 * len(gaps), _label_in(names), 0.1, 0.48, 0.75)
+        figure, axes = _framed(
+            1.3 + _row_in(len(gaps)) * len(gaps), _label_in(names), 0.1, 0.48, 0.75
+        )
         axes.barh(
             rows - 0.18,
             provided,

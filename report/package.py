@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from typing import Any
 
 from report import (
-    figures,
     pages_appendix,
     pages_checks,
     pages_front,
@@ -21,12 +20,13 @@ from report import (
     pages_motions,
     pages_results,
 )
-from report.assess import ArrayAssessment, Assessment
-from report.pages_parts import Part, Picture, Scene
-from report.pdf import TEMPLATES, html_to_pdf
+from report.assess import Assessment
+from report.pages_figures import begin, draw
+from report.pages_parts import Part, Scene
+from report.pdf import TEMPLATES, html_to_pdf, load_renderer
+from report.spectra import Spectra, spectra
 from report.workbook import InputBook
 
-PANELS = 12  # histories in one figure
 Stage = Callable[[str], None]
 
 
@@ -52,12 +52,13 @@ def render(book: InputBook, assessment: Assessment, on_stage: Stage | None = Non
 
 def _render(book: InputBook, assessment: Assessment, tell: Stage) -> bytes:
     scene = Scene(data=book.input, assessment=assessment)
-    figures.load_fonts(TEMPLATES / "fonts")
     tell("figures")
-    found = pages_motions.spectra(scene, book.motions)
-    pictures = _pictures(scene, found)
+    found = spectra(assessment, book.motions)
+    pictures = begin(lambda: draw(scene, found))
     tell("pages")
-    html = _html(_context(book, scene, found, pictures))
+    context = _context(book, scene, found)
+    load_renderer()
+    html = _html({**context, "pictures": pictures()})
     tell("pdf")
     return html_to_pdf(html)
 
@@ -86,12 +87,7 @@ def _html(context: Mapping[str, Any]) -> str:
     return environment.get_template("package.html").render(context)
 
 
-def _context(
-    book: InputBook,
-    scene: Scene,
-    found: Sequence[figures.Spectra],
-    pictures: Mapping[str, Any],
-) -> Mapping[str, Any]:
+def _context(book: InputBook, scene: Scene, found: Sequence[Spectra]) -> Mapping[str, Any]:
     governing = scene.governing
     return {
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
@@ -124,7 +120,6 @@ def _context(
             "workbook": book.path.name,
             "sha256": book.sha256,
         },
-        "pictures": pictures,
     }
 
 
@@ -162,48 +157,3 @@ def _below(name: str, number: str, titles: Sequence[str]) -> tuple[Part, ...]:
         Part(id=f"{name}-{count}", number=f"{number}.{count}", title=title)
         for count, title in enumerate(titles, start=1)
     )
-
-
-def _pictures(scene: Scene, found: Sequence[figures.Spectra]) -> Mapping[str, Any]:
-    us_first, assessment = scene.say.us_first, scene.assessment
-    return {
-        "plan": Picture(
-            svg=figures.roof_plan(scene.data, us_first),
-            caption="Roof plan to scale: arrays with their fall and slope, objects, roof edges, "
-            "and the clearances by their numbers in part 8.",
-            alt="Roof plan with arrays, objects, edges and clearances",
-        ),
-        "spectra": Picture(
-            svg=figures.spectra(found),
-            caption="Response spectra of the motions as run, 5 % damping, against the AC156 "
-            "required response spectrum.",
-            alt="Response spectra of all motions, their mean and the target",
-        ),
-        "histories": [list(_histories(one, us_first)) for one in assessment.arrays],
-        "comparison": Picture(
-            svg=figures.comparison(assessment, us_first),
-            caption="Prescriptive displacement, floor, peak relative displacement (PRD) of each "
-            "motion, their mean, and design displacement.",
-            alt="Chart of displacements by array",
-        ),
-        "clearances": [
-            Picture(
-                svg=figures.clearances(assessment, us_first),
-                caption="Required against provided separation.",
-                alt="Chart of required and provided separations",
-            )
-        ]
-        if assessment.clearances
-        else [],
-    }
-
-
-def _histories(found: ArrayAssessment, us_first: bool) -> Iterator[Picture]:
-    for start in range(0, len(found.motions), PANELS):
-        chosen = found.motions[start : start + PANELS]
-        yield Picture(
-            svg=figures.histories(chosen, us_first),
-            caption=f"Array {found.array.id}: displacement u relative to the roof, positive down "
-            "the slope, in the polarity that counts. Dot: PRD.",
-            alt=f"Relative displacement histories of array {found.array.id}",
-        )

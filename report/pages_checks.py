@@ -21,7 +21,7 @@ from report.pages_parts import (
     verdict,
 )
 from report.units import Quantity, number
-from solver.provisions import OVERRIDABLE, SEPARATION_KEYS, Check
+from solver.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
 
 
 def clearance_table(scene: Scene, *, brief: bool) -> Table:
@@ -109,6 +109,17 @@ def failed_limits(scene: Scene) -> Sequence[str]:
         for place, check in all_checks(scene)
         if not check.ok
     ]
+
+
+def troubles(scene: Scene) -> Sequence[str]:
+    """Return everything that stands in the way of an OK, clearances apart, in words."""
+    few = [
+        f"Array {found.array.id}: {found.analysis.n_motions} are too few motions for the design "
+        f"value asked for (statistic: {scene.data.options.statistic.value}); no design value."
+        for found in scene.assessment.arrays
+        if found.analysis.basis is Basis.TOO_FEW
+    ]
+    return [*scene.assessment.warnings, *few, *failed_limits(scene)]
 
 
 def check_table(

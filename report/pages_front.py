@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from report.assess import ArrayAssessment
 from report.equations import symbol
-from report.pages_checks import all_checks, clearance_table, failed_limits
+from report.pages_checks import all_checks, clearance_table, troubles
 from report.pages_parts import Column, Row, Scene, Table, ratio, shortened, verdict
 from report.units import number
 
@@ -66,17 +66,17 @@ def cover(scene: Scene) -> Mapping[str, object]:
 def summary(scene: Scene) -> Mapping[str, object]:
     """Return the summary page: governing numbers and a verdict for everything."""
     return {
-        "verdict": verdict(scene.assessment.ok),
+        "verdict": verdict(scene.ok),
         "sentence": _sentence(scene),
         "numbers": _numbers(scene),
         "arrays": _array_table(scene),
         "clearances": clearance_table(scene, brief=True),
-        "troubles": (*scene.assessment.warnings, *failed_limits(scene)),
+        "troubles": troubles(scene),
     }
 
 
 def _sentence(scene: Scene) -> str:
-    if scene.assessment.ok:
+    if scene.ok:
         return "Every limit and every clearance is kept, and every run gave a final value."
     counts = (
         ("array", [scene.array_ok(found) for found in scene.assessment.arrays]),
@@ -182,5 +182,5 @@ def basis(scene: Scene) -> Mapping[str, object]:
         "peer": "is stated to be peer reviewed"
         if scene.data.options.peer_reviewed
         else "is not stated to be peer reviewed",
-        "failed": failed_limits(scene),
+        "failed": troubles(scene),
     }

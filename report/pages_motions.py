@@ -6,47 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from report.figures import Spectra
 from report.pages_parts import Column, Row, Scene, Table
+from report.spectra import PRINTED_S, Spectra
 from report.units import G_MPS2, number
 from solver.model import Floats, Motion
-from solver.motion import response_spectrum
-from solver.provisions import RequiredSpectrum
-
-PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
-# From the last corner of AC156 to its first, the printed ones among them.
-PERIODS_S: Floats = np.unique(np.concatenate([np.geomspace(1 / 33.3, 10.0, 72), PRINTED_S[1:]]))
-
-
-def spectra(scene: Scene, motions: Sequence[Motion]) -> tuple[Spectra, ...]:
-    """Return the spectra of both components; those without a vertical one are left out there."""
-    assessment = scene.assessment
-    upright = [motion for motion in motions if motion.has_vertical]
-    across = _spectra(motions, "Horizontal", assessment.horizontal_target)
-    return (
-        (across, _spectra(upright, "Vertical", assessment.vertical_target))
-        if upright
-        else (across,)
-    )
-
-
-def _spectra(motions: Sequence[Motion], name: str, target: RequiredSpectrum) -> Spectra:
-    rows = [
-        response_spectrum(
-            (motion.az_mps2 if name == "Vertical" else motion.ax_mps2) * motion.scale,
-            motion.dt_s,
-            PERIODS_S,
-        )
-        / G_MPS2
-        for motion in motions
-    ]
-    return Spectra(
-        ids=tuple(motion.id for motion in motions),
-        periods_s=PERIODS_S,
-        sa_g=np.array(rows),
-        target=target,
-        title=name,
-    )
 
 
 def motion_table(scene: Scene, motions: Sequence[Motion]) -> Table:

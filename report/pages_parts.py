@@ -21,6 +21,7 @@ from solver.model import DefectError
 from solver.provisions import SEPARATION_KEYS, Check, Measure, Provision
 
 NO_VALUE = "no value"
+WHOLE_ROWS = 24  # longer tables may go on over the page, with their heads repeated
 OK, NG = "OK", "NG"
 
 
@@ -87,6 +88,11 @@ class Table:
         return tuple((row.kind, tuple(_placed(row.cells, aligns))) for row in self.rows)
 
     @property
+    def hold(self) -> str:
+        """Whether the table is short enough to stay on one page, as a style."""
+        return "whole" if len(self.rows) <= WHOLE_ROWS else "split"
+
+    @property
     def has_units(self) -> bool:
         """Whether any column has a unit."""
         return any(column.unit for column in self.columns)
@@ -151,6 +157,11 @@ class Part:
     number: str
     title: str
     parts: tuple[Part, ...] = field(default=())
+
+    @property
+    def set(self) -> str:
+        """How the contents set the parts below, as a style."""
+        return "many" if len(self.parts) > 6 else "few"
 
 
 @dataclass(frozen=True, slots=True)
@@ -270,6 +281,11 @@ class Scene:
         """Return the marks of what a required separation is taken from."""
         key = SEPARATION_KEYS[gap.neighbour]
         return self.mark("separation_edge_min_in" if gap.is_least_value else key)
+
+    @property
+    def ok(self) -> bool:
+        """Whether everything is in order, a design value for every array included."""
+        return self.assessment.ok and all(map(self.array_ok, self.assessment.arrays))
 
     def array_ok(self, found: ArrayAssessment) -> bool:
         """Whether an array keeps its limits, has final values, and all its room."""

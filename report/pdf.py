@@ -40,6 +40,11 @@ def html_to_pdf(html: str) -> bytes:
     return pdf
 
 
+def load_renderer() -> None:
+    """Load the renderer before it is needed, while something else is waited for."""
+    import weasyprint  # noqa: F401
+
+
 def _fetcher() -> Any:
     from weasyprint.urls import URLFetcher, URLFetcherResponse
 

@@ -5,9 +5,8 @@ import pytest
 
 import stand_in
 from report import figures
-from report.pages_motions import spectra
-from report.pages_parts import Scene
 from report.pdf import TEMPLATES
+from report.spectra import spectra
 from solver.model import Motion
 
 
@@ -28,13 +27,13 @@ def assessment(book):
 
 def drawn(book, assessment):
     """Every chart of the package."""
-    found = spectra(Scene(data=book.input, assessment=assessment), book.motions)
+    found = spectra(assessment, book.motions)
     return [
         figures.roof_plan(book.input, True),
         figures.spectra(found),
         figures.histories(assessment.arrays[0].motions, True),
-        figures.comparison(assessment, True),
-        figures.clearances(assessment, True),
+        figures.comparison(assessment.arrays, True),
+        figures.clearances(assessment.clearances, True),
     ]
 
 
@@ -113,16 +112,16 @@ def test_a_run_without_a_value_is_drawn_as_such():
     found = words(figures.histories(assessment.arrays[0].motions, True))
     assert found.count("no value") == 3
     assert found.count("PRD: no value") == 3
-    assert "no value" in words(figures.comparison(assessment, True))
-    assert words(figures.clearances(assessment, True)).count("no value: NG") == 5
+    assert "no value" in words(figures.comparison(assessment.arrays, True))
+    assert words(figures.clearances(assessment.clearances, True)).count("no value: NG") == 5
 
 
 def test_a_failed_clearance_is_marked(assessment):
-    assert words(figures.clearances(assessment, True)).count("NG") == 1
+    assert words(figures.clearances(assessment.clearances, True)).count("NG") == 1
 
 
 @pytest.mark.parametrize("us_first", [True, False])
 def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
-    found = words(figures.comparison(assessment, us_first))
+    found = words(figures.comparison(assessment.arrays, us_first))
     assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in found
     assert f"[{'mm' if us_first else 'in'}]" in found
