@@ -3,8 +3,9 @@
 Public names are listed here; everything is SI. Imports no files, pages or pictures.
 """
 
+from solver.methods import METHODS
 from solver.model import Event, EventKind, InputError, Motion, SlideHistory, SlideResult, Status
-from solver.solve import METHODS, slide, slide_history
+from solver.solve import slide, slide_history
 
 __all__ = [
     "METHODS",

@@ -39,6 +39,7 @@ class Status(StrEnum):
     OK = "ok"
     SLIDING_AT_END = "sliding_at_end"
     UPLIFT = "uplift"
+    DIVERGED = "diverged"
 
     @property
     def sentence(self) -> str:
@@ -50,6 +51,7 @@ _SENTENCES = {
     Status.OK: "followed to the end of the record, at rest there",
     Status.SLIDING_AT_END: "still sliding when the record ends: the displacement is not final",
     Status.UPLIFT: "the normal force falls below zero: outside the model, no displacement given",
+    Status.DIVERGED: "the method did not converge or blew up: no displacement given",
 }
 
 
@@ -57,7 +59,7 @@ _SENTENCES = {
 class SlideResult:
     """One block under one motion. Displacements are horizontal, relative to the roof.
 
-    With `Status.UPLIFT` every displacement and time of displacement is NaN.
+    With `Status.UPLIFT` and `Status.DIVERGED` every displacement and time of displacement is NaN.
 
     Attributes
     ----------
@@ -115,7 +117,8 @@ class SlideHistory:
     Attributes
     ----------
     t_s, u_m, v_mps : array, shape (n,)
-        Time [s], horizontal relative displacement [m] and velocity [m/s]; NaN after uplift.
+        Time [s], horizontal relative displacement [m] and velocity [m/s]; all NaN
+        where the result gives none.
     events : tuple of Event
     result : SlideResult
     """

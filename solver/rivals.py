@@ -4,69 +4,247 @@
 Never raises, knows no units but SI; numpy and numba only. Read `solver.methods` for what each one
 is, and `solver.kernels` for the exact one.
 
-Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19), those of
-`solver.kernels` and:
-    a_p, a_x  horizontal acceleration of the plane and of the block                  [m/s2]
-    u_p, u_x  their displacements; u = u_x - u_p                                     [m]
-    v_p, v_x  their velocities; dv = v_x - v_p                                       [m/s]
+Letters, along the slope and for each unit of mass, signs down the slope:
+    ax, az   horizontal (right) and vertical (up) acceleration of the plane          [m/s2]
+    g        acceleration of gravity                                                 [m/s2]
+    sn, cs   sine and cosine of the roof slope theta, positive down to the right
+    mu       friction coefficient, static and kinetic
+    G, N     drive down the slope and normal force (Eq. 6 with the vertical added)   [m/s2]
+    down, up G - mu N and -G - mu N: the net push on a block sliding that way        [m/s2]
+    s, w     distance slid and its rate                                              [m], [m/s]
+    a        acceleration s''                                                        [m/s2]
+    dt, h    sampling interval and sub-step                                          [s]
+    k        stiffness of the link for each unit of mass, omega^2                    [1/s2]
+    x, F     stretch of the link [m] and its force on the block, up the slope        [m/s2]
+    cap      mu N, the most that the link can hold                                   [m/s2]
+
+Every kernel trusts that N >= 0 throughout (`kernels.least_normal`), fills `history` of shape (2, n)
+with s and w at the samples or (2, 0) with nothing, and returns its code, the largest and the least
+s, s and w at the end, the time of the largest |s| and the number of stops. What slides no more has
+w = 0 at the end.
 """
+
+import math
 
 import numpy as np
 from numba import njit
 
 # Outcome codes; `solver.solve` maps them to `Status`.
 FOLLOWED = 0
-UPLIFTED = 1
+DIVERGED = 1
+
+CHATTER = 3
+"""Consecutive reversals of a link's slip, sub-step after sub-step, that are no motion."""
+
+ITERATIONS = 25
+"""Newton iterations in a sub-step before it is given up."""
+
+
+@njit(cache=True, inline="always")
+def _drive_and_cap(ax, az, i, sn, cs, mu, g, scale):
+    """G and mu N at sample i; an empty vertical record means none."""
+    x = scale * ax[i]
+    z = g + scale * az[i] if az.size > 0 else g
+    return sn * z - cs * x, mu * (cs * z + sn * x)
+
+
+@njit(cache=True, inline="always")
+def _seen(s, t, s_max, s_min, t_peak):
+    """The extremes and the time of the largest |s|, with one more s looked at."""
+    if abs(s) > max(s_max, -s_min):
+        t_peak = t
+    return max(s_max, s), min(s_min, s), t_peak
 
 
 @njit(cache=True)
-def slide_paper(ax, dt, sn, cs, mu, g, scale, substeps, history):
+def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
     """Follow the paper's own algorithm: constant acceleration over each of `substeps` sub-steps.
 
-    Equation by equation, sign(0) = 0 included (Eq. 13), so that the first sub-step of a slip has
-    no friction. First order in dt / substeps.
+    Eqs. 1-19 with their sign(0) = 0 (Eq. 13), so that the first sub-step of a slip has no
+    friction, for s = (u_x - u_p) / cos(theta): u_x'' - u_p'' of Eq. 18 is cos(theta) (G - mu N
+    sign), because A tan(theta) + B is 1 / cos(theta). First order in h.
+
+    Where `skips`, an interval that begins at rest and could hold the block at both its samples is
+    taken as one step: N and G are linear there, so every sub-step would have found the same.
+    """
+    h = dt / substeps
+    half, share = 0.5 * h * h, 1.0 / substeps
+    drive, cap = _drive_and_cap(ax, az, 0, sn, cs, mu, g, scale)
+    down, up = drive - cap, -drive - cap
+    s = s_before = w = w_before = s_max = s_min = t_peak = 0.0
+    n_stops = 0
+    for i in range(ax.size - 1):
+        if history.shape[1] > 0:
+            history[0, i], history[1, i] = s, w
+        drive, cap = _drive_and_cap(ax, az, i + 1, sn, cs, mu, g, scale)
+        down_0, up_0, down, up = down, up, drive - cap, -drive - cap
+        holds = down_0 < 0.0 and up_0 < 0.0 and down < 0.0 and up < 0.0
+        if skips and holds and w == 0.0 and w_before == 0.0:
+            continue
+        r_down, r_up = (down - down_0) * share, (up - up_0) * share
+        j = 0
+        while j < substeps:
+            if w > 0.0 and w_before >= 0.0:
+                a = down_0 + j * r_down
+            elif w < 0.0 and w_before <= 0.0:
+                a = -(up_0 + j * r_up)
+            else:
+                # At rest, or reversed within the last sub-step: s is largest at one of its ends.
+                if w_before != 0.0:
+                    t = (i * substeps + j) * h
+                    s_max, s_min, t_peak = _seen(s_before, t - h, s_max, s_min, t_peak)
+                    s_max, s_min, t_peak = _seen(s, t, s_max, s_min, t_peak)
+                    n_stops += 1
+                first = j
+                while j < substeps and down_0 + j * r_down < 0.0 and up_0 + j * r_up < 0.0:
+                    j += 1  # Eqs. 6, 8, 9
+                if j > first:
+                    w = w_before = 0.0
+                    continue
+                a = 0.5 * (down_0 + j * r_down - (up_0 + j * r_up))
+                if w != 0.0:
+                    a = down_0 + j * r_down if w > 0.0 else -(up_0 + j * r_up)
+            s_before, w_before = s, w
+            s += w * h + half * a
+            w += a * h
+            j += 1
+    t = (ax.size - 1) * dt
+    s_max, s_min, t_peak = _seen(s_before, t - h, s_max, s_min, t_peak)
+    s_max, s_min, t_peak = _seen(s, t, s_max, s_min, t_peak)
+    if history.shape[1] > 0:
+        history[0, -1], history[1, -1] = s, w
+    return FOLLOWED, s_max, s_min, s, w, t_peak, n_stops
+
+
+@njit(cache=True)
+def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
+    """Take the plane's acceleration as linear in each sub-step, its sliding direction as fixed.
+
+    What the paper suggests in its limitations. Slip, stop and reversal are still found at the ends
+    of sub-steps only, and the block slips the way it is pushed: the paper's sign(0) = 0 would make
+    it first order. Second order in h; first where the block reverses without a rest, because the
+    friction of the old direction acts until the end of that sub-step.
+    """
+    h = dt / substeps
+    share = 1.0 / substeps
+    drive, cap = _drive_and_cap(ax, az, 0, sn, cs, mu, g, scale)
+    s = w = w_before = s_max = s_min = t_peak = 0.0
+    n_stops = 0
+    for i in range(ax.size - 1):
+        if history.shape[1] > 0:
+            history[0, i], history[1, i] = s, w
+        drive_0, cap_0 = drive, cap
+        drive, cap = _drive_and_cap(ax, az, i + 1, sn, cs, mu, g, scale)
+        r_drive, r_cap = (drive - drive_0) * share, (cap - cap_0) * share
+        for j in range(substeps):
+            drive_j, cap_j = drive_0 + j * r_drive, cap_0 + j * r_cap
+            reversed_ = w * w_before < 0.0
+            n_stops += reversed_
+            if (w == 0.0 or reversed_) and abs(drive_j) <= cap_j:
+                w = w_before = 0.0
+                continue
+            sign = math.copysign(1.0, w if w != 0.0 else drive_j)
+            a, rise = drive_j - sign * cap_j, r_drive - sign * r_cap
+            w_before = w
+            s += h * (w + h * (0.5 * a + rise / 6.0))
+            w += h * (a + 0.5 * rise)
+            t = (i * substeps + j + 1) * h
+            s_max, s_min, t_peak = _seen(s, t, s_max, s_min, t_peak)
+    if history.shape[1] > 0:
+        history[0, -1], history[1, -1] = s, w
+    return FOLLOWED, s_max, s_min, s, w, t_peak, n_stops
+
+
+@njit(cache=True, inline="always")
+def _link(x, k, cap):
+    """Force of the link stretched by x, at most its cap, and the direction in which it slips."""
+    force = k * x
+    if force >= cap:
+        return cap, 1
+    if force <= -cap:
+        return -cap, -1
+    return force, 0
+
+
+@njit(cache=True)
+def _solve_sub_step(x, free, lever, k, cap):
+    """Newton's method on x = free - lever F(x), F the capped force of the link.
+
+    Three straight pieces: a tangent that leads back to its own piece has found the root. Where
+    lever k = (omega h)^2 / 4 is above 1 the two outer pieces may lead to each other for ever.
 
     Returns
     -------
     tuple
-        Code, u = u_x - u_p at its largest, at its least, at the end, its rate at the end, time
-        of the largest |u|, number of stops, time of uplift.
+        x, and whether it was found.
     """
-    tn = sn / cs
-    step = dt / substeps
-    v_p = u_p = v_x = u_x = dv = dv_before = 0.0  # Eq. 19
-    u_max = u_min = u_peak = t_peak = 0.0
-    n_stops = 0
-    for k in range((ax.size - 1) * substeps):
-        i, j = k // substeps, k % substeps
-        a_p = scale * (ax[i] + (ax[i + 1] - ax[i]) * (j / substeps))
-        if history.shape[1] > 0 and j == 0:
-            history[0, i], history[1, i] = u_x - u_p, dv
-        slow = dv == 0.0 or dv * dv_before < 0.0
-        if dv * dv_before < 0.0:
-            n_stops += 1
-        normal = g * cs + a_p * sn
-        # Eqs. 6, 8, 9
-        if slow and abs(a_p * cs - g * sn) < mu * abs(normal):
-            v_x, a_x, dv = v_p, a_p, 0.0
-        else:
-            sign = 1.0 if dv > 0.0 else (-1.0 if dv < 0.0 else 0.0)
-            a_k = sn - mu * sign * cs  # Eq. 13
-            b_k = cs + mu * sign * sn  # Eq. 15
-            c_k = g + a_p * tn  # Eq. 16
-            normal = c_k / (a_k * tn + b_k)  # Eq. 17, N / m
-            a_x = normal * a_k  # Eq. 18
-        if normal < 0.0:
-            return UPLIFTED, np.nan, np.nan, np.nan, np.nan, np.nan, n_stops, k * step
-        u_p += v_p * step + 0.5 * a_p * step * step
-        v_p += a_p * step
-        u_x += v_x * step + 0.5 * a_x * step * step
-        v_x += a_x * step
-        dv_before, dv = dv, v_x - v_p
-        u = u_x - u_p
-        if abs(u) > abs(u_peak):
-            u_peak, t_peak = u, (k + 1) * step
-        u_max, u_min = max(u_max, u), min(u_min, u)
+    _, piece = _link(x, k, cap)
+    for _ in range(ITERATIONS):
+        x = free / (1.0 + lever * k) if piece == 0 else free - piece * lever * cap
+        _, landed = _link(x, k, cap)
+        if landed == piece:
+            return x, True
+        piece = landed
+    return x, False
+
+
+@njit(cache=True)
+def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history):
+    """Hold the block by a spring whose force is capped at mu N: friction as programs model it.
+
+    Newmark's method with gamma = 1/2: with beta = 0 explicit, stable for h < 2 / omega; `implicit`
+    with beta = 1/4 and Newton's method. No damping; the link starts in balance with gravity, as
+    after the dead-load stage of the paper's SAP 2000 model.
+
+    Diverged is a run in which
+    - the speed is not finite, or more than twice what the shaking without friction and the link's
+      own energy could give it: the integral of |G| + cap / omega + h (|G| + cap);
+    - the explicit link slips to and fro in more than CHATTER sub-steps on end though its cap could
+      hold the load: instability, bounded by the cap. Below 2 / omega no reversal of slip can
+      repeat so, and energy is dissipated without having been put in;
+    - a sub-step of the implicit one is not solved in ITERATIONS.
+    """
+    h = dt / substeps
+    half, share = 0.5 * h * h, 1.0 / substeps
+    lever = 0.25 * h * h
+    failed = (DIVERGED, np.nan, np.nan, np.nan, np.nan, np.nan, 0)
+    drive, cap = _drive_and_cap(ax, az, 0, sn, cs, mu, g, scale)
+    force = min(max(g * sn, -mu * g * cs), mu * g * cs)
+    x, a = force / k, drive - min(max(force, -cap), cap)
+    s = w = s_max = s_min = t_peak = given = 0.0
+    slip = n_stops = run = 0
+    for i in range(ax.size - 1):
+        if history.shape[1] > 0:
+            history[0, i], history[1, i] = s, w
+        drive_0, cap_0 = drive, cap
+        drive, cap = _drive_and_cap(ax, az, i + 1, sn, cs, mu, g, scale)
+        for j in range(1, substeps + 1):
+            drive_j = drive_0 + (drive - drive_0) * (j * share)
+            cap_j = cap_0 + (cap - cap_0) * (j * share)
+            ds = h * w + half * a
+            if implicit:
+                # The stretch if the block moved by ds: what its end acceleration takes off, F's
+                # share apart, is known.
+                free = x + h * w + lever * (a + drive_j)
+                stretched, found = _solve_sub_step(x, free, lever, k, cap_j)
+                if not found:
+                    return failed
+                ds = stretched - x
+            force, slips = _link(x + ds, k, cap_j)
+            to_and_fro = slips * slip < 0 and abs(drive_j) < cap_j
+            run = run + 1 if to_and_fro else 0
+            n_stops += slip != 0 and slips != slip
+            slip = slips
+            s += ds
+            x = force / k if slip != 0 else x + ds
+            w += 0.5 * h * (a + drive_j - force)
+            a = drive_j - force
+            given += h * abs(drive_j)
+            bound = 2.0 * (given + cap_j / math.sqrt(k) + h * (abs(drive_j) + cap_j))
+            if not abs(w) <= bound or (run >= CHATTER and not implicit):
+                return failed
+            t = (i * substeps + j) * h
+            s_max, s_min, t_peak = _seen(s, t, s_max, s_min, t_peak)
     if history.shape[1] > 0:
-        history[0, -1], history[1, -1] = u_x - u_p, dv
-    return FOLLOWED, u_max, u_min, u_x - u_p, dv, t_peak, n_stops, np.nan
+        history[0, -1], history[1, -1] = s, w
+    return FOLLOWED, s_max, s_min, s, w if slip != 0 else 0.0, t_peak, n_stops

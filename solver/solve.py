@@ -6,12 +6,14 @@ Computes no physics itself (see `solver.kernels`) and knows no code rules (`solv
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver import kernels, rivals
+from solver import kernels
+from solver.methods import METHODS, NO_RECORD, Method, Outcome, Parameters, Scene, exact_events
 from solver.model import (
     Event,
     EventKind,
@@ -24,12 +26,19 @@ from solver.model import (
 )
 
 STANDARD_GRAVITY_MPS2 = 9.80665
-METHODS = ("exact", "paper")
 
-_NO_EVENTS = np.empty((0, 3))
 _NO_HISTORY = np.empty((2, 0))
-_NO_RECORD = np.empty(0)
-_NO_RECORD.setflags(write=False)
+
+# What a value of each parameter of a method has to be.
+_WHOLE = "a whole number of 1 or more"
+_POSITIVE = "a finite number above 0"
+_TOLERANCE = "a number from 1e-13 to 0.1"
+_WANTED: dict[str, tuple[str, Callable[[float], bool]]] = {
+    "substeps": (_WHOLE, lambda v: v >= 1.0 and v.is_integer()),
+    "stiffness_per_m": (_POSITIVE, lambda v: 0.0 < v < math.inf),
+    "velocity_mps": (_POSITIVE, lambda v: 0.0 < v < math.inf),
+    "tolerance": (_TOLERANCE, lambda v: 1e-13 <= v <= 0.1),
+}
 
 
 def slide(
@@ -42,7 +51,7 @@ def slide(
     scale: float = 1.0,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
     method: str = "exact",
-    substeps: int = 64,
+    **parameters: float,
 ) -> SlideResult:
     """Slide a block on a sloped, shaken roof, held by friction alone.
 
@@ -62,18 +71,21 @@ def slide(
         Factor for both components.
     g_mps2 : float
         Acceleration of gravity [m/s2], > 0.
-    method : {"exact", "paper"}
-        `exact` follows the interpolated record event by event, to rounding. `paper` is the
-        explicit algorithm of Eqs. 1-19 of "Predicted Slip of Ballasted Solar Arrays on Angled
-        Roofs due to Seismic Motion", horizontal shaking only.
-    substeps : int
-        P, the sub-steps in each sampling interval of the method `paper`, >= 1.
+    method : str
+        A key of `solver.METHODS`, which says what each one is. `exact` follows the interpolated
+        record event by event, to rounding. `paper` is the explicit algorithm of Eqs. 1-19 of
+        "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to Seismic Motion",
+        horizontal shaking only.
+    **parameters : float
+        Those of the method: `substeps` in each sampling interval, `stiffness_per_m` of a link for
+        each unit of the block's weight [1/m], `velocity_mps` and relative `tolerance` of the
+        regularised friction.
 
     Returns
     -------
     SlideResult
         Horizontal displacement relative to the roof; NaN, with the status and the time, where
-        the normal force falls below zero.
+        the normal force falls below zero; NaN, with the status, where the method diverged.
 
     Raises
     ------
@@ -86,8 +98,8 @@ def slide(
     >>> slide(pulse, 0.1, slope_rad=0.0, mu=0.2).status
     <Status.OK: 'ok'>
     """
-    scene = _checked(ax_mps2, dt_s, slope_rad, mu, az_mps2, scale, g_mps2, method, substeps)
-    return _run(scene, _NO_HISTORY)[0]
+    scene = _checked(ax_mps2, dt_s, slope_rad, mu, az_mps2, scale, g_mps2, method, parameters)
+    return _run(METHODS[method], parameters, scene, _NO_HISTORY)
 
 
 def slide_history(
@@ -100,15 +112,17 @@ def slide_history(
     scale: float = 1.0,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
     method: str = "exact",
-    substeps: int = 64,
+    **parameters: float,
 ) -> SlideHistory:
     """Return the motion at the samples, with its events; arguments and errors as in `slide`.
 
-    The method `paper` gives no events: its slips begin and end somewhere inside a sub-step.
+    The method `exact` alone gives events: the slips of the others begin and end somewhere inside
+    a step.
     """
-    scene = _checked(ax_mps2, dt_s, slope_rad, mu, az_mps2, scale, g_mps2, method, substeps)
+    scene = _checked(ax_mps2, dt_s, slope_rad, mu, az_mps2, scale, g_mps2, method, parameters)
     samples = np.full((2, scene.ax.size), np.nan)
-    result, events = _run(scene, samples)
+    result = _run(METHODS[method], parameters, scene, samples)
+    events = _events(scene, result) if method == "exact" else ()
     return SlideHistory(
         t_s=np.arange(scene.ax.size, dtype=np.float64) * scene.dt,
         u_m=samples[0],
@@ -133,99 +147,53 @@ def slide_motion(motion: Motion, *, slope_rad: float, mu: float, sign: int) -> S
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Scene:
-    """Checked arguments in the letters of the kernels."""
-
-    ax: Floats
-    az: Floats
-    dt: float
-    sn: float
-    cs: float
-    mu: float
-    g: float
-    scale: float
-    substeps: int  # 0: exact
-
-
-def _run(scene: _Scene, samples: Floats) -> tuple[SlideResult, tuple[Event, ...]]:
+def _run(method: Method, parameters: Parameters, scene: Scene, samples: Floats) -> SlideResult:
     """Run a scene; `samples` of shape (2, n) is filled with u and its rate, (2, 0) with nothing."""
     n_min_g, t_uplift = kernels.least_normal(
         scene.ax, scene.az, scene.dt, scene.sn, scene.cs, scene.g, scene.scale
     )
     if n_min_g < 0.0:
-        return _uplift(n_min_g, t_uplift), ()
-    if scene.substeps:
-        return _paper(scene, samples, n_min_g), ()
-    return _exact(scene, samples, n_min_g)
+        return _without_displacement(Status.UPLIFT, n_min_g, t_uplift)
+    found = method.follow(scene, dict(method.parameters) | dict(parameters), samples)
+    if not found.followed:
+        samples[:] = np.nan
+        return _without_displacement(Status.DIVERGED, n_min_g, math.nan)
+    samples *= scene.cs
+    return _result(found, scene.cs, n_min_g)
 
 
-def _exact(scene: _Scene, samples: Floats, n_min_g: float) -> tuple[SlideResult, tuple[Event, ...]]:
-    out = _exact_kernel(scene, _NO_EVENTS, samples)
-    s_max, s_min, s_end, w_end, t_prd, n_stops, n_events = out
-    cs = scene.cs
-    result = _result(cs * s_max, cs * s_min, cs * s_end, cs * w_end, t_prd, n_stops, n_min_g)
-    if not samples.size:
-        return result, ()
-    rows = np.empty((n_events, 3))
-    _exact_kernel(scene, rows, samples)
-    samples *= cs
-    return result, tuple(
+def _events(scene: Scene, result: SlideResult) -> tuple[Event, ...]:
+    """Return the events of the exact method: at most a slip before each stop, and one more."""
+    rows = np.empty((2 * result.n_stops + 1, 3))
+    n_events = exact_events(scene, rows, _NO_HISTORY)[-1] if math.isfinite(result.prd_m) else 0
+    return tuple(
         Event(
             t_s=float(t),
             kind=EventKind.SLIP if kind == kernels.SLIP else EventKind.STOP,
-            u_m=cs * float(s),
+            u_m=scene.cs * float(s),
         )
-        for t, kind, s in rows
+        for t, kind, s in rows[:n_events]
     )
 
 
-def _exact_kernel(
-    scene: _Scene, events: Floats, samples: Floats
-) -> tuple[float, float, float, float, float, int, int]:
-    c = scene
-    out: tuple[float, float, float, float, float, int, int] = kernels.slide_exact(
-        c.ax, c.az, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events, samples
-    )
-    return out
-
-
-def _paper(scene: _Scene, samples: Floats, n_min_g: float) -> SlideResult:
-    c = scene
-    code, u_max, u_min, u_end, v_end, t_prd, n_stops, t_uplift = rivals.slide_paper(
-        c.ax, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, c.substeps, samples
-    )
-    if code == rivals.UPLIFTED:
-        return _uplift(n_min_g, t_uplift)
-    return _result(u_max, u_min, u_end, v_end, t_prd, n_stops, n_min_g)
-
-
-def _result(
-    u_max: float,
-    u_min: float,
-    u_end: float,
-    v_end: float,
-    t_prd: float,
-    n_stops: int,
-    n_min_g: float,
-) -> SlideResult:
+def _result(found: Outcome, cs: float, n_min_g: float) -> SlideResult:
     return SlideResult(
-        status=Status.OK if v_end == 0.0 else Status.SLIDING_AT_END,
-        prd_m=max(u_max, -u_min),
-        residual_m=u_end,
-        down_m=u_max,
-        up_m=abs(u_min),
-        t_prd_s=t_prd,
-        n_stops=n_stops,
+        status=Status.OK if found.w_end == 0.0 else Status.SLIDING_AT_END,
+        prd_m=cs * max(found.s_max, -found.s_min),
+        residual_m=cs * found.s_end,
+        down_m=cs * found.s_max,
+        up_m=cs * abs(found.s_min),
+        t_prd_s=found.t_peak,
+        n_stops=found.n_stops,
         n_min_g=n_min_g,
         t_uplift_s=math.nan,
-        end_speed_mps=v_end,
+        end_speed_mps=cs * found.w_end,
     )
 
 
-def _uplift(n_min_g: float, t_uplift: float) -> SlideResult:
+def _without_displacement(status: Status, n_min_g: float, t_uplift: float) -> SlideResult:
     return SlideResult(
-        status=Status.UPLIFT,
+        status=status,
         prd_m=math.nan,
         residual_m=math.nan,
         down_m=math.nan,
@@ -247,12 +215,12 @@ def _checked(
     scale: float,
     g_mps2: float,
     method: str,
-    substeps: int,
-) -> _Scene:
+    parameters: Parameters,
+) -> Scene:
     """Return the scene with read-only contiguous records, or raise with every fault."""
     problems: list[str] = []
     ax = _record("ax_mps2", ax_mps2, problems)
-    az = _NO_RECORD if az_mps2 is None else _record("az_mps2", az_mps2, problems)
+    az = NO_RECORD if az_mps2 is None else _record("az_mps2", az_mps2, problems)
     if az_mps2 is not None and az.shape != ax.shape:
         problems.append(f"az_mps2 has shape {az.shape}; give the shape of ax_mps2, {ax.shape}")
     if not (math.isfinite(dt_s) and dt_s > 0.0):
@@ -267,13 +235,11 @@ def _checked(
         problems.append(f"g_mps2 is {g_mps2!r}; give a number of m/s2 above 0")
     if method not in METHODS:
         problems.append(f"method is {method!r}; give one of {', '.join(METHODS)}")
-    if method == "paper" and az_mps2 is not None:
-        problems.append("method 'paper' takes horizontal shaking only; leave az_mps2 out")
-    if not (isinstance(substeps, int) and substeps >= 1):
-        problems.append(f"substeps is {substeps!r}; give a whole number of 1 or more")
+    else:
+        problems += _faults(METHODS[method], parameters, az_mps2 is not None)
     if problems:
         raise InputError(problems)
-    return _Scene(
+    return Scene(
         ax=ax,
         az=az,
         dt=float(dt_s),
@@ -282,8 +248,23 @@ def _checked(
         mu=float(mu),
         g=float(g_mps2),
         scale=float(scale),
-        substeps=substeps if method == "paper" else 0,
     )
+
+
+def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list[str]:
+    """Return what a method does not take, and values that its parameters cannot have."""
+    found = []
+    if with_vertical and not method.takes_vertical:
+        found.append(f"method {method.name!r} takes horizontal shaking only; leave az_mps2 out")
+    for name, value in parameters.items():
+        if name not in method.parameters:
+            known = ", ".join(method.parameters) or "none"
+            found.append(f"method {method.name!r} has no parameter {name!r}; it has {known}")
+            continue
+        wanted, fits = _WANTED[name]
+        if not (isinstance(value, Real) and fits(float(value))):
+            found.append(f"{name} is {value!r}; give {wanted}")
+    return found
 
 
 def _record(name: str, values: ArrayLike, problems: list[str]) -> Floats:
@@ -292,10 +273,10 @@ def _record(name: str, values: ArrayLike, problems: list[str]) -> Floats:
         record = np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         problems.append(f"{name} is not an array of numbers; give a sequence of accelerations")
-        return _NO_RECORD
+        return NO_RECORD
     if record.ndim != 1 or record.size < 2:
         problems.append(f"{name} has shape {record.shape}; give one row of 2 samples or more")
-        return _NO_RECORD
+        return NO_RECORD
     if not np.isfinite(record).all():
         first = int(np.flatnonzero(~np.isfinite(record))[0])
         problems.append(f"{name}[{first}] is {record[first]}; give finite accelerations")
