@@ -17,7 +17,6 @@ import numpy as np
 from solver import kernels, regularised, rivals
 from solver.model import Floats
 
-NO_EVENTS = np.empty((0, 3))
 NO_RECORD = np.empty(0)
 NO_RECORD.setflags(write=False)
 
@@ -26,10 +25,12 @@ NO_RECORD.setflags(write=False)
 class Scene:
     """One block under one motion, checked, in the letters of the kernels.
 
-    `ax` and `az` are read-only; `az` has shape (0,) where there is no vertical shaking.
+    `ax` and `az` are read-only; `az` has shape (0,) where there is no vertical shaking. `x` holds
+    the `kernels.bounds` of `ax`.
     """
 
     ax: Floats
+    x: Floats
     az: Floats
     dt: float
     sn: float
@@ -109,18 +110,45 @@ def link_frequency(stiffness_per_m: float, g_mps2: float) -> float:
     return math.sqrt(g_mps2 * stiffness_per_m)
 
 
-def _exact(scene: Scene, _: Parameters, samples: Floats) -> Outcome:
-    return Outcome(True, *exact_events(scene, NO_EVENTS, samples)[:-1])
-
-
-def exact_events(
-    scene: Scene, events: Floats, samples: Floats
-) -> tuple[float, float, float, float, float, int, int]:
-    """Run the exact kernel: as in `Outcome`, and at last the number of events."""
-    c = scene
-    found: tuple[float, float, float, float, float, int, int] = kernels.slide_exact(
-        c.ax, c.az, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events, samples
+def least_normal(scene: Scene) -> tuple[float, float]:
+    """Return the least N / (m g), and when N first falls below zero [s]; NaN if it never does."""
+    c, (az, z) = scene, _vertical(scene)
+    found: tuple[float, float] = kernels.least_normal(
+        c.ax, az, c.x, z, c.dt, c.sn, c.cs, c.g, c.scale
     )
+    return found
+
+
+def exact_events(scene: Scene, n_stops: int) -> Floats:
+    """Return the events of a run with so many stops: time, kind (`kernels`) and s of each."""
+    rows = np.empty((2 * n_stops + 1, 3))
+    n_events = _run_exact(scene, rows)[-1]
+    return rows[: int(n_events)]
+
+
+def _vertical(scene: Scene) -> tuple[Floats | None, Floats | None]:
+    """Return the vertical record and its bounds as the exact kernels take them."""
+    return (scene.az, kernels.bounds(scene.az)) if scene.az.size else (None, None)
+
+
+def _run_exact(
+    scene: Scene, events: Floats | None
+) -> tuple[float, float, float, float, float, int, int]:
+    c, (az, z) = scene, _vertical(scene)
+    found: tuple[float, float, float, float, float, int, int] = kernels.slide_exact(
+        c.ax, az, c.x, z, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events
+    )
+    return found
+
+
+def _exact(scene: Scene, _: Parameters, samples: Floats) -> Outcome:
+    c, found = scene, Outcome(True, *_run_exact(scene, None)[:-1])
+    if samples.size:
+        events = exact_events(scene, found.n_stops)
+        kernels.fill_history(
+            c.ax, _vertical(c)[0], c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events, samples
+        )
+        samples[:, -1] = found.s_end, found.w_end
     return found
 
 
@@ -133,7 +161,8 @@ def _frozen(scene: Scene, parameters: Parameters, samples: Floats) -> Outcome:
     drive, _ = drive_and_cap(scene)
     a = -drive
     a.setflags(write=False)
-    flat = replace(scene, ax=a, az=NO_RECORD, sn=0.0, cs=1.0, g=scene.g * scene.cs, scale=1.0)
+    x = kernels.bounds(a)
+    flat = replace(scene, ax=a, x=x, az=NO_RECORD, sn=0.0, cs=1.0, g=scene.g * scene.cs, scale=1.0)
     return _exact(flat, parameters, samples)
 
 

@@ -13,7 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver import kernels
-from solver.methods import METHODS, NO_RECORD, Method, Outcome, Parameters, Scene, exact_events
+from solver.methods import (
+    METHODS,
+    NO_RECORD,
+    Method,
+    Outcome,
+    Parameters,
+    Scene,
+    exact_events,
+    least_normal,
+)
 from solver.model import (
     Event,
     EventKind,
@@ -149,9 +158,7 @@ def slide_motion(motion: Motion, *, slope_rad: float, mu: float, sign: int) -> S
 
 def _run(method: Method, parameters: Parameters, scene: Scene, samples: Floats) -> SlideResult:
     """Run a scene; `samples` of shape (2, n) is filled with u and its rate, (2, 0) with nothing."""
-    n_min_g, t_uplift = kernels.least_normal(
-        scene.ax, scene.az, scene.dt, scene.sn, scene.cs, scene.g, scene.scale
-    )
+    n_min_g, t_uplift = least_normal(scene)
     if n_min_g < 0.0:
         return _without_displacement(Status.UPLIFT, n_min_g, t_uplift)
     found = method.follow(scene, dict(method.parameters) | dict(parameters), samples)
@@ -164,15 +171,15 @@ def _run(method: Method, parameters: Parameters, scene: Scene, samples: Floats) 
 
 def _events(scene: Scene, result: SlideResult) -> tuple[Event, ...]:
     """Return the events of the exact method: at most a slip before each stop, and one more."""
-    rows = np.empty((2 * result.n_stops + 1, 3))
-    n_events = exact_events(scene, rows, _NO_HISTORY)[-1] if math.isfinite(result.prd_m) else 0
+    if math.isnan(result.prd_m):
+        return ()
     return tuple(
         Event(
             t_s=float(t),
-            kind=EventKind.SLIP if kind == kernels.SLIP else EventKind.STOP,
+            kind=EventKind.STOP if kind == kernels.STOP else EventKind.SLIP,
             u_m=scene.cs * float(s),
         )
-        for t, kind, s in rows[:n_events]
+        for t, kind, s in exact_events(scene, result.n_stops)
     )
 
 
@@ -241,6 +248,7 @@ def _checked(
         raise InputError(problems)
     return Scene(
         ax=ax,
+        x=kernels.bounds(ax),
         az=az,
         dt=float(dt_s),
         sn=math.sin(slope_rad),

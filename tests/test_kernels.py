@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +13,6 @@ from solver import kernels
 
 ROOT = Path(__file__).resolve().parents[1]
 G = 10.0
-NONE = np.empty(0)
-NONE.setflags(write=False)
 
 
 def readonly(values):
@@ -33,10 +32,14 @@ SCENES = [
     ([0.0, 0.0, 0.0, 0.0], [], 0.3, 0.1),
     ([0.0, -6.0, 6.0, -6.0, 0.0, 0.0], [0.0, 2.0, -3.0, 1.0, 0.0, 0.0], 0.1, 0.4),
     ([0.0, 0.0, -30.0, 0.0], [], 0.5, 0.4),
+    ([-30.0, 0.0, 0.0], [], 0.5, 0.4),
     ([0.0, -20.0, 0.0, 12.0, 0.0], [], -0.6, 0.3),
     # The speed comes down to touch zero at the vertex, within a rounding.
     ([-4.0, 0.0, -4.0, -4.0], [], 0.0, 0.2),
     ([0.0, -3.0, 1.0, -3.0, -3.0], [], 0.0, 0.1),
+    # Self-locking: no push can send it up the slope.
+    ([0.0, 8.0, 9.0, 0.0], [], 0.8, 1.5),
+    ([0.0, 8.0, 9.0, 0.0], [], 0.6, 0.75),
     # The speed dips within an interval and stays above zero.
     ([-8.0, -1.0, -8.0, 0.0], [], 0.0, 0.2),
 ]
@@ -46,24 +49,45 @@ def cosine(sn):
     return float(np.sqrt(1.0 - sn * sn))
 
 
+def quiet_then_shaken(n):
+    """Long rest, a shock in its middle, long rest: whole blocks of samples to pass over."""
+    record = np.zeros(n)
+    record[n // 2 : n // 2 + 6] = [2.0, -6.0, -6.0, 5.0, 5.0, 0.0]
+    return record
+
+
+LONG = [
+    (quiet_then_shaken(1200), [], 0.05, 0.3),
+    (quiet_then_shaken(1200), 0.2 * quiet_then_shaken(1200), 0.05, 0.3),
+    (np.zeros(300), [], 0.4, 0.1),
+]
+
+
 def run_all(compiled):
     """Return the outcome of every scene by every kernel, compiled or as plain Python."""
-    exact, normal, oscillator = (
+    exact, fill, normal, bounds, oscillator = (
         f if compiled else getattr(f, "py_func", f)
         for f in (
             kernels.slide_exact,
+            kernels.fill_history,
             kernels.least_normal,
+            kernels.bounds,
             kernels.oscillator_peaks,
         )
     )
     found = []
-    for horizontal, vertical, sn, mu in SCENES:
-        ax, az, cs = readonly(horizontal), readonly(vertical), cosine(sn)
-        for samples in (np.full((2, ax.size), np.nan), np.empty((2, 0))):
-            events = np.full((8, 3), np.nan)
-            found += exact(ax, az, 0.25, sn, cs, mu, G, 1.0, events, samples)
-            found += [*events.ravel(), *samples.ravel()]
-        found += normal(ax, az, 0.25, sn, cs, G, 1.0)
+    for (horizontal, vertical, sn, mu), scale in product(SCENES + LONG, (1.0, 0.0)):
+        ax, cs = readonly(horizontal), cosine(sn)
+        az = readonly(vertical) if len(vertical) else None
+        x, z = bounds(ax), bounds(az) if az is not None else None
+        run = exact(ax, az, x, z, 0.25, sn, cs, mu, G, scale, None)
+        events = np.full((2 * run[5] + 1, 3), np.nan)
+        again = exact(ax, az, x, z, 0.25, sn, cs, mu, G, scale, events)
+        assert run == again
+        history = np.full((2, ax.size), np.nan)
+        fill(ax, az, 0.25, sn, cs, mu, G, scale, events[: run[6]], history)
+        found += [*run, *events.ravel(), *history.ravel()]
+        found += normal(ax, az, x, z, 0.25, sn, cs, G, scale)
         for omega in (1e-6, 1e-2, 1.0, 50.0):
             peak, at = np.empty(1), np.empty(1, dtype=np.int64)
             oscillator(ax, 0.25, np.array([omega]), 0.05, peak, at)

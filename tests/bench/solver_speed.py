@@ -1,13 +1,15 @@
 """How fast the exact method is, as ratios measured side by side in one run.
 
 Run from the top: .venv/bin/python tests/bench/solver_speed.py [RECORD.csv ...]
-Against one streaming pass over the record (the sum of its samples, jitted) and against the paper's
-algorithm at P = 64; medians of repeats, the geometric mean over the records. Without arguments it
-runs the example's records.
+Over the paper's grid (29 slopes x 15 friction coefficients x 16 PPA) the mean time of a run, against
+one streaming pass over the record (the sum of its samples, jitted) and against the paper's
+algorithm at P = 64 on the same runs (every 97th of them, for it is slow). Medians of repeats, the
+geometric mean over the records. Without arguments it runs the example's records.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 import platform
 import statistics
@@ -24,12 +26,13 @@ from solver.motion import read_record
 
 ROOT = Path(__file__).resolve().parents[2]
 G = 9.80665
-SCENES = [
-    (d, mu, ppa) for d in (0.0, 2.0, 4.0, 7.0) for mu in (0.2, 0.4, 0.6) for ppa in (0.5, 1.5)
-]
-NO_EVENTS, NO_HISTORY = np.empty((0, 3)), np.empty((2, 0))
+SLOPES = [math.radians(0.5 * k) for k in range(-14, 15)]
+FRICTIONS = [0.1 + 0.05 * k for k in range(15)]
+PPAS = [0.1 * k for k in range(16)]
+GRID = np.array(list(itertools.product(SLOPES, FRICTIONS, PPAS)))
 NO_RECORD = np.empty(0)
 NO_RECORD.setflags(write=False)
+NO_HISTORY = np.empty((2, 0))
 
 
 @njit
@@ -41,9 +44,29 @@ def total(a: np.ndarray) -> float:
     return found
 
 
-def seconds(call: Callable[[], object], repeats: int, loops: int) -> float:
-    """Median time of one call [s]."""
+@njit
+def run_exact(ax: np.ndarray, x: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> float:
+    """Run every row of the grid; the sum of the PRDs keeps the work from being optimised away."""
+    found = 0.0
+    for k in range(grid.shape[0]):
+        sn, cs, scale = math.sin(grid[k, 0]), math.cos(grid[k, 0]), grid[k, 2] * G / peak
+        n_min, _ = kernels.least_normal(ax, None, x, None, dt, sn, cs, G, scale)
+        out = kernels.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
+        found += max(out[0], -out[1]) + min(n_min, 0.0)
+    return found
+
+
+def run_paper(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> None:
+    """Run every row of the grid by the paper's algorithm."""
+    for slope, mu, ppa in grid:
+        sn, cs, scale = math.sin(slope), math.cos(slope), ppa * G / peak
+        rivals.slide_constant(ax, NO_RECORD, dt, sn, cs, mu, G, scale, 64, False, NO_HISTORY)
+
+
+def seconds(call: Callable[[], object], repeats: int, loops: int = 1) -> float:
+    """Median time of one call [s], after one that is not counted."""
     times = []
+    call()
     for _ in range(repeats):
         started = time.perf_counter()
         for _ in range(loops):
@@ -53,34 +76,22 @@ def seconds(call: Callable[[], object], repeats: int, loops: int) -> float:
 
 
 def measure(path: Path) -> tuple[int, float, float, float]:
-    """Return the samples of a record and the mean time per run: exact, paper, one pass [s]."""
+    """Return the samples of a record and the time of a run: exact, paper, one pass [s]."""
     record = read_record(path, units="g")
     ax, dt = record.a_mps2, record.dt_s
-    peak = float(np.abs(ax).max())
-    exact = paper = 0.0
-    for degrees, mu, ppa in SCENES:
-        sn, cs = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
-        scale = ppa * G / peak
-
-        def run_exact(sn: float = sn, cs: float = cs, mu: float = mu, k: float = scale) -> None:
-            kernels.least_normal(ax, NO_RECORD, dt, sn, cs, G, k)
-            kernels.slide_exact(ax, NO_RECORD, dt, sn, cs, mu, G, k, NO_EVENTS, NO_HISTORY)
-
-        def run_paper(sn: float = sn, cs: float = cs, mu: float = mu, k: float = scale) -> None:
-            rivals.slide_paper(ax, dt, sn, cs, mu, G, k, 64, NO_HISTORY)
-
-        run_exact(), run_paper()
-        exact += seconds(run_exact, 7, 50) / len(SCENES)
-        paper += seconds(run_paper, 3, 1) / len(SCENES)
-    total(ax)
-    return ax.size, exact, paper, seconds(lambda: total(ax), 15, 200)
+    x, peak, few = kernels.bounds(ax), float(np.abs(ax).max()), GRID[::97]
+    exact = seconds(lambda: run_exact(ax, x, dt, peak, GRID), 5) / len(GRID)
+    paper = seconds(lambda: run_paper(ax, dt, peak, few), 3) / len(few)
+    exact_few = seconds(lambda: run_exact(ax, x, dt, peak, few), 15) / len(few)
+    one = seconds(lambda: total(ax), 15, loops=500)
+    return ax.size, exact, paper * exact / exact_few, one
 
 
 def main() -> None:
     """Print a row for each record and the geometric means."""
     paths = [Path(name) for name in sys.argv[1:]]
     paths = paths or sorted((ROOT / "projects" / "example" / "records").glob("*-h.csv"))
-    print(f"{platform.processor() or platform.machine()}, Python {platform.python_version()}")
+    print(f"{platform.machine()}, Python {platform.python_version()}, one core")
     headings = ("samples", "exact us", "pass us", "exact/pass", "paper/exact")
     print(f"{'record':24}" + "".join(f"{heading:>13}" for heading in headings))
     logs = []
