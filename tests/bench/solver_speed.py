@@ -1,7 +1,7 @@
 """How fast the exact method is, as ratios measured side by side in one run.
 
 Run from the top: .venv/bin/python tests/bench/solver_speed.py [RECORD.csv ...]
-Over the paper's grid (29 slopes x 15 friction coefficients x 16 PPA) the mean time of a run, against
+Over the grid of the paper (29 slopes x 15 frictions x 16 PPA) the mean time of a run, against
 one streaming pass over the record (the sum of its samples, jitted) and against the paper's
 algorithm at P = 64 on the same runs (every 97th of them, for it is slow). Medians of repeats, the
 geometric mean over the records. Without arguments it runs the example's records.
