@@ -6,6 +6,7 @@ Public names are listed here; everything is SI. Imports no files, pages or pictu
 from solver.methods import METHODS
 from solver.model import Event, EventKind, InputError, Motion, SlideHistory, SlideResult, Status
 from solver.solve import slide, slide_history
+from solver.studies import Sweep, sweep
 
 __all__ = [
     "METHODS",
@@ -16,6 +17,8 @@ __all__ = [
     "SlideHistory",
     "SlideResult",
     "Status",
+    "Sweep",
     "slide",
     "slide_history",
+    "sweep",
 ]

@@ -18,7 +18,7 @@ Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
 import math
 
 import numpy as np
-from numba import njit
+from numba import njit, prange
 
 # Kinds of event in the `events` array.
 DOWN = 1.0
@@ -352,6 +352,27 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
             i += 1
         if ends:
             history[0, i:] = events[k + 1, 2]
+
+
+@njit(cache=True, parallel=True)
+def sweep_exact(ax, az, x, z, dt, g, scenes, out):
+    """Run many scenes under one record, side by side.
+
+    Parameters
+    ----------
+    scenes : array, shape (m, 3)
+        Slope [rad], friction coefficient and scale of each.
+    out : array, shape (m, 4)
+        Filled with s at its largest, at its least and at the end, and s' there; NaN after uplift.
+    """
+    for k in prange(scenes.shape[0]):
+        slope, mu, scale = scenes[k, 0], scenes[k, 1], scenes[k, 2]
+        sn, cs = math.sin(slope), math.cos(slope)
+        least, _ = least_normal(ax, az, x, z, dt, sn, cs, g, scale)
+        out[k, :] = np.nan
+        if least >= 0.0:
+            s_max, s_min, s, w, _, _, _ = slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, None)
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = s_max, s_min, s, w
 
 
 @njit(cache=True)

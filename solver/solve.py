@@ -226,8 +226,8 @@ def _checked(
 ) -> Scene:
     """Return the scene with read-only contiguous records, or raise with every fault."""
     problems: list[str] = []
-    ax = _record("ax_mps2", ax_mps2, problems)
-    az = NO_RECORD if az_mps2 is None else _record("az_mps2", az_mps2, problems)
+    ax = checked_record("ax_mps2", ax_mps2, problems)
+    az = NO_RECORD if az_mps2 is None else checked_record("az_mps2", az_mps2, problems)
     if az_mps2 is not None and az.shape != ax.shape:
         problems.append(f"az_mps2 has shape {az.shape}; give the shape of ax_mps2, {ax.shape}")
     if not (math.isfinite(dt_s) and dt_s > 0.0):
@@ -275,7 +275,7 @@ def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list
     return found
 
 
-def _record(name: str, values: ArrayLike, problems: list[str]) -> Floats:
+def checked_record(name: str, values: ArrayLike, problems: list[str]) -> Floats:
     """Return a read-only float64 view: read-only arrays alone keep one compiled version."""
     try:
         record = np.ascontiguousarray(values, dtype=np.float64)

@@ -1,5 +1,6 @@
 """The kernels with the compiler off: the same bits, and every line run."""
 
+import math
 import os
 import subprocess
 import sys
@@ -65,13 +66,14 @@ LONG = [
 
 def run_all(compiled):
     """Return the outcome of every scene by every kernel, compiled or as plain Python."""
-    exact, fill, normal, bounds, oscillator = (
+    exact, fill, normal, bounds, sweep, oscillator = (
         f if compiled else getattr(f, "py_func", f)
         for f in (
             kernels.slide_exact,
             kernels.fill_history,
             kernels.least_normal,
             kernels.bounds,
+            kernels.sweep_exact,
             kernels.oscillator_peaks,
         )
     )
@@ -88,6 +90,9 @@ def run_all(compiled):
         fill(ax, az, 0.25, sn, cs, mu, G, scale, events[: run[6]], history)
         found += [*run, *events.ravel(), *history.ravel()]
         found += normal(ax, az, x, z, 0.25, sn, cs, G, scale)
+        out, scene = np.empty((1, 4)), np.array([[math.asin(sn), mu, scale]])
+        sweep(ax, az, x, z, 0.25, G, scene, out)
+        found += out.ravel().tolist()
         for omega in (1e-6, 1e-2, 1.0, 50.0):
             peak, at = np.empty(1), np.empty(1, dtype=np.int64)
             oscillator(ax, 0.25, np.array([omega]), 0.05, peak, at)
