@@ -32,7 +32,7 @@ from solver.model import Floats
 WIDTH_IN = 6.7
 INK, GREY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
 FAMILY = "Source Sans 3"
-MAX_POINTS = 400  # in a history; a panel is 200 points of paper wide
+MAX_POINTS = 320  # in a history; a panel is 150 points of paper wide
 
 _STYLE: Any = {
     "font.family": FAMILY,
@@ -402,7 +402,9 @@ def _times(axes: Axes, grid: _Grid, index: int, ticks: _Broken) -> None:
             at = grid.x(index, float(t))
             ticks.add([at, at], [level, level - 0.025])
             text = f"{t:g} s" if t else "0"
-            axes.text(at, level - 0.05, text, ha="center", va="top", fontsize=7)
+            # The last label keeps clear of the next panel's first.
+            side = "right" if t > 0.9 * grid.seconds else "center"
+            axes.text(at, level - 0.05, text, ha=side, va="top", fontsize=7)
 
 
 def _traces(axes: Axes, grid: _Grid, motions: Sequence[MotionRun]) -> None:

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from report.assess import ArrayAssessment
 from report.equations import symbol
 from report.pages_checks import all_checks, clearance_table, troubles
-from report.pages_parts import Column, Row, Scene, Table, ratio, shortened, verdict
+from report.pages_parts import Column, Row, Scene, Table, ratio, shortened, statistic, verdict
 from report.units import number
 
 
@@ -115,7 +115,7 @@ def _numbers(scene: Scene) -> Sequence[tuple[str, str, str]]:
         ),
         (
             "Design value from the peaks",
-            f"{found.analysis.basis.value} of {motions}{scene.mark('analysis_factor')}",
+            f"{statistic(found.analysis.basis)} of {motions}{scene.mark('analysis_factor')}",
             rules.values["analysis_factor"].clause,
         ),
         (

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from report.assess import ArrayAssessment, ClearanceCheck
 from report.equations import formula, fraction, symbol
-from report.pages_parts import Line, Scene, nan_is_worst
+from report.pages_parts import Line, Scene, nan_is_worst, statistic
 from report.units import Quantity, number
 from solver.provisions import SEPARATION_KEYS, Basis, Neighbour
 
@@ -208,7 +208,7 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
             ),
             reference=scene.clause("analysis_factor"),
             steps=((f"{factor} × {say.both(picked)}", say.both(analysis.value_m)),),
-            note=f"Statistic: {analysis.basis.value}.",
+            note=f"Statistic: {statistic(analysis.basis)}.",
         ),
         Line(
             formula=formula(r"\Delta_{floor}=f\,\Delta_{MPV}"),

@@ -18,7 +18,7 @@ from report.equations import Formula
 from report.schema import ProjectInput
 from report.units import Quantity, Unit, measured, number, pair
 from solver.model import DefectError
-from solver.provisions import SEPARATION_KEYS, Check, Measure, Provision
+from solver.provisions import SEPARATION_KEYS, Basis, Check, Measure, Provision
 
 NO_VALUE = "no value"
 WHOLE_ROWS = 24  # longer tables may go on over the page, with their heads repeated
@@ -201,6 +201,11 @@ class Say:
 def nan_is_worst(value: float) -> float:
     """Return a value to sort by: NaN over all."""
     return math.inf if math.isnan(value) else value
+
+
+def statistic(basis: Basis) -> str:
+    """Return the way from peaks to one value, in words."""
+    return basis.value.replace(" x ", " × ")
 
 
 def ratio(value: float) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from report.assess import ArrayAssessment, MotionRun, PolarityRun
 from report.pages_checks import check_table
-from report.pages_parts import NO_VALUE, Column, Row, Scene, Table, Wide
+from report.pages_parts import NO_VALUE, Column, Row, Scene, Table, Wide, statistic
 from report.units import number
 from solver.model import Status
 
@@ -51,13 +51,13 @@ def _peaks(scene: Scene, found: ArrayAssessment) -> Table:
             *say.columns("Up", share=0.85),
             Column(head="t PRD", unit="s", share=0.8),
             Column(head="Stops", share=0.65),
-            Column(head="N min", unit="mg", share=0.7),
+            Column(head="N/(m g)", share=0.8),
             Column(head="Status", align="left", share=0.85),
         ),
         rows=(*rows, *_statistics(scene, found)),
         notes=(
-            "Horizontal, relative to the roof, positive down the slope; + as recorded, "
-            "− reversed, bold what counts. Stops include reversals. N min: least normal force.",
+            "Relative to the roof, positive down the slope; + as recorded, − reversed, bold what "
+            "counts. Stops include reversals. N/(m g): least of the run.",
         ),
         kind="compact",
     )
@@ -89,7 +89,7 @@ def _statistics(scene: Scene, found: ArrayAssessment) -> Sequence[Row]:
     lines = (
         ("Mean", analysis.mean_m, "", "over the motions, of the larger of both polarities"),
         ("Largest", analysis.largest_m, "", "over all motions"),
-        ("Analysis", analysis.value_m, "", f"{analysis.basis.value}, {factor}"),
+        ("Analysis", analysis.value_m, "", f"{statistic(analysis.basis)}, {factor}"),
         ("Floor", found.floor_m, scene.mark("analysis_floor"), _floor_words(scene, floor)),
         ("Design", found.design_m, scene.design_mark(found), f"governed by: {found.governs}"),
     )
