@@ -71,7 +71,8 @@ class Method:
     sweep : tuple of float
         Values of the knob from coarse to fine.
     order : float
-        Formal order of the error in the sub-step, where the motion is smooth; NaN for none.
+        Formal order of the error in the sub-step where the motion is smooth, NaN for none. Stick
+        and slip brings each down to first order.
     takes_vertical : bool
     invalid_when : str
         When not to trust it, in a sentence.
@@ -289,8 +290,8 @@ _ALL = (
         order=2.0,
         takes_vertical=True,
         invalid_when=(
-            "For sub-steps above 2 / sqrt(g k) it is unstable; a soft link adds its own stretch, "
-            "mu / k, and vibrates for ever."
+            "For sub-steps above 2 / sqrt(g k) it is unstable, and above 1.7 / sqrt(g k) it may "
+            "slip in every third; a soft link adds its own stretch, mu / k, and vibrates for ever."
         ),
         source=f"{_PAPER}, SAP 2000: Newmark gamma 0.5, beta 0, no damping, 100 N/mm on 1 N",
         link_steps_per_radian=1.0,
