@@ -1,10 +1,15 @@
+import os
 import re
+import threading
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 
 import stand_in
 from report import figures
+from report.pages_figures import begin
+from report.pages_parts import Picture
 from report.pdf import TEMPLATES
 from report.spectra import spectra
 from solver.model import Motion
@@ -52,8 +57,6 @@ def test_charts_carry_no_date_and_only_the_shipped_font(book, assessment):
 
 
 def test_settings_of_the_machine_do_not_matter(book, assessment):
-    import matplotlib as mpl
-
     before = drawn(book, assessment)
     with mpl.rc_context({"font.size": 30.0, "lines.linewidth": 9.0, "svg.fonttype": "path"}):
         assert drawn(book, assessment) == before
@@ -125,3 +128,38 @@ def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
     found = words(figures.comparison(assessment.arrays, us_first))
     assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in found
     assert f"[{'mm' if us_first else 'in'}]" in found
+
+
+def pictures_of(name):
+    return {name: [Picture(svg="<svg/>", caption=name, alt=name)]}
+
+
+def test_work_begun_elsewhere_comes_back_whole():
+    assert begin(lambda: pictures_of("plan"))() == pictures_of("plan")
+
+
+def test_work_that_fails_elsewhere_is_done_here_and_says_why():
+    here = os.getpid()
+
+    def only_here():
+        if os.getpid() != here:
+            raise RuntimeError("lost")
+        return pictures_of("plan")
+
+    def nowhere():
+        raise ValueError("a chart that cannot be drawn")
+
+    assert begin(only_here)() == pictures_of("plan")
+    with pytest.raises(ValueError, match="cannot be drawn"):
+        begin(nowhere)()
+
+
+def test_beside_other_threads_the_work_is_done_here():
+    done = threading.Event()
+    other = threading.Thread(target=done.wait)
+    other.start()
+    try:
+        assert begin(lambda: pictures_of(str(os.getpid())))() == pictures_of(str(os.getpid()))
+    finally:
+        done.set()
+        other.join()

@@ -1,0 +1,110 @@
+"""What all charts share: fonts, style, sizes, and the way to the text of an SVG.
+
+Two runs give the same bytes, whatever the machine's fonts and settings. Read `report.figures` next.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib import font_manager
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+WIDTH_IN = 6.7
+INK, GREY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
+FAMILY = "Source Sans 3"
+
+_STYLE: Any = {
+    "font.family": FAMILY,
+    "font.size": 8.0,
+    "axes.titlesize": 8.0,
+    "axes.labelsize": 8.0,
+    "axes.linewidth": 0.6,
+    "axes.edgecolor": INK,
+    "axes.labelcolor": INK,
+    "axes.unicode_minus": True,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.direction": "out",
+    "ytick.direction": "out",
+    "grid.color": PALE,
+    "grid.linewidth": 0.5,
+    "legend.frameon": False,
+    "legend.fontsize": 7.5,
+    "hatch.linewidth": 0.5,
+    "svg.fonttype": "none",  # text stays text: the pages load the same fonts
+    "svg.hashsalt": "roofslip",
+    "path.simplify": True,
+    "text.parse_math": False,  # a dollar sign in a name is a dollar sign
+}
+
+
+def load_fonts(folder: Path) -> None:
+    """Make the shipped fonts known to the charts."""
+    known = {entry.fname for entry in font_manager.fontManager.ttflist}
+    for path in sorted(folder.glob("SourceSans3-*.ttf")):
+        if str(path) not in known:
+            font_manager.fontManager.addfont(str(path))
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Draw in the package's style, whatever the machine's settings are."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_STYLE)
+        yield
+
+
+def svg_text(figure: Figure) -> str:
+    """Return a figure as the text of an SVG, without date or maker."""
+    out = io.StringIO()
+    figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    text = out.getvalue()
+    return text[text.index("<svg") :]
+
+
+def framed(height: float, left: float, right: float, top: float, bottom: float) -> Any:
+    """Return a figure and its axes with margins in inches: measuring them takes half the time."""
+    figure = Figure(figsize=(WIDTH_IN, height))
+    box = (
+        left / WIDTH_IN,
+        bottom / height,
+        1.0 - (left + right) / WIDTH_IN,
+        1.0 - (top + bottom) / height,
+    )
+    return figure, figure.add_axes(box)
+
+
+def bare(axes: Axes) -> None:
+    """Leave only the two axes that carry numbers."""
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+class Broken:
+    """A line in pieces: one path instead of many."""
+
+    def __init__(self) -> None:
+        self.x: list[float] = []
+        self.y: list[float] = []
+
+    def add(self, x: Iterable[float], y: Iterable[float]) -> None:
+        """Add a piece."""
+        self.x += [*x, math.nan]
+        self.y += [*y, math.nan]
+
+
+def tick_text(name: str) -> str:
+    """Return a name cut to what fits beside a tick."""
+    return name if len(name) <= 14 else f"{name[:13]}…"

@@ -1,0 +1,152 @@
+"""Histories of the displacement relative to the roof, one panel a motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from report.assess import MotionRun
+from report.figures_base import (
+    ACCENT,
+    GREY,
+    INK,
+    PALE,
+    WIDTH_IN,
+    Broken,
+    style,
+    svg_text,
+    tick_text,
+)
+from report.units import Quantity, Unit, number, pair
+from solver.model import Floats
+
+MAX_POINTS = 320  # in a history; a panel is 150 points of paper wide
+
+
+def histories(motions: Sequence[MotionRun], us_first: bool) -> str:
+    """Return the relative displacement under each motion, its governing polarity, PRD marked.
+
+    All panels share one pair of axes, moved apart: a pair for each would take ten times as long.
+    """
+    grid = _Grid(motions, Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 0.92 * grid.rows + 0.3))
+        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        axes.set_axis_off()
+        axes.set_xlim(-0.08 * grid.columns, grid.columns)
+        axes.set_ylim(-grid.rows - 0.3, 0.0)
+        _rules(axes, grid, len(motions))
+        _traces(axes, grid, motions)
+        for index, run in enumerate(motions):
+            _titles(axes, grid, index, run, us_first)
+        return svg_text(figure)
+
+
+class _Grid:
+    """Where the panels of a figure lie, and what their scales are."""
+
+    def __init__(self, motions: Sequence[MotionRun], unit: Unit) -> None:
+        results = [run.governing.result for run in motions]
+        self.unit = unit
+        self.columns = 2 if len(motions) <= 4 else 3
+        self.rows = math.ceil(len(motions) / self.columns)
+        self.last = len(motions) - self.columns  # panels from here on have none below them
+        high = np.nanmax([0.0, *(r.down_m for r in results)]) / unit.si
+        low = -np.nanmax([0.0, *(r.up_m for r in results)]) / unit.si
+        self.ticks = [float(t) for t in MaxNLocator(4).tick_values(low, high or 1.0)]
+        self.low, self.high = self.ticks[0], self.ticks[-1]
+        longest = max(float(run.governing.history.t_s[-1]) for run in motions)
+        self.seconds = longest
+
+    def x(self, index: int, t_s: Any) -> Any:
+        """Return where times lie, as given: one or an array."""
+        return index % self.columns + 0.94 * t_s / self.seconds
+
+    def y(self, index: int, value: Any) -> Any:
+        """Return where displacements in the grid's unit lie, as given: one or an array."""
+        share = (value - self.low) / (self.high - self.low)
+        return -(index // self.columns) - 0.95 + 0.72 * share
+
+
+def _rules(axes: Axes, grid: _Grid, count: int) -> None:
+    """Draw the levels and the ticks of all panels, each kind as one broken line."""
+    levels, zeros, ticks = Broken(), Broken(), Broken()
+    for index in range(count):
+        left, right = grid.x(index, 0.0), grid.x(index, grid.seconds)
+        for value in grid.ticks:
+            level = grid.y(index, value)
+            (levels if value else zeros).add([left, right], [level, level])
+            if index % grid.columns == 0:
+                label = number(value, 0 if abs(grid.ticks[1] - grid.ticks[0]) >= 1 else 1)
+                axes.text(left - 0.012, level, label, ha="right", va="center", fontsize=7)
+        if index >= grid.last:
+            _times(axes, grid, index, ticks)
+    for line, color in ((levels, PALE), (zeros, GREY), (ticks, INK)):
+        axes.plot(line.x, line.y, color=color, linewidth=0.5, clip_on=False)
+    axes.text(grid.x(0, 0.0) - 0.012, -0.13, f"u [{grid.unit.symbol}]", ha="right", fontsize=7.5)
+
+
+def _times(axes: Axes, grid: _Grid, index: int, ticks: Broken) -> None:
+    level = grid.y(index, grid.low)
+    for t in MaxNLocator(5).tick_values(0.0, grid.seconds):
+        if 0.0 <= t <= grid.seconds:
+            at = grid.x(index, float(t))
+            ticks.add([at, at], [level, level - 0.025])
+            text = f"{t:g} s" if t else "0"
+            # The last label keeps clear of the next panel's first.
+            side = "right" if t > 0.9 * grid.seconds else "center"
+            axes.text(at, level - 0.05, text, ha=side, va="top", fontsize=7)
+
+
+def _traces(axes: Axes, grid: _Grid, motions: Sequence[MotionRun]) -> None:
+    """Draw all histories as one broken line, and all peaks."""
+    line, peaks = Broken(), Broken()
+    for index, run in enumerate(motions):
+        history, result = run.governing.history, run.governing.result
+        if math.isnan(result.prd_m):
+            middle = grid.y(index, (grid.low + grid.high) / 2)
+            axes.text(grid.x(index, grid.seconds / 2), middle, "no value", ha="center", va="center")
+            continue
+        t, u = envelope(history.t_s, history.u_m / grid.unit.si)
+        line.add(grid.x(index, t), grid.y(index, u))
+        peak = (result.down_m if result.down_m >= result.up_m else -result.up_m) / grid.unit.si
+        peaks.add([grid.x(index, result.t_prd_s)], [grid.y(index, peak)])
+    axes.plot(line.x, line.y, color=ACCENT, linewidth=0.9, clip_on=False)
+    axes.plot(peaks.x, peaks.y, linestyle="", marker="o", markersize=3.2, color=INK, clip_on=False)
+
+
+def _titles(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool) -> None:
+    polarity = "+" if run.governing.sign > 0 else "−"
+    top = grid.y(index, grid.high) + 0.045
+    name = f"{tick_text(run.motion.id)} {polarity}"
+    axes.text(grid.x(index, 0.0), top, name, weight="semibold")
+    axes.text(grid.x(index, grid.seconds), top, _prd_text(run, us_first), ha="right")
+
+
+def _prd_text(run: MotionRun, us_first: bool) -> str:
+    prd_m = run.governing.result.prd_m
+    if math.isnan(prd_m):
+        return "PRD: no value"
+    return f"PRD {pair(prd_m, Quantity.DISPLACEMENT, us_first)}"
+
+
+def envelope(t: Floats, u: Floats, most: int = MAX_POINTS) -> tuple[Floats, Floats]:
+    """Return at most `most` points: least and largest of each stretch, in their order."""
+    if len(u) <= most:
+        return t, u
+    edges = np.linspace(0, len(u), most // 2, dtype=int)[:-1]
+    parts = [*edges.tolist(), len(u)]
+    kept: list[int] = [0]
+    for start, stop in pairwise(parts):
+        piece = u[start:stop]
+        kept += sorted({start + int(piece.argmin()), start + int(piece.argmax())})
+    kept.append(len(u) - 1)
+    index = np.unique(kept)
+    return t[index], u[index]
