@@ -12,6 +12,7 @@ from pypdf import PdfReader
 import stand_in
 from report.package import render
 from report.pdf import html_to_pdf
+from report.units import Quantity, pair
 from solver.model import DefectError, Motion
 
 GOLDEN = Path(__file__).parent / "golden" / "package.txt"
@@ -273,6 +274,20 @@ def test_other_editions_say_their_own_name_and_clauses(said, edition):
     assert f"{edition} 13.6.12" in whole
     assert "PV1" not in whole
     assert "ASCE 7 Eqs. 11.4-1, 11.4-3" in whole
+
+
+@pytest.mark.parametrize(
+    ("value_m", "text"),
+    [
+        (2.07196, "81.6 in (2070 mm)"),
+        (0.9994, "39.3 in (999 mm)"),
+        (1.0049, "39.6 in (1000 mm)"),
+        (12.345, "486.0 in (12300 mm)"),
+        (-1.2345, "−48.6 in (−1230 mm)"),
+    ],
+)
+def test_displacements_of_a_metre_and_more_print_three_digits(value_m, text):
+    assert pair(value_m, Quantity.DISPLACEMENT) == text
 
 
 def test_a_line_in_the_renderers_log_is_a_defect():
