@@ -1,0 +1,1 @@
+"""From a filled workbook to a calculation package. Read `report.cli` first."""

@@ -11,7 +11,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from report.schema import (
+from report.sheet.schema import (
     Array,
     Clearance,
     ObjectKind,

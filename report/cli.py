@@ -20,7 +20,7 @@ import click
 
 if TYPE_CHECKING:
     from report.assess import ArrayAssessment, Assessment
-    from report.workbook import InputBook
+    from report.sheet.workbook import InputBook
 
 _QUIET_SECONDS = 1.0
 _SCENE = click.Path(path_type=Path)
@@ -49,8 +49,8 @@ def new(folder: Path, units: str) -> None:
 
 def _new_project(folder: Path, units: str) -> Path:
     """Write a blank workbook and an empty records folder; never over a workbook that is there."""
-    from report.schema import UnitsFirst
-    from report.template import write_template
+    from report.sheet.schema import UnitsFirst
+    from report.sheet.template import write_template
     from solver.model import InputError
 
     path = folder / "input.xlsx"
@@ -178,7 +178,7 @@ def _slide_record(
 
 
 def _read(source: Path) -> InputBook:
-    from report.workbook import read_workbook
+    from report.sheet.workbook import read_workbook
 
     return read_workbook(source)
 

@@ -1,6 +1,6 @@
 """Symbolic formulas as pictures, and the little markup that substituted lines are made of.
 
-Knows no values of a project: `report.pages_method` puts numbers beside the symbols.
+Knows no values of a project: `report.pages.method` puts numbers beside the symbols.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
-from report.workbook import InputBook, RecordFile
+from report.sheet.workbook import InputBook, RecordFile
 from solver.model import InputError
 from solver.provisions import Check
 

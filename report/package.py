@@ -1,7 +1,7 @@
 """The calculation package: finished strings and pictures, placed by the templates, as a PDF.
 
-Computes no physics and reads no code rule. The pages are made in `report.pages_*`; read
-`report.pages_parts` first.
+Computes no physics and reads no code rule. The pages are made in `report.pages`; read
+`report.pages.parts` first.
 """
 
 from __future__ import annotations
@@ -11,21 +11,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from report import (
-    pages_appendix,
-    pages_checks,
-    pages_front,
-    pages_inputs,
-    pages_method,
-    pages_motions,
-    pages_results,
-)
 from report.assess import Assessment
-from report.pages_figures import begin, draw
-from report.pages_parts import Part, Scene
+from report.pages import appendix, checks, front, inputs, method, motions, results
+from report.pages.parts import Part, Scene
+from report.pages.pictures import begin, draw
 from report.pdf import TEMPLATES, html_to_pdf, load_renderer
+from report.sheet.workbook import InputBook
 from report.spectra import Spectra, spectra
-from report.workbook import InputBook
 
 Stage = Callable[[str], None]
 
@@ -92,32 +84,32 @@ def _context(book: InputBook, scene: Scene, found: Sequence[Spectra]) -> Mapping
     governing = scene.governing
     return {
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
-        "sheet": pages_front.sheet(scene),
-        "cover": pages_front.cover(scene),
+        "sheet": front.sheet(scene),
+        "cover": front.cover(scene),
         "parts": parts(scene.assessment),
-        "summary": pages_front.summary(scene),
-        "basis": pages_front.basis(scene),
-        "inputs": pages_inputs.inputs(scene),
-        "motions": pages_motions.page(scene, book.motions, found),
+        "summary": front.summary(scene),
+        "basis": front.basis(scene),
+        "inputs": inputs.inputs(scene),
+        "motions": motions.page(scene, book.motions, found),
         "method": {
             "array": governing.array.id,
-            "demand": pages_method.demand_lines(scene),
-            "motion": pages_method.motion_lines(governing),
-            "prescriptive": pages_method.prescriptive_line(scene, governing),
-            "design": pages_method.design_lines(scene, governing),
-            "separation": pages_method.separation_line(scene),
-            "interconnection": pages_method.interconnection_line(scene, governing),
+            "demand": method.demand_lines(scene),
+            "motion": method.motion_lines(governing),
+            "prescriptive": method.prescriptive_line(scene, governing),
+            "design": method.design_lines(scene, governing),
+            "separation": method.separation_line(scene),
+            "interconnection": method.interconnection_line(scene, governing),
         },
-        "results": [pages_results.array_results(scene, one) for one in scene.assessment.arrays],
-        "comparison": pages_results.comparison(scene),
-        "clearances": pages_checks.clearances(scene),
-        "limits": pages_checks.limits(scene),
-        "provisions": pages_checks.provisions(scene),
+        "results": [results.array_results(scene, one) for one in scene.assessment.arrays],
+        "comparison": results.comparison(scene),
+        "clearances": checks.clearances(scene),
+        "limits": checks.limits(scene),
+        "provisions": checks.provisions(scene),
         "appendix": {
-            "echo": pages_appendix.echo(book.echo),
-            "records": pages_appendix.records(book.records),
-            "software": pages_appendix.software(),
-            "method": pages_appendix.METHOD,
+            "echo": appendix.echo(book.echo),
+            "records": appendix.records(book.records),
+            "software": appendix.software(),
+            "method": appendix.METHOD,
             "workbook": book.path.name,
             "sha256": book.sha256,
         },

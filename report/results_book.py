@@ -17,7 +17,7 @@ from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
-from report.workbook import InputBook
+from report.sheet.workbook import InputBook
 from solver.provisions import Basis
 
 METRES_PER_INCH = 0.0254

@@ -1,6 +1,6 @@
 """Response spectra of the motions as run, with the target that they are held against.
 
-Draws nothing and prints nothing: `report.figures` and `report.pages_motions` do.
+Draws nothing and prints nothing: `report.figures` and `report.pages.motions` do.
 """
 
 from __future__ import annotations

@@ -12,9 +12,9 @@ from tempfile import TemporaryDirectory
 import pytest
 from openpyxl import Workbook, load_workbook
 
-from report.schema import ProjectInput, UnitsFirst
-from report.template import write_template
-from report.workbook import read_workbook
+from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.template import write_template
+from report.sheet.workbook import read_workbook
 from solver.model import InputError
 
 FT, INCH, LB = 0.3048, 0.0254, 4.4482216152605

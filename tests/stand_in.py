@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from report.assess import Assessment, assess
-from report.records import RecordFile
-from report.schema import ProjectInput
-from report.workbook import EchoRow, InputBook
+from report.sheet.records import RecordFile
+from report.sheet.schema import ProjectInput
+from report.sheet.workbook import EchoRow, InputBook
 from solver.model import Motion
 
 G = 9.80665

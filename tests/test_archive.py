@@ -9,9 +9,9 @@ import pytest
 from openpyxl import DEFUSEDXML
 from sheets import edit, make, problems
 
-from report import archive
-from report.archive import open_book
-from report.workbook import read_workbook
+from report.sheet import archive
+from report.sheet.archive import open_book
+from report.sheet.workbook import read_workbook
 from solver.model import InputError
 
 SAVE_AS = "save it as .xlsx (Excel Workbook)"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from report.workbook import read_workbook
+from report.sheet.workbook import read_workbook
 from solver.motion import response_spectrum
 from solver.provisions import RULE_SETS, ac156_horizontal, ac156_vertical
 

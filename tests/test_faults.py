@@ -6,7 +6,7 @@ import pytest
 from openpyxl import Workbook
 from sheets import edit, make, problems
 
-from report.workbook import read_workbook
+from report.sheet.workbook import read_workbook
 
 # Sheet, cell, what is typed there, and the line that comes of it.
 SINGLE_CELLS = [

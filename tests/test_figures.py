@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import stand_in
-from report import figures
-from report.pages_figures import begin
-from report.pages_parts import Picture
+from report.figures import charts as figures
+from report.pages.parts import Picture
+from report.pages.pictures import begin
 from report.pdf import TEMPLATES
 from report.spectra import spectra
 from solver.model import Motion

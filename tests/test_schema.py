@@ -7,9 +7,9 @@ import pytest
 from pydantic import ValidationError
 from sheets import INCH, project
 
-from report.checks import gap_m, least_sdc
-from report.fields import Bounds, YesNo, entries
-from report.schema import (
+from report.sheet.checks import gap_m, least_sdc
+from report.sheet.fields import Bounds, YesNo, entries
+from report.sheet.schema import (
     PROVISION_KEYS,
     SECTIONS,
     Array,

@@ -5,9 +5,9 @@ from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
 from sheets import make, project
 
-from report.fields import entries
-from report.schema import SECTIONS, UnitsFirst
-from report.template import write_template
+from report.sheet.fields import entries
+from report.sheet.schema import SECTIONS, UnitsFirst
+from report.sheet.template import write_template
 
 SHEETS = ["README", "Project", "Site", "Arrays", "Objects", "Clearances", "Motions", "Options"]
 

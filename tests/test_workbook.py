@@ -14,10 +14,10 @@ from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.formula import ArrayFormula
 from sheets import FT, edit, make, problems, project
 
-from report import schema
-from report.schema import ProjectInput, UnitsFirst
-from report.template import write_template
-from report.workbook import read_workbook
+from report.sheet import schema
+from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.template import write_template
+from report.sheet.workbook import read_workbook
 
 DATA = Path(__file__).parent / "data"
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 import datetime as dt
 from pathlib import Path
 
-from report.schema import ProjectInput, UnitsFirst
-from report.template import write_template
+from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.template import write_template
 from solver.motion import write_record
 from solver.provisions import RULE_SETS, ac156_horizontal, ac156_vertical
 from solver.synthesis import make_suite

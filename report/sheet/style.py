@@ -1,6 +1,6 @@
 """How a made sheet looks and helps: colours, cells, dropdowns, input messages, print set-up.
 
-Knows fields (`report.fields`) but no section of the workbook. Read `report.template` next.
+Knows fields (`fields`) but no section of the workbook. Read `template` next.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.fields import Entry, YesNo
+from report.sheet.fields import Entry, YesNo
 from report.units import Unit
 
 INK = "1F3A4D"

@@ -1,7 +1,7 @@
 """Charts of the package, each a function from what was computed to the text of an SVG.
 
 Computes nothing but where ink goes; reads well in black and white (line style, marker and
-hatching carry the meaning). Fonts and style are in `report.figures_base`.
+hatching carry the meaning). Fonts and style are in `base`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from report.assess import ArrayAssessment, ClearanceCheck
-from report.figures_base import (
+from report.figures.base import (
     ACCENT,
     FAMILY,
     GREY,
@@ -30,8 +30,8 @@ from report.figures_base import (
     svg_text,
     tick_text,
 )
-from report.figures_history import MAX_POINTS, envelope, histories
-from report.figures_plan import roof_plan
+from report.figures.history import MAX_POINTS, envelope, histories
+from report.figures.plan import roof_plan
 from report.spectra import Spectra
 from report.units import Quantity, Unit
 

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from importlib import metadata
 from itertools import groupby
 
-from report.pages_parts import shortened
-from report.records import RecordFile
+from report.pages.parts import shortened
+from report.sheet.records import RecordFile
+from report.sheet.workbook import EchoRow
 from report.units import number
-from report.workbook import EchoRow
 
 LIBRARIES = (
     "numpy",

@@ -11,7 +11,7 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.patches import Rectangle as Box
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from report.figures_base import (
+from report.figures.base import (
     ACCENT,
     GREY,
     INK,
@@ -23,7 +23,7 @@ from report.figures_base import (
     svg_text,
     tick_text,
 )
-from report.schema import ObjectKind, ProjectInput, Rectangle
+from report.sheet.schema import ObjectKind, ProjectInput, Rectangle
 from report.units import Quantity, Unit, number
 
 

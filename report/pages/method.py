@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from report.assess import ArrayAssessment, ClearanceCheck
 from report.equations import formula, fraction, symbol
-from report.pages_parts import Line, Scene, nan_is_worst, statistic
+from report.pages.parts import Line, Scene, nan_is_worst, statistic
 from report.units import Quantity, number
 from solver.provisions import SEPARATION_KEYS, Basis, Neighbour
 

@@ -1,6 +1,6 @@
 """What pages are made of: tables, pictures, formula lines; and how values are put in words.
 
-Templates place these and nothing else. Owns no content: see the other `report.pages_*` modules.
+Templates place these and nothing else. Owns no content: see the other `report.pages` modules.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from markupsafe import Markup
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
 from report.equations import Formula
-from report.schema import ProjectInput
+from report.sheet.schema import ProjectInput
 from report.units import Quantity, Unit, measured, number, pair
 from solver.model import DefectError
 from solver.provisions import SEPARATION_KEYS, Basis, Check, Measure, Provision

@@ -1,7 +1,7 @@
 """A field of the input taken apart: label, unit, range, choices.
 
 Template, reader, echo and documentation ask here and never look at pydantic themselves. What the
-fields are is in `report.schema`.
+fields are is in `schema`.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from markupsafe import Markup, escape
 
 from report.assess import ClearanceCheck
 from report.equations import symbol
-from report.pages_parts import (
+from report.pages.parts import (
     NG,
     OK,
     Column,

@@ -1,6 +1,6 @@
 """Makes the input workbook from the schema, blank or filled.
 
-Owns where things stand on the sheets; `report.sheetstyle` has the looks. `report.workbook` reads
+Owns where things stand on the sheets; `style` has the looks. `workbook` reads
 the sheets back by names and headers, so positions here are free to change.
 """
 
@@ -18,9 +18,9 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.table import Table, TableColumn, TableStyleInfo
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report import sheetstyle as style
-from report.fields import Entry, Frozen, Section, entries
-from report.schema import PROVISION_KEYS, SECTIONS, ProjectInput, UnitsFirst
+from report.sheet import style
+from report.sheet.fields import Entry, Frozen, Section, entries
+from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput, UnitsFirst
 from report.units import LENGTHS, WEIGHTS, Unit
 
 BLANK_ROWS = 20

@@ -13,7 +13,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from report.assess import ArrayAssessment
-from report.pages_parts import Picture, Scene
+from report.pages.parts import Picture, Scene
 from report.pdf import TEMPLATES
 from report.spectra import Spectra
 
@@ -61,7 +61,7 @@ def _work_and_exit(work: Callable[[], Pictures], writing: int) -> None:
 
 def draw(scene: Scene, found: Sequence[Spectra]) -> Pictures:
     """Return every picture of the package, by the id of the part that it belongs to."""
-    from report import figures
+    from report.figures import charts as figures
 
     figures.load_fonts(TEMPLATES / "fonts")
     us_first, assessment = scene.say.us_first, scene.assessment
@@ -108,7 +108,7 @@ def draw(scene: Scene, found: Sequence[Spectra]) -> Pictures:
 
 
 def _histories(found: ArrayAssessment, us_first: bool) -> Iterator[Picture]:
-    from report.figures import histories
+    from report.figures.charts import histories
 
     for start in range(0, len(found.motions), PANELS):
         yield Picture(

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping, Sequence
 
 from report.assess import ArrayAssessment, MotionRun, PolarityRun
-from report.pages_checks import check_table
-from report.pages_parts import NO_VALUE, Column, Row, Scene, Table, Wide, statistic
+from report.pages.checks import check_table
+from report.pages.parts import NO_VALUE, Column, Row, Scene, Table, Wide, statistic
 from report.units import number
 from solver.model import Status
 

@@ -1,6 +1,6 @@
 """From what a cell holds to the value of a field, or to a sentence that says what would do.
 
-Knows neither sheets nor files: `report.workbook` finds the cells.
+Knows neither sheets nor files: `workbook` finds the cells.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any
 from openpyxl.utils.escape import unescape
 from pydantic import ValidationError
 
-from report.fields import Entry, Frozen, YesNo, adapter
+from report.sheet.fields import Entry, Frozen, YesNo, adapter
 from solver.model import InputError
 
 SHOWN = 60

@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from report.archive import OpenBook
-from report.cells import CellError, Found, check_saved, number
-from report.fields import Fault, Place
-from report.locate import MAX_COLUMNS, Spot, cells_below
-from report.schema import Polarity, Scaling
+from report.sheet.archive import OpenBook
+from report.sheet.cells import CellError, Found, check_saved, number
+from report.sheet.fields import Fault, Place
+from report.sheet.locate import MAX_COLUMNS, Spot, cells_below
+from report.sheet.schema import Polarity, Scaling
 from report.units import G_MPS2
 from solver.model import Floats, InputError, Motion
 from solver.motion import Record, read_record, record_from_values
@@ -76,7 +76,7 @@ def load_motion(book: OpenBook, index: int, row: Mapping[str, Any]) -> Loaded | 
     index : int
         Of the row in its table.
     row : mapping
-        Fields of `report.schema.MotionInput`; one that could not be read is absent, and is
+        Fields of `report.sheet.schema.MotionInput`; one that could not be read is absent, and is
         stood in for, so that its records are looked at all the same.
     """
     faults: list[Fault] = []

@@ -1,7 +1,7 @@
 """Checks of the input that look at more than one cell; each fault names the cell to change.
 
 Works on a draft: rows of the values that were readable, so that one bad cell hides no other fault.
-Single cells are checked by `report.schema`; files and sheets by `report.workbook`.
+Single cells are checked by `schema`; files and sheets by `workbook`.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from report.fields import Fault, Place
-from report.schema import (
+from report.sheet.fields import Fault, Place
+from report.sheet.schema import (
     PROVISION_KEYS,
     ObjectKind,
     Rectangle,

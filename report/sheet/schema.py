@@ -1,7 +1,7 @@
 """The input sheet as data: what is asked, in which unit, within which range, and how it is said.
 
 Template, reader, input echo and documentation all come from these models; values are SI. Checks
-that look at more than one cell are in `report.checks`. Read `report.workbook` next.
+that look at more than one cell are in `checks`. Read `workbook` next.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from report.fields import Cell, Frozen, Section
-from report.fields import YesNo as YesNo
+from report.sheet.fields import Cell, Frozen, Section
+from report.sheet.fields import YesNo as YesNo
 from report.units import Quantity
 from solver.provisions import OVERRIDABLE
 
@@ -410,7 +410,7 @@ class Clearance(Frozen):
 
 
 class MotionInput(Frozen):
-    """A roof motion, as asked for; `report.records` loads it."""
+    """A roof motion, as asked for; `records` loads it."""
 
     id: Annotated[Id, Cell("ID", "Short and unique, such as M1.", "M1")]
     record: Annotated[

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from report.pages_parts import Column, Row, Scene, Table
+from report.pages.parts import Column, Row, Scene, Table
 from report.spectra import PRINTED_S, Spectra
 from report.units import G_MPS2, number
 from solver.model import Floats, Motion

@@ -1,6 +1,6 @@
 """Finds the inputs of a workbook by defined name, table name and heading, wherever they stand.
 
-Never looks at positions or styles, which people change. What the cells hold is for `report.cells`.
+Never looks at positions or styles, which people change. What the cells hold is for `cells`.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.archive import OpenBook
-from report.cells import Found
-from report.fields import Entry, Section, entries
+from report.sheet.archive import OpenBook
+from report.sheet.cells import Found
+from report.sheet.fields import Entry, Section, entries
 from solver.model import InputError
 
 MAX_ROWS = 2000

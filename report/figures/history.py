@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from report.assess import MotionRun
-from report.figures_base import (
+from report.figures.base import (
     ACCENT,
     GREY,
     INK,

@@ -1,7 +1,7 @@
 """Opens a workbook that comes from anywhere, or says what it is instead.
 
 Owns every guard that has to act before openpyxl: kind of file, size, far-away cells, XML entities.
-Nothing here knows what the sheets ask. Read `report.workbook` next.
+Nothing here knows what the sheets ask. Read `workbook` next.
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from markupsafe import Markup
 
 from report.equations import symbol
-from report.pages_parts import Column, Row, Scene, Table
-from report.schema import Site
+from report.pages.parts import Column, Row, Scene, Table
+from report.sheet.schema import Site
 from report.units import Quantity, number
 
 NOT_GIVEN = "not given"

@@ -1,7 +1,7 @@
 """Reads an input workbook: every value with its cell, or every error with its cell.
 
-Joins opening (`report.archive`), finding (`report.locate`), converting (`report.cells`), checking
-(`report.checks`) and records (`report.records`). Start at `read_workbook`.
+Joins opening (`archive`), finding (`locate`), converting (`cells`), checking
+(`checks`) and records (`records`). Start at `read_workbook`.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from report.archive import OpenBook, open_book
-from report.cells import CellError, Found, plain, read_cell, wish
-from report.checks import faults
-from report.fields import Entry, Fault, Place, Section, YesNo, entries
-from report.locate import (
+from report.sheet.archive import OpenBook, open_book
+from report.sheet.cells import CellError, Found, plain, read_cell, wish
+from report.sheet.checks import faults
+from report.sheet.fields import Entry, Fault, Place, Section, YesNo, entries
+from report.sheet.locate import (
     Column,
     Spot,
     TableFound,
@@ -25,8 +25,8 @@ from report.locate import (
     found_at,
     unit_size,
 )
-from report.records import Loaded, RecordFile, load_motion
-from report.schema import SECTIONS, ProjectInput
+from report.sheet.records import Loaded, RecordFile, load_motion
+from report.sheet.schema import SECTIONS, ProjectInput
 from report.units import Quantity
 from solver.model import InputError, Motion
 

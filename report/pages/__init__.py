@@ -1,0 +1,1 @@
+"""The pages of the package as finished strings, part by part."""
