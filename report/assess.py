@@ -176,10 +176,11 @@ class Assessment:
 
     @property
     def ok(self) -> bool:
-        """Whether every limit and every clearance is kept and every run gave a final value."""
+        """Whether all limits and clearances are kept and each array has a final design value."""
         checks = [*self.building_checks, *(check for a in self.arrays for check in a.checks)]
         limits_kept = all(check.ok for check in checks)
-        return limits_kept and all(gap.ok for gap in self.clearances) and not self.warnings
+        has_values = not any(math.isnan(a.design_m) for a in self.arrays) and not self.warnings
+        return limits_kept and has_values and all(gap.ok for gap in self.clearances)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -167,6 +167,12 @@ def test_two_motions_are_too_few():
     assert not done.ok
 
 
+def test_too_few_motions_for_a_chosen_statistic_are_never_ok():
+    done = assessed(stand_in.motions(5), options={"statistic": "mean"}, clearances=[])
+    assert math.isnan(done.arrays[0].design_m)
+    assert not done.ok
+
+
 def test_a_motion_that_ends_while_sliding_is_warned_of():
     ax = np.concatenate([np.zeros(100), np.full(100, -12.0)])
     cut = Motion(
