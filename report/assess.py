@@ -30,7 +30,7 @@ from solver.provisions import (
     RequiredSpectrum,
     RuleSet,
 )
-from solver.solve import slide_motion
+from solver.solve import slide_motion, slide_motion_history
 
 _BASES = {
     Statistic.RULE_SET: None,
@@ -50,25 +50,25 @@ class PolarityRun:
     """One motion with one sign of its horizontal component."""
 
     sign: int
-    history: SlideHistory
-
-    @property
-    def result(self) -> SlideResult:
-        """The numbers of the run."""
-        return self.history.result
+    result: SlideResult
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionRun:
-    """One array under one motion, in the polarities that were asked for."""
+    """One array under one motion, in the polarities that were asked for.
+
+    Attributes
+    ----------
+    governing : PolarityRun
+        The run with the largest PRD; one without a displacement governs over all.
+    history : SlideHistory
+        Of the governing run.
+    """
 
     motion: Motion
     runs: tuple[PolarityRun, ...]
-
-    @property
-    def governing(self) -> PolarityRun:
-        """The run with the largest PRD; one without a displacement governs over all."""
-        return max(self.runs, key=lambda run: _nan_is_worst(run.result.prd_m))
+    governing: PolarityRun
+    history: SlideHistory
 
 
 def _nan_is_worst(value: float) -> float:
@@ -228,7 +228,7 @@ def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
         {row.provision: (row.value, row.reason) for row in data.overrides}
     )
     started = time.perf_counter()
-    runs = [_run_motions(array, motions) for array in data.arrays]
+    runs = [tuple(_run_motion(array, motion) for motion in motions) for array in data.arrays]
     seconds = time.perf_counter() - started
     arrays = tuple(
         _assess_array(data, rules, array, found)
@@ -251,20 +251,15 @@ def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
     )
 
 
-def _run_motions(array: Array, motions: Sequence[Motion]) -> tuple[MotionRun, ...]:
-    return tuple(
-        MotionRun(
-            motion=motion,
-            runs=tuple(
-                PolarityRun(
-                    sign=sign,
-                    history=slide_motion(motion, slope_rad=array.slope_rad, mu=array.mu, sign=sign),
-                )
-                for sign in motion.signs
-            ),
-        )
-        for motion in motions
+def _run_motion(array: Array, motion: Motion) -> MotionRun:
+    slope, mu = array.slope_rad, array.mu
+    runs = tuple(
+        PolarityRun(sign=sign, result=slide_motion(motion, slope_rad=slope, mu=mu, sign=sign))
+        for sign in motion.signs
     )
+    governing = max(runs, key=lambda run: _nan_is_worst(run.result.prd_m))
+    history = slide_motion_history(motion, slope_rad=slope, mu=mu, sign=governing.sign)
+    return MotionRun(motion=motion, runs=runs, governing=governing, history=history)
 
 
 def _assess_array(

@@ -44,17 +44,18 @@ def bounds(a):
     Rounding keeps order, so what is computed from a bound bounds what is computed from a sample,
     to the last bit: a block can be passed over without changing anything.
     """
-    fine = (a.size + BLOCK - 1) // BLOCK
-    coarse = (fine + BLOCK - 1) // BLOCK
+    fine = (a.size + BLOCK - 1) >> SHIFT
+    coarse = (fine + BLOCK - 1) >> SHIFT
     found = np.empty((2, fine + coarse + 1))
+    found[0], found[1] = np.inf, -np.inf
+    for i in range(a.size):
+        block = i >> SHIFT
+        found[0, block] = min(found[0, block], a[i])
+        found[1, block] = max(found[1, block], a[i])
     for block in range(fine):
-        part = a[block * BLOCK : (block + 1) * BLOCK]
-        found[0, block], found[1, block] = part.min(), part.max()
-    for block in range(coarse):
-        first, last = block * BLOCK, min((block + 1) * BLOCK, fine)
-        found[0, fine + block] = found[0, first:last].min()
-        found[1, fine + block] = found[1, first:last].max()
-    found[0, -1], found[1, -1] = a.min(), a.max()
+        for above in (fine + (block >> SHIFT), fine + coarse):
+            found[0, above] = min(found[0, above], found[0, block])
+            found[1, above] = max(found[1, above], found[1, block])
     return found
 
 

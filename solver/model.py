@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,9 +102,11 @@ class EventKind(StrEnum):
     STOP = "stop"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Event:
-    """Slip begins or ends: time [s], kind, horizontal relative displacement [m]."""
+class Event(NamedTuple):
+    """Slip begins or ends: time [s], kind, horizontal relative displacement [m].
+
+    A tuple, because a run has hundreds of them.
+    """
 
     t_s: float
     kind: EventKind

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from numbers import Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -141,19 +142,26 @@ def slide_history(
     )
 
 
-def slide_motion(motion: Motion, *, slope_rad: float, mu: float, sign: int) -> SlideHistory:
+def slide_motion(motion: Motion, *, slope_rad: float, mu: float, sign: int) -> SlideResult:
     """Slide under a `Motion`, with one polarity (sign +1 or -1) of its horizontal component.
 
     Reversing the motion is the same as reversing the slope (the paper runs both slope signs).
     """
-    return slide_history(
-        motion.ax_mps2 * sign,
-        motion.dt_s,
-        slope_rad=slope_rad,
-        mu=mu,
-        az_mps2=motion.az_mps2 if motion.has_vertical else None,
-        scale=motion.scale,
-    )
+    return slide(**_arguments(motion, sign), slope_rad=slope_rad, mu=mu)
+
+
+def slide_motion_history(motion: Motion, *, slope_rad: float, mu: float, sign: int) -> SlideHistory:
+    """Return the history of what `slide_motion` runs."""
+    return slide_history(**_arguments(motion, sign), slope_rad=slope_rad, mu=mu)
+
+
+def _arguments(motion: Motion, sign: int) -> dict[str, Any]:
+    return {
+        "ax_mps2": motion.ax_mps2 * sign,
+        "dt_s": motion.dt_s,
+        "az_mps2": motion.az_mps2 if motion.has_vertical else None,
+        "scale": motion.scale,
+    }
 
 
 def _run(method: Method, parameters: Parameters, scene: Scene, samples: Floats) -> SlideResult:
@@ -175,11 +183,11 @@ def _events(scene: Scene, result: SlideResult) -> tuple[Event, ...]:
         return ()
     return tuple(
         Event(
-            t_s=float(t),
+            t_s=t,
             kind=EventKind.STOP if kind == kernels.STOP else EventKind.SLIP,
-            u_m=scene.cs * float(s),
+            u_m=scene.cs * s,
         )
-        for t, kind, s in exact_events(scene, result.n_stops)
+        for t, kind, s in exact_events(scene, result.n_stops).tolist()
     )
 
 

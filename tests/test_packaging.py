@@ -66,8 +66,10 @@ def test_the_top_level_is_as_planned(tracked):
 def test_every_dependency_is_locked_with_hashes_and_without_addresses():
     lock = (ROOT / "requirements.lock").read_text()
     locked = {m.lower() for m in re.findall(r"^([\w.-]+)==", lock, re.MULTILINE)}
-    declared = PROJECT["project"]["dependencies"] + PROJECT["dependency-groups"]["dev"]
-    assert {name.lower() for name in declared} <= locked
+    groups = PROJECT["dependency-groups"]
+    extras = PROJECT["project"]["optional-dependencies"]["verify"]
+    named = [name for name in groups["dev"] + groups["build"] + extras if isinstance(name, str)]
+    assert {name.lower() for name in named + PROJECT["project"]["dependencies"]} <= locked
     for entry in re.split(r"^(?=[\w.-]+==)", lock, flags=re.MULTILINE)[1:]:
         assert "--hash=sha256:" in entry, entry.splitlines()[0]
     assert "://" not in lock

@@ -62,7 +62,7 @@ class _Grid:
         low = -np.nanmax([0.0, *(r.up_m for r in results)]) / unit.si
         self.ticks = [float(t) for t in MaxNLocator(4).tick_values(low, high or 1.0)]
         self.low, self.high = self.ticks[0], self.ticks[-1]
-        longest = max(float(run.governing.history.t_s[-1]) for run in motions)
+        longest = max(float(run.history.t_s[-1]) for run in motions)
         self.seconds = longest
 
     def x(self, index: int, t_s: Any) -> Any:
@@ -109,7 +109,7 @@ def _traces(axes: Axes, grid: _Grid, motions: Sequence[MotionRun]) -> None:
     """Draw all histories as one broken line, and all peaks."""
     line, peaks = Broken(), Broken()
     for index, run in enumerate(motions):
-        history, result = run.governing.history, run.governing.result
+        history, result = run.history, run.governing.result
         if math.isnan(result.prd_m):
             middle = grid.y(index, (grid.low + grid.high) / 2)
             axes.text(grid.x(index, grid.seconds / 2), middle, "no value", ha="center", va="center")
