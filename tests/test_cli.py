@@ -164,6 +164,12 @@ def test_report_prints_each_array_and_where_the_files_are(reported):
         assert (job / "out" / name).stat().st_size > 1000
 
 
+def test_the_readme_shows_what_the_example_prints(reported):
+    _, done = reported
+    printed = "\n".join(done.stdout.splitlines()[:4])
+    assert f"```\n{printed}\n```" in (ROOT / "README.md").read_text()
+
+
 def test_progress_is_plain_lines_when_piped(reported):
     _, done = reported
     assert "\x1b" not in done.stderr
