@@ -14,11 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
 import oracle
 from solver.motion import read_record
 from solver.solve import slide
 
+ROOT = Path(__file__).resolve().parents[2]
 G = 9.80665
 # Slope [deg], friction coefficient, PPA [g].
 SCENES = [(0.0, 0.1, 1.0), (4.0, 0.3, 1.5), (-7.0, 0.5, 2.0), (2.0, 0.45, 1.5)]
