@@ -1,0 +1,312 @@
+"""What a verification finds, as frozen records: checks, work against precision, maps, figures.
+
+Computes nothing but read-offs. Read `solver.verification` for what fills them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.model import Floats, Status
+
+FLOOR_M = 1e-3
+"""Errors in percent are of the exact displacement, or of a millimetre where that is less [m]."""
+
+
+def percent_off(found_m: Floats | float, exact_m: Floats | float) -> Floats:
+    """Return |found - exact| in percent of |exact|, or of `FLOOR_M` where |exact| is less."""
+    off = np.abs(np.asarray(found_m) - np.asarray(exact_m))
+    return np.asarray(100.0 * off / np.maximum(np.abs(exact_m), FLOOR_M))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckRow:
+    """One expected value and what was found.
+
+    Attributes
+    ----------
+    section, problem, source, quantity, unit : str
+    expected, found : float
+    error : float
+        Relative to `expected`; absolute where `expected` is 0.
+    tolerance : float
+    passed : bool
+        Whether error <= tolerance; a NaN does not pass.
+    """
+
+    section: str
+    problem: str
+    source: str
+    quantity: str
+    unit: str
+    expected: float
+    found: float
+    error: float
+    tolerance: float
+    passed: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkPoint:
+    """One run of one method: what it costs and how far it is off the exact one.
+
+    Attributes
+    ----------
+    method : str
+        Key of `solver.METHODS`.
+    setting : float
+        Value of the method's knob; NaN for a method without one.
+    parameters : mapping
+        All parameters of the run.
+    record, scene : str
+    seconds : float
+        Least time of some repeats, warm, without the input's checks [s]; NaN for a failed run.
+    prd_error_m, prd_error_percent, residual_error_m, residual_error_percent : float
+        NaN for a failed run; see `percent_off`.
+    status : Status
+    """
+
+    method: str
+    setting: float
+    parameters: Mapping[str, float]
+    record: str
+    scene: str
+    seconds: float
+    prd_error_m: float
+    prd_error_percent: float
+    residual_error_m: float
+    residual_error_percent: float
+    status: Status
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StabilityMap:
+    """Error over two quantities, the largest of several scenes in each cell.
+
+    Attributes
+    ----------
+    title, note, x_label, y_label : str
+    x, y : array, shape (p,), (q,)
+    error_percent : array, shape (q, p)
+        Of the PRD, see `percent_off`; NaN in a failed cell.
+    failed : array of bool, shape (q, p)
+        A run of the cell diverged or stalled.
+    limit : array, shape (p,) or (0,)
+        y of the theoretical limit in each column; empty for none.
+    x_mark : float
+        x of a limit that holds for every y; NaN for none.
+    x_log, y_log : bool
+    """
+
+    title: str
+    note: str
+    x_label: str
+    x: Floats
+    y_label: str
+    y: Floats
+    error_percent: Floats
+    failed: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    limit: Floats
+    x_mark: float
+    x_log: bool
+    y_log: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Convergence:
+    """Fig. 5 of the paper: its own method with more and more sub-steps, in 60 scenarios.
+
+    Attributes
+    ----------
+    record : str
+    scenarios : int
+    substeps : tuple of int
+    largest_error_exact_percent, largest_error_p256_percent : array, shape (len(substeps),)
+        Of the residual, largest over the scenarios, see `percent_off`; with the exact method as
+        the truth, and with the last number of sub-steps as the paper has it (0 there).
+    longest_seconds : array, shape (len(substeps),)
+        Of one run [s].
+    """
+
+    record: str
+    scenarios: int
+    substeps: tuple[int, ...]
+    largest_error_exact_percent: Floats
+    largest_error_p256_percent: Floats
+    longest_seconds: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LinkComparison:
+    """Figs. 6 to 9 of the paper: the exact method against a link with a friction cap.
+
+    Attributes
+    ----------
+    record : str
+    slope_deg, ppa_g : float
+    mus : array, shape (n,)
+    prd_exact_m, prd_link_m, rrd_exact_m, rrd_link_m : array, shape (n,)
+        Peak and residual relative displacement, without sign [m]; NaN where the link diverged.
+    history_mu : float
+        The friction coefficient whose RRD differs most.
+    history_t_s, history_exact_m, history_link_m : array, shape (m,)
+    worst_percent, mean_percent : float
+        Difference in RRD, of the link's as in the paper, see `percent_off`.
+    """
+
+    record: str
+    slope_deg: float
+    ppa_g: float
+    mus: Floats
+    prd_exact_m: Floats
+    prd_link_m: Floats
+    rrd_exact_m: Floats
+    rrd_link_m: Floats
+    history_mu: float
+    history_t_s: Floats
+    history_exact_m: Floats
+    history_link_m: Floats
+    worst_percent: float
+    mean_percent: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DesignCurves:
+    """Figs. 10 to 12 of the paper: PRD over slope, friction coefficient and PPA.
+
+    Attributes
+    ----------
+    record : str
+    runs : int
+    seconds : float
+        Of all runs together [s].
+    slopes_deg, mus, ppas_g : array, shape (p,), (q,), (r,)
+        Rising; slopes from 0.
+    prd_m : array, shape (p, q, r)
+        The larger of both signs of the slope [m].
+    """
+
+    record: str
+    runs: int
+    seconds: float
+    slopes_deg: Floats
+    mus: Floats
+    ppas_g: Floats
+    prd_m: Floats
+
+    def prd(self, slope_deg: float, ppa_g: float) -> Floats:
+        """Return the PRD [m] at every friction coefficient, linear between the runs."""
+        by_slope = np.apply_along_axis(
+            lambda column: np.interp(slope_deg, self.slopes_deg, column), 0, self.prd_m
+        )
+        return np.array([np.interp(ppa_g, self.ppas_g, row) for row in by_slope])
+
+    def least_mu(self, slope_deg: float, ppa_g: float, wanted_m: float) -> float:
+        """Return the least friction coefficient from which on the PRD stays within `wanted_m`.
+
+        Linear between the runs; the least of the runs where all stay within, NaN where even the
+        greatest does not.
+        """
+        prd = self.prd(slope_deg, ppa_g)
+        beyond = np.flatnonzero(prd > wanted_m)
+        if not beyond.size:
+            return float(self.mus[0])
+        last = int(beyond[-1])
+        if last + 1 == self.mus.size:
+            return float("nan")
+        part = (prd[last] - wanted_m) / (prd[last] - prd[last + 1])
+        return float(self.mus[last] + part * (self.mus[last + 1] - self.mus[last]))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Conditioning:
+    """What a small change of friction does to the exact PRD: no method can be better than that.
+
+    Attributes
+    ----------
+    title, note, record : str
+    slope_deg, ppa_g : float
+    relative_change : float
+        Of mu, both up and down.
+    mu, prd_m : array, shape (n,)
+    change_percent : array, shape (n,)
+        The larger change of the PRD, see `percent_off`.
+    """
+
+    title: str
+    note: str
+    record: str
+    slope_deg: float
+    ppa_g: float
+    relative_change: float
+    mu: Floats
+    prd_m: Floats
+    change_percent: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PeerPoint:
+    """One run by another program, where it is installed.
+
+    Attributes
+    ----------
+    peer, version, record, scene, note : str
+    seconds : float
+        [s]; NaN for a failed run.
+    prd_error_percent : float
+        See `percent_off`; NaN for a failed run.
+    """
+
+    peer: str
+    version: str
+    record: str
+    scene: str
+    seconds: float
+    prd_error_percent: float
+    note: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Verification:
+    """All that `solver.verification.verify` found.
+
+    Attributes
+    ----------
+    checks : tuple of CheckRow
+    work : tuple of WorkPoint
+    maps : tuple of StabilityMap
+    convergence : tuple of Convergence
+        One for each record, the project's own first.
+    links : tuple of LinkComparison
+        Flat and 4 degrees for each record, the project's own first.
+    curves : tuple of DesignCurves
+        One for each record, the project's own first.
+    conditioning : tuple of Conditioning
+    peers : tuple of PeerPoint
+        Empty where none is installed.
+    records : tuple of str
+        Names of the records, the project's own first.
+    quick : bool
+    seconds : float
+        Of everything together [s].
+    """
+
+    checks: tuple[CheckRow, ...]
+    work: tuple[WorkPoint, ...]
+    maps: tuple[StabilityMap, ...]
+    convergence: tuple[Convergence, ...]
+    links: tuple[LinkComparison, ...]
+    curves: tuple[DesignCurves, ...]
+    conditioning: tuple[Conditioning, ...]
+    peers: tuple[PeerPoint, ...]
+    records: tuple[str, ...]
+    quick: bool
+    seconds: float
+
+    @property
+    def passed(self) -> bool:
+        """Whether every check passed."""
+        return all(row.passed for row in self.checks)
