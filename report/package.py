@@ -11,10 +11,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
+from report.accuracy import Accuracy, accuracy
 from report.assess import Assessment
+from report.pages import accuracy as accuracy_page
 from report.pages import appendix, checks, front, inputs, method, motions, results
 from report.pages.parts import Part, Scene
-from report.pages.pictures import begin, draw
+from report.pages.pictures import Pictures, begin, draw
 from report.pdf import TEMPLATES, html_to_pdf, load_renderer
 from report.sheet.workbook import InputBook
 from report.spectra import Spectra, spectra
@@ -46,13 +48,20 @@ def _render(book: InputBook, assessment: Assessment, tell: Stage) -> bytes:
     scene = Scene(data=book.input, assessment=assessment)
     tell("figures")
     found = spectra(assessment, book.motions)
-    pictures = begin(lambda: draw(scene, found))
+    rivals = accuracy(book.input, book.motions, assessment, scene.governing)
+    pictures = begin(lambda: _draw(scene, found, rivals))
     tell("pages")
-    context = _context(book, scene, found)
+    context = _context(book, scene, found, rivals)
     load_renderer()
     html = _html({**context, "pictures": pictures()})
     tell("pdf")
     return html_to_pdf(html)
+
+
+def _draw(scene: Scene, found: Sequence[Spectra], rivals: Accuracy) -> Pictures:
+    pictures = draw(scene, found)
+    charts = [accuracy_page.picture(rivals, scene.say.us_first)] if rivals.runs else []
+    return {**pictures, "accuracy": charts}
 
 
 @contextmanager
@@ -80,7 +89,9 @@ def _html(context: Mapping[str, Any]) -> str:
     return environment.get_template("package.html").render(context)
 
 
-def _context(book: InputBook, scene: Scene, found: Sequence[Spectra]) -> Mapping[str, Any]:
+def _context(
+    book: InputBook, scene: Scene, found: Sequence[Spectra], rivals: Accuracy
+) -> Mapping[str, Any]:
     governing = scene.governing
     return {
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
@@ -105,6 +116,7 @@ def _context(book: InputBook, scene: Scene, found: Sequence[Spectra]) -> Mapping
         "clearances": checks.clearances(scene),
         "limits": checks.limits(scene),
         "provisions": checks.provisions(scene),
+        "accuracy": accuracy_page.page(scene, rivals),
         "appendix": {
             "echo": appendix.echo(book.echo),
             "records": appendix.records(book.records),
@@ -133,6 +145,7 @@ def parts(assessment: Assessment) -> tuple[Part, ...]:
         ("clearances", "Clearances", ()),
         ("limits", "Limits and interconnection strength", ()),
         ("provisions", "Provisions and overrides", ()),
+        ("accuracy", "Accuracy and sensitivity", ()),
     )
     numbered = [
         Part(id=name, number=str(count), title=title, parts=_below(name, str(count), below))
