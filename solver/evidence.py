@@ -31,7 +31,7 @@ class CheckRow:
     section, problem, source, quantity, unit : str
     expected, found : float
     error : float
-        Relative to `expected`; absolute where `expected` is 0.
+        Relative to `expected`, or to what `quantity` says; absolute where `expected` is 0.
     tolerance : float
     passed : bool
         Whether error <= tolerance; a NaN does not pass.

@@ -1,0 +1,285 @@
+"""Checks of the solver against what is known apart from it, one row for each value.
+
+Closed forms (`solver.problems`) and the paper's physical checks; runs nothing but `solver.slide`
+and `slide_history`. Read `solver.crosschecks` for 50 digits, symmetries and the rivals.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from solver import problems
+from solver.evidence import CheckRow
+from solver.model import EventKind, Floats
+from solver.motion import Record
+from solver.scenes import scale_to
+from solver.solve import slide, slide_history
+
+G = 9.81
+"""Gravity of the closed forms [m/s2], as in their printed figures."""
+
+ROUNDING = 1e-12
+"""Tolerance where nothing but rounding is between expected and found."""
+
+
+def check(
+    section: str,
+    problem: str,
+    source: str,
+    quantity: str,
+    unit: str,
+    expected: float,
+    found: float,
+    tolerance: float,
+    of: float = 0.0,
+) -> CheckRow:
+    """Return the row; its error is relative to `of` or else `expected`, absolute if both are 0."""
+    error = abs(found - expected) / (abs(of) or abs(expected) or 1.0)
+    return CheckRow(
+        section=section,
+        problem=problem,
+        source=source,
+        quantity=quantity,
+        unit=unit,
+        expected=expected,
+        found=found,
+        error=error,
+        tolerance=tolerance,
+        passed=bool(error <= tolerance),
+    )
+
+
+def trapezoid(peak: float, plateau: int, rest: int, ramp: int = 1) -> Floats:
+    """Return a pulse: zero, a ramp, `plateau` intervals at the peak, a ramp, `rest` intervals."""
+    rise = np.linspace(0.0, peak, ramp + 1)
+    return np.concatenate([rise, np.full(plateau, peak), rise[-2::-1], np.zeros(rest)])
+
+
+def closed_forms() -> Iterator[CheckRow]:
+    """Check against `solver.problems`, all with g = 9.81 m/s2."""
+    yield from _pulses_on_a_flat_roof()
+    yield from _pulses_on_a_slope()
+    yield from _half_sines()
+    yield _harmonic()
+    yield _free_slide("Closed forms", 7.0, 0.1, 2.0)
+    yield from _yield_accelerations()
+    yield _self_locking()
+
+
+def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
+    section, dt = "Closed forms", 0.01
+    for a, mu, lasts in ((0.4, 0.1, 0.2), (0.5, 0.2, 0.3), (1.0, 0.4, 0.1)):
+        name = f"A = {a:g} g for {lasts:g} s, mu = {mu:g}, flat roof"
+        plateau = round(lasts / dt)
+        expected = problems.pulse_travel(a * G, mu * G, plateau * dt, dt)
+        found = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
+        source = "Integration of the polynomials, ramps of 0.01 s"
+        yield check(
+            section,
+            f"Trapezoidal pulse {name}",
+            source,
+            "PRD",
+            "m",
+            expected,
+            found.prd_m,
+            ROUNDING,
+        )
+        ramps = 3000
+        newmark = (a * G * lasts) ** 2 / (2.0 * G * mu) * (1.0 - mu / a)
+        ax = trapezoid(-a * G, ramps - 1, 10 * ramps)
+        found = slide(ax, lasts / ramps, slope_rad=0.0, mu=mu, g_mps2=G)
+        # A ramp takes mu / A of its length from the slip: as much, relative, with some room.
+        tolerance = 1.5 * mu / a / ramps
+        source = "Newmark, Geotechnique 15 (1965); ramps of 1/3000 of the pulse"
+        yield check(
+            section,
+            f"Rectangular pulse {name}",
+            source,
+            "PRD",
+            "m",
+            newmark,
+            found.prd_m,
+            tolerance,
+        )
+
+
+def _pulses_on_a_slope() -> Iterator[CheckRow]:
+    dt = 0.01
+    for degrees, mu, a, lasts in ((5, 0.4, 0.6, 0.3), (10, 0.5, 0.8, 0.15)):
+        slope, plateau = math.radians(degrees), round(lasts / dt)
+        for b in (0.0, -0.3, 0.3):
+            drive, resist = problems.slope_pulse(slope, mu, a, b, G)
+            expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
+            found = slide(
+                trapezoid(-a * G, plateau, 900),
+                dt,
+                slope_rad=slope,
+                mu=mu,
+                az_mps2=trapezoid(b * G, plateau, 900),
+                g_mps2=G,
+            )
+            yield check(
+                "Closed forms",
+                f"Trapezoidal pulse A = {a:g} g, vertical {b:g} g, for {lasts:g} s, mu = {mu:g}, "
+                f"slope {degrees} deg",
+                "Integration of the polynomials, ramps of 0.01 s",
+                "Slip down the slope, horizontal",
+                "m",
+                expected,
+                found.down_m,
+                ROUNDING,
+            )
+
+
+def _half_sines() -> Iterator[CheckRow]:
+    for a, mu, freq in ((0.5, 0.2, 1.0), (0.8, 0.4, 2.0), (1.0, 0.1, 1.0)):
+        expected = problems.half_sine_travel(a, mu, freq, G)
+        name = f"Half sine A = {a:g} g, {freq:g} Hz, mu = {mu:g}, flat roof"
+        found = []
+        for steps in (100, 200, 400):
+            dt = 0.5 / freq / steps
+            pulse = a * G * np.sin(np.pi * np.arange(steps + 1) / steps)
+            ax = np.concatenate([pulse, np.zeros(40 * steps)])
+            found.append(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m)
+        source = "Integration of the sine, sampled at 400 points"
+        # The chords of a sine lose 1 / 12 of the squared step in radians of its area.
+        tolerance = 2.0 * a / mu * (math.pi / 400) ** 2 / 12.0
+        yield check("Closed forms", name, source, "PRD", "m", expected, found[-1], tolerance)
+        order = math.log2(abs(found[1] - expected) / abs(found[2] - expected))
+        source = "Error with 200 and 400 samples: straight lines have order 2"
+        yield check("Closed forms", name, source, "Order of convergence", "1", 2.0, order, 0.025)
+
+
+def _harmonic() -> CheckRow:
+    dt = 1.0 / 2000
+    ax = 0.5 * G * np.sin(2.0 * np.pi * np.arange(80 * 2000 + 1) * dt)
+    history = slide_history(ax, dt, slope_rad=0.0, mu=0.2, g_mps2=G)
+    stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
+    return check(
+        "Closed forms",
+        "Steady harmonic A = 0.5 g, 1 Hz, mu = 0.2, flat roof, after 80 cycles",
+        "(2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A; sampled at 0.0005 s",
+        "Travel per half cycle",
+        "m",
+        problems.harmonic_travel(0.5, 0.2, 1.0, G),
+        abs(stops[-1] - stops[-2]) if len(stops) > 1 else math.nan,
+        1e-5,
+    )
+
+
+def _free_slide(section: str, degrees: float, mu: float, time_s: float) -> CheckRow:
+    slope = math.radians(degrees)
+    steps = round(time_s / 0.01)
+    found = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
+    expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
+    return check(
+        section,
+        f"Still roof of {degrees:g} deg, mu = {mu:g}, slides from rest for {time_s:g} s",
+        "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2",
+        "Slip down the slope, horizontal",
+        "m",
+        expected,
+        found.down_m,
+        ROUNDING,
+    )
+
+
+def _yield_accelerations() -> Iterator[CheckRow]:
+    for degrees, mu in ((0.0, 0.4), (4.0, 0.4), (-7.0, 0.2), (30.0, 1.0)):
+        slope = math.radians(degrees)
+        limits = problems.yield_accelerations(slope, mu, G)
+        for name, limit in zip(("down", "up"), limits, strict=True):
+            yield check(
+                "Closed forms",
+                f"Slope {degrees:g} deg, mu = {mu:g}: acceleration at which slip {name} it begins",
+                "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); bisection",
+                "Yield acceleration",
+                "m/s2",
+                limit,
+                _found_limit(slope, mu, limit),
+                1e-9,
+            )
+
+
+def _found_limit(slope: float, mu: float, limit: float) -> float:
+    """Return the least acceleration that moves a block, by bisection up to twice the expected."""
+    least, most = 0.0, 2.0 * limit
+    for _ in range(45):
+        middle = 0.5 * (least + most)
+        ax = np.array([0.0, middle, 0.0])
+        moves = slide(ax, 0.5, slope_rad=slope, mu=mu, g_mps2=G).n_stops > 0
+        least, most = (least, middle) if moves else (middle, most)
+    return 0.5 * (least + most)
+
+
+def _self_locking() -> CheckRow:
+    ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
+    return check(
+        "Closed forms",
+        "Self-locking: 60 deg, mu = 3, pushed up the slope by 5 g",
+        "mu sin(theta) >= cos(theta): no acceleration moves it",
+        "PRD",
+        "m",
+        0.0,
+        slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G).prd_m,
+        0.0,
+    )
+
+
+def physical_checks(record: Record) -> Iterator[CheckRow]:
+    """Make the four physical checks of the paper."""
+    section, slope, dt = "Physical checks of the paper", math.radians(30), 0.01
+    source = "Paper, Physical Checks (1): 30 deg, mu = 1"
+    still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
+    yield check(section, "Still roof", source, "PRD", "m", 0.0, still.prd_m, 0.0)
+    drive, resist = problems.slope_pulse(slope, 1.0, 0.6, 0.0, G)
+    expected = problems.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)
+    loose = slide(trapezoid(-0.6 * G, 30, 900), dt, slope_rad=slope, mu=1.0, g_mps2=G)
+    name = "A pulse of 0.6 g for 0.3 s knocks it loose"
+    yield check(section, name, source, "PRD", "m", expected, loose.prd_m, ROUNDING)
+    yield _free_slide(section, 7.0, 0.1, 5.0)
+    one, other = (
+        slide(
+            record.a_mps2,
+            record.dt_s,
+            slope_rad=math.radians(d),
+            mu=0.4,
+            scale=scale_to(record, 1.5),
+        )
+        for d in (4.0, -4.0)
+    )
+    yield check(
+        section,
+        f"4 and -4 deg, mu = 0.4, {record.name} at 1.5 g",
+        "Paper, Physical Checks (3): the deflections differ",
+        "PRDs differ by more than 1 %: 1 for yes",
+        "1",
+        1.0,
+        float(abs(one.prd_m - other.prd_m) > 0.01 * max(one.prd_m, other.prd_m)),
+        0.0,
+    )
+    yield from _critical_friction(section)
+
+
+def _critical_friction(section: str) -> Iterator[CheckRow]:
+    slope, time_s = math.radians(0.5), 5.0
+    source = "Paper, Physical Checks (4): it slides at 0.999 but not at 1.000"
+    for factor in (0.999, 1.0):
+        mu = factor * math.tan(slope)
+        expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
+        found = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
+        name = f"Still roof of 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
+        # What is left of sin - mu cos is a thousandth of it, and so has three digits less.
+        yield check(
+            section,
+            name,
+            source,
+            "PRD",
+            "m",
+            expected if factor < 1.0 else 0.0,
+            found.prd_m,
+            1e-11 if factor < 1.0 else ROUNDING,
+        )

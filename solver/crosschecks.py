@@ -1,0 +1,184 @@
+"""Checks of the exact method against 50 digits and its own symmetries, and of every rival.
+
+As `solver.checks`, whose rows they are; the expected values come from `solver.reference`, from a
+second run that must give the same, or from a closed form.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from solver import problems, reference
+from solver.checks import ROUNDING, G, check, trapezoid
+from solver.evidence import CheckRow
+from solver.methods import METHODS, Method, link_frequency
+from solver.motion import Record
+from solver.scenes import Case, is_runnable, scale_to
+from solver.solve import STANDARD_GRAVITY_MPS2, slide, slide_history
+
+CASES = (
+    Case(0.0, 0.3, 1.0),
+    Case(4.0, 0.4, 1.0),
+    Case(-4.0, 0.2, 0.5),
+    Case(7.0, 0.6, 1.5),
+    Case(-7.0, 0.05, 1.0),
+    Case(0.0, 0.0, 0.2),
+)
+"""Held against 50 digits, the second and the fourth with vertical shaking too."""
+
+CEILINGS = {
+    "exact": ROUNDING,
+    "paper": 0.01,
+    "linear": 1e-4,
+    "adaptive": 0.01,
+    "penalty-explicit": 0.005,
+    "penalty-implicit": 0.005,
+    "regularised": 0.01,
+    "frozen-normal": ROUNDING,
+}
+"""How far each method may be off a ramped pulse on a flat roof, with the settings of `_fine`."""
+
+
+def fifty_digits(record: Record) -> Iterator[CheckRow]:
+    """Hold PRD and residual against `solver.reference`."""
+    for k, case in enumerate(CASES):
+        yield from _against_digits(record, case, with_vertical=False)
+        if k in (1, 3):
+            yield from _against_digits(record, case, with_vertical=True)
+
+
+def _against_digits(record: Record, case: Case, *, with_vertical: bool) -> Iterator[CheckRow]:
+    ax, dt, scale = record.a_mps2, record.dt_s, scale_to(record, case.ppa_g)
+    az = 0.3 * ax[::-1] if with_vertical else None
+    found = slide(ax, dt, slope_rad=case.slope_rad, mu=case.mu, az_mps2=az, scale=scale)
+    exact = reference.slide(
+        ax.tolist(),
+        dt,
+        slope_rad=case.slope_rad,
+        mu=case.mu,
+        az_mps2=None if az is None else az.tolist(),
+        scale=scale,
+        g_mps2=STANDARD_GRAVITY_MPS2,
+    )
+    more = ", with vertical shaking" if with_vertical else ""
+    # A residual may be nearly nothing after metres there and back: both are held to the PRD.
+    for quantity, value, known in (
+        ("PRD", found.prd_m, exact.prd_m),
+        ("Residual (error relative to the PRD)", found.residual_m, exact.residual_m),
+    ):
+        yield check(
+            f"{reference.DIGITS} digits",
+            f"{record.name}, {case}{more}",
+            "Decimal arithmetic, Eqs. 12-18 of the paper, apart from the kernels",
+            quantity,
+            "m",
+            known,
+            value,
+            ROUNDING,
+            of=exact.prd_m,
+        )
+
+
+def symmetries(record: Record) -> Iterator[CheckRow]:
+    """Run scenes that must give the same as others."""
+    case = Case(3.0, 0.25, 1.0)
+    ax, dt, scale = record.a_mps2, record.dt_s, scale_to(record, case.ppa_g)
+    slope, mu, g = case.slope_rad, case.mu, STANDARD_GRAVITY_MPS2
+    one = slide(ax, dt, slope_rad=slope, mu=mu, scale=scale)
+    mirrored = slide(-ax, dt, slope_rad=-slope, mu=mu, scale=scale)
+    fine = np.interp(np.arange(2 * ax.size - 1) / 2, np.arange(ax.size), ax)
+    finer = slide(fine, dt / 2, slope_rad=slope, mu=mu, scale=scale)
+    twice = slide(ax, dt, slope_rad=slope, mu=mu, scale=2 * scale, g_mps2=2 * g)
+    slow = slide(ax, 2 * dt, slope_rad=slope, mu=mu, scale=scale)
+    for problem, source, expected, found, tolerance in (
+        (
+            "Slope and record mirrored",
+            "Same bits of PRD; the residual changes its sign",
+            one.prd_m,
+            mirrored.prd_m,
+            0.0,
+        ),
+        ("The same, residual", "Same bits", -one.residual_m, mirrored.residual_m, 0.0),
+        (
+            "Samples added on the straight lines",
+            "They change nothing",
+            one.prd_m,
+            finer.prd_m,
+            ROUNDING,
+        ),
+        (
+            "Gravity and record doubled",
+            "Displacements double",
+            2 * one.prd_m,
+            twice.prd_m,
+            ROUNDING,
+        ),
+        ("Time stretched by two", "Displacements by four", 4 * one.prd_m, slow.prd_m, ROUNDING),
+    ):
+        quantity = "Residual" if "residual" in problem else "PRD"
+        name = f"{problem}: {record.name}, {case}"
+        yield check("Symmetries", name, source, quantity, "m", expected, found, tolerance)
+    yield _energy(record, case)
+
+
+def _energy(record: Record, case: Case) -> CheckRow:
+    """Compare the work of friction with that of gravity and shaking, by a sum over the history."""
+    parts = 32
+    n = record.a_mps2.size
+    ax = np.interp(np.arange((n - 1) * parts + 1) / parts, np.arange(n), record.a_mps2)
+    ax *= scale_to(record, case.ppa_g)
+    dt = record.dt_s / parts
+    history = slide_history(ax, dt, slope_rad=case.slope_rad, mu=case.mu)
+    sine, cosine = math.sin(case.slope_rad), math.cos(case.slope_rad)
+    v = history.v_mps / cosine
+    g = STANDARD_GRAVITY_MPS2
+    friction = case.mu * (g * cosine + ax * sine) * np.abs(v)
+    drive = (g * sine - ax * cosine) * v
+    return check(
+        "Symmetries",
+        f"Energy: {record.name}, {case}",
+        "Work of the drive less kinetic energy; sums over 32 points in each interval",
+        "Work of friction for each unit of mass",
+        "J/kg",
+        float(drive.sum() * dt - v[-1] ** 2 / 2),
+        float(friction.sum() * dt),
+        1e-4,
+    )
+
+
+def rivals() -> Iterator[CheckRow]:
+    """Hold every method against one closed form, each within its own ceiling."""
+    dt, plateau, a, mu = 0.01, 20, 0.4, 0.1
+    expected = problems.pulse_travel(a * G, mu * G, plateau * dt, dt)
+    ax = trapezoid(a * G, plateau, 150)
+    for name, ceiling in CEILINGS.items():
+        if not is_runnable(name):
+            continue
+        found = slide(
+            ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=name, **_fine(METHODS[name], dt)
+        )
+        yield check(
+            "Methods",
+            f"{METHODS[name].title}: pulse A = {a:g} g for 0.2 s, mu = {mu:g}, flat roof",
+            "Integration of the polynomials, ramps of 0.01 s",
+            "PRD",
+            "m",
+            expected,
+            found.prd_m,
+            ceiling,
+        )
+
+
+def _fine(method: Method, dt_s: float) -> Mapping[str, float]:
+    """Return settings on the fine side, those of a link well within its limit."""
+    if method.link_steps_per_radian:
+        substeps = 100
+        omega = 0.5 * substeps / dt_s
+        stiffness = (omega / link_frequency(1.0, G)) ** 2
+        return {"stiffness_per_m": stiffness, "substeps": substeps}
+    if method.name == "regularised":
+        return {"velocity_mps": 1e-3, "tolerance": 1e-6}
+    return {}

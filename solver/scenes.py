@@ -1,0 +1,104 @@
+"""The records and scenes that a verification runs.
+
+Makes its own records, the same on every machine; runs nothing. Read `solver.verification` first.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from solver import kernels
+from solver.methods import NO_RECORD, Scene
+from solver.model import Floats
+from solver.motion import Record
+from solver.solve import STANDARD_GRAVITY_MPS2
+from solver.synthesis import Target, make_suite
+
+SEED = 2003
+"""Of the project's own records."""
+
+HORIZONTAL: Target = (np.array([0.1, 1.3, 8.3, 33.3]), np.array([0.16, 1.6, 1.6, 1.2]))
+"""Corners of an AC156 spectrum at the roof, S_DS = 1 g: frequencies [Hz], accelerations [g]."""
+
+VERTICAL: Target = (np.array([0.1, 1.3, 8.3, 33.3]), np.array([0.067, 0.67, 0.67, 0.27]))
+
+
+class Case(NamedTuple):
+    """A block and how hard it is shaken."""
+
+    slope_deg: float
+    mu: float
+    ppa_g: float
+
+    @property
+    def slope_rad(self) -> float:
+        """Slope in radians."""
+        return math.radians(self.slope_deg)
+
+    def __str__(self) -> str:
+        return f"{self.slope_deg:g}°, μ = {self.mu:g}, PPA = {self.ppa_g:g} g"
+
+
+CASES = (
+    Case(0.0, 0.3, 1.0),
+    Case(4.0, 0.4, 1.0),
+    Case(-4.0, 0.2, 0.5),
+    Case(7.0, 0.6, 1.5),
+    Case(2.0, 0.1, 0.5),
+    Case(-2.0, 0.5, 1.5),
+)
+"""From little slip to much, with both signs of the slope; the first ones stand for all."""
+
+
+def own_records(quick: bool) -> tuple[Record, ...]:
+    """Return the project's records: motions that follow AC156, and a near-fault pulse."""
+    suite = make_suite(HORIZONTAL, VERTICAL, count=1 if quick else 2, seed=SEED, dt_s=0.01)
+    return (*(horizontal for horizontal, _ in suite), near_fault_pulse())
+
+
+def near_fault_pulse() -> Record:
+    """Return a pulse of two seconds under a bell, after Mavroeidis and Papageorgiou (2003)."""
+    dt = 0.01
+    t = np.arange(801) * dt - 4.0
+    a = np.exp(-((t / 1.2) ** 2)) * np.sin(math.pi * t) * STANDARD_GRAVITY_MPS2
+    a.setflags(write=False)
+    return Record(name="near-fault-pulse", dt_s=dt, a_mps2=a)
+
+
+def scale_to(record: Record, ppa_g: float) -> float:
+    """Return the factor that brings the peak of the record to so many g."""
+    return ppa_g * STANDARD_GRAVITY_MPS2 / float(np.abs(record.a_mps2).max())
+
+
+def prepared(record: Record, case: Case) -> Scene:
+    """Return what `Method.follow` takes, so that nothing but the method is timed."""
+    return Scene(
+        ax=record.a_mps2,
+        x=kernels.bounds(record.a_mps2),
+        az=NO_RECORD,
+        dt=record.dt_s,
+        sn=math.sin(case.slope_rad),
+        cs=math.cos(case.slope_rad),
+        mu=case.mu,
+        g=STANDARD_GRAVITY_MPS2,
+        scale=scale_to(record, case.ppa_g),
+    )
+
+
+def shortened(record: Record, duration_s: float) -> Record:
+    """Return the part of the record of that length with the most energy."""
+    count = min(round(duration_s / record.dt_s) + 1, record.a_mps2.size)
+    energy = np.convolve(record.a_mps2**2, np.ones(count), "valid")
+    first = int(energy.argmax())
+    a: Floats = record.a_mps2[first : first + count].copy()
+    a.setflags(write=False)
+    return Record(name=f"{record.name}, {duration_s:g} s of it", dt_s=record.dt_s, a_mps2=a)
+
+
+def is_runnable(method: str) -> bool:
+    """Whether what the method needs is installed: SciPy for the regularised one."""
+    return method != "regularised" or importlib.util.find_spec("scipy") is not None
