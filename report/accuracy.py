@@ -1,0 +1,171 @@
+"""How sure the answer of a package is: every method on its governing run, and other friction.
+
+Runs the solver and keeps numbers; `report.pages.accuracy` puts them into words and
+`report.figures.accuracy` draws them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from report.assess import ArrayAssessment, Assessment, ClearanceCheck, MotionRun, assess
+from report.sheet.schema import ProjectInput
+from solver.methods import METHODS, Method
+from solver.model import Floats, Motion, SlideResult, Status
+from solver.solve import STANDARD_GRAVITY_MPS2, slide
+
+SHIFT = 0.05
+"""Share by which the friction coefficient is lowered and raised."""
+
+MOST_STEPS = 64
+"""In a sampling interval; finer settings are in the verification manual alone."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MethodRun:
+    """One method with one setting on the governing run.
+
+    Attributes
+    ----------
+    steps : float
+        Its steps in each sampling interval.
+    is_default : bool
+        Whether these are the parameters that the method has by itself.
+    error : float
+        |PRD / exact PRD - 1|; NaN where the method failed.
+    """
+
+    method: Method
+    parameters: dict[str, float]
+    steps: float
+    is_default: bool
+    result: SlideResult
+    error: float
+
+    @property
+    def failed(self) -> bool:
+        """Whether it gave no displacement."""
+        return math.isnan(self.error)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Accuracy:
+    """The governing run by every method, and the design with 5 % less and 5 % more friction.
+
+    Attributes
+    ----------
+    array : ArrayAssessment
+        The one with the largest design displacement.
+    motion : MotionRun
+        Its motion with the largest PRD.
+    doubled : float
+        |PRD / PRD - 1| of the exact method with a sample added midway between each two: the same
+        motion, so that what is found is rounding. NaN without a displacement.
+    runs : tuple of MethodRun
+        Empty where nothing slides or the block leaves the roof.
+    less, given, more : Assessment
+        With the friction coefficients lowered, as given, and raised.
+    """
+
+    array: ArrayAssessment
+    motion: MotionRun
+    doubled: float
+    runs: tuple[MethodRun, ...]
+    less: Assessment
+    given: Assessment
+    more: Assessment
+
+    @property
+    def newly_short(self) -> tuple[ClearanceCheck, ...]:
+        """Clearances that are kept as given and not with less friction."""
+        pairs = zip(self.given.clearances, self.less.clearances, strict=True)
+        return tuple(after for before, after in pairs if before.ok and not after.ok)
+
+
+def accuracy(
+    data: ProjectInput,
+    motions: Sequence[Motion],
+    given: Assessment,
+    array: ArrayAssessment,
+) -> Accuracy:
+    """Run the governing array's governing motion by every method, and all arrays at other mu."""
+    motion = array.worst
+    scene = _scene(array, motion)
+    peak = motion.governing.result.prd_m
+    return Accuracy(
+        array=array,
+        motion=motion,
+        doubled=abs(slide(**_doubled(scene)).prd_m / peak - 1.0) if peak > 0.0 else math.nan,
+        runs=tuple(_runs(scene, peak)) if peak > 0.0 else (),
+        less=assess(_with_friction(data, 1.0 - SHIFT), motions),
+        given=given,
+        more=assess(_with_friction(data, 1.0 + SHIFT), motions),
+    )
+
+
+def _with_friction(data: ProjectInput, factor: float) -> ProjectInput:
+    changed = [array.model_copy(update={"mu": array.mu * factor}) for array in data.arrays]
+    return data.model_copy(update={"arrays": type(data.arrays)(changed)})
+
+
+def _scene(array: ArrayAssessment, run: MotionRun) -> dict[str, Any]:
+    """Return the governing run as arguments of `slide`."""
+    motion = run.motion
+    return {
+        "ax_mps2": run.governing.sign * motion.ax_mps2,
+        "az_mps2": motion.az_mps2 if motion.has_vertical else None,
+        "dt_s": motion.dt_s,
+        "scale": motion.scale,
+        "slope_rad": array.array.slope_rad,
+        "mu": array.array.mu,
+    }
+
+
+def _doubled(scene: dict[str, Any]) -> dict[str, Any]:
+    vertical = scene["az_mps2"]
+    return scene | {
+        "dt_s": scene["dt_s"] / 2.0,
+        "ax_mps2": _midway(scene["ax_mps2"]),
+        "az_mps2": None if vertical is None else _midway(vertical),
+    }
+
+
+def _midway(samples: Floats) -> Floats:
+    found = np.empty(2 * samples.size - 1)
+    found[::2] = samples
+    found[1::2] = (samples[:-1] + samples[1:]) / 2.0
+    return found
+
+
+def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
+    for method in _shown(with_vertical=scene["az_mps2"] is not None):
+        default = dict(method.parameters)
+        settings = [method.settings(v, scene["dt_s"], STANDARD_GRAVITY_MPS2) for v in method.sweep]
+        for parameters in [default, *(s for s in settings if s != default)]:
+            if parameters.get("substeps", 1.0) > MOST_STEPS:
+                continue
+            result = slide(**scene, method=method.name, **parameters)
+            has_value = result.status is not Status.DIVERGED
+            yield MethodRun(
+                method=method,
+                parameters=parameters,
+                steps=parameters.get("substeps", 1.0),
+                is_default=parameters == default,
+                result=result,
+                error=abs(result.prd_m / peak_m - 1.0) if has_value else math.nan,
+            )
+
+
+def _shown(with_vertical: bool) -> Iterator[Method]:
+    """Yield the rivals that take the scene; regularised friction would take too long here.
+
+    `adaptive` gives the numbers of `paper`: it stands for both with vertical shaking, which the
+    paper's own does not take.
+    """
+    left_out = {"exact", "regularised", "paper" if with_vertical else "adaptive"}
+    return (method for method in METHODS.values() if method.name not in left_out)

@@ -1,0 +1,81 @@
+"""Work against precision on the governing run of a package.
+
+The cost axis counts steps, not seconds, so that two runs draw the same bytes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from report.accuracy import Accuracy, MethodRun
+from report.figures.base import bare, framed, style, svg_text
+from report.figures.methods import LOOKS
+from report.figures.scales import decades
+from report.units import Quantity
+
+FLOOR = 1e-16  # an error of no digit at all is drawn here: a double carries no more
+_STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
+
+
+def work_precision(found: Accuracy, us_first: bool) -> str:
+    """Return the error in PRD against steps for each sampling interval, a line a method."""
+    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
+    with style():
+        figure, axes = framed(2.35, 0.55, 2.5, 0.1, 0.42)
+        for name in dict.fromkeys(run.method.name for run in found.runs):
+            _draw(axes, [run for run in found.runs if run.method.name == name and not run.failed])
+        floor = max(found.doubled, FLOOR)
+        axes.plot([1.0], [100.0 * floor], **LOOKS["exact"].all | {"markersize": 9})
+        axes.annotate(
+            "exact method: rounding only",
+            (1.0, 100.0 * floor),
+            (9, -2),
+            textcoords="offset points",
+            va="center",
+        )
+        _axes(axes, max(run.steps for run in found.runs))
+        peak = found.motion.governing.result.prd_m / unit.si
+        other = axes.secondary_yaxis(
+            "right", functions=(lambda e: e * peak / 100.0, lambda u: u * 100.0 / peak)
+        )
+        other.set_ylabel(f"Error in PRD [{unit.symbol}]")
+        decades(other.yaxis)
+        figure.legend(loc="center right", bbox_to_anchor=(1.0, 0.56), handlelength=3.2)
+        return svg_text(figure)
+
+
+def _draw(axes: Axes, runs: Sequence[MethodRun]) -> None:
+    """Draw one method; its default setting lies on the line like any other."""
+    if not runs:
+        return
+    look = LOOKS[runs[0].method.name]
+    if not runs[0].method.knob:  # no number of steps changes its error
+        axes.axhline(100.0 * runs[0].error, color=look.color, linewidth=1.6, label=look.label)
+        return
+    ordered = sorted(runs, key=lambda run: (run.steps, run.error))
+    if runs[0].method.knob != "substeps":  # several stiffnesses have the same steps
+        ordered = sorted(
+            (run for run in runs if not run.is_default),
+            key=lambda run: list(run.parameters.values()),
+        )
+    errors = [100.0 * max(run.error, FLOOR) for run in ordered]
+    axes.plot([run.steps for run in ordered], errors, **look.all)
+
+
+def _axes(axes: Axes, most: float) -> None:
+    axes.set_xscale("log", base=2)
+    axes.set_yscale("log")
+    axes.set_xlim(0.82, 1.25 * most)
+    axes.set_ylim(1e-15, 300.0)
+    axes.xaxis.set_major_locator(FixedLocator([n for n in _STEPS if n <= 1.2 * most]))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    decades(axes.yaxis)
+    axes.set_xlabel("Steps in each sampling interval")
+    axes.set_ylabel("Error in PRD [%]")
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    bare(axes)

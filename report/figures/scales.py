@@ -1,0 +1,25 @@
+"""Logarithmic scales whose tick labels are plain text: the charts set no mathematics."""
+
+from __future__ import annotations
+
+import math
+
+from matplotlib.axis import Axis
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def power_of_ten(value: float) -> str:
+    """Return `10⁻³` for 0.001, and 0.1, 1, 10 and 100 in full."""
+    if value <= 0.0:
+        return ""
+    exponent = round(math.log10(value))
+    return f"{10.0**exponent:g}" if -1 <= exponent <= 2 else f"10{str(exponent).translate(_RAISED)}"
+
+
+def decades(axis: Axis, most: int = 9) -> None:
+    """Mark powers of ten on a logarithmic axis, at most so many."""
+    axis.set_major_locator(LogLocator(numticks=most))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
+    axis.set_minor_locator(NullLocator())

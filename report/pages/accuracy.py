@@ -1,0 +1,247 @@
+"""How sure the answer is: the method with its error on the governing run, and other friction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from report.accuracy import SHIFT, Accuracy, MethodRun
+from report.assess import ArrayAssessment, Assessment
+from report.pages.parts import NO_VALUE, Column, Picture, Row, Scene, Table
+from report.units import number
+from solver.model import Status
+
+_PERCENT = f"{100.0 * SHIFT:.0f} %"
+
+
+def page(scene: Scene, found: Accuracy) -> Mapping[str, object]:
+    """Return the page without its chart."""
+    return {
+        "shift": _PERCENT,
+        "run": _run(scene, found),
+        "method": _method(found),
+        "methods": _methods(scene, found) if found.runs else None,
+        "friction": _friction_table(scene, found),
+        "sentences": [*_sentences(scene, found), *_clearances(found)],
+    }
+
+
+def picture(found: Accuracy, us_first: bool) -> Picture:
+    """Return the chart of the page."""
+    from report.figures.accuracy import work_precision
+
+    failed = sum(run.failed for run in found.runs)
+    lost = f" {failed} failed run{'s are' if failed > 1 else ' is'} not drawn." if failed else ""
+    return Picture(
+        svg=work_precision(found, us_first),
+        caption="Work against precision on the governing run: error in PRD against the exact "
+        "value, each method from coarse to fine. Links grow stiffer from left to right and take "
+        f"the steps that they need.{lost}",
+        alt="Chart of the error in PRD against the steps of each method",
+    )
+
+
+def _run(scene: Scene, found: Accuracy) -> str:
+    run, array = found.motion.governing, found.array.array
+    way = "" if run.sign > 0 else ", reversed"
+    vertical = "with" if found.motion.motion.has_vertical else "without"
+    return (
+        f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
+        f"μ = {number(array.mu, 3)}) under motion {found.motion.motion.id}{way}, {vertical} "
+        f"vertical shaking. PRD {scene.say.both(run.result.prd_m)}."
+    )
+
+
+def _method(found: Accuracy) -> str:
+    """Return what is known of the exact method's error on this run."""
+    result = found.motion.governing.result
+    if result.status is Status.UPLIFT:
+        return "The block leaves the roof: there is no displacement, and no error to speak of."
+    if not found.runs:
+        return "Nothing slides in this run: every method that sticks agrees."
+    return (
+        "Method: exact, event by event, one step or fewer in each sampling interval. With a "
+        "sample added midway between each two, which is the same motion, its PRD "
+        f"{_doubled(found.doubled)}. The verification manual of this version (roofslip verify) "
+        "holds the method to closed forms, and gives the time that each method takes."
+    )
+
+
+def _doubled(change: float) -> str:
+    # A power of ten above it: the digits themselves are the machine's.
+    if change == 0.0:
+        return "stays the same to the last digit"
+    return f"changes by less than 1e{math.floor(math.log10(change)) + 1} of its value"
+
+
+def _methods(scene: Scene, found: Accuracy) -> Table:
+    say, exact = scene.say, found.motion.governing.result
+    top = Row(
+        cells=(
+            "Exact, event by event",
+            "none",
+            *say.cells(exact.prd_m),
+            "rounding",
+        ),
+        kind="total",
+    )
+    rows = (_method_row(scene, run) for run in found.runs if run.is_default)
+    return Table(
+        caption="The governing run by every method with its default parameters",
+        columns=(
+            Column(head="Method", align="left", share=3.0),
+            Column(head="Parameters", align="left", share=2.4),
+            *say.columns("PRD", share=0.9),
+            Column(head="Error in PRD", unit="%", share=1.1),
+        ),
+        rows=(top, *rows),
+        kind="compact",
+    )
+
+
+def _method_row(scene: Scene, run: MethodRun) -> Row:
+    return Row(
+        cells=(
+            run.method.title,
+            parameters(run.parameters),
+            *scene.say.cells(run.result.prd_m),
+            "failed" if run.failed else number(100.0 * run.error, 3),
+        )
+    )
+
+
+def parameters(values: Mapping[str, float]) -> str:
+    """Return parameters of a method in words."""
+    texts = {
+        "substeps": "{:g} sub-steps",
+        "stiffness_per_m": "k = {:g} /m",
+        "velocity_mps": "v0 = {:g} m/s",
+        "tolerance": "tolerance {:g}",
+    }
+    return ", ".join(texts[key].format(value) for key, value in values.items()) or "none"
+
+
+def _by_array(
+    found: Accuracy,
+) -> Iterator[tuple[ArrayAssessment, ArrayAssessment, ArrayAssessment]]:
+    yield from zip(found.given.arrays, found.less.arrays, found.more.arrays, strict=True)
+
+
+def _friction_table(scene: Scene, found: Accuracy) -> Table:
+    say = scene.say
+    return Table(
+        caption="Design displacement at other friction, all motions run again",
+        columns=(
+            Column(head="Array", align="left", share=1.2),
+            Column(head="μ", share=0.7),
+            *say.columns(f"{_PERCENT} less"),
+            *say.columns("As given"),
+            *say.columns(f"{_PERCENT} more"),
+            Column(head="Change", unit=f"{_PERCENT} less", share=1.0),
+            Column(head="Change", unit=f"{_PERCENT} more", share=1.0),
+        ),
+        rows=tuple(
+            Row(
+                cells=(
+                    given.array.id,
+                    number(given.array.mu, 3),
+                    *_design_cells(scene, less),
+                    *_design_cells(scene, given),
+                    *_design_cells(scene, more),
+                    _change(less.design_m, given.design_m),
+                    _change(more.design_m, given.design_m),
+                )
+            )
+            for given, less, more in _by_array(found)
+        ),
+        kind="compact",
+    )
+
+
+def _design_cells(scene: Scene, found: ArrayAssessment) -> tuple[str, str]:
+    return scene.say.cells(found.design_m, mark=scene.design_mark(found))
+
+
+def _design(scene: Scene, found: ArrayAssessment) -> str:
+    return scene.say.both(found.design_m) + scene.design_mark(found)
+
+
+def _change(value: float, given: float) -> str:
+    if math.isnan(value) or not given > 0.0:
+        return NO_VALUE if math.isnan(value) or math.isnan(given) else "—"
+    share = 100.0 * (value / given - 1.0)
+    return f"{'+' if share > 0.05 else ''}{number(share, 1)} %"
+
+
+def _sentences(scene: Scene, found: Accuracy) -> Iterator[str]:
+    """Yield a sentence for each array; those that the floor governs throughout share one."""
+    three = tuple(_by_array(found))
+    held = [given for given, *others in three if _on_floor(given, *others)]
+    yield from (_sentence(scene, *one) for one in three if not _on_floor(*one))
+    if held:
+        names = ", ".join(given.array.id for given in held)
+        yield (
+            f"Array{'s' if len(held) > 1 else ''} {names}: {_PERCENT} less or more friction "
+            f"changes nothing, because the floor governs at {_design(scene, held[0])}."
+        )
+
+
+def _on_floor(*found: ArrayAssessment) -> bool:
+    return all(one.governs == "floor" for one in found)
+
+
+def _sentence(
+    scene: Scene, given: ArrayAssessment, less: ArrayAssessment, more: ArrayAssessment
+) -> str:
+    start = f"Array {given.array.id}: "
+    if any(math.isnan(one.design_m) for one in (given, less, more)):
+        return f"{start}no design displacement, so friction has nothing to change."
+    ways = (
+        f"with {_PERCENT} {word} friction the design displacement of "
+        f"{_design(scene, given)} {_becomes(scene, given, other)}"
+        if index == 0
+        else f"with {_PERCENT} {word} {_becomes(scene, given, other, short=True)}"
+        for index, (word, other) in enumerate((("less", less), ("more", more)))
+    )
+    return f"{start}{'; '.join(ways)}."
+
+
+def _becomes(
+    scene: Scene, given: ArrayAssessment, other: ArrayAssessment, *, short: bool = False
+) -> str:
+    change = other.design_m - given.design_m
+    if abs(change) <= 1e-9 * given.design_m:
+        return "it stays the same" if short else "stays the same"
+    verb = "it grows" if change > 0.0 else "it falls"
+    floor = ", the floor" if other.governs == "floor" else ""
+    share = _change(other.design_m, given.design_m)
+    words = f"{verb} to {_design(scene, other)}, {share}{floor}"
+    return words if short else words.removeprefix("it ")
+
+
+def _clearances(found: Accuracy) -> Sequence[str]:
+    """Return what less friction does to clearances and to the outcome of runs."""
+    texts = []
+    if found.given.clearances:
+        texts.append(_short_of(found))
+    unfinished = _unfinished(found.less) - _unfinished(found.given)
+    if unfinished > 0:
+        texts.append(
+            f"With {_PERCENT} less friction {unfinished} more of the runs still slide when their "
+            "record ends: their displacement is not final."
+        )
+    return texts
+
+
+def _short_of(found: Accuracy) -> str:
+    if not found.newly_short:
+        return f"With {_PERCENT} less friction every clearance that is kept as given is still kept."
+    short = found.newly_short
+    names = ", ".join(f"{gap.clearance.array} to {gap.clearance.object}" for gap in short)
+    count = f"{len(short)} clearance{'s' if len(short) > 1 else ''}"
+    return f"With {_PERCENT} less friction {count} would no longer be kept: {names}."
+
+
+def _unfinished(found: Assessment) -> int:
+    runs = (run for a in found.arrays for motion in a.motions for run in motion.runs)
+    return sum(run.result.status is Status.SLIDING_AT_END for run in runs)
