@@ -204,7 +204,8 @@ def _move(w, q_0, q_1, tau, dt, rate):
 def _slide_on(c, ax, az, w, i, last, dt):
     """Slide through whole intervals, up to the first in which the speed may come to zero.
 
-    Where w + q dt / 2 is positive, a dip within the interval cannot reach zero. The sum of the
+    Where the speed is positive at the end of an interval and, with its first push alone, in its
+    middle, a dip between them cannot reach zero. The sum of the
     cubic ways telescopes: dt (sum of w + half its change) + dt^2 / 12 (q first - q last).
 
     Returns the sample reached, the way and the speed there.
@@ -219,8 +220,9 @@ def _slide_on(c, ax, az, w, i, last, dt):
         start = i
         while i < end:
             q_next = _push(c, ax, az, i + 1)
-            more = gained + (q + q_next)
-            if w + more <= 0.0 or w + (gained + q) <= 0.0:
+            middle = gained + q
+            more = middle + q_next
+            if min(middle, more) <= -w:
                 break
             total += gained
             gained, q = more, q_next
