@@ -5,6 +5,10 @@ Draws nothing and writes no files. Read `verify`, then `solver.evidence` for wha
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable, Iterator, Sequence
+
+from solver import checks, crosschecks, paper_studies, stability, workprecision
 from solver.evidence import (
     CheckRow,
     Conditioning,
@@ -16,6 +20,8 @@ from solver.evidence import (
     Verification,
     WorkPoint,
 )
+from solver.motion import Record
+from solver.scenes import own_records
 
 __all__ = [
     "CheckRow",
@@ -27,4 +33,72 @@ __all__ = [
     "StabilityMap",
     "Verification",
     "WorkPoint",
+    "verify",
 ]
+
+
+def verify(
+    records: Sequence[Record], *, quick: bool, progress: Callable[[str], None]
+) -> Verification:
+    """Check the solver and measure every method, on the project's own records and on others.
+
+    Parameters
+    ----------
+    records : sequence of Record
+        Others, real ones say; the project's own always run. If quick, the first one only.
+    quick : bool
+        Fewer records, scenes, settings and cells: seconds for minutes.
+    progress : callable
+        Called with a line for each stage.
+
+    Returns
+    -------
+    Verification
+        The same every time but for what is in seconds. What failed is in it, as failed: nothing
+        is raised for a wrong number.
+    """
+    start = time.perf_counter()
+    progress("Making the project's own records")
+    chosen = (*own_records(quick), *(records[:1] if quick else records))
+    main = chosen[0]
+    progress("Checks: closed forms, 50 digits, symmetries, physical checks of the paper")
+    rows = tuple(_rows(chosen))
+    progress(f"Work against precision: every method on {len(chosen)} records")
+    work = tuple(workprecision.work_points(chosen, quick=quick))
+    progress("Stability: maps of error over two settings")
+    maps = tuple(stability.maps(main, quick=quick))
+    progress("Conditioning: what a small change of friction does")
+    conditioning = tuple(stability.conditioning(main, quick=quick))
+    progress("The paper's convergence study, its Fig. 5")
+    convergence = tuple(paper_studies.convergence(record) for record in chosen)
+    progress("The paper's comparison with a link, its Figs. 6 to 9")
+    links = tuple(
+        paper_studies.link_comparison(record, slope_deg)
+        for record in chosen
+        for slope_deg in paper_studies.LINK_MUS
+    )
+    progress("The paper's design curves, its Figs. 10 to 12")
+    curves = tuple(paper_studies.design_curves(record) for record in chosen)
+    return Verification(
+        checks=rows,
+        work=work,
+        maps=maps,
+        convergence=convergence,
+        links=links,
+        curves=curves,
+        conditioning=conditioning,
+        peers=(),
+        records=tuple(record.name for record in chosen),
+        quick=quick,
+        seconds=time.perf_counter() - start,
+    )
+
+
+def _rows(records: Sequence[Record]) -> Iterator[CheckRow]:
+    yield from checks.closed_forms()
+    yield from checks.physical_checks(records[0])
+    for record in records:
+        yield from crosschecks.fifty_digits(record)
+    for record in records:
+        yield from crosschecks.symmetries(record)
+    yield from crosschecks.rivals()

@@ -1,0 +1,224 @@
+"""Where methods blow up, stall or are off: maps of error over two settings; and where no method
+can be right, because the problem itself hangs on the last digits of its friction coefficient.
+
+Runs only. A failed run is a failed cell, never left out. Read `solver.methods` for the limits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+
+import numpy as np
+
+from solver.evidence import Conditioning, StabilityMap, percent_off
+from solver.methods import METHODS, link_frequency
+from solver.model import Floats
+from solver.motion import Record
+from solver.scenes import CASES, Case, is_runnable, scale_to, shortened
+from solver.solve import STANDARD_GRAVITY_MPS2
+from solver.studies import sweep
+from solver.workprecision import run
+
+SLOPE_DEG = 4.0
+CRITICAL_MU = math.tan(math.radians(SLOPE_DEG))
+"""Friction that just holds the block on a still roof of that slope."""
+
+PPA_G = 0.3
+"""Of the maps near the critical friction, so that the block both sticks and slips."""
+
+_Run = tuple[Case, Mapping[str, float]]
+
+
+def maps(record: Record, *, quick: bool) -> Iterator[StabilityMap]:
+    """Make all maps on one record."""
+    part = shortened(record, 10.0)
+    yield from (
+        link_map(part, name, quick=quick) for name in ("penalty-explicit", "penalty-implicit")
+    )
+    for name in ("paper", "linear"):  # the adaptive one gives the numbers of the paper's
+        yield slope_map(part, name, quick=quick)
+        yield friction_map(part, name, quick=quick)
+    if is_runnable("regularised"):
+        yield tolerance_map(shortened(record, 1.0), quick=quick)
+
+
+def link_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
+    """Map the sub-step over the stiffness of a link, with the explicit one's limit, 2 / omega."""
+    stiffness = np.geomspace(1e2, 1e8, 13 if quick else 25)
+    substeps = np.unique(np.geomspace(1, 512, 10 if quick else 24).round().astype(int))[::-1]
+    cases = CASES[:2] if quick else CASES[:3]
+    note = (
+        "Line: 2 / ω, ω = √(g k); above it the explicit link is unstable, and the implicit one may "
+        "go to and fro between stick and slip. Left: a soft link stretches by μ / k."
+    )
+    return _map(
+        record,
+        name,
+        lambda k, h: [
+            (case, {"stiffness_per_m": k, "substeps": round(record.dt_s / h)}) for case in cases
+        ],
+        title=f"{METHODS[name].title}: sub-step against stiffness",
+        note=note,
+        x_label="Stiffness for each unit of weight [1/m]",
+        x=stiffness,
+        y_label="Sub-step [s]",
+        y=record.dt_s / substeps,
+        limit=np.array([2.0 / link_frequency(k, STANDARD_GRAVITY_MPS2) for k in stiffness]),
+        x_mark=math.nan,
+        x_log=True,
+    )
+
+
+def slope_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
+    """Map the sub-step over slopes about the friction angle, where free sliding begins."""
+    slopes = SLOPE_DEG + np.linspace(-2.0, 2.0, 17 if quick else 41)
+    return _map(
+        record,
+        name,
+        lambda slope, h: [_near(record, h, float(slope), CRITICAL_MU)],
+        title=f"{METHODS[name].title}: sub-step against slope",
+        note=f"μ = tan {SLOPE_DEG:g}°, PPA = {PPA_G:g} g. Line: θ = atan μ, beyond it no rest.",
+        x_label="Slope [deg]",
+        x=slopes,
+        y_label="Sub-step [s]",
+        y=_steps(record, quick),
+        limit=np.empty(0),
+        x_mark=SLOPE_DEG,
+        x_log=False,
+    )
+
+
+def friction_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
+    """Map the sub-step over friction coefficients about the tangent of the slope."""
+    mus = CRITICAL_MU * np.linspace(0.5, 2.0, 16 if quick else 46)
+    return _map(
+        record,
+        name,
+        lambda mu, h: [_near(record, h, SLOPE_DEG, float(mu))],
+        title=f"{METHODS[name].title}: sub-step against friction",
+        note=f"θ = {SLOPE_DEG:g}°, PPA = {PPA_G:g} g. Line: μ = tan θ, below it no rest.",
+        x_label="Friction coefficient",
+        x=mus,
+        y_label="Sub-step [s]",
+        y=_steps(record, quick),
+        limit=np.empty(0),
+        x_mark=CRITICAL_MU,
+        x_log=False,
+    )
+
+
+def tolerance_map(record: Record, *, quick: bool) -> StabilityMap:
+    """Map the tolerance of the regularised method over its velocity v_0."""
+    velocities = np.geomspace(1e-3, 1.0, 4) if quick else np.geomspace(1e-4, 1.0, 9)
+    tolerances = np.geomspace(1e-2, 1e-5, 4) if quick else np.geomspace(1e-2, 1e-8, 7)
+    case = CASES[1]
+    return _map(
+        record,
+        "regularised",
+        lambda v, tolerance: [(case, {"velocity_mps": v, "tolerance": tolerance})],
+        title=f"{METHODS['regularised'].title}: tolerance against velocity",
+        note=f"{case}. Right: it creeps where it should stick, and no tolerance mends that.",
+        x_label="Velocity v₀ [m/s]",
+        x=velocities,
+        y_label="Relative tolerance",
+        y=tolerances,
+        limit=np.empty(0),
+        x_mark=math.nan,
+        x_log=True,
+    )
+
+
+def _steps(record: Record, quick: bool) -> Floats:
+    substeps = 2.0 ** np.arange(8, -1, -2 if quick else -1)
+    return np.asarray(record.dt_s / substeps, dtype=np.float64)
+
+
+def _near(record: Record, step_s: float, slope_deg: float, mu: float) -> _Run:
+    return Case(slope_deg, mu, PPA_G), {"substeps": round(record.dt_s / step_s)}
+
+
+def _map(
+    record: Record,
+    name: str,
+    runs: Callable[[float, float], list[_Run]],
+    *,
+    title: str,
+    note: str,
+    x_label: str,
+    x: Floats,
+    y_label: str,
+    y: Floats,
+    limit: Floats,
+    x_mark: float,
+    x_log: bool,
+) -> StabilityMap:
+    """Run every cell, the largest error of its runs; one that gives no number fails the cell."""
+    error = np.array([[_largest_error(record, name, runs(a, b)) for a in x] for b in y])
+    return StabilityMap(
+        title=title,
+        note=f"{record.name}. {note}",
+        x_label=x_label,
+        x=x,
+        y_label=y_label,
+        y=y,
+        error_percent=error,
+        failed=np.isnan(error),
+        limit=limit,
+        x_mark=x_mark,
+        x_log=x_log,
+        y_log=True,
+    )
+
+
+def _largest_error(record: Record, name: str, runs: list[_Run]) -> float:
+    found = [run(record, case, name, parameters).prd_m for case, parameters in runs]
+    exact = [run(record, case, "exact", {}).prd_m for case, _ in runs]
+    return float(percent_off(np.array(found), np.array(exact)).max())
+
+
+def conditioning(record: Record, *, quick: bool) -> Iterator[Conditioning]:
+    """Change the friction coefficient a little and see what the exact PRD does."""
+    count = 60 if quick else 240
+    # Towards the critical friction from both sides, to a millionth of it.
+    near = CRITICAL_MU * (1.0 + np.geomspace(1e-6, 0.5, count // 2))
+    below = 2.0 * CRITICAL_MU - near[::-1]
+    both = np.concatenate([below, near])
+    wide = np.linspace(0.02, 0.8, count)
+    still = "Still roof: it slides freely below μ = tan θ and rests above; at the limit "
+    still += "no method can help, because the problem itself hangs on the last digits of μ."
+    shaken = "Shaken roof: a change of the 9th digit of μ changes PRD by about as little, except "
+    shaken += "where a slip only just happens."
+    design = "What 5 % more or less friction does to the answer."
+    for title, note, ppa_g, change, mu in (
+        ("PRD for 1e-9 of μ, still roof", still, 0.0, 1e-9, both),
+        ("PRD for 1e-9 of μ, shaken near μ = tan θ", shaken, PPA_G, 1e-9, both),
+        ("PRD for 1e-9 of μ, shaken", shaken, 1.0, 1e-9, wide),
+        ("PRD for 5 % of μ, shaken", design, 1.0, 0.05, wide),
+    ):
+        yield _conditioning(record, ppa_g, change, mu, title, note)
+
+
+def _conditioning(
+    record: Record, ppa_g: float, change: float, mu: Floats, title: str, note: str
+) -> Conditioning:
+    mus = np.concatenate([mu, mu * (1.0 - change), mu * (1.0 + change)])
+    found = sweep(
+        record.a_mps2,
+        record.dt_s,
+        slopes_rad=math.radians(SLOPE_DEG),
+        mus=mus,
+        scales=scale_to(record, ppa_g),
+    ).prd_m
+    prd, less, more = found.reshape(3, mu.size)
+    return Conditioning(
+        title=title,
+        note=note,
+        record=record.name,
+        slope_deg=SLOPE_DEG,
+        ppa_g=ppa_g,
+        relative_change=change,
+        mu=mu,
+        prd_m=prd,
+        change_percent=np.maximum(percent_off(less, prd), percent_off(more, prd)),
+    )

@@ -1,0 +1,131 @@
+"""Work against precision: every method over its settings, timed and held against the exact one.
+
+The timing is of one thread, warm, the least of some repeats, with the record prepared and the
+input checked before. Read `solver.methods` for the methods and their knobs.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from solver.evidence import WorkPoint, percent_off
+from solver.methods import METHODS, Method, Scene
+from solver.model import SlideResult, Status
+from solver.motion import Record
+from solver.scenes import CASES, Case, is_runnable, prepared, scale_to
+from solver.solve import STANDARD_GRAVITY_MPS2, slide
+
+REPEATS = 5
+ENOUGH_S = 0.02
+"""Repeats end after so many, or so many seconds."""
+
+SLOW_RECORDS, SLOW_CASES = 6, 2
+"""First records and cases of each for a method in plain Python, which takes a second a run."""
+
+SLOW_DURATION_S = 40.0
+"""Longest record for such a method [s]."""
+
+NO_SAMPLES = np.empty((2, 0))
+
+
+def work_points(records: Sequence[Record], *, quick: bool) -> Iterator[WorkPoint]:
+    """Run every method over its settings on every record and case, see `settings`."""
+    cases = CASES[:3] if quick else CASES
+    methods = [method for method in METHODS.values() if is_runnable(method.name)]
+    for i, record in enumerate(records):
+        for k, case in enumerate(cases):
+            exact = run(record, case, "exact", {})
+            for method in methods:
+                within = i < SLOW_RECORDS and k < SLOW_CASES and _is_short(record)
+                if is_slow(method) and not within:
+                    continue
+                for value, parameters in settings(method, record, quick=quick):
+                    yield _point(record, case, method, value, parameters, exact)
+
+
+def is_slow(method: Method) -> bool:
+    """Whether the method runs in plain Python."""
+    return method.name == "regularised"
+
+
+def settings(
+    method: Method, record: Record, *, quick: bool
+) -> Iterator[tuple[float, Mapping[str, float]]]:
+    """Give values of the knob with all parameters, every second one if quick."""
+    if not method.knob:
+        yield math.nan, method.parameters
+        return
+    sweep = method.sweep[::2] if quick else method.sweep
+    if is_slow(method):
+        sweep = method.sweep[:2] if quick else method.sweep[:5]
+    for value in sweep:
+        yield value, method.settings(value, record.dt_s, STANDARD_GRAVITY_MPS2)
+
+
+def run(record: Record, case: Case, name: str, parameters: Mapping[str, float]) -> SlideResult:
+    """Run one case of a record by a method."""
+    return slide(
+        record.a_mps2,
+        record.dt_s,
+        slope_rad=case.slope_rad,
+        mu=case.mu,
+        scale=scale_to(record, case.ppa_g),
+        method=name,
+        **parameters,
+    )
+
+
+def least_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> float:
+    """Return the least time of some repeats, fewer where they take long."""
+    begun, least = time.perf_counter(), math.inf
+    for _ in range(REPEATS):
+        start = time.perf_counter()
+        work()
+        now = time.perf_counter()
+        least = min(least, now - start)
+        if now - begun > enough_s:
+            break
+    return least
+
+
+def timed(method: Method, scene: Scene, parameters: Mapping[str, float]) -> float:
+    """Return the least seconds of a run by a method, on a prepared scene."""
+    return least_seconds(lambda: method.follow(scene, parameters, NO_SAMPLES))
+
+
+def _is_short(record: Record) -> bool:
+    return (record.a_mps2.size - 1) * record.dt_s <= SLOW_DURATION_S
+
+
+def _point(
+    record: Record,
+    case: Case,
+    method: Method,
+    value: float,
+    parameters: Mapping[str, float],
+    exact: SlideResult,
+) -> WorkPoint:
+    start = time.perf_counter()
+    found = run(record, case, method.name, parameters)
+    seconds = time.perf_counter() - start
+    if found.status in (Status.DIVERGED, Status.UPLIFT):
+        seconds = math.nan
+    elif not is_slow(method):
+        seconds = timed(method, prepared(record, case), parameters)
+    return WorkPoint(
+        method=method.name,
+        setting=value,
+        parameters=parameters,
+        record=record.name,
+        scene=str(case),
+        seconds=seconds,
+        prd_error_m=abs(found.prd_m - exact.prd_m),
+        prd_error_percent=float(percent_off(found.prd_m, exact.prd_m)),
+        residual_error_m=abs(found.residual_m - exact.residual_m),
+        residual_error_percent=float(percent_off(found.residual_m, exact.residual_m)),
+        status=found.status,
+    )
