@@ -204,9 +204,9 @@ def _move(w, q_0, q_1, tau, dt, rate):
 def _slide_on(c, ax, az, w, i, last, dt):
     """Slide through whole intervals, up to the first in which the speed may come to zero.
 
-    Where the speed is positive at the end of an interval and, with its first push alone, in its
-    middle, a dip between them cannot reach zero. The sum of the
-    cubic ways telescopes: dt (sum of w + half its change) + dt^2 / 12 (q first - q last).
+    Where the speed is positive at the end of an interval and, by its first push alone, in its
+    middle, a dip between them cannot reach zero. The sum of the cubic ways telescopes:
+    dt (sum of w + half its change) + dt^2 / 12 (q first - q last).
 
     Returns the sample reached, the way and the speed there.
     """

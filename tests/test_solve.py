@@ -181,6 +181,29 @@ def test_any_short_record_agrees_with_forty_digits(values, scene, dt):
         assert abs(float(getattr(found, field) - getattr(exact, name))) <= 1e-12 * scale
 
 
+def test_records_of_every_kind_agree_with_forty_digits():
+    """Quiet stretches, equal and zero samples, steep slopes, no friction, any sign of the scale."""
+    rng = np.random.default_rng(3)
+    compared = 0
+    for _ in range(120):
+        size = rng.integers(2, 400)
+        ax = rng.normal(size=size) * rng.choice([2.0, 8.0, 20.0])
+        ax[rng.random(size) < rng.choice([0.0, 0.7, 0.97])] = 0.0
+        az = rng.normal(size=size) * 2.0 if rng.random() < 0.4 else None
+        scene = {
+            "slope_rad": rng.choice([0.0, 0.05, -0.12, 0.3, -0.3, 1.2]),
+            "mu": rng.choice([0.0, 0.1, 0.3, 0.8, 1.5]),
+            "scale": rng.choice([1.0, -1.0, 0.3, -2.0, 0.0]),
+        }
+        dt = rng.choice([0.005, 0.02, 0.3])
+        found = slide(ax, dt, az_mps2=az, **scene)
+        if found.status is not Status.UPLIFT:
+            exact = oracle.slide(ax, dt, az=az, **scene)
+            assert_agrees(found, exact, floor_m=1e-9)
+            compared += 1
+    assert compared > 60
+
+
 def test_a_speed_that_dips_to_zero_within_an_interval_stops_there():
     # The push falls from 3 to -1 about friction and rises again: zero inside, moving at the end.
     ax = [-4.0, 0.5, -8.0]
