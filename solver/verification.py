@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 
-from solver import checks, crosschecks, paper_studies, stability, workprecision
+from solver import checks, crosschecks, paper_studies, peers, stability, workprecision
 from solver.evidence import (
     CheckRow,
     Conditioning,
@@ -79,6 +79,8 @@ def verify(
     )
     progress("The paper's design curves, its Figs. 10 to 12")
     curves = tuple(paper_studies.design_curves(record) for record in chosen)
+    progress("Other programs, where they are installed")
+    judged = tuple(peers.peer_points(chosen[:3], quick=quick))
     return Verification(
         checks=rows,
         work=work,
@@ -87,7 +89,7 @@ def verify(
         links=links,
         curves=curves,
         conditioning=conditioning,
-        peers=(),
+        peers=judged,
         records=tuple(record.name for record in chosen),
         quick=quick,
         seconds=time.perf_counter() - start,

@@ -35,7 +35,7 @@ def test_a_quick_verification_passes_and_fills_every_part(found):
     assert verification.passed
     assert verification.quick
     assert verification.records == ("motion-01-h", "near-fault-pulse")
-    assert len(stages) == 8
+    assert len(stages) == 9
     for name in ("checks", "work", "maps", "convergence", "links", "curves", "conditioning"):
         assert len(getattr(verification, name)) > 0, name
     assert len(verification.convergence) == len(verification.curves) == 2

@@ -1,0 +1,203 @@
+"""Other programs as outside judges, each only where it is installed; the product needs none.
+
+Each is used as its users would, on the same scaled record, in the axes of the roof where it knows
+no slope. What a peer raises becomes a hole with its reason.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.metadata
+import importlib.util
+import math
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.evidence import PeerPoint, percent_off
+from solver.model import Floats
+from solver.motion import Record
+from solver.scenes import CASES, Case, scale_to
+from solver.solve import STANDARD_GRAVITY_MPS2
+from solver.workprecision import run
+
+SUBSTEPS = 10
+STIFFNESS_PER_M = 1e5
+
+_G = STANDARD_GRAVITY_MPS2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Peer:
+    """Another program.
+
+    Attributes
+    ----------
+    name, module, package, note : str
+    prd_m : callable
+        PRD [m] of a scaled record [m/s2], its interval [s] and a case; NaN where it gives up.
+    """
+
+    name: str
+    module: str
+    package: str
+    note: str
+    prd_m: Callable[[Floats, float, Case], float]
+
+
+def peer_points(records: Sequence[Record], *, quick: bool) -> Iterator[PeerPoint]:
+    """Run what is installed on the records, in a few cases."""
+    for peer in PEERS:
+        if importlib.util.find_spec(peer.module) is None:
+            continue
+        for record in records:
+            for case in CASES[:2] if quick else CASES[:4]:
+                yield _point(peer, record, case)
+
+
+def _point(peer: Peer, record: Record, case: Case) -> PeerPoint:
+    a = record.a_mps2 * scale_to(record, case.ppa_g)
+    note, seconds = peer.note, math.nan
+    try:
+        importlib.import_module(peer.module)
+        start = time.perf_counter()
+        prd_m = peer.prd_m(a, record.dt_s, case)
+        if math.isfinite(prd_m):
+            seconds = time.perf_counter() - start
+        else:
+            note = f"It did not converge. {note}"
+    except Exception as error:  # nobody knows what another program raises
+        prd_m, note = math.nan, f"{type(error).__name__}: {error}"
+    exact = run(record, case, "exact", {}).prd_m
+    return PeerPoint(
+        peer=peer.name,
+        version=_version(peer.package),
+        record=record.name,
+        scene=str(case),
+        seconds=seconds,
+        prd_error_percent=float(percent_off(prd_m, exact)),
+        note=note,
+    )
+
+
+def _version(package: str) -> str:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return "unknown"
+
+
+def _opensees(a: Floats, dt: float, case: Case) -> float:
+    """Run a flatSliderBearing in the axes of the roof: dead load, then uniform excitation."""
+    ops = importlib.import_module("openseespy.opensees")
+    sine, cosine = math.sin(case.slope_rad), math.cos(case.slope_rad)
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    for node in (1, 2):
+        ops.node(node, 0.0, 0.0)
+    ops.fix(1, 1, 1, 1)
+    ops.fix(2, 0, 0, 1)
+    ops.mass(2, 1.0 / _G, 1.0 / _G, 0.0)
+    ops.frictionModel("Coulomb", 1, case.mu)
+    ops.uniaxialMaterial("Elastic", 1, 10.0 * STIFFNESS_PER_M)
+    ops.uniaxialMaterial("Elastic", 2, 1e3)
+    bearing = ("flatSliderBearing", 1, 1, 2, 1, STIFFNESS_PER_M, "-P", 1, "-Mz", 2)
+    ops.element(*bearing, "-orient", 0.0, 1.0, 0.0, -1.0, 0.0, 0.0)
+    ops.timeSeries("Constant", 1)
+    ops.pattern("Plain", 1, 1)
+    ops.load(2, sine, -cosine, 0.0)
+    _prepare_opensees(ops, "Static", "LoadControl", 1.0)
+    if ops.analyze(1) != 0:
+        return math.nan
+    ops.loadConst("-time", 0.0)
+    rest = ops.nodeDisp(2, 1)
+    for axis, part in ((1, cosine), (2, sine)):
+        ops.timeSeries("Path", 1 + axis, "-dt", dt, "-values", *(part * a).tolist())
+        ops.pattern("UniformExcitation", 1 + axis, axis, "-accel", 1 + axis)
+    ops.wipeAnalysis()
+    _prepare_opensees(ops, "Transient", "Newmark", 0.5, 0.25)
+    peak = 0.0
+    for _ in range((a.size - 1) * SUBSTEPS):
+        if ops.analyze(1, dt / SUBSTEPS) != 0:
+            return math.nan
+        peak = max(peak, abs(ops.nodeDisp(2, 1) - rest))
+    return peak * cosine
+
+
+def _prepare_opensees(ops: object, analysis: str, *integrator: object) -> None:
+    for command, arguments in (
+        ("constraints", ("Plain",)),
+        ("numberer", ("Plain",)),
+        ("system", ("BandGeneral",)),
+        ("test", ("NormDispIncr", 1e-12, 25, 0)),
+        ("algorithm", ("Newton",)),
+        ("integrator", integrator),
+        ("analysis", (analysis,)),
+    ):
+        getattr(ops, command)(*arguments)
+
+
+def _pyslammer(a: Floats, dt: float, case: Case) -> float:
+    """Run its one-way rigid block down the slope and up it; the larger is the PRD.
+
+    s'' = (cos(theta) + mu sin(theta)) (-a - g tan(phi - theta)) down the slope.
+    """
+    pyslammer = importlib.import_module("pyslammer")
+    phi, found = math.atan(case.mu), []
+    for theta, way in ((case.slope_rad, -a), (-case.slope_rad, a)):
+        motion = pyslammer.GroundMotion(way / _G, dt)
+        travel = pyslammer.RigidAnalysis(math.tan(phi - theta), motion).max_sliding_disp
+        share = math.cos(theta) + case.mu * math.sin(theta)
+        found.append(float(travel) * share * math.cos(theta))
+    return max(found)
+
+
+_MUJOCO = """<mujoco>
+<option timestep="{step}" cone="elliptic" noslip_iterations="20" iterations="50"/>
+<worldbody><geom type="plane" size="0 0 1" condim="3" friction="{mu} 0 0"/>
+<body pos="0 0 0.1"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>
+<geom type="box" size="0.5 0.5 0.1" mass="1" condim="3" friction="{mu} 0 0"/></body></worldbody>
+</mujoco>"""
+
+
+def _mujoco(a: Floats, dt: float, case: Case) -> float:
+    """Let a box slide on a plane, gravity being what the roof's own axes feel."""
+    mujoco = importlib.import_module("mujoco")
+    step = dt / SUBSTEPS
+    model = mujoco.MjModel.from_xml_string(_MUJOCO.format(step=step, mu=case.mu))
+    data = mujoco.MjData(model)
+    sine, cosine = math.sin(case.slope_rad), math.cos(case.slope_rad)
+    fine = np.interp(np.arange((a.size - 1) * SUBSTEPS) / SUBSTEPS, np.arange(a.size), a)
+    peak = 0.0
+    for now in fine.tolist():
+        model.opt.gravity[:] = _G * sine - now * cosine, 0.0, -(_G * cosine + now * sine)
+        mujoco.mj_step(model, data)
+        peak = max(peak, abs(data.qpos[0]))
+    return float(peak * cosine)
+
+
+PEERS = (
+    Peer(
+        name="OpenSeesPy",
+        module="openseespy",
+        package="openseespy",
+        note=f"flatSliderBearing, {STIFFNESS_PER_M:g} 1/m, Newmark, {SUBSTEPS} sub-steps",
+        prd_m=_opensees,
+    ),
+    Peer(
+        name="MuJoCo",
+        module="mujoco",
+        package="mujoco",
+        note=f"box on a plane, elliptic cone, no-slip solver, {SUBSTEPS} sub-steps",
+        prd_m=_mujoco,
+    ),
+    Peer(
+        name="pySLAMMER",
+        module="pyslammer",
+        package="pyslammer",
+        note="rigid block, one way at a time, at the record's own step",
+        prd_m=_pyslammer,
+    ),
+)
