@@ -1,16 +1,18 @@
 """The command line: the only place that prints and catches.
 
 Parses, calls, reports; heavy imports stay inside the commands so that `--help` is quick.
-Exit codes: 0 done, 2 the input is at fault, 1 a defect of ours (with the traceback).
+Exit codes: 0 done, 2 the input is at fault, 1 a defect of ours (with the traceback, or with the
+checks that failed).
 """
 
 from __future__ import annotations
 
+import datetime as dt
 import json
 import math
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
@@ -21,6 +23,7 @@ import click
 if TYPE_CHECKING:
     from report.assess import ArrayAssessment, Assessment
     from report.sheet.workbook import InputBook
+    from solver.evidence import Verification
 
 _QUIET_SECONDS = 1.0
 _SCENE = click.Path(path_type=Path)
@@ -98,6 +101,33 @@ def report(source: Path, out: Path | None) -> None:
     click.echo("")
     for name in files:
         click.echo(folder / name)
+
+
+@main.command()
+@click.option("--out", type=_SCENE, default=Path("out"), show_default=True,
+              help="Folder for the outputs.")  # fmt: skip
+@click.option("--quick", is_flag=True, help="Fewer records, scenes and settings: seconds.")
+def verify(out: Path, quick: bool) -> None:
+    """Check the solver and every rival, and write verification.pdf with its table and charts.
+
+    Exits 1 where a check fails, with the outputs written.
+    """
+    with _input_errors(out), _Progress() as progress:
+        found, files = _verification(quick, progress)
+        progress("putting the files in place")
+        _publish(files, out)
+    failed = [row for row in found.checks if not row.passed]
+    passed = len(found.checks) - len(failed)
+    click.echo(f"{'FAIL' if failed else 'PASS'}: {passed} of {len(found.checks)} checks passed")
+    for row in failed:
+        click.echo(
+            f"  {row.section}: {row.problem}, {row.quantity}: expected {row.expected:.10g}, found "
+            f"{row.found:.10g} {row.unit}, error {row.error:.1e} over {row.tolerance:.1e}"
+        )
+    for name in files:
+        click.echo(out / name)
+    if failed or not found.checks:
+        sys.exit(1)
 
 
 @main.command()
@@ -206,7 +236,18 @@ def _outputs(
     }
 
 
-def _publish(files: dict[str, bytes], folder: Path) -> None:
+def _verification(
+    quick: bool, progress: Callable[[str], None]
+) -> tuple[Verification, Mapping[str, bytes]]:
+    """Return what was found, and every output as finished bytes by file name."""
+    from report.manual.render import files
+    from solver.verification import verify
+
+    found = verify((), quick=quick, progress=progress)
+    return found, files(found, dt.date.today(), progress)
+
+
+def _publish(files: Mapping[str, bytes], folder: Path) -> None:
     from report.outputs import publish
 
     publish(files, folder)

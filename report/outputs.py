@@ -124,6 +124,8 @@ def _nan_to_none(value: Any) -> Any:
 def publish(files: Mapping[str, bytes], folder: Path) -> None:
     """Put files into a folder, all of them or none; what was there stays until then.
 
+    A name may lead into a folder below.
+
     Raises
     ------
     InputError
@@ -147,6 +149,8 @@ def _stage(files: Mapping[str, bytes], folder: Path, staging: Path) -> None:
     """Write the new files, and copies of the old ones to go back to."""
     try:
         for name, content in files.items():
+            (staging / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (staging / name).write_bytes(content)
             if (folder / name).is_file():
                 shutil.copy2(folder / name, staging / f"{name}.old")

@@ -18,6 +18,14 @@ def power_of_ten(value: float) -> str:
     return f"{10.0**exponent:g}" if -1 <= exponent <= 2 else f"10{str(exponent).translate(_RAISED)}"
 
 
+def plain(value: float) -> str:
+    """Return `2.5 × 10⁻⁶` for a small number, other ones in full."""
+    if value == 0.0 or abs(value) >= 1e-3:
+        return f"{value:g}".replace("-", "−")
+    exponent = math.floor(math.log10(abs(value)))
+    return f"{value / 10.0**exponent:.3g} × 10{str(exponent).translate(_RAISED)}"
+
+
 def decades(axis: Axis, most: int = 9) -> None:
     """Mark powers of ten on a logarithmic axis, at most so many."""
     axis.set_major_locator(LogLocator(numticks=most))

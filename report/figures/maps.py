@@ -1,0 +1,169 @@
+"""Stability maps: where a method fails or is off, over two quantities; and conditioning."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, NullLocator
+
+from report.figures.base import ACCENT, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.scales import decades, plain
+from solver.evidence import Conditioning, StabilityMap
+from solver.model import Floats
+
+MOST = 4  # maps of one figure: it must fit on a page
+_BANDS = (
+    (0.0, 0.1, "#ffffff", "under 0.1 %"),
+    (0.1, 1.0, "#dfe6ee", "0.1 to 1 %"),
+    (1.0, 10.0, "#a9bccf", "1 to 10 %"),
+    (10.0, math.inf, "#5f7890", "over 10 %"),
+)
+_LIMIT: dict[str, Any] = {"color": INK, "linewidth": 1.6, "linestyle": (0, (5, 1.4, 1, 1.4))}
+_FAILED: dict[str, Any] = {
+    "facecolor": "white",
+    "hatch": "xxxxx",
+    "edgecolor": INK,
+    "linewidth": 0.0,
+}
+
+
+def stability(maps: Sequence[StabilityMap], first: int = 1) -> str:
+    """Return maps in two columns, numbered from `first`; failed cells are hatched."""
+    rows = math.ceil(len(maps) / 2)
+    with style():
+        height = 2.55 * rows + 0.5
+        figure = Figure(figsize=(WIDTH_IN, height))
+        figure.subplots_adjust(
+            left=0.09,
+            right=0.985,
+            top=1 - 0.34 / height,
+            bottom=0.95 / height,
+            wspace=0.28,
+            hspace=0.52,
+        )
+        grid = figure.subplots(rows, 2, squeeze=False)
+        for axes in grid.flat[len(maps) :]:
+            axes.set_axis_off()
+        for count, (axes, found) in enumerate(zip(grid.flat, maps, strict=False), start=first):
+            _map(axes, found, count)
+        figure.legend(handles=_key(maps), loc="lower center", ncols=4, handlelength=2.6)
+        return svg_text(figure)
+
+
+def _map(axes: Axes, found: StabilityMap, count: int) -> None:
+    x, y = _edges(found.x, log=found.x_log), _edges(found.y, log=found.y_log)
+    bands = ListedColormap([band[2] for band in _BANDS])
+    norm = BoundaryNorm([0.0, 0.1, 1.0, 10.0, 1e300], bands.N)
+    shown = np.ma.masked_where(found.failed | np.isnan(found.error_percent), found.error_percent)
+    axes.pcolormesh(x, y, shown, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
+    for row, column in np.argwhere(found.failed | np.isnan(found.error_percent)):
+        axes.fill(
+            [x[column], x[column + 1], x[column + 1], x[column]],
+            [y[row], y[row], y[row + 1], y[row + 1]],
+            **_FAILED,
+        )
+    _contours(axes, found)
+    if found.limit.size:
+        axes.plot(found.x, found.limit, **_LIMIT)
+    if not math.isnan(found.x_mark):
+        axes.axvline(found.x_mark, **_LIMIT)
+    for axis, log in ((axes.xaxis, found.x_log), (axes.yaxis, found.y_log)):
+        if log:
+            axis.axes.set_xscale("log") if axis is axes.xaxis else axis.axes.set_yscale("log")
+            decades(axis, most=7)
+    axes.set_xlim(x[0], x[-1])
+    axes.set_ylim(y[0], y[-1])
+    axes.set_xlabel(found.x_label)
+    axes.set_ylabel(found.y_label)
+    title = found.title.replace(": ", ":\n", 1)
+    axes.set_title(f"({count}) {title}", loc="left", fontsize=7.5, weight="semibold")
+
+
+def _contours(axes: Axes, found: StabilityMap) -> None:
+    if min(found.error_percent.shape) < 2:
+        return
+    levels = np.log10(np.maximum(found.error_percent, 1e-9))
+    usable = levels[np.isfinite(levels)]
+    for level, line, width in ((0.0, "-", 0.9), (1.0, (0, (4, 1.6)), 1.2)):
+        if usable.size and usable.min() < level < usable.max():
+            axes.contour(
+                found.x, found.y, levels, [level], colors=INK, linewidths=width, linestyles=[line]
+            )
+
+
+def _edges(centres: Floats, *, log: bool) -> Floats:
+    """Return the borders of cells around their centres."""
+    values = np.log(centres) if log else np.asarray(centres, dtype=float)
+    if values.size == 1:
+        edges = np.array([values[0] - 0.5, values[0] + 0.5])
+    else:
+        middle = (values[:-1] + values[1:]) / 2.0
+        edges = np.concatenate(
+            [[2.0 * values[0] - middle[0]], middle, [2.0 * values[-1] - middle[-1]]]
+        )
+    return np.asarray(np.exp(edges) if log else edges)
+
+
+def _key(maps: Sequence[StabilityMap]) -> list[Any]:
+    handles: list[Any] = [
+        Patch(facecolor=color, edgecolor=INK, linewidth=0.4, label=text)
+        for _, _, color, text in _BANDS
+    ]
+    handles.append(Patch(**_FAILED, label="failed"))
+    handles.append(Line2D([], [], color=INK, linewidth=0.9, label="1 % contour"))
+    handles.append(
+        Line2D([], [], color=INK, linewidth=1.2, linestyle=(0, (4, 1.6)), label="10 % contour")
+    )
+    if any(one.limit.size or not math.isnan(one.x_mark) for one in maps):
+        handles.append(Line2D([], [], **_LIMIT, label="theoretical limit"))
+    return handles
+
+
+def conditioning(found: Sequence[Conditioning]) -> str:
+    """Return PRD over mu, and below it what the small change of mu does, a column each."""
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 2.6))
+        figure.subplots_adjust(
+            left=0.12, right=0.985, top=0.92, bottom=0.16, wspace=0.34, hspace=0.16
+        )
+        grid = figure.subplots(2, len(found), sharex="col", squeeze=False)
+        for (above, below), one in zip(grid.T, found, strict=True):
+            above.plot(one.mu, 1e3 * one.prd_m, color=ACCENT, linewidth=1.4)
+            below.plot(one.mu, np.maximum(one.change_percent, 1e-14), color=INK, linewidth=0.9)
+            above.set_yscale("symlog", linthresh=1.0)
+            _spread(below, one.change_percent)
+            _plain_symlog(above)
+            above.set_title(f"{one.title}", loc="left", fontsize=7.5, weight="semibold")
+            below.set_xlabel("Friction coefficient μ")
+            for axes in (above, below):
+                axes.grid(True)
+                bare(axes)
+        grid[0, 0].set_ylabel("Exact PRD [mm]")
+        grid[1, 0].set_ylabel("Change of PRD [%]")
+        return svg_text(figure)
+
+
+def _spread(axes: Axes, values: Floats) -> None:
+    """Set a logarithmic scale where values lie decades apart, an even one where they do not."""
+    seen = values[values > 0.0]
+    if seen.size and seen.max() > 100.0 * seen.min():
+        axes.set_yscale("log")
+        decades(axes.yaxis, most=6)
+    else:
+        axes.set_ylim(0.0, None)
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+
+
+def _plain_symlog(axes: Axes) -> None:
+    low, high = axes.get_ylim()
+    ticks = [t for t in (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6) if low <= t <= high]
+    axes.set_yticks(ticks, [f"{t:g}" for t in ticks])
+    axes.yaxis.set_minor_locator(NullLocator())

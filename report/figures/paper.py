@@ -1,0 +1,281 @@
+"""The paper's Figs. 5 to 12 made again on the records at hand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.history import envelope
+from report.figures.scales import decades
+from solver.evidence import Convergence, DesignCurves, LinkComparison
+from solver.model import Floats
+
+PAPER_P64_PERCENT = 0.48
+"""The paper's largest error with 64 sub-steps."""
+
+FIG_10_SLOPE_DEG, FIG_11_MU, FIG_12_PPA_G = 1.0, 0.5, 1.5
+READ_OFF = (2.0, 0.5)
+"""The paper's example on Fig. 12: slope [deg] and wanted PRD [m]."""
+
+_DASHED, _DOTTED, _DASHDOT = (0, (4, 1.6)), (0, (1, 1.4)), (0, (5, 1.4, 1, 1.4))
+_LINES: tuple[Any, ...] = ("-", _DASHED, _DASHDOT, _DOTTED)
+_MARKERS = ("o", "s", "^", "D", "v", "X", "P", "*")
+
+
+def convergence(found: Sequence[Convergence]) -> str:
+    """Return Fig. 5, a row for each record: largest error and longest time against P."""
+    with style():
+        figure, grid = _rows(len(found), 2.25)
+        for (left, right), one in zip(grid, found, strict=True):
+            _errors(left, one)
+            right.plot(one.substeps, 1e3 * one.longest_seconds, "o-", color=INK, markersize=4)
+            right.set_yscale("log")
+            decades(right.yaxis, most=7)
+            right.set_ylabel("Longest time per run [ms]")
+            left.set_title(one.record, loc="left", weight="semibold")
+            for axes in (left, right):
+                _powers_of_two(axes, one.substeps)
+                bare(axes)
+        return svg_text(figure)
+
+
+def _errors(axes: Axes, one: Convergence) -> None:
+    axes.plot(
+        one.substeps,
+        one.largest_error_exact_percent,
+        "o-",
+        color=INK,
+        markersize=4,
+        label="truth: exact",
+    )
+    by_finest = one.largest_error_p256_percent > 0.0
+    axes.plot(
+        np.array(one.substeps)[by_finest],
+        one.largest_error_p256_percent[by_finest],
+        marker="s",
+        markerfacecolor="white",
+        linestyle=_DASHED,
+        color=ACCENT,
+        markersize=4,
+        label=f"truth: P = {one.substeps[-1]}, as in the paper",
+    )
+    axes.plot(
+        [64], [PAPER_P64_PERCENT], linestyle="", marker="*", markersize=9, color=GREY,
+        label=f"the paper, its record: {PAPER_P64_PERCENT} %",
+    )  # fmt: skip
+    axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, 8.0 * high)  # room for the legend
+    decades(axes.yaxis, most=7)
+    axes.set_ylabel("Largest error in residual [%]")
+    axes.legend(loc="upper right", handlelength=2.8)
+
+
+def _powers_of_two(axes: Axes, substeps: Sequence[int]) -> None:
+    axes.set_xscale("log", base=2)
+    axes.xaxis.set_major_locator(FixedLocator(list(substeps)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xlabel("Sub-steps P in each sampling interval")
+    axes.grid(True)
+    axes.set_axisbelow(True)
+
+
+def _rows(count: int, row_in: float, below_in: float = 0.45) -> tuple[Figure, Any]:
+    height = row_in * count + 0.05
+    figure = Figure(figsize=(WIDTH_IN, height))
+    figure.subplots_adjust(
+        left=0.085,
+        right=0.985,
+        top=1 - 0.22 / height,
+        bottom=below_in / height,
+        wspace=0.24,
+        hspace=0.52,
+    )
+    return figure, figure.subplots(count, 2, squeeze=False)
+
+
+def links(found: Sequence[LinkComparison]) -> str:
+    """Return Figs. 6 to 9: the history that differs most, and PRD and RRD over mu, a row each."""
+    with style():
+        figure, grid = _rows(len(found), 2.1)
+        for (left, right), one in zip(grid, found, strict=True):
+            _history(left, one)
+            _over_mu(right, one)
+            left.set_title(
+                f"θ = {one.slope_deg:g}°: history at μ = {one.history_mu:g}",
+                loc="left",
+                weight="semibold",
+            )
+            right.set_title(f"θ = {one.slope_deg:g}°: all μ", loc="left", weight="semibold")
+            for axes in (left, right):
+                axes.grid(True)
+                axes.set_axisbelow(True)
+                bare(axes)
+        return svg_text(figure)
+
+
+def _history(axes: Axes, one: LinkComparison) -> None:
+    for u_m, line, color, width, label in (
+        (one.history_exact_m, "-", INK, 1.0, "exact"),
+        (one.history_link_m, _DASHED, ACCENT, 1.4, "link"),
+    ):
+        t, u = envelope(one.history_t_s, 1e3 * u_m)
+        axes.plot(t, u, linestyle=line, color=color, linewidth=width, label=label)
+    axes.set_xlabel("Time [s]")
+    axes.set_ylabel("Displacement u [mm]")
+    axes.legend(loc="best", handlelength=2.8)
+
+
+def _over_mu(axes: Axes, one: LinkComparison) -> None:
+    looks: tuple[tuple[Floats, dict[str, Any]], ...] = (
+        (one.prd_exact_m, {"marker": "o", "linestyle": "-", "color": INK, "label": "PRD, exact"}),
+        (one.prd_link_m, {"marker": "x", "linestyle": "", "color": ACCENT, "label": "PRD, link"}),
+        (
+            one.rrd_exact_m,
+            {
+                "marker": "s",
+                "linestyle": _DASHED,
+                "color": INK,
+                "markerfacecolor": "white",
+                "label": "RRD, exact",
+            },
+        ),
+        (one.rrd_link_m, {"marker": "+", "linestyle": "", "color": ACCENT, "label": "RRD, link"}),
+    )
+    for values, look in looks:
+        size = 6 if look["marker"] in "x+" else 4
+        axes.plot(one.mus, 1e3 * values, linewidth=0.9, markersize=size, **look)
+    axes.set_yscale("symlog", linthresh=1.0)
+    ticks = [t for t in (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5) if t <= axes.get_ylim()[1]]
+    axes.set_yticks(ticks, [f"{t:g}" for t in ticks])
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.set_ylim(0.0, None)
+    axes.set_xlim(0.0, None)
+    axes.set_xlabel("Friction coefficient μ")
+    axes.set_ylabel("Displacement [mm]")
+    axes.legend(loc="best", handlelength=2.8)
+
+
+def curves(found: DesignCurves) -> str:
+    """Return Figs. 10 and 11: PRD against PPA for several mu, and against slope for several PPA."""
+    slope = _nearest(found.slopes_deg, FIG_10_SLOPE_DEG)
+    mu = _nearest(found.mus, FIG_11_MU)
+    with style():
+        figure, grid = _rows(1, 2.75, below_in=0.88)
+        left, right = grid[0]
+        _family(
+            left,
+            found.ppas_g,
+            [(f"μ = {m:.2g}", found.prd_m[slope, k]) for k, m in _every(found.mus)],
+        )
+        left.set_xlabel("PPA [g]")
+        left.set_title(f"θ = {found.slopes_deg[slope]:g}°", loc="left", weight="semibold")
+        _family(
+            right,
+            found.slopes_deg,
+            [
+                (f"{ppa:.2g} g", found.prd_m[:, mu, k])
+                for k, ppa in _every(found.ppas_g)
+                if found.prd_m[:, mu, k].max() > 0.0
+            ],
+        )
+        right.set_xlabel("Slope θ [deg]")
+        right.set_title(f"μ = {found.mus[mu]:.2g}", loc="left", weight="semibold")
+        left.set_ylabel("PRD [mm]")
+        return svg_text(figure)
+
+
+def _nearest(values: Floats, wanted: float) -> int:
+    return int(np.abs(values - wanted).argmin())
+
+
+def _every(values: Floats) -> list[tuple[int, float]]:
+    """Return at most eight of the values with their places, the last one among them."""
+    step = math.ceil(values.size / 8)
+    return [(k, float(values[k])) for k in range((values.size - 1) % step, values.size, step)]
+
+
+def _family(axes: Axes, x: Floats, family: Sequence[tuple[str, Floats]]) -> None:
+    for count, (label, prd_m) in enumerate(family):
+        axes.plot(
+            x,
+            1e3 * prd_m,
+            linestyle=_LINES[count % 4],
+            marker=_MARKERS[count % 8],
+            markersize=3.2,
+            linewidth=0.9,
+            color=INK if count % 2 == 0 else ACCENT,
+            label=label,
+            clip_on=False,
+        )
+    axes.set_ylim(0.0, None)
+    axes.set_xlim(x[0], x[-1])
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    axes.legend(
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.22),
+        ncols=4,
+        handlelength=2.4,
+        columnspacing=1.0,
+        fontsize=7.0,
+    )
+    bare(axes)
+
+
+def contours(found: DesignCurves) -> str:
+    """Return Fig. 12: contours of PRD over mu and slope, with the read-off of the least mu."""
+    ppa = _nearest(found.ppas_g, FIG_12_PPA_G)
+    prd_mm = 1e3 * found.prd_m[:, :, ppa]
+    slope_deg, wanted_m = READ_OFF
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 3.1))
+        axes = figure.add_axes((0.085, 0.135, 0.9, 0.82))
+        levels = [v for v in _LEVELS_MM if prd_mm.min() < v < prd_mm.max()]
+        drawn = axes.contour(
+            found.mus,
+            found.slopes_deg,
+            prd_mm,
+            levels,
+            colors=INK,
+            linewidths=[1.5 if v in (500.0, 1000.0) else 0.8 for v in levels],
+            linestyles=["-" if v in (500.0, 1000.0) else _DASHED for v in levels],
+        )
+        axes.clabel(drawn, fmt=lambda value: f"{value:g} mm", fontsize=7, inline_spacing=2)
+        least = found.least_mu(slope_deg, float(found.ppas_g[ppa]), wanted_m)
+        if not math.isnan(least):
+            _read_off(axes, least, slope_deg, wanted_m)
+        axes.set_xlim(found.mus[0], found.mus[-1])
+        axes.set_ylim(found.slopes_deg[0], found.slopes_deg[-1])
+        axes.set_xlabel("Friction coefficient μ")
+        axes.set_ylabel("Slope θ [deg]")
+        bare(axes)
+        return svg_text(figure)
+
+
+_LEVELS_MM = (50.0, 100.0, 200.0, 300.0, 500.0, 750.0, 1000.0, 1500.0, 2000.0, 3000.0, 5000.0, 1e4)
+
+
+def _read_off(axes: Axes, mu: float, slope_deg: float, wanted_m: float) -> None:
+    axes.plot([axes.get_xlim()[0], mu], [slope_deg, slope_deg], color=ACCENT, linewidth=1.2)
+    axes.annotate(
+        f"θ = {slope_deg:g}°, PRD at most {1e3 * wanted_m:g} mm: μ ≥ {mu:.3f}",
+        (mu, 0.0),
+        (mu + 0.012, slope_deg * 0.35),
+        color=ACCENT,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+    )
+    axes.annotate(
+        "",
+        (mu, 0.0),
+        (mu, slope_deg),
+        arrowprops={"arrowstyle": "-|>", "color": ACCENT, "linewidth": 1.2},
+    )

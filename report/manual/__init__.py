@@ -1,0 +1,1 @@
+"""The verification manual: what `solver.verification` found, as pages. Read `render` first."""

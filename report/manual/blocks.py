@@ -1,0 +1,114 @@
+"""What the manual is made of, and how its numbers are put in words.
+
+Owns no content: see `report.manual.sections`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from report.pages.parts import Part, Picture, Table
+from report.units import number
+
+PASS, FAIL = "PASS", "FAIL"
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chart:
+    """A picture of the manual with the name of its own file."""
+
+    name: str
+    picture: Picture
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Block:
+    """What goes together: a heading if any, texts, tables on top, charts, tables, a list."""
+
+    title: str = ""
+    texts: Sequence[str] = ()
+    top: Sequence[Table] = ()
+    charts: Sequence[Chart] = ()
+    tables: Sequence[Table] = ()
+    items: Sequence[str] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """A numbered section of the manual."""
+
+    id: str
+    title: str
+    blocks: Sequence[Block]
+
+
+def numbered(sections: Sequence[Section]) -> tuple[Part, ...]:
+    """Return the sections as numbered parts, blocks with a title below them."""
+    return tuple(
+        Part(
+            id=section.id,
+            number=str(count),
+            title=section.title,
+            parts=tuple(
+                Part(id=f"{section.id}-{below}", number=f"{count}.{below}", title=title)
+                for below, title in enumerate((b.title for b in section.blocks if b.title), start=1)
+            ),
+        )
+        for count, section in enumerate(sections, start=1)
+    )
+
+
+def scientific(value: float) -> str:
+    """Return `3.2 × 10⁻¹⁵`; plain 0; an em dash for NaN."""
+    if value != value:
+        return "—"
+    if value == 0.0 or math.isinf(value):
+        return "0" if value == 0.0 else "∞"
+    digits, exponent = f"{value:.1e}".split("e")
+    return f"{digits} × 10{str(int(exponent)).translate(_RAISED)}".replace("-", "−")
+
+
+def percent(value: float) -> str:
+    """Return a number of percent: three digits, small ones as powers of ten."""
+    if value != value:
+        return "—"
+    if value == 0.0:
+        return "0 %"
+    if abs(value) < 1e-3:
+        return f"{scientific(value)} %"
+    decimals = max(0, 2 - math.floor(math.log10(abs(value))))
+    return f"{number(value, min(decimals, 4))} %"
+
+
+def seconds(value: float) -> str:
+    """Return a duration with a unit that suits it; an em dash for NaN."""
+    if value != value:
+        return "—"
+    for size, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
+        if value >= size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value / 1e-9:.3g} ns"
+
+
+def digits(value: float) -> str:
+    """Return a value with the ten digits that a check is about."""
+    if value != value:
+        return "no value"
+    if 0.0 < abs(value) < 1e-4:
+        return scientific(value)
+    return f"{value:.10g}".replace("-", "−")
+
+
+def slug(text: str) -> str:
+    """Return a text as part of a file name."""
+    return re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-")
+
+
+def joined(names: Sequence[str]) -> str:
+    """Return `a, b and c`."""
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last

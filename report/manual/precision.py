@@ -1,0 +1,166 @@
+"""Work against precision: charts and medians."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from report.figures import work as figures
+from report.figures.scales import power_of_ten
+from report.manual.blocks import (
+    Block,
+    Chart,
+    Section,
+    joined,
+    percent,
+    scientific,
+    seconds,
+    slug,
+)
+from report.pages.parts import Column, Picture, Row, Table
+from solver.evidence import (
+    Verification,
+    WorkPoint,
+)
+from solver.methods import METHODS
+
+LEAST_PERCENT = 1e-6
+"""Error that the charts of single methods draw as their least."""
+
+
+def floor(found: Verification) -> float:
+    """Return the largest relative error of the exact method against many-digit arithmetic."""
+    errors = [row.error for row in found.checks if row.section.endswith("digits")]
+    return max([1e-16, *errors])
+
+
+def work(found: Verification) -> Section:
+    """Return work against precision."""
+    least = floor(found)
+    scenes = len({(p.record, p.scene) for p in found.work})
+    lost = [p for p in found.work if math.isnan(p.seconds) or math.isnan(p.prd_error_m)]
+    missing = f"{len(lost)} of {len(found.work)} runs failed and are not drawn" + (
+        f" ({_lost(lost)})." if lost else "."
+    )
+    metres = least * _typical_prd_m(found.work)
+    return Section(
+        id="work",
+        title="Work against precision",
+        blocks=(
+            Block(
+                texts=(
+                    f"Every method over its settings from coarse to fine, on {scenes} scenes. A "
+                    "point further down is more accurate, further left faster. The exact method "
+                    f"has no setting; it is drawn at {scientific(100.0 * least)} %, its largest "
+                    "error against many-digit arithmetic (section 3).",
+                ),
+                charts=(
+                    Chart(
+                        name="work-percent",
+                        picture=Picture(
+                            svg=figures.overview(found.work, "percent", 100.0 * least),
+                            caption=f"Error in percent: medians over the scenes. {missing}",
+                            alt="Time per run against error in percent, all methods",
+                        ),
+                    ),
+                    Chart(
+                        name="work-metres",
+                        picture=Picture(
+                            svg=figures.overview(found.work, "m", metres),
+                            caption="The same in metres; the exact method at its relative error "
+                            f"times the median PRD. {missing}",
+                            alt="Time per run against error in metres, all methods",
+                        ),
+                    ),
+                    *_envelopes(found),
+                ),
+                tables=(_work_table(found.work),),
+            ),
+        ),
+    )
+
+
+def _typical_prd_m(points: Sequence[WorkPoint]) -> float:
+    """Return the median PRD, from errors that are given both in metres and in percent of it."""
+    found = [
+        100.0 * p.prd_error_m / p.prd_error_percent for p in points if p.prd_error_percent > 0.0
+    ]
+    return float(np.median(found)) if found else 1.0
+
+
+def _lost(points: Sequence[WorkPoint]) -> str:
+    names = dict.fromkeys(p.method for p in points)
+    return joined([f"{name}: {sum(p.method == name for p in points)}" for name in names])
+
+
+def _envelopes(found: Verification) -> Iterator[Chart]:
+    for measure, name in figures.PANELS:
+        yield Chart(
+            name=f"work-each-{slug(name)}",
+            picture=Picture(
+                svg=figures.by_method(found.work, measure, LEAST_PERCENT),
+                caption=f"Error in {name}, method by method. Dots: runs; band: from the least to "
+                "the largest over the scenes, at the median time; line: medians; pale: medians of "
+                "the others. "
+                f"Errors under {power_of_ten(LEAST_PERCENT)} % are drawn there.",
+                alt=f"Time per run against error in {name}, a panel for each method",
+            ),
+        )
+
+
+def _work_table(points: Sequence[WorkPoint]) -> Table:
+    rows = []
+    for name in dict.fromkeys(p.method for p in points):
+        own = [p for p in points if p.method == name]
+        settings = list(dict.fromkeys(p.setting for p in own if not math.isnan(p.setting)))
+        shown = settings[::2] if len(settings) > 5 else settings
+        groups = [[p for p in own if p.setting == value] for value in shown] or [own]
+        rows += [_work_row(name, group, is_first=n == 0) for n, group in enumerate(groups)]
+    return Table(
+        caption="Medians and largest errors over the scenes",
+        columns=(
+            Column(head="Method", align="left", share=3.6),
+            Column(head="Setting", align="left", share=1.4),
+            Column(head="Time per run", share=1.2),
+            Column(head="Error in PRD", unit="median", share=1.2),
+            Column(head="Error in PRD", unit="largest", share=1.2),
+            Column(head="Error in residual", unit="median", share=1.2),
+            Column(head="Error in residual", unit="largest", share=1.2),
+            Column(head="Failed", share=0.7),
+        ),
+        rows=tuple(rows),
+        notes=("Of long rows of settings every second one; all are in verification.csv.",),
+        kind="compact",
+    )
+
+
+def _work_row(name: str, points: Sequence[WorkPoint], *, is_first: bool) -> Row:
+    good = [p for p in points if not math.isnan(p.seconds)]
+    prd = [p.prd_error_percent for p in good]
+    residual = [p.residual_error_percent for p in good]
+    none = ("—", "—", "—", "—")
+    errors = (
+        ("reference",) * 4
+        if name == "exact"
+        else tuple(percent(float(f(v))) for v in (prd, residual) for f in (np.median, np.max))
+    )
+    return Row(
+        cells=(
+            METHODS[name].title if is_first else "",
+            _setting(name, points[0].setting),
+            seconds(float(np.median([p.seconds for p in good]))) if good else "—",
+            *(errors if good else none),
+            str(len(points) - len(good)),
+        )
+    )
+
+
+def _setting(name: str, value: float) -> str:
+    form = {
+        "substeps": "P = {:g}",
+        "stiffness_per_m": "k = {:g} /m",
+        "tolerance": "tolerance {:g}",
+    }
+    return form.get(METHODS[name].knob, "none").format(value)

@@ -1,0 +1,77 @@
+"""From what a verification found to the files that are handed over: PDF, CSV and charts.
+
+Read `report.manual.sections` next.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Callable, Mapping
+
+from markupsafe import Markup
+
+from report.figures.base import load_fonts
+from report.manual.blocks import Section, numbered
+from report.manual.front import verdict_line
+from report.manual.machine import Machine, this_machine
+from report.manual.sections import sections
+from report.manual.table import verification_csv
+from report.pdf import TEMPLATES, html_to_pdf
+from solver.evidence import Verification
+
+
+def files(
+    found: Verification, date: dt.date, on_stage: Callable[[str], None]
+) -> Mapping[str, bytes]:
+    """Return the manual, its table and its charts by file name.
+
+    Raises
+    ------
+    DefectError
+        Where the renderer complains.
+    """
+    machine = this_machine()
+    load_fonts(TEMPLATES / "fonts")
+    on_stage("drawing the charts")
+    parts = sections(found, machine)
+    on_stage("laying out the manual")
+    pdf = html_to_pdf(manual_html(found, parts, machine, date))
+    charts = [chart for part in parts for block in part.blocks for chart in block.charts]
+    return {
+        "verification.pdf": pdf,
+        "verification.csv": verification_csv(found),
+        **{f"charts/{chart.name}.svg": chart.picture.svg.encode() for chart in charts},
+    }
+
+
+def manual_html(
+    found: Verification, parts: tuple[Section, ...], machine: Machine, date: dt.date
+) -> str:
+    """Return the manual before it is laid out."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        undefined=StrictUndefined,
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    styles = (TEMPLATES / name for name in ("package.css", "verification.css"))
+    return environment.get_template("verification.html").render(
+        css=Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
+        version=dict(machine.rows)["Roofslip"],
+        date=date.isoformat(),
+        extent="quick" if found.quick else "full",
+        verdict=verdict_line(found),
+        machine=machine.line,
+        libraries=", ".join(
+            f"{name} {version}" for name, version in machine.rows[1:] if name in _ON_COVER
+        ),
+        records=len(found.records),
+        sections=list(zip(numbered(parts), parts, strict=True)),
+        pictures={},
+    )
+
+
+_ON_COVER = ("Python", "numpy", "numba")

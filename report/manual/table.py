@@ -1,0 +1,71 @@
+"""verification.csv: every check and every run of the comparison, units in the headings."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from solver.evidence import CheckRow, Verification, WorkPoint
+
+
+def verification_csv(found: Verification) -> bytes:
+    """Return one table: checks first, then runs; a cell that does not apply is empty."""
+    rows = [*map(_check, found.checks), *map(_run, found.work)]
+    text: str = pd.DataFrame(rows, columns=list(_COLUMNS)).to_csv(index=False, lineterminator="\n")
+    return text.encode()
+
+
+_COLUMNS = (
+    "kind",
+    "section",
+    "problem",
+    "source",
+    "quantity",
+    "unit",
+    "expected",
+    "found",
+    "error [-]",
+    "tolerance [-]",
+    "passed",
+    "method",
+    "parameters",
+    "record",
+    "scene",
+    "time per run [s]",
+    "PRD error [m]",
+    "PRD error [%]",
+    "residual error [m]",
+    "residual error [%]",
+    "status",
+)
+
+
+def _check(row: CheckRow) -> dict[str, object]:
+    return {
+        "kind": "check",
+        "section": row.section,
+        "problem": row.problem,
+        "source": row.source,
+        "quantity": row.quantity,
+        "unit": row.unit,
+        "expected": row.expected,
+        "found": row.found,
+        "error [-]": row.error,
+        "tolerance [-]": row.tolerance,
+        "passed": "yes" if row.passed else "no",
+    }
+
+
+def _run(point: WorkPoint) -> dict[str, object]:
+    return {
+        "kind": "run",
+        "method": point.method,
+        "parameters": " ".join(f"{key}={value:g}" for key, value in point.parameters.items()),
+        "record": point.record,
+        "scene": point.scene,
+        "time per run [s]": point.seconds,
+        "PRD error [m]": point.prd_error_m,
+        "PRD error [%]": point.prd_error_percent,
+        "residual error [m]": point.residual_error_m,
+        "residual error [%]": point.residual_error_percent,
+        "status": point.status.value,
+    }

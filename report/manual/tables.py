@@ -1,0 +1,202 @@
+"""Sections that are tables: checks, methods, other programs, software."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from report.manual.blocks import (
+    FAIL,
+    PASS,
+    Block,
+    Section,
+    digits,
+    percent,
+    scientific,
+    seconds,
+)
+from report.manual.machine import Machine
+from report.pages.parts import Column, Row, Table, Wide, verdict
+from report.units import number
+from solver.evidence import (
+    CheckRow,
+    PeerPoint,
+    Verification,
+)
+from solver.methods import METHODS
+
+
+def checks(found: Verification) -> Section:
+    """Return every check, a table for each section."""
+    names = dict.fromkeys(row.section for row in found.checks)
+    return Section(
+        id="checks",
+        title="Checks",
+        blocks=[
+            Block(
+                title=name, tables=(_check_table([r for r in found.checks if r.section == name]),)
+            )
+            for name in names
+        ],
+    )
+
+
+def _check_table(checks: Sequence[CheckRow]) -> Table:
+    rows: list[Row] = []
+    for source in dict.fromkeys(row.source for row in checks):
+        rows.append(Row(cells=(Wide(f"Source: {source}", 7),), kind="total"))
+        rows += [_check_row(row) for row in checks if row.source == source]
+    return Table(
+        caption="",
+        columns=(
+            Column(head="Problem", align="left", share=3.3),
+            Column(head="Quantity", align="left", share=2.0),
+            Column(head="Expected", share=1.35),
+            Column(head="Found", share=1.35),
+            Column(head="Error", share=1.15),
+            Column(head="Tolerance", share=1.15),
+            Column(head="Result", align="center", share=0.75),
+        ),
+        rows=tuple(rows),
+        kind="compact",
+    )
+
+
+def _check_row(row: CheckRow) -> Row:
+    return Row(
+        cells=(
+            row.problem,
+            f"{row.quantity} [{row.unit}]" if row.unit else row.quantity,
+            digits(row.expected),
+            digits(row.found),
+            scientific(row.error),
+            scientific(row.tolerance),
+            verdict(row.passed, (PASS, FAIL)),
+        )
+    )
+
+
+def methods() -> Section:
+    """Return the table of methods."""
+    table = Table(
+        caption="",
+        columns=(
+            Column(head="Method", align="left", share=1.7),
+            Column(head="Accuracy set by", align="left", share=1.5),
+            Column(head="Order", align="center", share=0.55),
+            Column(head="Vertical", align="center", share=0.75),
+            Column(head="Not valid", align="left", share=3.6),
+            Column(head="Source", align="left", share=2.6),
+        ),
+        rows=tuple(
+            Row(
+                cells=(
+                    method.title,
+                    _KNOBS[method.knob],
+                    number(method.order, 0),
+                    "yes" if method.takes_vertical else "no",
+                    method.invalid_when,
+                    method.source,
+                )
+            )
+            for method in METHODS.values()
+        ),
+        notes=(
+            "Order: of the error in the sub-step where the motion is smooth; stick and slip bring "
+            "each down to the first. Vertical: whether it takes vertical shaking.",
+        ),
+        kind="compact",
+    )
+    return Section(
+        id="methods",
+        title="The methods compared",
+        blocks=(
+            Block(
+                texts=(
+                    "Each is written as the field knows it, under one signature and with one "
+                    "result record. Packages use the first; the others are here to be compared.",
+                ),
+                tables=(table,),
+            ),
+        ),
+    )
+
+
+_KNOBS = {
+    "": "nothing to set",
+    "substeps": "sub-steps in each interval",
+    "stiffness_per_m": "stiffness of the link [1/m]",
+    "tolerance": "relative tolerance",
+    "velocity_mps": "velocity v0 [m/s]",
+}
+
+
+def peers(peers: Sequence[PeerPoint]) -> Section:
+    """Return what other programs gave."""
+    return Section(
+        id="peers",
+        title="Other programs",
+        blocks=(
+            Block(
+                texts=(
+                    "Other programs on the same records and scenes, in the same run, where they "
+                    "are installed. None of them is needed by, or part of, this software.",
+                ),
+                tables=(
+                    Table(
+                        caption="",
+                        columns=(
+                            Column(head="Program", align="left", share=1.6),
+                            Column(head="Record, scene", align="left", share=2.6),
+                            Column(head="Time per run", share=1.0),
+                            Column(head="Error in PRD", share=1.1),
+                            Column(head="Note", align="left", share=2.6),
+                        ),
+                        rows=tuple(
+                            Row(
+                                cells=(
+                                    f"{one.peer} {one.version}",
+                                    f"{one.record}, {one.scene}",
+                                    seconds(one.seconds),
+                                    "failed"
+                                    if math.isnan(one.prd_error_percent)
+                                    else percent(one.prd_error_percent),
+                                    one.note,
+                                )
+                            )
+                            for one in peers
+                        ),
+                        kind="compact",
+                    ),
+                ),
+            ),
+        ),
+    )
+
+
+def software(found: Verification, machine: Machine) -> Section:
+    """Return versions and the machine."""
+    return Section(
+        id="software",
+        title="Software and machine",
+        blocks=(
+            Block(
+                texts=(
+                    "Times hold for this machine while it did nothing else; errors do not depend "
+                    "on it. To repeat: roofslip verify"
+                    f"{' --quick' if found.quick else ''}. All checks and all runs with their "
+                    "numbers are in verification.csv, the charts as files in charts/.",
+                ),
+                tables=(
+                    Table(
+                        caption="",
+                        columns=(
+                            Column(head="Item", align="left"),
+                            Column(head="Version or kind", align="left", share=3.0),
+                        ),
+                        rows=tuple(Row(cells=cells) for cells in machine.rows),
+                    ),
+                ),
+            ),
+        ),
+    )
