@@ -16,6 +16,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from report.figures.base import ACCENT, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.scales import decades, plain
+from report.letters import lettered
 from solver.evidence import Conditioning, StabilityMap
 from solver.model import Floats
 
@@ -83,7 +84,7 @@ def _map(axes: Axes, found: StabilityMap, count: int) -> None:
     axes.set_ylim(y[0], y[-1])
     axes.set_xlabel(found.x_label)
     axes.set_ylabel(found.y_label)
-    title = found.title.replace(": ", ":\n", 1)
+    title = lettered(found.title).replace(": ", ":\n", 1)
     axes.set_title(f"({count}) {title}", loc="left", fontsize=7.5, weight="semibold")
 
 

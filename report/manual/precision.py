@@ -9,6 +9,7 @@ import numpy as np
 
 from report.figures import work as figures
 from report.figures.scales import power_of_ten
+from report.letters import lettered
 from report.manual.blocks import (
     Block,
     Chart,
@@ -138,20 +139,19 @@ def _work_table(points: Sequence[WorkPoint]) -> Table:
 
 def _work_row(name: str, points: Sequence[WorkPoint], *, is_first: bool) -> Row:
     good = [p for p in points if not math.isnan(p.seconds)]
-    prd = [p.prd_error_percent for p in good]
-    residual = [p.residual_error_percent for p in good]
-    none = ("—", "—", "—", "—")
-    errors = (
-        ("reference",) * 4
-        if name == "exact"
-        else tuple(percent(float(f(v))) for v in (prd, residual) for f in (np.median, np.max))
-    )
+    errors: tuple[str, ...] = ("—",) * 4
+    if name == "exact":
+        errors = ("reference",) * 4
+    elif good:
+        prd = [p.prd_error_percent for p in good]
+        residual = [p.residual_error_percent for p in good]
+        errors = tuple(percent(float(f(v))) for v in (prd, residual) for f in (np.median, np.max))
     return Row(
         cells=(
-            METHODS[name].title if is_first else "",
+            lettered(METHODS[name].title) if is_first else "",
             _setting(name, points[0].setting),
             seconds(float(np.median([p.seconds for p in good]))) if good else "—",
-            *(errors if good else none),
+            *errors,
             str(len(points) - len(good)),
         )
     )
@@ -161,6 +161,6 @@ def _setting(name: str, value: float) -> str:
     form = {
         "substeps": "P = {:g}",
         "stiffness_per_m": "k = {:g} /m",
-        "tolerance": "tolerance {:g}",
+        "tolerance": "tol. {:g}",
     }
     return form.get(METHODS[name].knob, "none").format(value)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from report.letters import lettered
 from report.manual.blocks import (
     FAIL,
     PASS,
@@ -44,7 +45,7 @@ def checks(found: Verification) -> Section:
 def _check_table(checks: Sequence[CheckRow]) -> Table:
     rows: list[Row] = []
     for source in dict.fromkeys(row.source for row in checks):
-        rows.append(Row(cells=(Wide(f"Source: {source}", 7),), kind="total"))
+        rows.append(Row(cells=(Wide(f"Source: {lettered(source)}", 7),), kind="total"))
         rows += [_check_row(row) for row in checks if row.source == source]
     return Table(
         caption="",
@@ -65,8 +66,8 @@ def _check_table(checks: Sequence[CheckRow]) -> Table:
 def _check_row(row: CheckRow) -> Row:
     return Row(
         cells=(
-            row.problem,
-            f"{row.quantity} [{row.unit}]" if row.unit else row.quantity,
+            lettered(row.problem),
+            f"{row.quantity} [{lettered(row.unit)}]" if row.unit != "1" else row.quantity,
             digits(row.expected),
             digits(row.found),
             scientific(row.error),
@@ -91,12 +92,12 @@ def methods() -> Section:
         rows=tuple(
             Row(
                 cells=(
-                    method.title,
+                    lettered(method.title),
                     _KNOBS[method.knob],
                     number(method.order, 0),
                     "yes" if method.takes_vertical else "no",
-                    method.invalid_when,
-                    method.source,
+                    lettered(method.invalid_when),
+                    lettered(method.source),
                 )
             )
             for method in METHODS.values()

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from report.accuracy import SHIFT, Accuracy, MethodRun
 from report.assess import ArrayAssessment, Assessment
+from report.letters import lettered
 from report.pages.parts import NO_VALUE, Column, Picture, Row, Scene, Table
 from report.units import number
 from solver.model import Status
@@ -102,7 +103,7 @@ def _methods(scene: Scene, found: Accuracy) -> Table:
 def _method_row(scene: Scene, run: MethodRun) -> Row:
     return Row(
         cells=(
-            run.method.title,
+            lettered(run.method.title),
             parameters(run.parameters),
             *scene.say.cells(run.result.prd_m),
             "failed" if run.failed else number(100.0 * run.error, 3),

@@ -1,0 +1,23 @@
+"""The field's letters for their names: the solver writes `mu`, a page prints μ."""
+
+from __future__ import annotations
+
+import re
+
+_LETTERS = {
+    "mu": "μ",
+    "theta": "θ",
+    "phi": "φ",
+    "omega": "ω",
+    "eta": "η",
+    "gamma": "γ",
+    "beta": "β",
+}
+_NAMES = re.compile(rf"\b({'|'.join(_LETTERS)})\b")
+
+
+def lettered(text: str) -> str:
+    """Return a text with letters for their names, raised twos and a true minus before a number."""
+    named = _NAMES.sub(lambda found: _LETTERS[found[1]], text)
+    named = named.replace("^2", "²").replace("m/s2", "m/s²").replace("v0", "v₀")
+    return re.sub(r"(?<![\w-])-(?=[\d.])", "−", named)
