@@ -97,7 +97,7 @@ def _rows(count: int, row_in: float, below_in: float = 0.45) -> tuple[Figure, An
         top=1 - 0.22 / height,
         bottom=below_in / height,
         wspace=0.24,
-        hspace=0.52,
+        hspace=0.58,
     )
     return figure, figure.subplots(count, 2, squeeze=False)
 
@@ -105,7 +105,7 @@ def _rows(count: int, row_in: float, below_in: float = 0.45) -> tuple[Figure, An
 def links(found: Sequence[LinkComparison]) -> str:
     """Return Figs. 6 to 9: the history that differs most, and PRD and RRD over mu, a row each."""
     with style():
-        figure, grid = _rows(len(found), 2.1)
+        figure, grid = _rows(len(found), 2.0)
         for (left, right), one in zip(grid, found, strict=True):
             _history(left, one)
             _over_mu(right, one)

@@ -136,7 +136,7 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
                 str(one.mus.size),
                 percent(one.worst_percent),
                 f"{one.history_mu:g}",
-                f"{_worst_mm(one):.2g} mm",
+                f"{worst_mm(one):.2g} mm",
                 percent(one.mean_percent),
             )
         )
@@ -169,7 +169,8 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
     )
 
 
-def _worst_mm(one: LinkComparison) -> float:
+def worst_mm(one: LinkComparison) -> float:
+    """Return the difference in RRD [mm] where it is largest in percent."""
     at = int(np.abs(one.mus - one.history_mu).argmin())
     return 1e3 * abs(float(one.rrd_exact_m[at] - one.rrd_link_m[at]))
 
