@@ -1,4 +1,4 @@
-"""The field's letters for their names: the solver writes `mu`, a page prints μ."""
+"""Letters for their names, as the solver writes `mu` and a page prints μ; raised exponents."""
 
 from __future__ import annotations
 
@@ -14,6 +14,13 @@ _LETTERS = {
     "beta": "β",
 }
 _NAMES = re.compile(rf"\b({'|'.join(_LETTERS)})\b")
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def power_of_ten(exponent: int) -> str:
+    """Return `10⁻¹⁵` for -15."""
+    return f"10{str(exponent).translate(_RAISED)}"
 
 
 def lettered(text: str) -> str:

@@ -7,7 +7,7 @@ import math
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+from report import letters
 
 
 def power_of_ten(value: float) -> str:
@@ -15,7 +15,7 @@ def power_of_ten(value: float) -> str:
     if value <= 0.0:
         return ""
     exponent = round(math.log10(value))
-    return f"{10.0**exponent:g}" if -1 <= exponent <= 2 else f"10{str(exponent).translate(_RAISED)}"
+    return f"{10.0**exponent:g}" if -1 <= exponent <= 2 else letters.power_of_ten(exponent)
 
 
 def plain(value: float) -> str:
@@ -23,7 +23,7 @@ def plain(value: float) -> str:
     if value == 0.0 or abs(value) >= 1e-3:
         return f"{value:g}".replace("-", "−")
     exponent = math.floor(math.log10(abs(value)))
-    return f"{value / 10.0**exponent:.3g} × 10{str(exponent).translate(_RAISED)}"
+    return f"{value / 10.0**exponent:.3g} × {letters.power_of_ten(exponent)}"
 
 
 def decades(axis: Axis, most: int = 9) -> None:

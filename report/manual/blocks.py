@@ -10,11 +10,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from report.letters import power_of_ten
 from report.pages.parts import Part, Picture, Table
 from report.units import number
 
 PASS, FAIL = "PASS", "FAIL"
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +69,7 @@ def scientific(value: float) -> str:
     if value == 0.0 or math.isinf(value):
         return "0" if value == 0.0 else "∞"
     digits, exponent = f"{value:.1e}".split("e")
-    return f"{digits} × 10{str(int(exponent)).translate(_RAISED)}".replace("-", "−")
+    return f"{digits} × {power_of_ten(int(exponent))}".replace("-", "−")
 
 
 def percent(value: float) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from report.accuracy import SHIFT, Accuracy, MethodRun
 from report.assess import ArrayAssessment, Assessment
-from report.letters import lettered
+from report.letters import lettered, power_of_ten
 from report.pages.parts import NO_VALUE, Column, Picture, Row, Scene, Table
 from report.units import number
 from solver.model import Status
@@ -72,7 +72,7 @@ def _doubled(change: float) -> str:
     # A power of ten above it: the digits themselves are the machine's.
     if change == 0.0:
         return "stays the same to the last digit"
-    return f"changes by less than 1e{math.floor(math.log10(change)) + 1} of its value"
+    return f"changes by less than {power_of_ten(math.floor(math.log10(change)) + 1)} of its value"
 
 
 def _methods(scene: Scene, found: Accuracy) -> Table:
