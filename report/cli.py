@@ -23,7 +23,7 @@ import click
 if TYPE_CHECKING:
     from report.assess import ArrayAssessment, Assessment
     from report.sheet.workbook import InputBook
-    from solver.evidence import Verification
+    from solver.verification.evidence import Verification
 
 _QUIET_SECONDS = 1.0
 _SCENE = click.Path(path_type=Path)
@@ -241,7 +241,7 @@ def _verification(
 ) -> tuple[Verification, Mapping[str, bytes]]:
     """Return what was found, and every output as finished bytes by file name."""
     from report.manual.render import files
-    from solver.verification import verify
+    from solver.verification.run import verify
 
     found = verify((), quick=quick, progress=progress)
     return found, files(found, dt.date.today(), progress)

@@ -5,9 +5,9 @@ import math
 
 import pytest
 
-from solver import peers
-from solver.scenes import near_fault_pulse
-from solver.workprecision import run
+from solver.verification import peers
+from solver.verification.scenes import near_fault_pulse
+from solver.verification.workprecision import run
 
 RECORD = near_fault_pulse()
 

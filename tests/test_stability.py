@@ -4,8 +4,8 @@ import numba
 import numpy as np
 import pytest
 
-from solver import stability
-from solver.scenes import near_fault_pulse
+from solver.verification import stability
+from solver.verification.scenes import near_fault_pulse
 
 pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="thousands of runs")
 

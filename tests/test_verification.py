@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import oracle
-from solver import checks, crosschecks, paper_studies, reference
-from solver.evidence import DesignCurves, percent_off
-from solver.scenes import near_fault_pulse, own_records, scale_to, shortened
 from solver.solve import slide
-from solver.verification import verify
+from solver.verification import checks, crosschecks, paper_studies, reference
+from solver.verification.evidence import DesignCurves, percent_off
+from solver.verification.run import verify
+from solver.verification.scenes import near_fault_pulse, own_records, scale_to, shortened
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"

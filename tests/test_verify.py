@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from pypdf import PdfReader
 
 import report.manual.render
-import solver.verification
+import solver.verification.run
 from report.cli import main
 from report.figures import work
 from report.figures.base import load_fonts
@@ -25,10 +25,10 @@ from report.manual.machine import this_machine
 from report.manual.render import files, manual_html
 from report.manual.sections import sections
 from report.pdf import TEMPLATES
-from solver.evidence import PeerPoint
 from solver.methods import METHODS
 from solver.model import Status
-from solver.verification import verify
+from solver.verification.evidence import PeerPoint
+from solver.verification.run import verify
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
@@ -282,7 +282,9 @@ def test_without_other_programs_there_is_no_such_section(words):
 
 def command(monkeypatch, tmp_path, found, *more):
     """Run the command on what is found already; pictures and layout are tested above."""
-    monkeypatch.setattr(solver.verification, "verify", lambda records, *, quick, progress: found)
+    monkeypatch.setattr(
+        solver.verification.run, "verify", lambda records, *, quick, progress: found
+    )
     monkeypatch.setattr(report.manual.render, "html_to_pdf", str.encode)
     return CliRunner().invoke(main, ["verify", "--out", str(tmp_path / "v"), *more])
 

@@ -7,11 +7,11 @@ import numba
 import numpy as np
 import pytest
 
-from solver import workprecision
 from solver.methods import METHODS
 from solver.model import Status
-from solver.scenes import CASES, near_fault_pulse, prepared, scale_to, shortened
 from solver.solve import slide
+from solver.verification import workprecision
+from solver.verification.scenes import CASES, near_fault_pulse, prepared, scale_to, shortened
 
 pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="timings of compiled kernels")
 

@@ -17,8 +17,8 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 from report.figures.base import ACCENT, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.scales import decades, plain
 from report.letters import lettered
-from solver.evidence import Conditioning, StabilityMap
 from solver.model import Floats
+from solver.verification.evidence import Conditioning, StabilityMap
 
 MOST = 4  # maps of one figure: it must fit on a page
 _BANDS = (

@@ -14,8 +14,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.history import envelope
 from report.figures.scales import decades
-from solver.evidence import Convergence, DesignCurves, LinkComparison
 from solver.model import Floats
+from solver.verification.evidence import Convergence, DesignCurves, LinkComparison
 
 PAPER_P64_PERCENT = 0.48
 """The paper's largest error with 64 sub-steps."""

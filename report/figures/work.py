@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from report.figures.base import GREY, INK, PALE, WIDTH_IN, Broken, bare, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades
-from solver.evidence import WorkPoint
 from solver.model import Floats
+from solver.verification.evidence import WorkPoint
 
 PANELS = (("prd_error", "PRD"), ("residual_error", "residual"))
 UNITS = {"percent": "%", "m": "m"}

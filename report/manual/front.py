@@ -20,7 +20,7 @@ from report.manual.blocks import (
 from report.manual.precision import floor
 from report.manual.studies import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT, worst_mm
 from report.pages.parts import Column, Row, Table, verdict
-from solver.evidence import (
+from solver.verification.evidence import (
     CheckRow,
     Verification,
     WorkPoint,

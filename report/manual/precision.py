@@ -21,11 +21,11 @@ from report.manual.blocks import (
     slug,
 )
 from report.pages.parts import Column, Picture, Row, Table
-from solver.evidence import (
+from solver.methods import METHODS
+from solver.verification.evidence import (
     Verification,
     WorkPoint,
 )
-from solver.methods import METHODS
 
 LEAST_PERCENT = 1e-6
 """Error that the charts of single methods draw as their least."""

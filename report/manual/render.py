@@ -17,7 +17,7 @@ from report.manual.machine import Machine, this_machine
 from report.manual.sections import sections
 from report.manual.table import verification_csv
 from report.pdf import TEMPLATES, html_to_pdf
-from solver.evidence import Verification
+from solver.verification.evidence import Verification
 
 
 def files(

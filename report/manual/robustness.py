@@ -12,7 +12,7 @@ from report.manual.blocks import (
     percent,
 )
 from report.pages.parts import Picture
-from solver.evidence import (
+from solver.verification.evidence import (
     Verification,
 )
 

@@ -9,7 +9,7 @@ from report.manual.precision import work
 from report.manual.robustness import conditioning, stability
 from report.manual.studies import convergence, curves, links
 from report.manual.tables import checks, methods, peers, software
-from solver.evidence import Verification
+from solver.verification.evidence import Verification
 
 
 def sections(found: Verification, machine: Machine) -> tuple[Section, ...]:

@@ -18,7 +18,7 @@ from report.manual.blocks import (
     slug,
 )
 from report.pages.parts import Column, Picture, Row, Table
-from solver.evidence import (
+from solver.verification.evidence import (
     Convergence,
     LinkComparison,
     Verification,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from solver.evidence import CheckRow, Verification, WorkPoint
+from solver.verification.evidence import CheckRow, Verification, WorkPoint
 
 
 def verification_csv(found: Verification) -> bytes:

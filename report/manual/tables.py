@@ -19,12 +19,12 @@ from report.manual.blocks import (
 from report.manual.machine import Machine
 from report.pages.parts import Column, Row, Table, Wide, verdict
 from report.units import number
-from solver.evidence import (
+from solver.methods import METHODS
+from solver.verification.evidence import (
     CheckRow,
     PeerPoint,
     Verification,
 )
-from solver.methods import METHODS
 
 
 def checks(found: Verification) -> Section:

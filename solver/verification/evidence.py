@@ -282,7 +282,7 @@ class PeerPoint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verification:
-    """All that `solver.verification.verify` found.
+    """All that `verify` found.
 
     Attributes
     ----------

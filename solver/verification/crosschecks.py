@@ -1,6 +1,6 @@
 """Checks of the exact method against 50 digits and its own symmetries, and of every rival.
 
-As `solver.checks`, whose rows they are; the expected values come from `solver.reference`, from a
+As `checks`, whose rows they are; the expected values come from `reference`, from a
 second run that must give the same, or from a closed form.
 """
 
@@ -11,13 +11,14 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from solver import problems, reference
-from solver.checks import ROUNDING, G, check, trapezoid
-from solver.evidence import CheckRow
+from solver import problems
 from solver.methods import METHODS, Method, link_frequency
 from solver.motion import Record
-from solver.scenes import Case, is_runnable, scale_to
 from solver.solve import STANDARD_GRAVITY_MPS2, slide, slide_history
+from solver.verification import reference
+from solver.verification.checks import ROUNDING, G, check, trapezoid
+from solver.verification.evidence import CheckRow
+from solver.verification.scenes import Case, is_runnable, scale_to
 
 CASES = (
     Case(0.0, 0.3, 1.0),
@@ -43,7 +44,7 @@ CEILINGS = {
 
 
 def fifty_digits(record: Record) -> Iterator[CheckRow]:
-    """Hold PRD and residual against `solver.reference`."""
+    """Hold PRD and residual against `reference`."""
     for k, case in enumerate(CASES):
         yield from _against_digits(record, case, with_vertical=False)
         if k in (1, 3):

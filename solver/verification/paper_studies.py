@@ -1,6 +1,6 @@
 """The studies of the paper on any record: its Figs. 5 to 12.
 
-Runs only; read-offs are in `solver.evidence`. Source: "Predicted Slip of Ballasted Solar Arrays on
+Runs only; read-offs are in `evidence`. Source: "Predicted Slip of Ballasted Solar Arrays on
 Angled Roofs due to Seismic Motion".
 """
 
@@ -11,14 +11,20 @@ import math
 
 import numpy as np
 
-from solver.evidence import Convergence, DesignCurves, LinkComparison, percent_of, percent_off
 from solver.methods import METHODS
 from solver.model import Floats, SlideHistory
 from solver.motion import Record
-from solver.scenes import Case, prepared, scale_to
 from solver.solve import slide_history
 from solver.studies import sweep
-from solver.workprecision import least_seconds, run, timed
+from solver.verification.evidence import (
+    Convergence,
+    DesignCurves,
+    LinkComparison,
+    percent_of,
+    percent_off,
+)
+from solver.verification.scenes import Case, prepared, scale_to
+from solver.verification.workprecision import least_seconds, run, timed
 
 CONVERGENCE_CASES = tuple(
     Case(*values)

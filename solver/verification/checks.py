@@ -1,7 +1,7 @@
 """Checks of the solver against what is known apart from it, one row for each value.
 
 Closed forms (`solver.problems`) and the paper's physical checks; runs nothing but `solver.slide`
-and `slide_history`. Read `solver.crosschecks` for 50 digits, symmetries and the rivals.
+and `slide_history`. Read `crosschecks` for 50 digits, symmetries and the rivals.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from solver import problems
-from solver.evidence import CheckRow
 from solver.model import EventKind, Floats
 from solver.motion import Record
-from solver.scenes import scale_to
 from solver.solve import slide, slide_history
+from solver.verification.evidence import CheckRow
+from solver.verification.scenes import scale_to
 
 G = 9.81
 """Gravity of the closed forms [m/s2], as in their printed figures."""

@@ -12,12 +12,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from solver.evidence import WorkPoint, percent_off
 from solver.methods import METHODS, Method, Scene
 from solver.model import SlideResult, Status
 from solver.motion import Record
-from solver.scenes import CASES, Case, is_runnable, prepared, scale_to
 from solver.solve import STANDARD_GRAVITY_MPS2, slide
+from solver.verification.evidence import WorkPoint, percent_off
+from solver.verification.scenes import CASES, Case, is_runnable, prepared, scale_to
 
 REPEATS = 5
 ENOUGH_S = 0.02

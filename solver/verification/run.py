@@ -1,6 +1,6 @@
 """Everything that a verification of the software computes, as plain data.
 
-Draws nothing and writes no files. Read `verify`, then `solver.evidence` for what it gives.
+Draws nothing and writes no files. Read `verify`, then `evidence` for what it gives.
 """
 
 from __future__ import annotations
@@ -8,8 +8,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 
-from solver import checks, crosschecks, paper_studies, peers, stability, workprecision
-from solver.evidence import (
+from solver.motion import Record
+from solver.verification import (
+    checks,
+    crosschecks,
+    paper_studies,
+    peers,
+    stability,
+    workprecision,
+)
+from solver.verification.evidence import (
     CheckRow,
     Conditioning,
     Convergence,
@@ -20,8 +28,7 @@ from solver.evidence import (
     Verification,
     WorkPoint,
 )
-from solver.motion import Record
-from solver.scenes import own_records
+from solver.verification.scenes import own_records
 
 __all__ = [
     "CheckRow",

@@ -16,12 +16,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.evidence import PeerPoint, percent_off
 from solver.model import Floats
 from solver.motion import Record
-from solver.scenes import CASES, Case, scale_to
 from solver.solve import STANDARD_GRAVITY_MPS2
-from solver.workprecision import run
+from solver.verification.evidence import PeerPoint, percent_off
+from solver.verification.scenes import CASES, Case, scale_to
+from solver.verification.workprecision import run
 
 SUBSTEPS = 10
 STIFFNESS_PER_M = 1e5

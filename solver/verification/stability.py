@@ -11,14 +11,14 @@ from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 
-from solver.evidence import Conditioning, StabilityMap, percent_off
 from solver.methods import METHODS, link_frequency
 from solver.model import Floats
 from solver.motion import Record
-from solver.scenes import CASES, Case, is_runnable, scale_to, shortened
 from solver.solve import STANDARD_GRAVITY_MPS2
 from solver.studies import sweep
-from solver.workprecision import run
+from solver.verification.evidence import Conditioning, StabilityMap, percent_off
+from solver.verification.scenes import CASES, Case, is_runnable, scale_to, shortened
+from solver.verification.workprecision import run
 
 SLOPE_DEG = 4.0
 CRITICAL_MU = math.tan(math.radians(SLOPE_DEG))
