@@ -223,14 +223,20 @@ def _outputs(
     book: InputBook, assessment: Assessment, progress: Callable[[str], None]
 ) -> dict[str, bytes]:
     """Return every output as finished bytes, by file name."""
-    from report.outputs import results_json
+    from report.aside import begin
     from report.package import render
-    from report.results_book import results_xlsx
 
+    tables = begin(lambda: _tables(book, assessment))
     package = render(book, assessment, progress)
     progress("writing the result tables")
+    return {"calc-package.pdf": package, **tables()}
+
+
+def _tables(book: InputBook, assessment: Assessment) -> dict[str, bytes]:
+    from report.outputs import results_json
+    from report.results_book import results_xlsx
+
     return {
-        "calc-package.pdf": package,
         "results.xlsx": results_xlsx(book, assessment),
         "results.json": results_json(book, assessment),
     }

@@ -12,11 +12,12 @@ from contextlib import contextmanager
 from typing import Any
 
 from report.accuracy import Accuracy, accuracy
+from report.aside import begin
 from report.assess import Assessment
 from report.pages import accuracy as accuracy_page
 from report.pages import appendix, checks, front, inputs, method, motions, results
 from report.pages.parts import Part, Scene
-from report.pages.pictures import Pictures, begin, draw
+from report.pages.pictures import Pictures, draw
 from report.pdf import TEMPLATES, html_to_pdf, load_renderer
 from report.sheet.workbook import InputBook
 from report.spectra import Spectra, spectra

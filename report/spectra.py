@@ -18,7 +18,7 @@ from solver.provisions import RequiredSpectrum
 
 PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
 # From the last corner of AC156 to its first, the printed ones among them.
-PERIODS_S: Floats = np.unique(np.concatenate([np.geomspace(1 / 33.3, 10.0, 72), PRINTED_S[1:]]))
+PERIODS_S: Floats = np.unique(np.concatenate([np.geomspace(1 / 33.3, 10.0, 48), PRINTED_S[1:]]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

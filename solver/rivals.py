@@ -1,4 +1,3 @@
-# mypy: allow-untyped-defs, allow-untyped-decorators
 """The methods that the exact one is held against, jitted: each as the field knows it.
 
 Never raises, knows no units but SI; numpy and numba only. Read `solver.methods` for what each one

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import stand_in
+from report.aside import begin
 from report.figures import charts as figures
 from report.pages.parts import Picture
-from report.pages.pictures import begin
 from report.pdf import TEMPLATES
 from report.spectra import spectra
 from solver.model import Motion

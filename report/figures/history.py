@@ -27,7 +27,7 @@ from report.figures.base import (
 from report.units import Quantity, Unit, number, pair
 from solver.model import Floats
 
-MAX_POINTS = 320  # in a history; a panel is 150 points of paper wide
+MAX_POINTS = 240  # in a history; a panel is 150 points of paper wide
 
 
 def histories(motions: Sequence[MotionRun], us_first: bool) -> str:

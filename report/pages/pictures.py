@@ -1,16 +1,11 @@
-"""The pictures of the package, drawn in a process of their own where that is safe.
+"""The pictures of the package.
 
 Says what each picture is called; `report.figures` draws it.
 """
 
 from __future__ import annotations
 
-import os
-import pickle
-import sys
-import threading
-import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from report.assess import ArrayAssessment
 from report.pages.parts import Picture, Scene
@@ -19,44 +14,6 @@ from report.spectra import Spectra
 
 PANELS, CHART_ROWS = 12, 16  # most that one figure holds: it must fit on a page
 Pictures = Mapping[str, Sequence[Picture]]
-
-
-def begin(work: Callable[[], Pictures]) -> Callable[[], Pictures]:
-    """Begin some work in a copy of this process; return what waits for its outcome.
-
-    Where a copy is not safe (other threads, other systems) or fails, the work is done here.
-    """
-    if sys.platform != "linux" or threading.active_count() > 1:
-        return work
-    reading, writing = os.pipe()
-    with warnings.catch_warnings():
-        # Later Pythons warn of threads that only wait inside numerical libraries.
-        warnings.simplefilter("ignore", DeprecationWarning)
-        child = os.fork()
-    if child == 0:
-        _work_and_exit(work, writing)
-    os.close(writing)
-
-    def outcome() -> Pictures:
-        with os.fdopen(reading, "rb") as pipe:
-            data = pipe.read()
-        _, status = os.waitpid(child, 0)
-        if status != 0:
-            return work()
-        pictures: Pictures = pickle.loads(data)
-        return pictures
-
-    return outcome
-
-
-def _work_and_exit(work: Callable[[], Pictures], writing: int) -> None:
-    status = 1
-    try:
-        with os.fdopen(writing, "wb") as pipe:
-            pickle.dump(work(), pipe)
-        status = 0
-    finally:
-        os._exit(status)  # without flushing or closing what belongs to the other process
 
 
 def draw(scene: Scene, found: Sequence[Spectra]) -> Pictures:
