@@ -7,11 +7,11 @@ import zipfile
 
 import pytest
 from openpyxl import DEFUSEDXML
-from sheets import edit, make, problems
 
 from report.sheet import archive
 from report.sheet.archive import open_book
 from report.sheet.workbook import read_workbook
+from sheets import edit, make, problems
 from solver.model import InputError
 
 SAVE_AS = "save it as .xlsx (Excel Workbook)"

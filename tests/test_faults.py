@@ -4,9 +4,9 @@ import datetime as dt
 
 import pytest
 from openpyxl import Workbook
-from sheets import edit, make, problems
 
 from report.sheet.workbook import read_workbook
+from sheets import edit, make, problems
 
 # Sheet, cell, what is typed there, and the line that comes of it.
 SINGLE_CELLS = [

@@ -2,17 +2,14 @@
 
 import math
 import os
-import subprocess
-import sys
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from solver import kernels
+from uncompiled import assert_every_line_runs
 
-ROOT = Path(__file__).resolve().parents[1]
 G = 10.0
 
 
@@ -106,21 +103,4 @@ def test_compiled_and_plain_kernels_give_the_same_bits():
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
 def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
-    data = f"--data-file={tmp_path / 'coverage'}"
-    coverage = [sys.executable, "-m", "coverage"]
-    include = f"--include={ROOT / 'solver' / 'kernels.py'}"
-    tests = [str(Path(__file__)), "-p", "no:cacheprovider"]
-    for command in (
-        [*coverage, "run", data, include, "-m", "pytest", *tests],
-        [*coverage, "report", data, "--show-missing", "--fail-under=100"],
-    ):
-        done = subprocess.run(
-            command,
-            cwd=ROOT,
-            env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-        )
-        assert done.returncode == 0, done.stdout + done.stderr
+    assert_every_line_runs("solver/kernels.py", __file__, tmp_path)

@@ -1,16 +1,13 @@
 """The rival methods with the compiler off: the same bits, and every line run."""
 
 import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from solver import rivals
+from uncompiled import assert_every_line_runs
 
-ROOT = Path(__file__).resolve().parents[1]
 G = 10.0
 
 
@@ -69,24 +66,7 @@ def test_compiled_and_plain_rivals_give_the_same_bits():
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
 def test_every_line_of_the_rivals_is_run_with_the_compiler_off(tmp_path):
-    data = f"--data-file={tmp_path / 'coverage'}"
-    coverage = [sys.executable, "-m", "coverage"]
-    include = f"--include={ROOT / 'solver' / 'rivals.py'}"
-    tests = [str(Path(__file__)), "-p", "no:cacheprovider"]
-    for command in (
-        [*coverage, "run", data, include, "-m", "pytest", *tests],
-        [*coverage, "report", data, "--show-missing", "--fail-under=100"],
-    ):
-        done = subprocess.run(
-            command,
-            cwd=ROOT,
-            env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-        )
-        assert done.returncode == 0, done.stdout + done.stderr
+    assert_every_line_runs("solver/rivals.py", __file__, tmp_path)
 
 
 def follow_the_equations(ax, dt, theta, mu, g, substeps):

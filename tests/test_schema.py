@@ -5,7 +5,6 @@ import math
 
 import pytest
 from pydantic import ValidationError
-from sheets import INCH, project
 
 from report.sheet.checks import gap_m, least_sdc
 from report.sheet.fields import Bounds, YesNo, entries
@@ -25,6 +24,7 @@ from report.sheet.schema import (
     slope_rad,
 )
 from report.units import LENGTHS, WEIGHTS, Quantity
+from sheets import INCH, project
 from solver.motion import UNITS
 from solver.provisions import OVERRIDABLE
 

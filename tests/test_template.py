@@ -3,11 +3,11 @@
 import pytest
 from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
-from sheets import make, project
 
 from report.sheet.fields import entries
 from report.sheet.schema import SECTIONS, UnitsFirst
 from report.sheet.template import write_template
+from sheets import make, project
 
 SHEETS = ["README", "Project", "Site", "Arrays", "Objects", "Clearances", "Motions", "Options"]
 

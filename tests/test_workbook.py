@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.formula import ArrayFormula
-from sheets import FT, edit, make, problems, project
 
 from report.sheet import schema
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.template import write_template
 from report.sheet.workbook import read_workbook
+from sheets import FT, edit, make, problems, project
 
 DATA = Path(__file__).parent / "data"
 
