@@ -278,7 +278,7 @@ def _print_summary(book: InputBook, assessment: Assessment) -> None:
 
 
 def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) -> tuple[str, ...]:
-    from report.units import Quantity, number, pair
+    from report.units import Quantity, pair, ratio
 
     def shown(value_m: float) -> str:
         if value_m != value_m:
@@ -289,7 +289,7 @@ def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) 
     clearance = (
         (
             f"to {gap.across_from(item.array.id)}",
-            number(gap.demand_capacity, 2),
+            ratio(gap.demand_capacity),
             "OK" if gap.ok else "NG",
         )
         if gap

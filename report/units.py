@@ -88,3 +88,10 @@ def pair(value_si: float, quantity: Quantity, us_first: bool = True) -> str:
         for unit in (quantity.value if us_first else quantity.value[::-1])
     )
     return f"{first} ({second})"
+
+
+def ratio(value: float) -> str:
+    """Return a demand/capacity ratio, rounded up so that 1.00 never hides a failure."""
+    if math.isnan(value):
+        return "no value"
+    return "∞" if math.isinf(value) else number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)

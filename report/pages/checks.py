@@ -17,10 +17,9 @@ from report.pages.parts import (
     Table,
     check_value,
     dagger,
-    ratio,
     verdict,
 )
-from report.units import Quantity, number
+from report.units import Quantity, number, ratio
 from solver.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
 
 

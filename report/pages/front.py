@@ -10,8 +10,8 @@ from markupsafe import Markup
 from report.assess import ArrayAssessment
 from report.equations import symbol
 from report.pages.checks import all_checks, clearance_table, troubles
-from report.pages.parts import Column, Row, Scene, Table, ratio, shortened, statistic, verdict
-from report.units import number
+from report.pages.parts import Column, Row, Scene, Table, shortened, statistic, verdict
+from report.units import number, ratio
 
 
 def sheet(scene: Scene) -> Mapping[str, str]:

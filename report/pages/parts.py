@@ -208,15 +208,6 @@ def statistic(basis: Basis) -> str:
     return basis.value.replace(" x ", " × ")
 
 
-def ratio(value: float) -> str:
-    """Return a demand/capacity ratio, rounded up so that 1.00 never hides a failure."""
-    if math.isnan(value):
-        return NO_VALUE
-    if math.isinf(value):
-        return "∞"
-    return number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)
-
-
 def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
     """Return OK or NG, the latter not to be overlooked."""
     good, bad = words
