@@ -4,11 +4,13 @@ Run from the top: .venv/bin/python tests/bench/solver_speed.py [RECORD.csv ...]
 Over the grid of the paper (29 slopes x 15 frictions x 16 PPA) the mean time of a run, against
 one streaming pass over the record (the sum of its samples, jitted) and against the paper's
 algorithm at P = 64 on the same runs (every 97th of them, for it is slow). Medians of repeats, the
-geometric mean over the records. Without arguments it runs the example's records.
+geometric mean over the records. Without arguments: the 18 records that the package pyslammer
+carries, and the example's.
 """
 
 from __future__ import annotations
 
+import importlib.util
 import itertools
 import math
 import platform
@@ -87,21 +89,33 @@ def measure(path: Path) -> tuple[int, float, float, float]:
     return ax.size, exact, paper * exact / exact_few, one
 
 
+def suites() -> dict[str, list[Path]]:
+    """Return the records to run, by where they come from."""
+    if sys.argv[1:]:
+        return {"records": [Path(name) for name in sys.argv[1:]]}
+    made = ROOT / "projects" / "example" / "records"
+    found = {"example": sorted(made.glob("*-h.csv"))}
+    spec = importlib.util.find_spec("pyslammer")
+    if spec is not None and spec.origin is not None:
+        real = Path(spec.origin).parent / "sample_ground_motions"
+        found["pyslammer"] = sorted(real.glob("*.csv"))
+    return found
+
+
 def main() -> None:
-    """Print a row for each record and the geometric means."""
-    paths = [Path(name) for name in sys.argv[1:]]
-    paths = paths or sorted((ROOT / "projects" / "example" / "records").glob("*-h.csv"))
+    """Print a row for each record, and the geometric means of each suite."""
     print(f"{platform.machine()}, Python {platform.python_version()}, one core")
     headings = ("samples", "exact us", "pass us", "exact/pass", "paper/exact")
-    print(f"{'record':24}" + "".join(f"{heading:>13}" for heading in headings))
-    logs = []
-    for path in paths:
-        size, exact, paper, one = measure(path)
-        logs.append((math.log(exact / one), math.log(paper / exact)))
-        figures = (size, exact * 1e6, one * 1e6, exact / one, paper / exact)
-        print(f"{path.stem:24}" + "".join(f"{figure:13.2f}" for figure in figures))
-    means = [math.exp(statistics.mean(column)) for column in zip(*logs, strict=True)]
-    print(f"{'geometric mean':63}" + "".join(f"{mean:13.2f}" for mean in means))
+    print(f"{'record':32}" + "".join(f"{heading:>13}" for heading in headings))
+    for name, paths in suites().items():
+        logs = []
+        for path in paths:
+            size, exact, paper, one = measure(path)
+            logs.append((math.log(exact / one), math.log(paper / exact)))
+            figures = (size, exact * 1e6, one * 1e6, exact / one, paper / exact)
+            print(f"{path.stem:32}" + "".join(f"{figure:13.2f}" for figure in figures))
+        means = [math.exp(statistics.mean(column)) for column in zip(*logs, strict=True)]
+        print(f"{name + ', geometric mean':71}" + "".join(f"{mean:13.2f}" for mean in means))
 
 
 if __name__ == "__main__":
