@@ -7,6 +7,7 @@ Runs the solver and keeps numbers; `report.pages.accuracy` puts them into words 
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -66,6 +67,8 @@ class Accuracy:
     doubled : float
         |PRD / PRD - 1| of the exact method with a sample added midway between each two: the same
         motion, so that what is found is rounding. NaN without a displacement.
+    seconds : float
+        Time of the exact run, the least of some [s].
     runs : tuple of MethodRun
         Empty where nothing slides or the block leaves the roof.
     less, given, more : Assessment
@@ -75,6 +78,7 @@ class Accuracy:
     array: ArrayAssessment
     motion: MotionRun
     doubled: float
+    seconds: float
     runs: tuple[MethodRun, ...]
     less: Assessment
     given: Assessment
@@ -101,11 +105,22 @@ def accuracy(
         array=array,
         motion=motion,
         doubled=abs(slide(**_doubled(scene)).prd_m / peak - 1.0) if peak > 0.0 else math.nan,
+        seconds=_seconds(scene),
         runs=tuple(_runs(scene, peak)) if peak > 0.0 else (),
         less=assess(_with_friction(data, 1.0 - SHIFT), motions),
         given=given,
         more=assess(_with_friction(data, 1.0 + SHIFT), motions),
     )
+
+
+def _seconds(scene: dict[str, Any]) -> float:
+    """Return the least time of some runs: what disturbs a run only lengthens it."""
+    found = []
+    for _ in range(7):
+        started = time.perf_counter()
+        slide(**scene)
+        found.append(time.perf_counter() - started)
+    return min(found)
 
 
 def _with_friction(data: ProjectInput, factor: float) -> ProjectInput:
