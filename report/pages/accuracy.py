@@ -70,8 +70,8 @@ def _method(found: Accuracy) -> str:
 
 
 def _decade_ms(seconds: float) -> str:
-    """Return a power of ten well above a time [ms]: two packages of one input stay alike."""
-    return f"{10.0 ** math.ceil(math.log10(seconds * 1e4)):g}"
+    """Return a power of ten well above a time [ms], at least 10: packages stay alike."""
+    return f"{10.0 ** max(math.ceil(math.log10(seconds * 1e4)), 1):g}"
 
 
 def _doubled(change: float) -> str:
