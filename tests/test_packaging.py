@@ -94,5 +94,13 @@ def test_the_launcher_is_posix_sh():
     assert os.access(ROOT / "roofslip", os.X_OK)
 
 
+def test_every_command_that_makes_a_pdf_has_its_libraries_looked_after():
+    launcher = (ROOT / "roofslip").read_text()
+    commands = (ROOT / "report" / "cli.py").read_text()
+    makers = [name for name in ("report", "verify") if f"def {name}(" in commands]
+    assert makers == ["report", "verify"]
+    assert f"{' | '.join(makers)}) native_libraries" in launcher
+
+
 def test_the_continuous_integration_calls_the_one_command():
     assert "./roofslip test" in (ROOT / ".ci" / "run").read_text()
