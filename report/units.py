@@ -10,15 +10,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-KG_M_S2_PER_LB = 4.4482216152605
+NEWTONS_PER_POUND = 4.4482216152605
 G_MPS2 = 9.80665
 
 LENGTHS = {"in": 0.0254, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
 """Lengths in m."""
 
 WEIGHTS = {
-    "lb": KG_M_S2_PER_LB,
-    "kip": 1e3 * KG_M_S2_PER_LB,
+    "lb": NEWTONS_PER_POUND,
+    "kip": 1e3 * NEWTONS_PER_POUND,
     "N": 1.0,
     "kN": 1e3,
     "kg": G_MPS2,
@@ -45,7 +45,7 @@ class Quantity(Enum):
     DISPLACEMENT = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0, significant=3))
     SIZE = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
     PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
-    WEIGHT = (Unit("lb", KG_M_S2_PER_LB, 0), Unit("kN", 1e3, 2))
+    WEIGHT = (Unit("lb", NEWTONS_PER_POUND, 0), Unit("kN", 1e3, 2))
 
     @property
     def accepted(self) -> Mapping[str, float]:
