@@ -1,4 +1,4 @@
-"""The command line: the only place that prints and catches.
+"""The command line; with `motion_cli` and `terminal` the only place that prints and catches.
 
 Parses, calls, reports; heavy imports stay inside the commands so that `--help` is quick.
 Exit codes: 0 done, 2 the input is at fault, 1 a defect of ours (with the traceback, or with the
@@ -11,21 +11,21 @@ import datetime as dt
 import json
 import math
 import sys
-import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from report.motion_cli import motion
+from report.terminal import Progress, input_errors
+
 if TYPE_CHECKING:
     from report.assess import ArrayAssessment, Assessment
     from report.sheet.workbook import InputBook
     from solver.verification.evidence import Verification
 
-_QUIET_SECONDS = 1.0
 _SCENE = click.Path(path_type=Path)
 
 
@@ -38,13 +38,16 @@ def main() -> None:
     """
 
 
+main.add_command(motion)
+
+
 @main.command()
 @click.argument("folder", metavar="DIR", type=_SCENE)
 @click.option("--units", type=click.Choice(["US", "SI"]), default="US", show_default=True,
               help="Units of the input cells, and the ones printed first.")  # fmt: skip
 def new(folder: Path, units: str) -> None:
     """Write DIR/input.xlsx, ready to fill, and DIR/records/ for the motions."""
-    with _input_errors(folder):
+    with input_errors(folder):
         path = _new_project(folder, units)
     click.echo(f"{path}: fill the yellow cells, put the roof motions into {folder / 'records'},")
     click.echo(f"then run: roofslip report {folder}")
@@ -73,7 +76,7 @@ def _new_project(folder: Path, units: str) -> Path:
 @click.argument("source", metavar="DIR|WORKBOOK", type=_SCENE)
 def check(source: Path) -> None:
     """Read and validate the input; write nothing."""
-    with _input_errors(source):
+    with input_errors(source):
         book = _read(source)
     data = book.input
     click.echo(
@@ -88,7 +91,7 @@ def check(source: Path) -> None:
 @click.option("--out", type=_SCENE, help="Folder for the outputs; default: out/ beside the input.")
 def report(source: Path, out: Path | None) -> None:
     """Write calc-package.pdf, results.xlsx and results.json, and print the governing numbers."""
-    with _input_errors(source), _Progress() as progress:
+    with input_errors(source), Progress() as progress:
         progress("reading the workbook")
         book = _read(source)
         folder = out or book.path.parent / "out"
@@ -112,7 +115,7 @@ def verify(out: Path, quick: bool) -> None:
 
     Exits 1 where a check fails, with the outputs written.
     """
-    with _input_errors(out), _Progress() as progress:
+    with input_errors(out), Progress() as progress:
         found, files = _verification(quick, progress)
         progress("putting the files in place")
         _publish(files, out)
@@ -156,7 +159,7 @@ def slide(
     """Slide one block under one RECORD: a quick look, or a step of a script."""
     if ppa_g is not None and factor is not None:
         raise click.UsageError("give --ppa-g or --factor, not both")
-    with _input_errors(record):
+    with input_errors(record):
         found = _slide_record(record, vertical, units, dt, slope_deg, mu, ppa_g, factor)
     if as_json:
         click.echo(json.dumps({k: None if v != v else v for k, v in found.items()}))
@@ -302,49 +305,6 @@ def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) 
         shown(item.design_m),
         *clearance,
     )
-
-
-@contextmanager
-def _input_errors(source: Path) -> Iterator[None]:
-    """Print what the user can fix, each problem on its line, and exit 2."""
-    try:
-        yield
-    except Exception as error:
-        from solver.model import InputError
-
-        if not isinstance(error, InputError):
-            raise
-        count = len(error.problems)
-        click.echo(f"{source}: {count} problem{'s' if count > 1 else ''} found.", err=True)
-        for problem in error.problems:
-            click.echo(f"  {problem}", err=True)
-        sys.exit(2)
-
-
-class _Progress:
-    """Says what is being done: one changing line on a terminal, plain lines elsewhere.
-
-    Silent for the first second, so that quick work says nothing.
-    """
-
-    def __init__(self) -> None:
-        self._started = time.monotonic()
-        self._terminal = sys.stderr.isatty()
-
-    def __enter__(self) -> _Progress:
-        return self
-
-    def __call__(self, doing: str) -> None:
-        seconds = time.monotonic() - self._started
-        line = f"[{seconds:4.1f} s] {doing}"
-        if self._terminal:
-            click.echo(f"\r\x1b[2K{line}", nl=False, err=True)
-        elif seconds > _QUIET_SECONDS:
-            click.echo(line, err=True)
-
-    def __exit__(self, *_: Any) -> None:
-        if self._terminal:
-            click.echo("\r\x1b[2K", nl=False, err=True)
 
 
 if __name__ == "__main__":

@@ -115,18 +115,32 @@ def record_from_values(
     return _record(name, np.asarray(values, dtype=np.float64), units, dt_s)
 
 
-def write_record(path: Path, record: Record, units: str = "g") -> None:
+def write_record(path: Path, record: Record, units: str = "g", *, within: float = math.inf) -> None:
     """Write a record as csv of time [s] and acceleration, with a heading line.
 
-    The acceleration is printed to `DECIMALS`. A record that was rounded to them, as those of
+    The acceleration is printed to `DECIMALS`, and to as many more as keep every sample `within`
+    that part of the record's peak. A record that was rounded to `DECIMALS`, as those of
     `solver.synthesis` are in g, is read back bit for bit.
     """
     _check_arguments(path.name, units, record.dt_s)
+    values = record.a_mps2 / UNITS[units]
     places = next((k for k in range(1, 9) if _fits(record.dt_s, 10.0**-k)), 9)
-    row = f"{{:.{places}f}},{{:z.{DECIMALS[units]}f}}\n".format
-    values = (record.a_mps2 / UNITS[units]).tolist()
-    body = "".join(row(i * record.dt_s, value) for i, value in enumerate(values))
+    decimals = _decimals(values, DECIMALS[units], within)
+    row = f"{{:.{places}f}},{{:z.{decimals}f}}\n".format
+    body = "".join(row(i * record.dt_s, value) for i, value in enumerate(values.tolist()))
     path.write_text(f"time_s,acceleration_{units}\n{body}", encoding="utf-8", newline="\n")
+
+
+def _decimals(values: Floats, least: int, within: float) -> int:
+    """Decimals that print the values to that part of the largest one, from `least` on."""
+    peak = np.abs(values).max()
+    # Beyond 300 decimals a power of ten is no longer a float.
+    kept = (k for k in range(least, 300) if _off(values, k) <= within * peak)
+    return least if math.isinf(within) or peak == 0.0 else next(kept, 300)
+
+
+def _off(values: Floats, decimals: int) -> float:
+    return float(np.abs(values - np.round(values, decimals)).max())
 
 
 def response_spectrum(

@@ -32,7 +32,7 @@ def test_help_names_the_commands_and_imports_nothing_heavy():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
-    for command in ("new", "check", "report", "slide", "verify"):
+    for command in ("new", "check", "motion", "report", "slide", "verify"):
         assert f"\n  {command} " in done.stdout
 
 

@@ -274,6 +274,25 @@ class TestWriting:
         back = read_record(tmp_path / "a.csv", units=unit).a_mps2
         assert np.abs(back - values).max() < 1e-5 * G
 
+    @pytest.mark.parametrize("peak_g", [1e-12, 3e-4, 0.7, 1.0, 12.0])
+    def test_a_record_of_any_size_is_kept_to_the_part_of_its_peak_asked_for(
+        self, tmp_path: Path, peak_g: float
+    ) -> None:
+        values = np.random.default_rng(3).uniform(-1.0, 1.0, 300) * peak_g * G
+        path = tmp_path / "a.csv"
+        write_record(path, Record(name="a", dt_s=0.01, a_mps2=values), within=1e-9)
+        back = read_record(path, units="g").a_mps2
+        assert np.abs(back - values).max() <= 1.001e-9 * np.abs(values).max()
+
+    def test_no_decimals_are_printed_that_say_nothing(self, tmp_path: Path) -> None:
+        values = np.array([0.0, 0.25, -0.125]) * G
+        write_record(tmp_path / "a.csv", Record(name="a", dt_s=0.01, a_mps2=values), within=1e-9)
+        assert (tmp_path / "a.csv").read_text().splitlines()[1:] == [
+            "0.00,0.00000",
+            "0.01,0.25000",
+            "0.02,-0.12500",
+        ]
+
 
 def exact_psa(a: list[float], dt: float, period: float, damping: float) -> float:
     """Largest omega^2 |u| at the samples, by a 40-digit matrix exponential of the whole system.
