@@ -10,6 +10,7 @@ from solver.provisions import (
     RULE_SETS,
     Basis,
     Neighbour,
+    Tail,
     ac156_horizontal,
     ac156_vertical,
     analysis_checks,
@@ -179,3 +180,18 @@ def test_ac156_accelerations_at_the_roof_of_published_sites():
     edition_22 = ac156_horizontal(A22, s_ds_g=1.0, z_over_h=1.0)
     assert edition_22.sa_g[[1, 3]] == pytest.approx([1.6, 0.4 * 3.5 / 1.3], rel=1e-12)
     assert ac156_vertical(s_ds_g=1.0).sa_g[[1, 3]] == pytest.approx([0.67, 0.27], rel=1e-12)
+
+
+def test_the_reciprocal_tail_falls_as_one_over_the_period_beyond_0_77_s():
+    for of in (
+        lambda tail: ac156_horizontal(A16, s_ds_g=1.0, z_over_h=1.0, tail=tail),
+        lambda tail: ac156_vertical(s_ds_g=1.0, tail=tail),
+    ):
+        line, reciprocal = of(Tail.AC156), of(Tail.RECIPROCAL)
+        period = np.array([1.0, 2.0, 5.0, 10.0])
+        flexible = line.sa_g[1]
+        assert reciprocal.at(1 / period) == pytest.approx(flexible / 1.3 / period, rel=1e-12)
+        assert line.at(1 / period[-1:]) == pytest.approx(0.1 * flexible, rel=1e-12)
+        assert np.array_equal(reciprocal.sa_g[1:], line.sa_g[1:])
+    assert "1/T" in Tail.RECIPROCAL.sentence
+    assert "line of AC156" in Tail.AC156.sentence

@@ -34,7 +34,7 @@ def test_a_quick_verification_passes_and_fills_every_part(found):
     verification, stages = found
     assert verification.passed
     assert verification.quick
-    assert verification.records == ("motion-01-h", "near-fault-pulse")
+    assert verification.records == ("motion-01-x", "near-fault-pulse")
     assert len(stages) == 9
     for name in ("checks", "work", "maps", "convergence", "links", "curves", "conditioning"):
         assert len(getattr(verification, name)) > 0, name

@@ -264,7 +264,7 @@ def test_other_programs_have_a_section_where_there_are_any(found):
     peer = PeerPoint(
         peer="Other",
         version="1.2",
-        record="motion-01-h",
+        record="motion-01-x",
         scene="flat",
         seconds=0.5,
         prd_error_percent=1.25,
@@ -273,8 +273,8 @@ def test_other_programs_have_a_section_where_there_are_any(found):
     lost = replace(peer, seconds=math.nan, prd_error_percent=math.nan, note="did not converge")
     words = said(replace(found, peers=(peer, lost)))
     assert "11 Other programs" in words
-    assert "Other 1.2 motion-01-h, flat 500 ms 1.25 % as its example" in words
-    assert "Other 1.2 motion-01-h, flat — failed did not converge" in words
+    assert "Other 1.2 motion-01-x, flat 500 ms 1.25 % as its example" in words
+    assert "Other 1.2 motion-01-x, flat — failed did not converge" in words
 
 
 def test_without_other_programs_there_is_no_such_section(words):

@@ -32,8 +32,8 @@ def main() -> None:
     suite = make_suite(
         (across.freq_hz, across.sa_g), (upward.freq_hz, upward.sa_g), count=COUNT, seed=SEED
     )
-    for number, pair in enumerate(suite, start=1):
-        for record, letter in zip(pair, "hv", strict=True):
+    for number, motion in enumerate(suite, start=1):
+        for record, letter in ((motion.x, "h"), (motion.z, "v")):
             write_record(records / f"RM{number}-{letter}.csv", record)
     write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=example())
 

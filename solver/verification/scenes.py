@@ -57,7 +57,7 @@ CASES = (
 def own_records(quick: bool) -> tuple[Record, ...]:
     """Return the project's records: motions that follow AC156, and a near-fault pulse."""
     suite = make_suite(HORIZONTAL, VERTICAL, count=1 if quick else 2, seed=SEED, dt_s=0.01)
-    return (*(horizontal for horizontal, _ in suite), near_fault_pulse())
+    return (*(motion.x for motion in suite), near_fault_pulse())
 
 
 def near_fault_pulse() -> Record:

@@ -1,0 +1,99 @@
+"""Target spectra, and how a motion keeps to one.
+
+Knows no code rules: targets come in as corner points, straight on log-log axes, flat beyond.
+Read `solver.synthesis.suite` next.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.model import Floats
+from solver.motion import UNITS, Record, response_spectrum
+
+Target = tuple[Floats, Floats]
+"""Corner points of a target spectrum: frequencies [Hz], rising, and accelerations [g]."""
+
+DAMPING = 0.05
+BAND_HZ = (0.3, 33.3)
+"""Where a motion has to keep to its target; down to the first corner it follows roughly."""
+
+LEAST, GREATEST, MEAN_OFF = 0.92, 1.25, 0.04
+"""Accepted ratios to the target, at 1/48 octave over the band; the mean is off 1 by the last."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpectrumFit:
+    """How a motion keeps to its target.
+
+    Attributes
+    ----------
+    freq_hz, target_g, achieved_g : array, shape (m,)
+        Frequencies [Hz], target and pseudo-spectral acceleration of the motion [g].
+    """
+
+    freq_hz: Floats
+    target_g: Floats
+    achieved_g: Floats
+
+    @property
+    def ratio(self) -> Floats:
+        """Achieved over target."""
+        return self.achieved_g / self.target_g
+
+    @property
+    def least(self) -> float:
+        """Smallest ratio."""
+        return float(self.ratio.min())
+
+    @property
+    def greatest(self) -> float:
+        """Largest ratio."""
+        return float(self.ratio.max())
+
+    @property
+    def mean(self) -> float:
+        """Mean ratio, every frequency counting alike."""
+        return float(self.ratio.mean())
+
+
+def target_sa_g(target: Target, freq_hz: Floats) -> Floats:
+    """Target acceleration [g] at frequencies [Hz]: log-log between the corners, flat beyond."""
+    corners_hz, corners_g = (np.log(np.asarray(column)) for column in target)
+    return np.exp(np.interp(np.log(freq_hz), corners_hz, corners_g))
+
+
+def band(per_octave: int) -> Floats:
+    """Frequencies [Hz] over `BAND_HZ`, so many to an octave, both ends among them."""
+    low, high = BAND_HZ
+    steps = np.arange(math.floor(per_octave * math.log2(high / low)) + 1)
+    return np.append(low * 2.0 ** (steps / per_octave), high)
+
+
+def spectrum_fit(record: Record, target: Target, freq_hz: Floats | None = None) -> SpectrumFit:
+    """Compare a record with its target, by default at 1/12 octave over `BAND_HZ`."""
+    freq_hz = band(12) if freq_hz is None else freq_hz
+    achieved = response_spectrum(record.a_mps2, record.dt_s, 1.0 / freq_hz, DAMPING) / UNITS["g"]
+    return SpectrumFit(freq_hz=freq_hz, target_g=target_sa_g(target, freq_hz), achieved_g=achieved)
+
+
+def meets(target: Target, record: Record) -> bool:
+    """Whether a record keeps within `LEAST`, `GREATEST` and `MEAN_OFF`."""
+    fit = spectrum_fit(record, target, band(48))
+    return fit.least >= LEAST and fit.greatest <= GREATEST and abs(fit.mean - 1.0) <= MEAN_OFF
+
+
+def target_problems(target: Target) -> list[str]:
+    """Say what is impossible about a target."""
+    freq_hz, sa_g = (np.asarray(column, dtype=np.float64) for column in target)
+    problems = []
+    if freq_hz.ndim != 1 or freq_hz.shape != sa_g.shape or len(freq_hz) < 2:
+        problems.append("target spectrum: give as many accelerations as frequencies, at least 2")
+    elif not (freq_hz[0] > 0.0 and np.all(np.diff(freq_hz) > 0.0) and np.isfinite(freq_hz[-1])):
+        problems.append("target spectrum: give rising frequencies above 0 [Hz]")
+    if not np.all((sa_g > 0.0) & np.isfinite(sa_g)):
+        problems.append("target spectrum: give accelerations above 0 [g]")
+    return problems
