@@ -18,7 +18,7 @@ from solver.solve import slide
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "projects" / "example"
-RECORD = str(EXAMPLE / "records" / "RM1-h.csv")
+RECORD = str(EXAMPLE / "records" / "RM1-x.csv")
 
 
 def run(*arguments):
@@ -88,7 +88,7 @@ def test_slide_scales_to_a_ppa_and_by_a_factor():
 def test_slide_takes_a_vertical_record():
     plain = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5)
     lifted = run(
-        "slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--vertical", RECORD.replace("-h", "-v")
+        "slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--vertical", RECORD.replace("-x", "-z")
     )
     assert (plain.exit_code, lifted.exit_code) == (0, 0)
     assert "prd_m" in plain.output
@@ -129,10 +129,10 @@ def test_a_failed_run_leaves_the_older_package(tmp_path):
     out = tmp_path / "job" / "out"
     out.mkdir()
     (out / "calc-package.pdf").write_bytes(b"older")
-    (tmp_path / "job" / "records" / "RM3-h.csv").write_text("time_s,acceleration_g\n0,abc\n")
+    (tmp_path / "job" / "records" / "RM3-x.csv").write_text("time_s,acceleration_g\n0,abc\n")
     done = run("report", tmp_path / "job")
     assert done.exit_code == 2
-    assert "RM3-h.csv" in done.output
+    assert "RM3-x.csv" in done.output
     assert [p.read_bytes() for p in out.iterdir()] == [b"older"]
 
 
@@ -187,7 +187,7 @@ def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
             np.loadtxt(
                 job / "records" / f"{run_['motion']}-{letter}.csv", delimiter=",", skiprows=1
             )
-            for letter in "hv"
+            for letter in "xz"
         ]
         ax, az = (9.80665 * column[:, 1] for column in columns)
         found = slide(

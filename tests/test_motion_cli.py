@@ -11,7 +11,7 @@ from report.cli import main
 from solver.motion import read_record
 
 ROOT = Path(__file__).resolve().parents[1]
-RECORD = ROOT / "projects" / "example" / "records" / "RM1-h.csv"
+RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
 G = 9.80665
 
 

@@ -33,7 +33,7 @@ def main() -> None:
         (across.freq_hz, across.sa_g), (upward.freq_hz, upward.sa_g), count=COUNT, seed=SEED
     )
     for number, motion in enumerate(suite, start=1):
-        for record, letter in ((motion.x, "h"), (motion.z, "v")):
+        for record, letter in zip(motion.components, "xyz", strict=True):
             write_record(records / f"RM{number}-{letter}.csv", record)
     write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=example())
 
@@ -93,8 +93,8 @@ def example() -> ProjectInput:
             "motions": [
                 {
                     "id": f"RM{number}",
-                    "record": f"records/RM{number}-h.csv",
-                    "vertical": f"records/RM{number}-v.csv",
+                    "record": f"records/RM{number}-x.csv",
+                    "vertical": f"records/RM{number}-z.csv",
                     "units": "g",
                     "source": SOURCE,
                 }

@@ -31,9 +31,9 @@ def records() -> list[tuple[str, np.ndarray, np.ndarray | None, float]]:
         read = [read_record(Path(name), units="g", dt_s=float(dt)) for name, dt in pairs]
         return [(record.name, record.a_mps2, None, record.dt_s) for record in read]
     found: list[tuple[str, np.ndarray, np.ndarray | None, float]] = []
-    for path in sorted((ROOT / "projects" / "example" / "records").glob("*-h.csv")):
+    for path in sorted((ROOT / "projects" / "example" / "records").glob("*-x.csv")):
         h = read_record(path, units="g")
-        v = read_record(path.with_name(path.name.replace("-h", "-v")), units="g")
+        v = read_record(path.with_name(path.name.replace("-x", "-z")), units="g")
         found += [(h.name, h.a_mps2, z, h.dt_s) for z in (None, v.a_mps2)]
     return found
 

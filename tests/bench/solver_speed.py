@@ -94,7 +94,7 @@ def suites() -> dict[str, list[Path]]:
     if sys.argv[1:]:
         return {"records": [Path(name) for name in sys.argv[1:]]}
     made = ROOT / "projects" / "example" / "records"
-    found = {"example": sorted(made.glob("*-h.csv"))}
+    found = {"example": sorted(made.glob("*-x.csv"))}
     spec = importlib.util.find_spec("pyslammer")
     if spec is not None and spec.origin is not None:
         real = Path(spec.origin).parent / "sample_ground_motions"
