@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -22,6 +22,7 @@ _FILE = click.Path(path_type=Path)
 
 # Of the record's peak: what a converted record may lose.
 _KEPT_WITHIN = 1e-9
+_PICTURES = (".svg", ".png")
 
 
 @click.group()
@@ -42,19 +43,36 @@ def _reading(command: Callable[..., None]) -> Callable[..., None]:
     return command
 
 
+def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
+    """Let only names of pictures pass, so that no record is ever written over."""
+    if path and path.suffix.lower() not in _PICTURES:
+        raise click.BadParameter(f"{path} is no name of a picture; end it in .svg or .png")
+    return path
+
+
 @motion.command()
 @click.argument("file", metavar="FILE", type=_FILE)
 @_reading
 @click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
-def info(file: Path, units: str, dt_s: float | None, as_json: bool) -> None:
-    """Say what FILE holds: its sampling, length and peaks."""
+@click.option("--plot", metavar="OUT.svg|OUT.png", type=_FILE, callback=_picture,
+              help="Draw the records and their 5 % damped response spectra.")  # fmt: skip
+def info(file: Path, units: str, dt_s: float | None, as_json: bool, plot: Path | None) -> None:
+    """Say what FILE holds: sampling, peaks, Arias intensity, duration, drift at the end."""
+    from report.motion_info import summary, table
+
     with input_errors(file):
-        record = _record(file, units, dt_s)
-    found = {"file": str(file), "channels": [_summary(record)]}
+        records = [_record(file, units, dt_s)]
+        if plot:
+            _draw(records, plot)
+    channels = [summary(record) for record in records]
     if as_json:
+        found = {"file": str(file), "format": "text", "notes": [], "channels": channels}
         click.echo(json.dumps(found))
         return
-    _print_table([_summary(record)])
+    for line in table(channels):
+        click.echo(line)
+    if plot:
+        click.echo(plot)
 
 
 @motion.command()
@@ -86,21 +104,20 @@ def _write(record: Record, out: Path) -> None:
         raise InputError(f"{out}: cannot be written ({error.strerror})") from error
 
 
-def _summary(record: Record) -> dict[str, Any]:
-    from solver.motion import UNITS
+def _draw(records: Sequence[Record], out: Path) -> None:
+    """Write the picture of records, over an older one too."""
+    from report.figures.base import load_fonts
+    from report.figures.records import MOST, records_png, records_svg
+    from report.motion_info import PERIODS_S, spectra_g
+    from report.pdf import TEMPLATES
+    from solver.model import InputError
 
-    npts = len(record.a_mps2)
-    return {
-        "name": record.name,
-        "dt_s": record.dt_s,
-        "npts": npts,
-        "duration_s": (npts - 1) * record.dt_s,
-        "pga_g": float(abs(record.a_mps2).max()) / UNITS["g"],
-    }
-
-
-def _print_table(channels: Sequence[dict[str, Any]]) -> None:
-    for channel in channels:
-        for key, value in channel.items():
-            text = f"{value:.6g}" if isinstance(value, float) else value
-            click.echo(f"{key:>12}  {text}")
+    if len(records) > MOST:
+        raise InputError(f"{out.name}: a picture holds {MOST} channels; choose one by its name")
+    load_fonts(TEMPLATES / "fonts")
+    drawing = records_png if out.suffix.lower() == ".png" else records_svg
+    picture = drawing(records, PERIODS_S, spectra_g(records))
+    try:
+        out.write_bytes(picture if isinstance(picture, bytes) else picture.encode())
+    except OSError as error:
+        raise InputError(f"{out}: cannot be written ({error.strerror})") from error

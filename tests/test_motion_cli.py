@@ -1,6 +1,7 @@
 """The commands on records, as a person or a script calls them."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from report.cli import main
+from solver.measures import measures
 from solver.motion import read_record
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -38,6 +40,60 @@ def test_info_gives_sampling_length_and_peak():
     assert channel["npts"] == 6001
     assert channel["duration_s"] == pytest.approx(30.0, rel=1e-12)
     assert channel["pga_g"] == pytest.approx(np.abs(record.a_mps2).max() / G, rel=1e-12)
+
+
+def test_info_gives_every_measure_in_si():
+    (channel,) = json.loads(run("info", RECORD, "--json").output)["channels"]
+    found = measures(read_record(RECORD, units="g"))
+    assert {key: channel[key] for key in list(channel)[5:]} == {
+        "pgv_mps": found.pgv_mps,
+        "pgd_m": found.pgd_m,
+        "arias_mps": found.arias_mps,
+        "d5_95_s": found.d5_95_s,
+        "final_velocity_mps": found.final_velocity_mps,
+        "final_displacement_m": found.final_displacement_m,
+    }
+
+
+def test_info_prints_a_table_for_people(column):
+    done = run("info", column, "--dt", 0.02)
+    assert done.exit_code == 0
+    lines = done.output.splitlines()
+    heading = re.split(r"  +", lines[0].strip())
+    row = dict(zip(heading, re.split(r"  +", lines[1].strip())[1:], strict=True))
+    assert row["dt [s]"] == "0.02"
+    assert row["points"] == "4"
+    assert row["PGA [g]"] == "0.25"
+    # Trapezia of 0.125 and -0.25 g; the velocity ends at -0.0025 g s.
+    assert row["end [cm/s]"] == f"{-0.0025 * G * 100:.4g}"
+
+
+def test_a_drift_of_rounding_prints_as_zero():
+    lines = run("info", RECORD).output.splitlines()
+    assert lines[1].split()[-2:] == ["0", "0"]
+
+
+@pytest.mark.parametrize(("name", "start"), [("a.svg", b"<svg"), ("a.PNG", b"\x89PNG")])
+def test_info_draws_a_picture_the_same_each_time(tmp_path, name, start):
+    out = tmp_path / name
+    assert run("info", RECORD, "--plot", out).exit_code == 0
+    first = out.read_bytes()
+    assert first.startswith(start)
+    assert run("info", RECORD, "--plot", out).exit_code == 0
+    assert out.read_bytes() == first
+
+
+def test_info_never_draws_over_a_record(column):
+    done = run("info", column, "--dt", 0.02, "--plot", column)
+    assert done.exit_code == 2
+    assert "end it in .svg or .png" in done.output
+    assert column.read_text() == "0\n0.125\n-0.25\n0\n"
+
+
+def test_info_says_where_a_picture_cannot_be_written(column, tmp_path):
+    done = run("info", column, "--dt", 0.02, "--plot", tmp_path / "none" / "a.svg")
+    assert done.exit_code == 2
+    assert "cannot be written (No such file or directory)" in done.output
 
 
 def test_info_takes_the_step_and_the_units_of_a_bare_column(column):

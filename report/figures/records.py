@@ -1,0 +1,140 @@
+"""Records as they were read: acceleration over time, a panel a channel, and their spectra.
+
+Computes nothing but where ink goes. For people who look at a file: the picture stands alone, so
+its text is drawn as outlines and needs no font. Read `report.figures.base` first.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+
+from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.history import envelope
+from report.units import G_MPS2
+from solver.model import Floats
+from solver.motion import Record
+
+MOST = 12
+"""Channels that one picture holds."""
+
+_POINTS = 3000
+_DPI = 200
+_PANEL_IN, _TITLE_IN, _SPECTRUM_IN = 0.72, 0.24, 2.5
+_BOTTOM_IN, _GAP_IN, _LEGEND_IN = 0.42, 0.72, 0.19
+_LEFT, _RIGHT = 0.085, 0.985
+_LEGEND_COLUMNS = 3
+_TICKS_S = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+_COLORS = (ACCENT, INK, GREY)
+_DASHES: tuple[object, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (6, 1.5, 1, 1.5)))
+
+
+def records_svg(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> str:
+    """Return the picture of up to `MOST` records as the text of an SVG.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    periods_s : array, shape (m,)
+        Periods of the spectra [s], rising.
+    sa_g : array, shape (n, m)
+        Their ordinates [g], a row a record.
+    """
+    with style():
+        mpl.rcParams["svg.fonttype"] = "path"
+        return svg_text(_figure(records, periods_s, sa_g))
+
+
+def records_png(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> bytes:
+    """Return the picture of `records_svg` as a PNG."""
+    with style():
+        out = io.BytesIO()
+        figure = _figure(records, periods_s, sa_g)
+        figure.savefig(out, format="png", dpi=_DPI, metadata={"Software": None})
+        return out.getvalue()
+
+
+def _figure(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> Figure:
+    """Lay out from below: legend, spectra, and a panel a record with its title above it."""
+    count = len(records)
+    legend_in = 0.14 + _LEGEND_IN * -(-count // _LEGEND_COLUMNS) if count > 1 else 0.0
+    low_in = legend_in + _BOTTOM_IN
+    panels_in = low_in + _SPECTRUM_IN + _GAP_IN
+    height = panels_in + count * (_PANEL_IN + _TITLE_IN)
+    figure = Figure(figsize=(WIDTH_IN, height))
+
+    def axes_at(bottom_in: float, high_in: float) -> Axes:
+        box = (_LEFT, bottom_in / height, _RIGHT - _LEFT, high_in / height)
+        return figure.add_axes(box)
+
+    places = [panels_in + k * (_PANEL_IN + _TITLE_IN) for k in reversed(range(count))]
+    _histories([axes_at(bottom_in, _PANEL_IN) for bottom_in in places], records)
+    axes = axes_at(low_in, _SPECTRUM_IN)
+    _spectra(axes, records, periods_s, sa_g)
+    if count > 1:
+        marks, names = axes.get_legend_handles_labels()
+        columns = min(count, _LEGEND_COLUMNS)
+        figure.legend(marks, names, loc="lower center", ncols=columns, handlelength=3.2)
+    return figure
+
+
+def _histories(panels: Sequence[Axes], records: Sequence[Record]) -> None:
+    """Draw all records on one scale of time and one of acceleration."""
+    reach = max(float(np.abs(one.a_mps2).max()) for one in records) / G_MPS2 or 1.0
+    longest = max((len(one.a_mps2) - 1) * one.dt_s for one in records)
+    for axes, one in zip(panels, records, strict=True):
+        _history(axes, one)
+        axes.set_xlim(0.0, longest)
+        axes.set_ylim(-1.12 * reach, 1.12 * reach)
+        axes.yaxis.set_major_locator(MaxNLocator(4, symmetric=True))
+        if axes is not panels[-1]:
+            axes.tick_params(bottom=False, labelbottom=False)
+            axes.spines["bottom"].set_visible(False)
+    panels[-1].set_xlabel("Time [s]")
+
+
+def _history(axes: Axes, record: Record) -> None:
+    a_g = record.a_mps2 / G_MPS2
+    t = record.dt_s * np.arange(len(a_g), dtype=np.float64)
+    axes.plot(*envelope(t, a_g, _POINTS), color=ACCENT, linewidth=0.5)
+    top = int(np.abs(a_g).argmax())
+    axes.plot([t[top]], [a_g[top]], linestyle="", marker="o", markersize=3.0, color=INK)
+    axes.set_title(_cut(record.name, 70), loc="left", weight="semibold", pad=2.0)
+    peak = f"PGA {abs(a_g[top]):.3g} g at {t[top]:.2f} s"
+    axes.set_title(peak, loc="right", pad=2.0)
+    axes.set_ylabel("a [g]")
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    bare(axes)
+
+
+def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> None:
+    for place, (one, row) in enumerate(zip(records, sa_g, strict=True)):
+        color = _COLORS[place % len(_COLORS)]
+        dash = _DASHES[place % len(_DASHES)]
+        axes.plot(
+            periods_s, row, color=color, linestyle=dash, linewidth=1.2, label=_cut(one.name, 30)
+        )
+    axes.set_xscale("log")
+    axes.set_xlim(periods_s[0], periods_s[-1])
+    axes.set_ylim(0.0, None)
+    axes.xaxis.set_major_locator(FixedLocator(_TICKS_S))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xlabel("Period T [s]")
+    axes.set_ylabel("Pseudo-acceleration [g]")
+    word = "spectrum" if len(records) == 1 else "spectra"
+    axes.set_title(f"Response {word}, 5 % damping", loc="left", weight="semibold")
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    bare(axes)
+
+
+def _cut(name: str, most: int) -> str:
+    return name if len(name) <= most else f"{name[: most - 1]}…"
