@@ -11,15 +11,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.model import Floats, InputError
+from solver.model import InputError
 from solver.motion import Record
 from solver.synthesis.matching import Frame, goal_mps2, make_frame, matched, rounded, shaped
+from solver.synthesis.seeds import Seed, grown, noise_seed, seeds_of, strongest
 from solver.synthesis.target import Target, meets, target_problems
 
 CORRELATION = 0.3
 """Largest correlation coefficient of two components of one motion."""
 
 DRAWS = 20
+
+STRONG_SHARE = 0.6
+"""Least share of the duration between 5 and 95 % of the energy; the envelope alone has 0.70."""
+
+# Of the duration: a shorter record says little of how a motion goes.
+_SHORTEST_SHARE = 1.0 / 6.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,11 +37,14 @@ class SuiteMotion:
     ----------
     x, y, z : Record
         Two horizontal components and the vertical one, sampled alike.
+    seeds : tuple of str, length 3
+        What each grew from: ``noise``, or the name of a record with what became of its phases.
     """
 
     x: Record
     y: Record
     z: Record
+    seeds: tuple[str, str, str]
 
     @property
     def components(self) -> tuple[Record, Record, Record]:
@@ -60,14 +70,22 @@ def make_suite(
     *,
     count: int,
     seed: int,
+    records: Sequence[Sequence[Record]] = (),
     dt_s: float = 0.005,
     duration_s: float = 30.0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> list[SuiteMotion]:
     """Make motions of two horizontal components and a vertical one each.
 
-    Motion k of a seed is the same whatever the count. A component that misses its target or goes
-    with another one (`CORRELATION`) is drawn again.
+    Motion k of a seed is the same whatever the count. A component that misses its target, goes
+    with another one (`CORRELATION`) or is strong too shortly (`STRONG_SHARE`) is drawn again.
+
+    Given records take the place of the noise. Of a record is kept: the phases of its strongest
+    part, so its pulses and how its frequencies follow one another. Its level over some seconds
+    gives way to the envelope, so that AC156's strong phase holds, its spectrum to the target; what
+    is faint, or beyond a short record's ends, is filled with noise of the record's colour. Where a
+    group has no record for a component, or the groups come round again, phases are drawn and only
+    the record's energy over time and frequency is kept. Drawing again turns the phases further.
 
     Parameters
     ----------
@@ -77,6 +95,9 @@ def make_suite(
     count : int
     seed : int
         >= 0.
+    records : sequence of sequence of Record
+        Groups of one to three records (for x, y and z), which the motions take in turn; none of
+        them for noise.
     dt_s, duration_s : float
         Sampling interval and time of the last sample [s]; a sixth of the duration to rise and a
         sixth to decay: 5, 20 and 5 s of 30 s, as AC156 has it.
@@ -97,6 +118,7 @@ def make_suite(
         raise InputError(f"suite: count {count} and seed {seed}; give at least 1 and at least 0")
     for target in (horizontal_target, vertical_target):
         _check(target, dt_s, duration_s)
+    _check_records(records, dt_s, duration_s)
     across, upright = (
         _Wanted(target=target, frame=make_frame(target, dt_s, duration_s))
         for target in (horizontal_target, vertical_target)
@@ -106,10 +128,11 @@ def make_suite(
         progress(f"motion {k} of {count}")
         rng = np.random.Generator(np.random.PCG64(sequence))
         # y comes last, so that x and z are those of a pair without it.
-        x = _component(across, rng, f"motion-{k:02d}-x", ())
-        z = _component(upright, rng, f"motion-{k:02d}-z", (x,))
-        y = _component(across, rng, f"motion-{k:02d}-y", (x, z))
-        suite.append(SuiteMotion(x=x, y=y, z=z))
+        along, abreast, above = seeds_of(records, k - 1, dt_s, len(across.frame.envelope))
+        x, from_x = _component(across, along, rng, f"motion-{k:02d}-x", ())
+        z, from_z = _component(upright, above, rng, f"motion-{k:02d}-z", (x,))
+        y, from_y = _component(across, abreast, rng, f"motion-{k:02d}-y", (x, z))
+        suite.append(SuiteMotion(x=x, y=y, z=z, seeds=(from_x, from_y, from_z)))
     return suite
 
 
@@ -149,7 +172,7 @@ def synthesise(
     """
     _check(target, dt_s, duration_s)
     wanted = _Wanted(target=target, frame=make_frame(target, dt_s, duration_s))
-    return _component(wanted, rng, name, unlike)
+    return _component(wanted, noise_seed(), rng, name, unlike)[0]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,17 +184,18 @@ class _Wanted:
 
 
 def _component(
-    wanted: _Wanted, rng: np.random.Generator, name: str, unlike: Sequence[Record]
-) -> Record:
+    wanted: _Wanted, seed: Seed, rng: np.random.Generator, name: str, unlike: Sequence[Record]
+) -> tuple[Record, str]:
+    """Return a component with what it grew from."""
     target, frame = wanted.target, wanted.frame
     goal = goal_mps2(frame, target)
-    for _ in range(DRAWS):
-        start = _noise(len(frame.envelope), rng)
+    for draw in range(DRAWS):
+        start = grown(seed, rng, len(frame.envelope), draw)
         a = rounded(matched(frame, shaped(frame, start, target, goal), goal))
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
         alike = any(abs(correlation(record, other)) > CORRELATION for other in unlike)
-        if meets(target, record) and not alike:
-            return record
+        if meets(target, record) and not alike and _strong_share(record) >= STRONG_SHARE:
+            return record, seed.words(draw)
     duration_s = frame.dt_s * (len(frame.envelope) - 1)
     raise InputError(
         f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum; "
@@ -179,9 +203,29 @@ def _component(
     )
 
 
-def _noise(n: int, rng: np.random.Generator) -> Floats:
-    """Return n samples of white noise: amplitudes alike, phases drawn."""
-    return np.fft.irfft(np.exp(2j * np.pi * rng.random(n // 2 + 1)), n)
+def _strong_share(record: Record) -> float:
+    """Share of the samples between 5 and 95 % of the energy."""
+    energy = np.cumsum(record.a_mps2**2)
+    first, last = np.searchsorted(energy, energy[-1] * np.array([0.05, 0.95]))
+    return float(last - first) / (len(energy) - 1)
+
+
+def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s: float) -> None:
+    n = round(duration_s / dt_s) + 1
+    problems = [
+        f"records of motion {k}: found {len(group)}; give one, two or three"
+        for k, group in enumerate(records, start=1)
+        if not 1 <= len(group) <= 3
+    ]
+    for record in (record for group in records for record in group):
+        found_s = record.dt_s * (len(record.a_mps2) - 1)
+        if found_s < _SHORTEST_SHARE * duration_s:
+            least = f"{_SHORTEST_SHARE * duration_s:g} s"
+            problems.append(f"{record.name}: lasts {found_s:g} s; give at least {least} of a seed")
+        elif not strongest(record, dt_s, n).any():
+            problems.append(f"{record.name}: never moves; give another record as a seed")
+    if problems:
+        raise InputError(problems)
 
 
 def _check(target: Target, dt_s: float, duration_s: float) -> None:
