@@ -445,3 +445,36 @@ def oscillator_peaks(a, dt, omega, zeta, peak, at):
             higher = abs(moved) > abs(peak[k])
             peak[k] = moved if higher else peak[k]
             at[k] = i if higher else at[k]
+
+
+@njit(cache=True)
+def oscillator_histories(a, dt, omega, zeta, out):
+    """Absolute acceleration of damped oscillators under the linearly interpolated record.
+
+    The recursion of `oscillator_peaks`, from rest; u'' + a = -(y + 2 zeta z) at every sample.
+
+    Parameters
+    ----------
+    omega, zeta : array, shape (m,)
+        Circular frequencies [rad/s], finite, and fractions of critical damping, in [0, 1).
+    out : array, shape (n, m)
+        Filled, a row for each sample.
+    """
+    m = omega.size
+    c = np.empty((7, m))
+    for k in range(m):
+        p = omega[k] * dt
+        h, slope, once, twice = _oscillator_step(p, zeta[k])
+        over_p = 1.0 / p if p > 0.0 else 0.0
+        c[0, k], c[1, k], c[2, k] = 1.0 - once, h, slope
+        c[3, k], c[4, k] = once - twice * over_p, twice * over_p
+        c[5, k], c[6, k] = h - once * over_p, once * over_p
+    y, z = np.zeros(m), np.zeros(m)
+    out[0, :] = 0.0
+    for i in range(1, a.size):
+        before, now = a[i - 1], a[i]
+        for k in range(m):
+            moved = c[0, k] * y[k] + c[1, k] * z[k] - c[3, k] * before - c[4, k] * now
+            z[k] = c[2, k] * z[k] - c[1, k] * y[k] - c[5, k] * before - c[6, k] * now
+            y[k] = moved
+            out[i, k] = -moved - 2.0 * zeta[k] * z[k]

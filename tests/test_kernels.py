@@ -63,7 +63,7 @@ LONG = [
 
 def run_all(compiled):
     """Return the outcome of every scene by every kernel, compiled or as plain Python."""
-    exact, fill, normal, bounds, sweep, oscillator = (
+    exact, fill, normal, bounds, sweep, oscillator, oscillations = (
         f if compiled else getattr(f, "py_func", f)
         for f in (
             kernels.slide_exact,
@@ -72,6 +72,7 @@ def run_all(compiled):
             kernels.bounds,
             kernels.sweep_exact,
             kernels.oscillator_peaks,
+            kernels.oscillator_histories,
         )
     )
     found = []
@@ -94,6 +95,9 @@ def run_all(compiled):
             peak, at = np.empty(1), np.empty(1, dtype=np.int64)
             oscillator(ax, 0.25, np.array([omega]), 0.05, peak, at)
             found += [peak[0], at[0]]
+        roofs = np.full((ax.size, 3), np.nan)
+        oscillations(ax, 0.25, readonly([0.0, 1e-2, 50.0]), readonly([0.05, 0.0, 0.3]), roofs)
+        found += roofs.ravel().tolist()
     return np.array(found, dtype=float)
 
 
