@@ -141,8 +141,8 @@ def verify(out: Path, quick: bool) -> None:
 @click.option("--ppa-g", type=float, help="Scale to this peak horizontal acceleration [g].")
 @click.option("--factor", type=float, help="Scale by this factor.")
 @click.option("--dt", type=float, help="Time step [s], where the record has no column of times.")
-@click.option("--units", type=click.Choice(["g", "m/s2", "cm/s2", "mm/s2"]), default="g",
-              show_default=True, help="Units of the records.")  # fmt: skip
+@click.option("--units", type=click.Choice(["g", "m/s2", "cm/s2", "mm/s2", "gal"]),
+              help="Units of the records, where the files do not say.")  # fmt: skip
 @click.option("--vertical", type=_SCENE, help="Vertical record, positive up.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
 def slide(
@@ -152,7 +152,7 @@ def slide(
     ppa_g: float | None,
     factor: float | None,
     dt: float | None,
-    units: str,
+    units: str | None,
     vertical: Path | None,
     as_json: bool,
 ) -> None:
@@ -160,7 +160,7 @@ def slide(
     if ppa_g is not None and factor is not None:
         raise click.UsageError("give --ppa-g or --factor, not both")
     with input_errors(record):
-        found = _slide_record(record, vertical, units, dt, slope_deg, mu, ppa_g, factor)
+        found = _slide_record(record, vertical, units or "", dt, slope_deg, mu, ppa_g, factor)
     if as_json:
         click.echo(json.dumps({k: None if v != v else v for k, v in found.items()}))
         return
@@ -179,12 +179,13 @@ def _slide_record(
     factor: float | None,
 ) -> dict[str, Any]:
     """Run one block under one record and return the result by name, with the scene."""
+    from solver.formats import read_record
     from solver.model import InputError
-    from solver.motion import read_record
     from solver.solve import STANDARD_GRAVITY_MPS2, slide
 
-    record = read_record(path, units=units, dt_s=dt_s)
-    lift = read_record(vertical, units=units, dt_s=dt_s) if vertical else None
+    step_s = math.nan if dt_s is None else dt_s
+    record = read_record(path, units=units, dt_s=step_s)
+    lift = read_record(vertical, units=units, dt_s=step_s) if vertical else None
     if lift and lift.dt_s != record.dt_s:
         raise InputError(
             f"{lift.name}: time step is {lift.dt_s} s; give {record.dt_s} s as in {record.name}"

@@ -7,6 +7,7 @@ commands share, then `solver.motion`.
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,10 +33,9 @@ def motion() -> None:
 
 def _reading(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options that say how to read a file."""
-    units = click.Choice(["g", "m/s2", "cm/s2", "mm/s2"])
+    units = click.Choice(["g", "m/s2", "cm/s2", "mm/s2", "gal"])
     options = (
-        click.option("--units", type=units, default="g", show_default=True,
-                     help="Units of the file."),
+        click.option("--units", type=units, help="Units, where the file does not say."),
         click.option("--dt", "dt_s", type=float, help="Time step [s], where the file has none."),
     )  # fmt: skip
     for option in options:
@@ -56,7 +56,9 @@ def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path |
 @click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
 @click.option("--plot", metavar="OUT.svg|OUT.png", type=_FILE, callback=_picture,
               help="Draw the records and their 5 % damped response spectra.")  # fmt: skip
-def info(file: Path, units: str, dt_s: float | None, as_json: bool, plot: Path | None) -> None:
+def info(
+    file: Path, units: str | None, dt_s: float | None, as_json: bool, plot: Path | None
+) -> None:
     """Say what FILE holds: sampling, peaks, Arias intensity, duration, drift at the end."""
     from report.motion_info import summary, table
 
@@ -79,17 +81,17 @@ def info(file: Path, units: str, dt_s: float | None, as_json: bool, plot: Path |
 @click.argument("file", metavar="FILE", type=_FILE)
 @click.argument("out", metavar="OUT.csv", type=_FILE)
 @_reading
-def convert(file: Path, out: Path, units: str, dt_s: float | None) -> None:
+def convert(file: Path, out: Path, units: str | None, dt_s: float | None) -> None:
     """Write FILE as OUT.csv: time in s and acceleration in g; never over a file that is there."""
     with input_errors(file):
         _write(_record(file, units, dt_s), out)
     click.echo(out)
 
 
-def _record(path: Path, units: str, dt_s: float | None) -> Record:
-    from solver.motion import read_record
+def _record(path: Path, units: str | None, dt_s: float | None) -> Record:
+    from solver.formats import read_record
 
-    return read_record(path, units=units, dt_s=dt_s)
+    return read_record(path, units=units or "", dt_s=math.nan if dt_s is None else dt_s)
 
 
 def _write(record: Record, out: Path) -> None:

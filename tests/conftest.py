@@ -31,3 +31,15 @@ def noise():
     phase = rng.uniform(0.0, 2 * np.pi, 60)
     wave = np.sin(2 * np.pi * freq * t[:, None] + phase).sum(axis=1)
     return G * wave / np.abs(wave).max() * np.sin(np.pi * t / 20.0)
+
+
+@pytest.fixture
+def file(tmp_path):
+    """A function that writes a file of text or bytes and returns its path."""
+
+    def write(content, name="roof.csv"):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return write

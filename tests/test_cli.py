@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 import report.package
 from report.cli import main
-from solver.motion import read_record
+from solver.formats import read_record
 from solver.solve import slide
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from report.sheet.workbook import read_workbook
-from solver.motion import read_record, response_spectrum
+from solver.formats import read_record
+from solver.motion import response_spectrum
 from solver.provisions import RULE_SETS, ac156_horizontal, ac156_vertical
 
 EXAMPLE = Path(__file__).resolve().parents[1] / "projects" / "example"

@@ -1,8 +1,7 @@
-"""Records and spectra. Oracles: hand-written files, closed forms, matrix exponentials."""
+"""Records and spectra. Oracles: files read back, closed forms, matrix exponentials."""
 
 from __future__ import annotations
 
-import csv
 import itertools
 import math
 from pathlib import Path
@@ -15,218 +14,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solver import kernels, motion
+from solver.formats import read_record
 from solver.model import InputError
-from solver.motion import Record, read_record, record_from_values, response_spectrum, write_record
+from solver.motion import Record, record_from_values, response_spectrum, write_record
 
 G = 9.80665
-RECORDS = Path(__file__).resolve().parents[2] / "shared" / "records"
 
 motions = st.lists(st.floats(-20.0, 20.0, width=32), min_size=2, max_size=40).map(np.array)
 
 
-def manifest() -> list[dict[str, str]]:
-    """Rows of the folder of real records, none where the folder is not present."""
-    path = RECORDS / "MANIFEST.csv"
-    if not path.is_file():
-        return []
-    return list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
-
-
-def columns_of(*formats: str) -> list[Any]:
-    rows = [row for row in manifest() if row["format"] in formats]
-    skipped = pytest.param(None, marks=pytest.mark.skip(reason="folder of real records absent"))
-    return [pytest.param(row, id=row["file"]) for row in rows] or [skipped]
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> Any:
-    def write(content: str | bytes, name: str = "roof.csv") -> Path:
-        path = tmp_path / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    return write
-
-
-def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
-    with pytest.raises(InputError) as caught:
-        read_record(path, **({"units": "g"} | how))
-    return caught.value.problems
-
-
-class TestReading:
-    @pytest.mark.parametrize(
-        "content",
-        [
-            "0.00,0.1\n0.02,-0.2\n0.04,0.3\n",
-            "0.00;0.1\n0.02;-0.2\n0.04;0.3",
-            "0.00\t0.1\n0.02\t-0.2\n0.04\t0.3\n",
-            "  0.00   0.1\n  0.02  -0.2\n  0.04   0.3\n",
-            "0.00 , 0.1\n0.02 , -0.2\n0.04 , 0.3\n",
-            "time_s,acceleration_g\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n",
-            "Time [s] Acceleration [g]\n0.00 0.1\n0.02 -0.2\n0.04 0.3\n",
-            "# made by hand\n\n0.00,0.1\n0.02,-0.2  # trough\n\n0.04,0.3\n# end\n",
-            "0.00,0.1\r\n0.02,-0.2\r\n0.04,0.3\r\n",
-            "0.00,0.1\r0.02,-0.2\r0.04,0.3\r",
-            "0.00,1e-1\n2E-2,-.2\n+0.04,3.e-1\n",
-            "\ufefftime,acc\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n",
-            "time,acc\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n".encode("utf-16"),
-            "Zeit,a in m/s²\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n".encode("latin-1"),
-        ],
-    )
-    def test_two_columns_read_alike_however_they_are_set(
-        self, file: Any, content: str | bytes
-    ) -> None:
-        record = read_record(file(content), units="g")
-        assert record.name == "roof.csv"
-        assert record.dt_s == 0.02
-        assert record.a_mps2.tolist() == [0.1 * G, -0.2 * G, 0.3 * G]
-
-    @pytest.mark.parametrize("content", ["1\n-2\n3\n", "acc\n1\n-2\n3", "# x\n 1\n\n-2 \n3"])
-    def test_one_column_takes_its_step_from_the_argument(self, file: Any, content: str) -> None:
-        record = read_record(file(content), units="m/s2", dt_s=0.005)
-        assert record.dt_s == 0.005
-        assert record.a_mps2.tolist() == [1.0, -2.0, 3.0]
-
-    @pytest.mark.parametrize(("unit", "size"), [("m/s2", 1), ("cm/s2", 0.01), ("mm/s2", 0.001)])
-    def test_units_are_converted(self, file: Any, unit: str, size: float) -> None:
-        record = read_record(file("0,100\n1,200\n"), units=unit)
-        assert record.a_mps2.tolist() == pytest.approx([100 * size, 200 * size], rel=1e-15)
-
-    def test_a_record_is_frozen_to_its_samples(self, file: Any) -> None:
-        record = read_record(file("0,0\n1,0\n"), units="g")
-        assert not record.a_mps2.flags.writeable
-        assert record.a_mps2.dtype == np.float64
-        with pytest.raises(ValueError, match="read-only"):
-            record.a_mps2[0] = 1.0
-
-    @pytest.mark.parametrize(
-        ("dt_s", "places", "n"),
-        [(0.005, 3, 6001), (0.005, 9, 10), (1 / 128, 3, 4000), (1 / 256, 4, 999), (0.025, 2, 800)],
-    )
-    def test_times_rounded_as_printed_give_the_whole_step(
-        self, file: Any, dt_s: float, places: int, n: int
-    ) -> None:
-        text = "".join(f"{i * dt_s:.{places}f},0.1\n" for i in range(n))
-        assert read_record(file(text), units="g").dt_s == dt_s
-
-    def test_times_of_single_precision_are_even_enough(self, file: Any) -> None:
-        times = np.float32(0.01) * np.arange(3000, dtype=np.float32)
-        text = "".join(f"{float(t)!r} 0.1\n" for t in times)
-        assert read_record(file(text), units="g").dt_s == pytest.approx(0.01, rel=1e-6)
-
-    def test_times_may_start_anywhere(self, file: Any) -> None:
-        assert read_record(file("-0.5,1\n-0.25,2\n0,3\n"), units="g").dt_s == 0.25
-
-    def test_a_given_step_that_agrees_is_kept(self, file: Any) -> None:
-        text = "".join(f"{i / 120:.3f},0.1\n" for i in range(50))
-        assert read_record(file(text), units="g", dt_s=1 / 120).dt_s == 1 / 120
-
-    @pytest.mark.parametrize("row", columns_of("plain column", "csv"))
-    def test_real_records_have_the_step_count_and_peak_of_the_manifest(
-        self, row: dict[str, str]
-    ) -> None:
-        step = float(row["dt_s"]) if row["format"] == "plain column" else None
-        record = read_record(RECORDS / row["file"], units="g", dt_s=step)
-        assert record.dt_s == float(row["dt_s"])
-        assert len(record.a_mps2) == int(row["npts"])
-        assert np.abs(record.a_mps2).max() / G == pytest.approx(float(row["pga_g"]), rel=1e-4)
-
-
-class TestFaults:
-    @pytest.mark.parametrize(
-        ("content", "expected"),
-        [
-            ("0,1\n0.1,abc\n", ["2: found 'abc'; give a number"]),
-            ("0,1\n0.1,NaN\n0.2,-inf\n", ["2: found 'NaN'; give", "3: found '-inf'; give"]),
-            ("nan,1\n0.1,2\n", ["1: found 'nan'; give a number"]),
-            ("t,a\n0,1\n0.1,1e999\n", ["3: found '1e999'; give a number"]),
-            ("0,1\n0.1,\n", ["2: found ''; give a number"]),
-            ("0,1\n0.1,1_0\n0.2,x\n", ["2: found '1_0'", "3: found 'x'"]),
-            ("0 1\n0.1\n0.2 1 2\n", ["2: found 1 column; give 2", "3: found 3 columns; give 2"]),
-            ("0 1 2\n0.1 3 4\n", ["1: found 3 columns; give one (acc"]),
-            ("0,0;0,12\n0.1;2\n", ["1: found '0,0'; give a number with a decimal point", "1: fou"]),
-            ("0.1 0,12\n0.2 0,13\n", ["1: found '0,12'; give a number with a dec", "2: found"]),
-            ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; give a number with a decimal"]),
-            ("0 1\n1 2\n2 3\n4 4\n5 5", ["4: found time 4 s after 2 s, the usual step being 1 s"]),
-            ("2 1\n1 2\n0 3\n", ["2: found time 1 s after 2 s", "3: found time 0 s after 1 s"]),
-            ("0 1\n0 2\n", ["2: found time 0 s after 0 s"]),
-            ("0 1\n1e-320 2\n", ["2: found time 9.99989e-321 s after 0 s"]),
-            ("0 1\n" + "1" * 1200 + " 2\n", ["2: found a line of 1202 characters; give at"]),
-        ],
-    )
-    def test_each_line_at_fault_is_named_with_what_would_do(
-        self, file: Any, content: str, expected: list[str]
-    ) -> None:
-        problems = problems_of(file(content))
-        starts = [f"roof.csv:{line}" for line in expected]
-        assert [p[: len(s)] for p, s in zip(problems, starts, strict=True)] == starts
-
-    @pytest.mark.parametrize(
-        ("content", "expected"),
-        [
-            ("", "found no numbers"),
-            ("# nothing\n\n", "found no numbers"),
-            ("time,acc\n", "found no numbers"),
-            ("0,1\n", "found 1 sample; give at least 2"),
-            ("1\n2\n", "found one column, without times; give the time step dt"),
-            (b"\x89PNG\r\n\x1a\n\x00", "not a text file"),
-            (b"\xff\xfe\x00", "not a text file"),
-        ],
-    )
-    def test_a_file_without_a_record_is_refused(
-        self, file: Any, content: str | bytes, expected: str
-    ) -> None:
-        (problem,) = problems_of(file(content))
-        assert problem.startswith(f"roof.csv: {expected}")
-
-    def test_what_is_not_a_file_is_refused(self, tmp_path: Path) -> None:
-        assert problems_of(tmp_path / "none.csv")[0].startswith("none.csv: no such file")
-        assert problems_of(tmp_path)[0].startswith(f"{tmp_path.name}: not a file")
-
-    def test_a_file_that_may_not_be_opened_says_why(
-        self, file: Any, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        def refuse(path: Path) -> bytes:
-            raise PermissionError(13, "Permission denied")
-
-        monkeypatch.setattr(Path, "read_bytes", refuse)
-        assert problems_of(file("0,1\n")) == ("roof.csv: cannot be read (Permission denied)",)
-
-    def test_a_file_beyond_the_size_cap_is_not_opened(
-        self, file: Any, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        monkeypatch.setattr(motion, "MAX_BYTES", 3)
-        assert problems_of(file("0,1\n1,1\n"))[0].endswith("give at most 0 MB")
-
-    def test_many_faults_are_cut_short_and_counted(self, file: Any) -> None:
-        problems = problems_of(file("0.1\n" + "x\n" * 37), dt_s=0.1)
-        assert len(problems) == 11
-        assert problems[9:] == ("roof.csv:11: found 'x'; give a number", "... and 27 more")
-
-    @pytest.mark.parametrize("gap", [1, 500, 998])
-    def test_a_lost_sample_is_found_at_its_line(self, file: Any, gap: int) -> None:
-        rows = [f"{i / 100:.2f},0.1\n" for i in range(1000) if i != gap]
-        (problem,) = problems_of(file("".join(rows)))
-        assert problem.startswith(f"roof.csv:{gap + 1}: found time {(gap + 1) / 100:g} s after")
-
-    def test_a_step_that_drifts_is_refused(self, file: Any) -> None:
-        text = "".join(f"{0.01 * i + 1e-6 * i * i:.7f},0.1\n" for i in range(200))
-        (problem,) = problems_of(file(text))
-        assert "give even, rising times" in problem
-
-    def test_a_given_step_that_disagrees_is_refused(self, file: Any) -> None:
-        (problem,) = problems_of(file("0,1\n0.01,2\n"), dt_s=0.02)
-        assert problem == "roof.csv: the times step by 0.01 s but dt is 0.02 s; give one of them"
-
-    @pytest.mark.parametrize("dt_s", [0.0, -0.01, math.nan, math.inf])
-    def test_unknown_units_and_impossible_steps_are_refused_together(
-        self, file: Any, dt_s: float
-    ) -> None:
-        problems = problems_of(file("0,1\n"), units="gal", dt_s=dt_s)
-        assert problems[0] == "roof.csv: unit is 'gal'; give one of g, m/s2, cm/s2, mm/s2"
-        assert problems[1].startswith(f"roof.csv: time step dt is {dt_s!r}; give a number")
-
+class TestPastedValues:
     def test_pasted_values_at_fault_are_named_by_their_place(self) -> None:
         values = [0.1, None, "0,2", math.nan, 3, True, 10**400]
         with pytest.raises(InputError) as caught:
@@ -244,9 +41,11 @@ class TestFaults:
             record_from_values("M1", [1.0], units="g", dt_s=0.01)
 
 
-def test_pasted_values_make_the_record_that_a_file_makes(file: Any) -> None:
+def test_pasted_values_make_the_record_that_a_file_makes(tmp_path: Path) -> None:
+    path = tmp_path / "roof.csv"
+    path.write_text("0,1\n0.5,2.5\n")
     pasted = record_from_values("M1", np.array([1.0, 2.5]), units="g", dt_s=0.5)
-    filed = read_record(file("0,1\n0.5,2.5\n"), units="g")
+    filed = read_record(path, units="g")
     assert pasted.dt_s == filed.dt_s
     assert pasted.a_mps2.tolist() == filed.a_mps2.tolist()
 
@@ -382,7 +181,7 @@ class TestSpectrum:
     def test_the_kernel_says_with_which_sign_and_when_the_peak_is(self) -> None:
         a = np.r_[0.0, 1.0, np.zeros(200)]
         peak, at = np.empty(1), np.empty(1, dtype=np.int64)
-        kernels.oscillator_peaks(motion._read_only(a), 0.01, np.array([2 * np.pi]), 0.0, peak, at)
+        kernels.oscillator_peaks(motion.read_only(a), 0.01, np.array([2 * np.pi]), 0.0, peak, at)
         # A push of 0.01 m/s about t = 0.01 s: u = -0.01 sin(w t) / w, first trough at T/4.
         assert at.tolist() == [26]
         assert peak == pytest.approx([-0.01 * 2.0 * np.pi], rel=1e-3)

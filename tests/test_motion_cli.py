@@ -9,8 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 from report.cli import main
+from solver.formats import read_record
 from solver.measures import measures
-from solver.motion import read_record
 
 ROOT = Path(__file__).resolve().parents[1]
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
@@ -56,7 +56,7 @@ def test_info_gives_every_measure_in_si():
 
 
 def test_info_prints_a_table_for_people(column):
-    done = run("info", column, "--dt", 0.02)
+    done = run("info", column, "--dt", 0.02, "--units", "g")
     assert done.exit_code == 0
     lines = done.output.splitlines()
     heading = re.split(r"  +", lines[0].strip())
@@ -84,14 +84,15 @@ def test_info_draws_a_picture_the_same_each_time(tmp_path, name, start):
 
 
 def test_info_never_draws_over_a_record(column):
-    done = run("info", column, "--dt", 0.02, "--plot", column)
+    done = run("info", column, "--dt", 0.02, "--units", "g", "--plot", column)
     assert done.exit_code == 2
     assert "end it in .svg or .png" in done.output
     assert column.read_text() == "0\n0.125\n-0.25\n0\n"
 
 
 def test_info_says_where_a_picture_cannot_be_written(column, tmp_path):
-    done = run("info", column, "--dt", 0.02, "--plot", tmp_path / "none" / "a.svg")
+    out = tmp_path / "none" / "a.svg"
+    done = run("info", column, "--dt", 0.02, "--units", "g", "--plot", out)
     assert done.exit_code == 2
     assert "cannot be written (No such file or directory)" in done.output
 
@@ -105,7 +106,7 @@ def test_info_takes_the_step_and_the_units_of_a_bare_column(column):
 
 def test_convert_writes_time_and_g(column, tmp_path):
     out = tmp_path / "out.csv"
-    done = run("convert", column, out, "--dt", 0.02)
+    done = run("convert", column, out, "--dt", 0.02, "--units", "g")
     assert done.exit_code == 0
     assert str(out) in done.output
     assert out.read_text().splitlines() == [
@@ -130,14 +131,14 @@ def test_convert_loses_nothing_of_a_small_record(tmp_path, scale):
 def test_convert_never_writes_over_a_file(column, tmp_path):
     out = tmp_path / "out.csv"
     out.write_text("mine")
-    done = run("convert", column, out, "--dt", 0.02)
+    done = run("convert", column, out, "--dt", 0.02, "--units", "g")
     assert done.exit_code == 2
     assert "is there already; give another name" in done.output
     assert out.read_text() == "mine"
 
 
 def test_convert_into_a_folder_that_is_not_there_exits_2(column, tmp_path):
-    done = run("convert", column, tmp_path / "none" / "out.csv", "--dt", 0.02)
+    done = run("convert", column, tmp_path / "none" / "out.csv", "--dt", 0.02, "--units", "g")
     assert done.exit_code == 2
     assert "cannot be written (No such file or directory)" in done.output
 

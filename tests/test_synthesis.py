@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from scipy import signal
 
+from solver.formats import read_record
 from solver.model import Floats, InputError
-from solver.motion import Record, read_record, write_record
+from solver.motion import Record, write_record
 from solver.synthesis import (
     SuiteMotion,
     Target,

@@ -427,7 +427,7 @@ WITHIN = "give a file within the workbook's folder, such as records/m1-x.csv"
         ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
         ("pipe.csv", f"'pipe.csv' is no file; {WITHIN}"),
         ("big.csv", "'big.csv' has 65 MB; at most 64 MB do"),
-        ("input.xlsx", "input.xlsx: not a text file; give text or csv of one or two columns"),
+        ("input.xlsx", "input.xlsx: not a text file; give the text of a record"),
     ],
 )
 def test_a_record_must_be_a_file_within_the_folder(tmp_path, name, line):

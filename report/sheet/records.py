@@ -1,11 +1,12 @@
 """Loads the records that a workbook names: files beside it, or columns in one of its sheets.
 
-Owns what a workbook may reach on the disk. Formats of records are for `solver.motion`.
+Owns what a workbook may reach on the disk. Formats of records are for `solver.formats`.
 """
 
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
@@ -19,8 +20,9 @@ from report.sheet.fields import Fault, Place
 from report.sheet.locate import MAX_COLUMNS, Spot, cells_below
 from report.sheet.schema import Polarity, Scaling
 from report.units import G_MPS2
+from solver.formats import read_record
 from solver.model import Floats, InputError, Motion
-from solver.motion import Record, read_record, record_from_values
+from solver.motion import Record, record_from_values
 
 MAX_BYTES = 64_000_000
 HEADING_ROWS = 10
@@ -113,7 +115,7 @@ def _read(book: OpenBook, name: str, units: str, dt_s: float | None) -> _Compone
     if heading is not None:
         return _read_column(book, name, heading, units, dt_s)
     path = _path(book.path.parent, name)
-    record = read_record(path, units=units, dt_s=dt_s)
+    record = read_record(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
     return _Component(record, hashlib.sha256(path.read_bytes()).hexdigest())
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import oracle
-from solver.motion import read_record
+from solver.formats import read_record
 from solver.solve import slide
 
 ROOT = Path(__file__).resolve().parents[2]

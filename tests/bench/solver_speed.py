@@ -24,7 +24,7 @@ import numpy as np
 from numba import njit
 
 from solver import kernels, rivals
-from solver.motion import read_record
+from solver.formats import read_record
 
 ROOT = Path(__file__).resolve().parents[2]
 G = 9.80665

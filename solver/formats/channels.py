@@ -1,0 +1,92 @@
+"""From a channel's values to records, with what a user should know of them.
+
+Owns the comparison of a record with the peak that its header states; knows no format. Read
+`motion_file` first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.formats.motionfile import MotionFile, distinct
+from solver.formats.source import Source
+from solver.model import Floats, InputError
+from solver.motion import UNITS, Record, read_only
+
+# A header's peak may be of other processing, or rounded; a factor of two is another unit.
+_PEAK_WITHIN = 0.01
+_PEAK_FACTOR = 2.0
+_OFFSET = 0.01
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Channel:
+    """One component as it was read.
+
+    Attributes
+    ----------
+    name : str
+        As the file prints it; "" where it has none.
+    dt_s : float
+    a_mps2 : array, shape (n,)
+    notes : tuple of str
+    """
+
+    name: str
+    dt_s: float
+    a_mps2: Floats
+    notes: tuple[str, ...]
+
+
+def motion_file(
+    source: Source, form: str, channels: Sequence[Channel], notes: Sequence[str] = ()
+) -> MotionFile:
+    """Make the result of a reader: names that differ, notes that say which channel they are of."""
+    if not channels:
+        raise InputError(f"{source.name}: found no acceleration in this {form} file; give one")
+    alone = len(channels) == 1
+    names = distinct(channel.name or (source.name if alone else "") for channel in channels)
+    records, told = [], list(notes)
+    for name, channel in zip(names, channels, strict=True):
+        if len(channel.a_mps2) < 2:
+            found = len(channel.a_mps2)
+            samples = "1 sample" if found == 1 else f"{found} samples"
+            raise InputError(f"{source.name}: found {samples}; give at least 2")
+        a_mps2 = read_only(channel.a_mps2)
+        records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
+        told += channel.notes if alone else [f"{name}: {note}" for note in channel.notes]
+    return MotionFile(
+        name=source.name, format=form, channels=tuple(records), notes=tuple(dict.fromkeys(told))
+    )
+
+
+def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -> tuple[str, ...]:
+    """Compare values with the peak that a header states; nan or 0 states none.
+
+    Raises
+    ------
+    InputError
+        Where they differ by a factor of two: then the unit, the scale or the values are wrong.
+    """
+    stated, found = abs(stated_mps2), float(np.abs(a_mps2).max(initial=0.0))
+    if not 0.0 < stated < np.inf:
+        return ()
+    g = UNITS["g"]
+    words = f"the header states a peak of {stated / g:.4g} g, the values reach {found / g:.4g} g"
+    if not stated / _PEAK_FACTOR <= found <= stated * _PEAK_FACTOR:
+        raise InputError(f"{source.at(index)}: {words}; give a file whose header and values agree")
+    return () if abs(found - stated) <= _PEAK_WITHIN * stated else (words,)
+
+
+def offset_notes(a_mps2: Floats) -> tuple[str, ...]:
+    """Say that uncorrected values stand off zero: their mean times the length is velocity."""
+    mean, peak = float(np.mean(a_mps2)), float(np.abs(a_mps2).max())
+    if abs(mean) <= _OFFSET * peak:
+        return ()
+    return (
+        f"uncorrected: the mean is {mean / UNITS['g']:.3g} g, {100.0 * abs(mean) / peak:.2g} % of"
+        " the peak; it is not removed",
+    )

@@ -1,0 +1,145 @@
+"""Headings of columns of text: their names, and the units that they state.
+
+Owns what a heading means; reads no numbers. Read `parse` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from solver.formats.units import is_other_unit, unit_size
+
+_TIMES = {"t", "time", "times", "zeit", "tiempo", "temps", "tempo", "sec", "secs", "seconds"}
+_SECONDS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 0.001}
+
+_BRACKETED = re.compile(r"([^\[(]*)[\[(]([^\])]*)[\])]\s*")
+_IN = re.compile(r"(.*\S)\s+in\s+(\S+)", re.IGNORECASE)
+_WORD = re.compile(r"[^\s\[(]+(?:\s?[\[(][^\])]*[\])])?")
+_IN_BRACKETS = re.compile(r"[\[(]([^\])]{1,16})[\])]")
+_UNITS_OF = re.compile(r"\bunits?\b[\s:=]*(?:(?:of|in|are|is)\b)?[\s:=]*([^\s,;]+)", re.IGNORECASE)
+_IN_PROSE = re.compile(r"\bin\s+([^\s,;]+)", re.IGNORECASE)
+_STEP = re.compile(
+    r"\b(?:dt|time[ _]step)(?:_s\b|\b)\s*(?:[\[(]s[\])])?\s*[:=]\s*([+-]?[0-9.]+(?:[eE][+-]?\d+)?)"
+    r"\s*(ms\b)?",
+    re.ASCII | re.IGNORECASE,
+)
+
+
+class Kind(Enum):
+    """What a column holds, as far as its heading says."""
+
+    TIME = "time"
+    ACCELERATION = "acceleration"
+    OTHER = "other"
+    UNSAID = "unsaid"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Heading:
+    """Heading of one column.
+
+    Attributes
+    ----------
+    text : str
+        As it is written.
+    name : str
+        Without its unit.
+    kind : Kind
+    unit : str
+        As it is written; "" where there is none.
+    seconds : float
+        Size [s] of the unit of a time; 1 else.
+    """
+
+    text: str
+    name: str
+    kind: Kind
+    unit: str
+    seconds: float
+
+
+def parse(text: str) -> Heading:
+    """Understand a heading such as ``t_s``, ``acc_g``, ``EW [cm/s2]`` or ``a in gal``."""
+    text = text.strip().strip("\"'").strip()
+    name, unit = _split(text)
+    kind, seconds = _kind(name, unit)
+    return Heading(text=text, name=name, kind=kind, unit=unit, seconds=seconds)
+
+
+def settled(headings: list[Heading]) -> list[Heading]:
+    """Headings where the g of ``ch_g`` is a letter, if its neighbours ``ch_f`` state no unit."""
+    if not any(heading.kind is Kind.UNSAID for heading in headings[1:]):
+        return headings
+    return [
+        replace(heading, name=heading.text, kind=Kind.UNSAID, unit="")
+        if heading.text.lower().endswith("_g")
+        else heading
+        for heading in headings
+    ]
+
+
+def words(line: str, separator: str | None) -> list[str]:
+    """Headings of a line: between separators, or words, each with the bracket that follows it."""
+    return _WORD.findall(line) if separator is None else line.split(separator)
+
+
+def remark(line: str, separator: str | None, width: int) -> list[Heading]:
+    """Headings that a comment begins with, prose behind them aside; none if it has none."""
+    texts = words(line, separator)[:width]
+    if len(texts) < width or width < 2 or parse(texts[0]).kind is not Kind.TIME:
+        return []
+    last = parse(texts[-1])
+    if last.kind is Kind.UNSAID and (first_word := _WORD.search(texts[-1])):
+        last = parse(first_word[0])
+    return [*map(parse, texts[:-1]), last]
+
+
+def units_in(line: str) -> list[str]:
+    """Units of acceleration that a line of prose states."""
+    places = [*_IN_BRACKETS.findall(line), *_UNITS_OF.findall(line), *_IN_PROSE.findall(line)]
+    named = [parse(word) for word in re.split(r"[\s,;]+", line)]
+    places += [heading.unit for heading in named if heading.kind is Kind.ACCELERATION]
+    plain = [place.rstrip(".") for place in places]
+    return [place for place in plain if not math.isnan(unit_size(place))]
+
+
+def step_in(line: str) -> tuple[str, float]:
+    """Time step that a line of prose states, as printed, and the size [s] of its unit; else ""."""
+    found = _STEP.search(line)
+    return (found[1], 0.001 if found[2] else 1.0) if found else ("", 1.0)
+
+
+def _split(text: str) -> tuple[str, str]:
+    """Name and unit of a heading."""
+    for pattern in (_BRACKETED, _IN):
+        if (found := pattern.fullmatch(text)) and _is_unit(found[2], bracketed=True):
+            return found[1].strip(), found[2].strip()
+    for place in (i for i, letter in enumerate(text) if letter == "_"):
+        name, unit = text[:place], text[place + 1 :]
+        if _is_unit(unit, bracketed=False) or (unit.lower() in _SECONDS and _is_time(name)):
+            return name, unit
+    return text, ""
+
+
+def _is_unit(text: str, *, bracketed: bool) -> bool:
+    if bracketed and text.strip().lower() in _SECONDS:
+        return True
+    # Behind an underscore, `in` and `ft` are as likely words.
+    other = is_other_unit(text) and (bracketed or text.lower() not in ("in", "ft"))
+    return other or not math.isnan(unit_size(text))
+
+
+def _is_time(name: str) -> bool:
+    return name.strip().lower() in _TIMES
+
+
+def _kind(name: str, unit: str) -> tuple[Kind, float]:
+    seconds = _SECONDS.get(unit.strip().lower(), 0.0)
+    if seconds or (not unit and _is_time(name)):
+        return Kind.TIME, seconds or 1.0
+    if not math.isnan(unit_size(unit)):
+        return Kind.ACCELERATION, 1.0
+    return Kind.OTHER if unit else Kind.UNSAID, 1.0

@@ -1,0 +1,260 @@
+"""Numbers in lines of text: columns of fixed width as Fortran writes them, and free ones.
+
+Owns what is wrong with a number, a count or the end of a file; knows no format. Read
+`fixed_values` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from solver.formats.source import Source, Stated
+from solver.model import Floats, InputError
+from solver.motion import BEYOND, is_finite_number, raise_any, shown
+
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
+_FORMAT = re.compile(r"\s*(\d{1,2})\s*(?:[A-Z]{1,2})\s*(\d{1,2})(\D|$)", re.ASCII | re.IGNORECASE)
+
+# Fortran prints the exponent of a double after a D.
+_FORTRAN = str.maketrans("dD", "eE")
+
+_Item = TypeVar("_Item")
+_Result = TypeVar("_Result")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layout:
+    """Fields of fixed width: 8F10.3 has 8 to a line, each 10 wide."""
+
+    per_line: int
+    width: int
+
+    def lines(self, count: int) -> int:
+        """Lines that so many values take."""
+        return -(-count // self.per_line)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Block:
+    """Where the values of a record stand, and the line that promises how many.
+
+    Attributes
+    ----------
+    first, stop : int
+        Index of the first line, and of the one after the last that may hold values.
+    count : int
+    promised : int
+        Index of the line with the count.
+    """
+
+    first: int
+    stop: int
+    count: int
+    promised: int
+
+
+def layout_of(text: str) -> Layout | None:
+    """Layout of a Fortran format such as ``8f10.3`` or ``1E15.6``; None where it is none."""
+    found = _FORMAT.match(text)
+    per_line, width = (int(found[1]), int(found[2])) if found else (0, 0)
+    return Layout(per_line=per_line, width=width) if per_line and width else None
+
+
+def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
+    """Values of a block of fixed columns, every line but the last being full.
+
+    Returns
+    -------
+    array, shape (block.count,)
+
+    Raises
+    ------
+    InputError
+        With every field at fault, or where the values end before the promised count.
+    """
+    last = min(block.first + layout.lines(block.count), block.stop)
+    rows = [line.rstrip() for line in source.lines[block.first : last]]
+    values = _fixed_fast(rows, block.count, layout)
+    if values is None:
+        fields = [_cut(row, layout) for row in rows]
+        values = _slowly(source, block, fields, layout.per_line)
+    _check_no_more(source, block, last)
+    return values
+
+
+def fixed_rows(source: Source, block: Block, layout: Layout) -> Floats:
+    """Values of all lines of a block of fixed columns, where any line may be a short one.
+
+    `block.count` is not looked at.
+    """
+    rows = [line.rstrip() for line in source.lines[block.first : block.stop]]
+    whole = [row.ljust(layout.width * -(-len(row) // layout.width)) for row in rows]
+    values = None
+    if all(len(row) <= layout.per_line * layout.width for row in rows):
+        values = _converted("".join(whole), layout.width)
+    return (
+        _row_by_row(source, block, [_cut(row, layout) for row in rows])
+        if values is None
+        else values
+    )
+
+
+def free_values(source: Source, block: Block) -> Floats:
+    """Values of all lines of a block, set apart by blanks; there must be as many as promised."""
+    rows = [line.translate(_FORTRAN).split() for line in source.lines[block.first : block.stop]]
+    try:
+        fields = [field for row in rows for field in row]
+        if any("_" in field for field in fields):
+            raise ValueError
+        values = np.array([float(field) for field in fields])
+    except ValueError:
+        values = np.array([math.nan])
+    if not (np.abs(values) < BEYOND).all():
+        values = _row_by_row(source, block, rows)
+    if len(values) != block.count:
+        raise InputError(_wrong_count(source, block, len(values)))
+    return values
+
+
+def header_values(source: Source, first: int, count: int, layout: Layout) -> list[float]:
+    """Values of a header; nan where a field is blank, missing or no number, for many are unused."""
+    rows = source.lines[first : first + layout.lines(count)]
+    fields = [field for row in rows for field in _padded(_cut(row.rstrip(), layout), layout)]
+    values = [float(field) if not field_problem(field) else math.nan for field in fields]
+    return [*values, *[math.nan] * count][:count]
+
+
+def field_problem(field: str) -> str:
+    """What is wrong with a field that should be a finite number, with what would do; else ""."""
+    if NUMBER.fullmatch(field) and is_finite_number(float(field)):
+        return ""
+    if field and not field.strip("*"):
+        return f"found {shown(field)}, a number too large for its columns; give a wider file"
+    point = " with a decimal point" if _DECIMAL_COMMA.match(field) else ""
+    return f"found {shown(field)}; give a number{point}"
+
+
+def printed(text: str, index: int) -> Stated:
+    """A number as it is printed, rounded by up to half of its last digit."""
+    found = NUMBER.fullmatch(text.strip())
+    if not found:
+        return Stated(value=math.nan, rounding=0.0, index=index)
+    mantissa, _, exponent = text.strip().lower().partition("e")
+    decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
+    rounding = 0.5 * 10.0**-decimals if "." in mantissa and abs(decimals) < 300 else 0.0
+    return Stated(value=float(text), rounding=rounding, index=index)
+
+
+def each(read: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Result]:
+    """Read every item, and tell the problems of all of them together."""
+    results: list[_Result] = []
+    problems: list[str] = []
+    for item in items:
+        try:
+            results.append(read(item))
+        except InputError as error:
+            problems += error.problems
+    raise_any(problems)
+    return results
+
+
+def skip_blank(source: Source, index: int) -> int:
+    """Index of the first line from there on that is not blank, or of the end."""
+    while index < len(source.lines) and not source.lines[index].strip():
+        index += 1
+    return index
+
+
+def _fixed_fast(rows: Sequence[str], count: int, layout: Layout) -> Floats | None:
+    if len(rows) != layout.lines(count) or not rows:
+        return None
+    full = layout.per_line * layout.width
+    tail = (count - (len(rows) - 1) * layout.per_line) * layout.width
+    if max(map(len, rows)) > full or len(rows[-1]) > tail:
+        return None
+    text = "".join([*(row.ljust(full) for row in rows[:-1]), rows[-1].ljust(tail)])
+    return _converted(text, layout.width)
+
+
+def _converted(text: str, width: int) -> Floats | None:
+    """Values of a run of fields of one width, or None where one of them is no finite number."""
+    # numpy takes an underscore between digits, and so does Python.
+    if not text or not text.isascii() or "_" in text:
+        return None
+    try:
+        fields = np.frombuffer(text.translate(_FORTRAN).encode(), dtype=f"S{width}")
+        values: Floats = fields.astype(np.float64)
+    except ValueError:
+        return None
+    return values if (np.abs(values) < BEYOND).all() else None
+
+
+def _cut(row: str, layout: Layout) -> list[str]:
+    row = row.translate(_FORTRAN)
+    return [row[i : i + layout.width].strip() for i in range(0, len(row), layout.width)]
+
+
+def _padded(fields: Sequence[str], layout: Layout) -> list[str]:
+    return [*fields, *[""] * layout.per_line][: layout.per_line]
+
+
+def _slowly(source: Source, block: Block, rows: list[list[str]], per_line: int) -> Floats:
+    """Go through a block that has a fault, row by row, to say all that is wrong with it."""
+    values: list[float] = []
+    problems: list[str] = []
+    seen = 0
+    for number, fields in enumerate(rows):
+        if all(field_problem(field) for field in fields):
+            break
+        due = min(per_line, block.count - number * per_line)
+        seen += due
+        if len(fields) != due:
+            found = "1 value" if len(fields) == 1 else f"{len(fields)} values"
+            problems.append(f"{source.at(block.first + number)}: found {found}; give {due}")
+        problems += _field_problems(source, block.first + number, fields)
+        values += [float(field) for field in fields if not field_problem(field)]
+    if seen < block.count:
+        problems.append(_wrong_count(source, block, seen))
+    raise_any(problems)
+    return np.array(values)
+
+
+def _row_by_row(source: Source, block: Block, rows: list[list[str]]) -> Floats:
+    raise_any(
+        [
+            problem
+            for number, fields in enumerate(rows)
+            for problem in _field_problems(source, block.first + number, fields)
+        ]
+    )
+    return np.array([float(field) for fields in rows for field in fields])
+
+
+def _field_problems(source: Source, index: int, fields: Iterable[str]) -> list[str]:
+    at = source.at(index)
+    return [f"{at}: {problem}" for field in fields if (problem := field_problem(field))]
+
+
+def _wrong_count(source: Source, block: Block, found: int) -> str:
+    where = "the whole file" if found < block.count else "the count that the file holds"
+    return (
+        f"{source.at(block.promised)}: promises {block.count} values, found {found}; give {where}"
+    )
+
+
+def _check_no_more(source: Source, block: Block, last: int) -> None:
+    """Refuse a further line of numbers behind the promised ones."""
+    following = source.lines[last : block.stop]
+    fields = next((line.split() for line in following if line.strip()), [])
+    if fields and not any(field_problem(field.translate(_FORTRAN)) for field in fields):
+        raise InputError(
+            f"{source.at(block.promised)}: promises {block.count} values, found more of them in"
+            f" line {last + 1}; give the count that the file holds"
+        )

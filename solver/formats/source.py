@@ -1,0 +1,160 @@
+"""A file's lines, with what the caller says of it, and the checks of one against the other.
+
+Owns the limits on files from strangers; knows no format. Read `open_source` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from solver.formats.units import UNIT_CHOICES, unit_size
+from solver.model import InputError
+from solver.motion import is_finite_number, raise_any, shown
+
+MAX_BYTES = 64_000_000
+MAX_LINE = 1000
+
+# Apart from tab, line ends and form feed, text has no control characters.
+_CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f]")
+
+# Old systems end a text file with Ctrl-Z, or fill its last block with it.
+_END_OF_TEXT = b"\x1a \r\n"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stated:
+    """A number as a file prints it: where, and how far rounding may have moved it."""
+
+    value: float
+    rounding: float
+    index: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Source:
+    """Lines of a file, and what the caller gives where the file does not say.
+
+    Attributes
+    ----------
+    name : str
+    lines : list of str
+        Without their ends.
+    units : str
+        One of `UNIT_CHOICES`, or "" where the caller gives none.
+    dt_s : float
+        Sampling interval [s], or nan where the caller gives none.
+    """
+
+    name: str
+    lines: list[str]
+    units: str
+    dt_s: float
+
+    def at(self, index: int) -> str:
+        """Name and number of the line of an index, as messages begin."""
+        return f"{self.name}:{index + 1}"
+
+    def line(self, index: int) -> str:
+        """Return the line of an index, empty beyond the end of the file."""
+        return self.lines[index] if index < len(self.lines) else ""
+
+    def scale(self, stated: str, index: int) -> float:
+        """Size [m/s2] of the unit that the file states; the caller's, if any, must be the same."""
+        size = unit_size(stated)
+        if math.isnan(size):
+            known = ", ".join(UNIT_CHOICES)
+            raise InputError(
+                f"{self.at(index)}: found unit {shown(stated)}; give an acceleration in {known}"
+            )
+        if self.units and not math.isclose(unit_size(self.units), size):
+            raise InputError(
+                f"{self.at(index)}: the file is in {stated} but units are {self.units};"
+                " give the file's own, or none"
+            )
+        return size
+
+    def given_scale(self) -> float:
+        """Size [m/s2] of the caller's unit, for a file that states none."""
+        if not self.units:
+            raise InputError(
+                f"{self.name}: found no unit of acceleration; give units, one of"
+                f" {', '.join(UNIT_CHOICES)}, or a heading such as acc_g"
+            )
+        return unit_size(self.units)
+
+    def step(self, stated: Stated) -> float:
+        """Sampling interval [s] that the file states; the caller's, if any, must agree."""
+        value = stated.value
+        if not (is_finite_number(value) and value > 0.0):
+            raise InputError(
+                f"{self.at(stated.index)}: found time step {value:g} s; give a number above 0"
+            )
+        if math.isnan(self.dt_s):
+            return value
+        if abs(value - self.dt_s) > stated.rounding + 1e-4 * value:
+            raise InputError(
+                f"{self.at(stated.index)}: the file steps by {value:.6g} s but dt is"
+                f" {self.dt_s:.6g} s; give the file's own, or none"
+            )
+        return self.dt_s
+
+
+def open_source(path: Path, *, units: str, dt_s: float) -> Source:
+    """Read the lines of a file.
+
+    Raises
+    ------
+    InputError
+        Where the arguments make no sense, or the file is missing, too large or no text.
+    """
+    name, problems = path.name, []
+    if units and units not in UNIT_CHOICES:
+        problems.append(f"{name}: unit is {units!r}; give one of {', '.join(UNIT_CHOICES)}")
+    if not math.isnan(dt_s) and not (is_finite_number(dt_s) and dt_s > 0.0):
+        problems.append(f"{name}: time step dt is {dt_s!r}; give a number of seconds above 0")
+    raise_any(problems)
+    return Source(name=name, lines=_lines(name, _bytes(path)), units=units, dt_s=float(dt_s))
+
+
+def _bytes(path: Path) -> bytes:
+    name = path.name
+    try:
+        if not path.exists():
+            raise InputError(f"{name}: no such file; give the path of a record")
+        if not path.is_file():
+            raise InputError(f"{name}: not a file; give the path of a record")
+        size = path.stat().st_size
+        if size > MAX_BYTES:
+            raise InputError(f"{name}: {size / 1e6:.0f} MB; give at most {MAX_BYTES / 1e6:.0f} MB")
+        return path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{name}: cannot be read ({error.strerror})") from error
+
+
+def _lines(name: str, data: bytes) -> list[str]:
+    lines = _decode(name, data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    raise_any(
+        [
+            f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
+            for number, line in enumerate(lines, start=1)
+            if len(line) > MAX_LINE
+        ]
+    )
+    return lines
+
+
+def _decode(name: str, data: bytes) -> str:
+    """Text of the file; bytes that are not UTF-8, as in an old heading, count as Latin-1."""
+    try:
+        if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+            return data.decode("utf-16")
+        data = data.rstrip(_END_OF_TEXT)
+        if not _CONTROL.search(data):
+            return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        if not _CONTROL.search(data):
+            return data.decode("latin-1")
+    raise InputError(f"{name}: not a text file; give the text of a record")

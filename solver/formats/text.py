@@ -1,0 +1,263 @@
+"""Text and csv: one column (acceleration), or times and one or more columns.
+
+Owns this format only; what headings mean is for `solver.formats.headings`, times for
+`solver.formats.times`. Columns stand apart by comma, semicolon, tab or blanks. One heading line,
+blank lines and comments after `#` are skipped, but read for units. Read `read` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.formats import headings
+from solver.formats.channels import Channel, motion_file
+from solver.formats.headings import Heading, Kind
+from solver.formats.motionfile import MotionFile
+from solver.formats.numbers import field_problem, printed
+from solver.formats.source import Source, Stated
+from solver.formats.times import Sampled, is_even, sampled
+from solver.formats.units import unit_size
+from solver.model import Floats, InputError
+from solver.motion import BEYOND, raise_any, shown
+
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
+_BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
+
+_Row = tuple[int, str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Table:
+    """Numbers of a text, with what its heading says of them.
+
+    Attributes
+    ----------
+    values : array, shape (n, k)
+    rows : list of (int, str), length n
+        Index and content of each row's line.
+    headings : list of Heading
+        One for each column, or none.
+    heading_index : int
+        Index of their line.
+    remarks : list of (int, str)
+        Index and words of the other lines above the first row.
+    """
+
+    values: Floats
+    rows: list[_Row]
+    headings: list[Heading]
+    heading_index: int
+    remarks: list[_Row]
+
+
+def recognises(lines: Sequence[str]) -> bool:
+    """Text takes every file that no other format does."""
+    return True
+
+
+def read(source: Source) -> MotionFile:
+    """Read a text of one or more columns."""
+    table = _table(source)
+    timed = _has_times(source, table)
+    columns = range(int(timed), table.values.shape[1])
+    taken = [i for i in columns if not _is_other(table, i)]
+    left = [table.headings[i].text for i in columns if i not in taken]
+    even = _evened(source, table, table.values[:, taken].T, timed)
+    channels = [
+        Channel(
+            name=table.headings[i].name if len(taken) > 1 else "",
+            dt_s=even.dt_s,
+            a_mps2=values * _scale(source, table, i),
+            notes=(),
+        )
+        for i, values in zip(taken, even.columns, strict=True)
+    ]
+    notes = [f"column {shown(text)} is left out: it is no acceleration" for text in left]
+    return motion_file(source, "text", channels, [*even.notes, *notes])
+
+
+def _is_other(table: _Table, column: int) -> bool:
+    return bool(table.headings) and table.headings[column].kind is Kind.OTHER
+
+
+def _has_times(source: Source, table: _Table) -> bool:
+    """Whether the first column holds times."""
+    if table.values.shape[1] == 1:
+        return False
+    kinds = [heading.kind for heading in table.headings]
+    if Kind.TIME in kinds[1:]:
+        place = kinds.index(Kind.TIME, 1) + 1
+        raise InputError(
+            f"{source.name}: found times in column {place}; give them in the first, and once"
+        )
+    if not kinds or kinds[0] is Kind.TIME:
+        return True
+    # A heading that says nothing of time leaves the values to tell.
+    rises = bool((np.diff(table.values[:, 0]) > 0.0).all())
+    return kinds[0] is not Kind.ACCELERATION and (rises or math.isnan(source.dt_s))
+
+
+def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Sampled:
+    if not timed:
+        return Sampled(dt_s=_stated_step(source, table), columns=columns, notes=())
+    times = table.values[:, 0] * (table.headings[0].seconds if table.headings else 1.0)
+    _check_decimal_comma(source, table, times)
+    return sampled(source, times, columns, [index for index, _ in table.rows])
+
+
+def _stated_step(source: Source, table: _Table) -> float:
+    for index, line in table.remarks:
+        text, seconds = headings.step_in(line)
+        if text:
+            stated = printed(text, index)
+            value, rounding = stated.value * seconds, stated.rounding * seconds
+            return source.step(Stated(value=value, rounding=rounding, index=index))
+    if math.isnan(source.dt_s):
+        raise InputError(
+            f"{source.name}: found one column, without times; give the time step dt"
+            if table.values.shape[1] == 1
+            else f"{source.name}: found columns without times; give the time step dt"
+        )
+    return source.dt_s
+
+
+def _scale(source: Source, table: _Table, column: int) -> float:
+    """Size [m/s2] of a column's unit: its heading's, else that of the prose above, else given."""
+    if table.headings and (unit := table.headings[column].unit):
+        return source.scale(unit, table.heading_index)
+    stated = [(unit, i) for i, line in table.remarks for unit in headings.units_in(line)]
+    if len({unit_size(unit) for unit, _ in stated}) > 1:
+        units = " and ".join(dict.fromkeys(unit for unit, _ in stated))
+        raise InputError(f"{source.at(stated[-1][1])}: found units {units}; give one")
+    return source.scale(*stated[0]) if stated else source.given_scale()
+
+
+def _table(source: Source) -> _Table:
+    start = _first_row(source.lines)
+    first = next(_rows(source.lines, start), None)
+    if first is None:
+        raise InputError(f"{source.name}: found no numbers; give one or more columns of them")
+    separator = _separator(first[1])
+    width = len(first[1].split(separator))
+    rows = list(_rows(source.lines, start))
+    values = _parse_fast(source.lines[start:], separator, width)
+    if values is None:
+        values = _parse_slowly(source, rows, separator, width)
+    if len(values) < 2:
+        raise InputError(f"{source.name}: found 1 sample; give at least 2")
+    remarks = _remarks(source.lines, start)
+    heads, place = _headings(source, start, separator, width, remarks)
+    if width > 2 and not heads:
+        raise InputError(
+            f"{source.at(rows[0][0])}: found {width} columns without a heading; give one that names"
+            " them, such as time_s,x_g,y_g"
+        )
+    remarks = [remark for remark in remarks if remark[0] != place]
+    return _Table(values=values, rows=rows, headings=heads, heading_index=place, remarks=remarks)
+
+
+def _content(line: str) -> str:
+    return line.partition("#")[0].strip()
+
+
+def _rows(lines: Sequence[str], start: int) -> Iterator[_Row]:
+    """Index and content of each line from index `start` that is not blank or comment."""
+    for index in range(start, len(lines)):
+        if content := _content(lines[index]):
+            yield index, content
+
+
+def _first_row(lines: Sequence[str]) -> int:
+    """Index of the first line that may hold numbers: after the heading, if there is one."""
+    for index, content in _rows(lines, 0):
+        return index + 1 if _is_heading(content) else index
+    return len(lines)
+
+
+def _is_heading(content: str) -> bool:
+    word = re.split(r"[,;\s]", content)[0]
+    return content[0] not in "+-.0123456789" and word.lower() not in {"nan", "inf", "infinity"}
+
+
+def _separator(content: str) -> str | None:
+    """Separator of the columns; None for blanks and tabs, a comma of `0,1 0,2` being decimal."""
+    if ";" in content:
+        return ";"
+    return "," if "," in content and not _BLANK_BETWEEN.search(content) else None
+
+
+def _remarks(lines: Sequence[str], start: int) -> list[_Row]:
+    """Index and words of every line above the first row, comments' signs aside."""
+    plain = ((index, lines[index].replace("#", " ").strip()) for index in range(start))
+    ahead = [(index, line) for index, line in plain if line]
+    for index in range(start, len(lines)):
+        line = lines[index].strip()
+        if line and not line.startswith("#"):
+            break
+        if line:
+            ahead.append((index, line.replace("#", " ").strip()))
+    return ahead
+
+
+def _headings(
+    source: Source, start: int, separator: str | None, width: int, remarks: Sequence[_Row]
+) -> tuple[list[Heading], int]:
+    """Heading of each column and the index of their line: of the heading line or else a comment."""
+    heading = _content(source.lines[start - 1]) if start else ""
+    if heading and _is_heading(heading):
+        texts = headings.words(heading, separator)
+        if len(texts) == width:
+            return headings.settled([headings.parse(text) for text in texts]), start - 1
+        if width > 2:
+            raise InputError(
+                f"{source.at(start - 1)}: found {len(texts)} headings over {width} columns;"
+                " give one for each"
+            )
+    for index, line in reversed(remarks):
+        if found := headings.remark(line, separator, width):
+            return headings.settled(found), index
+    return [], -1
+
+
+def _parse_fast(lines: Sequence[str], separator: str | None, width: int) -> Floats | None:
+    """Table if every row is so many finite numbers, else None."""
+    try:
+        table: Floats = np.loadtxt(lines, delimiter=separator, ndmin=2)
+    except ValueError:
+        return None
+    return table if table.shape[1] == width and (np.abs(table) < BEYOND).all() else None
+
+
+def _parse_slowly(
+    source: Source, rows: Sequence[_Row], separator: str | None, width: int
+) -> Floats:
+    """Go through a table that has a fault, row by row, to say all that is wrong with it."""
+    split = [(index, content.split(separator)) for index, content in rows]
+    raise_any(
+        [
+            f"{source.at(index)}: {problem}"
+            for index, fields in split
+            for problem in _row_problems(fields, width)
+        ]
+    )
+    return np.array([[float(field) for field in fields] for _, fields in split])
+
+
+def _row_problems(fields: Sequence[str], width: int) -> list[str]:
+    if len(fields) != width:
+        columns = "1 column" if len(fields) == 1 else f"{len(fields)} columns"
+        return [f"found {columns}; give {width} as in the first row"]
+    return [problem for field in fields if (problem := field_problem(field.strip()))]
+
+
+def _check_decimal_comma(source: Source, table: _Table, times: Floats) -> None:
+    """Refuse `0,12` above `0,13`: two columns by their commas, but one by their sense."""
+    if is_even(times) or not all(_DECIMAL_COMMA.fullmatch(content) for _, content in table.rows):
+        return
+    index, content = table.rows[0]
+    raise InputError(f"{source.at(index)}: found {content!r}; give a number with a decimal point")
