@@ -1,4 +1,4 @@
-"""The commands on records: `roofslip motion info`, `motion convert`.
+"""The commands on records: `roofslip motion info`, `motion convert`, `motion suite`.
 
 Parses, calls, prints; heavy imports stay inside the commands. Read `report.terminal` for what all
 commands share, then `solver.motion`.
@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.terminal import input_errors
+from report.terminal import Progress, input_errors
 
 if TYPE_CHECKING:
+    from report.suite_inputs import Targets
     from solver.motion import Record
 
 _FILE = click.Path(path_type=Path)
@@ -28,7 +29,7 @@ _PICTURES = (".svg", ".png")
 
 @click.group()
 def motion() -> None:
-    """Look at records and convert them."""
+    """Look at records, convert them, and make suites of them."""
 
 
 def _reading(command: Callable[..., None]) -> Callable[..., None]:
@@ -88,10 +89,96 @@ def convert(file: Path, out: Path, units: str | None, dt_s: float | None) -> Non
     click.echo(out)
 
 
+@motion.command()
+@click.argument("folder", metavar="DIR", type=_FILE)
+@click.argument("more", metavar="", nargs=-1)
+@click.option("--sds", "s_ds_g", type=float, default=math.nan, help="S_DS [g].")
+@click.option("--zh", "z_over_h", type=float, default=1.0, show_default=True,
+              help="Height of the array over that of the roof.")  # fmt: skip
+@click.option("--code", type=click.Choice(["asce7-16", "asce7-22", "pv1"]),
+              help="Edition whose AC156 spectrum is the target.")  # fmt: skip
+@click.option("--tail", type=click.Choice(["ac156", "1/T"]), default="ac156", show_default=True,
+              help="Below 1.3 Hz: the line of AC156, or 1/T.")  # fmt: skip
+@click.option("--target", metavar="BOOK.xlsx!SHEET|CSV", help="A spectrum of your own: columns "
+              "frequency [Hz] or period [s], horizontal [g], vertical [g].")  # fmt: skip
+@click.option("--count", type=click.IntRange(1, 99), default=7, show_default=True,
+              help="Number of motions.")  # fmt: skip
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True,
+              help="The same seed gives the same files.")  # fmt: skip
+@click.option("--records", metavar="FILES", multiple=True, help="Grow from records, not noise: a "
+              "motion from each file, or from several joined by commas. After DIR.")  # fmt: skip
+@_reading
+def suite(
+    folder: Path,
+    more: tuple[str, ...],
+    s_ds_g: float,
+    z_over_h: float,
+    code: str | None,
+    tail: str,
+    target: str | None,
+    count: int,
+    seed: int,
+    records: tuple[str, ...],
+    units: str | None,
+    dt_s: float | None,
+) -> None:
+    """Make motions that follow a spectrum, into DIR: x, y and z of each, suite.json, suite.png.
+
+    Each lasts 30 s, 5 to rise and 5 to decay, and ends at rest where it began. Older files of the
+    same names are replaced.
+    """
+    if more and not records:
+        raise click.UsageError(f"'{more[0]}' belongs to nothing; write --records before files")
+    with input_errors(folder), Progress() as progress:
+        from report.motion_suite import suite_files, suite_table
+        from report.outputs import publish
+        from report.suite_inputs import check_folder, read_seeds
+        from solver.synthesis import make_suite
+
+        check_folder(folder, count)
+        targets = _targets(code, s_ds_g, z_over_h, tail, target)
+        found = read_seeds((*records, *more), units=units or "", dt_s=_or_nan(dt_s))
+        progress("compiling the solver, the first time")
+        made = make_suite(
+            targets.horizontal,
+            targets.vertical,
+            count=count,
+            seed=seed,
+            records=found.groups,
+            progress=progress,
+        )
+        progress("drawing the spectra")
+        files = suite_files(made, targets, seed=seed, records=found.sha256)
+        publish(files, folder)
+    for line in (*suite_table(made, targets), *found.notes):
+        click.echo(line)
+    click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
+
+
+def _targets(
+    code: str | None, s_ds_g: float, z_over_h: float, tail: str, target: str | None
+) -> Targets:
+    from report.suite_inputs import ac156_targets, table_targets
+    from report.target_table import read_target
+    from solver.model import InputError
+    from solver.provisions import Tail
+
+    rule = Tail.RECIPROCAL if tail == "1/T" else Tail.AC156
+    if target:
+        return table_targets(read_target(target), s_ds_g=s_ds_g, tail=rule)
+    if code is None or math.isnan(s_ds_g):
+        raise InputError("no target; give --sds and --code, or --target")
+    return ac156_targets(code, s_ds_g=s_ds_g, z_over_h=z_over_h, tail=rule)
+
+
 def _record(path: Path, units: str | None, dt_s: float | None) -> Record:
     from solver.formats import read_record
 
-    return read_record(path, units=units or "", dt_s=math.nan if dt_s is None else dt_s)
+    return read_record(path, units=units or "", dt_s=_or_nan(dt_s))
+
+
+def _or_nan(dt_s: float | None) -> float:
+    return math.nan if dt_s is None else dt_s
 
 
 def _write(record: Record, out: Path) -> None:

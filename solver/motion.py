@@ -78,13 +78,19 @@ def write_record(path: Path, record: Record, units: str = "g", *, within: float 
     that part of the record's peak. A record that was rounded to `DECIMALS`, as those of
     `solver.synthesis` are in g, is read back bit for bit.
     """
-    _check_arguments(path.name, units, record.dt_s)
+    text = record_csv(record, units, within=within)
+    path.write_text(text, encoding="utf-8", newline="\n")
+
+
+def record_csv(record: Record, units: str = "g", *, within: float = math.inf) -> str:
+    """Return the text that `write_record` writes."""
+    _check_arguments(record.name, units, record.dt_s)
     values = record.a_mps2 / UNITS[units]
     places = next((k for k in range(1, 9) if fits(record.dt_s, 10.0**-k)), 9)
     decimals = _decimals(values, DECIMALS[units], within)
     row = f"{{:.{places}f}},{{:z.{decimals}f}}\n".format
     body = "".join(row(i * record.dt_s, value) for i, value in enumerate(values.tolist()))
-    path.write_text(f"time_s,acceleration_{units}\n{body}", encoding="utf-8", newline="\n")
+    return f"time_s,acceleration_{units}\n{body}"
 
 
 def _decimals(values: Floats, least: int, within: float) -> int:

@@ -346,10 +346,13 @@ def ac156_horizontal(
     """Return the horizontal AC156 spectrum, 5 % damping.
 
     A_FLX = S_DS (1 + 2 z/h) <= 1.6 S_DS, A_RIG = 0.4 S_DS (1 + 2 z/h); with ASCE 7-22
-    A_FLX = S_DS H_f/R_mu <= 1.6 S_DS, A_RIG = 0.4 S_DS H_f/R_mu, H_f = 1 + 2.5 z/h, R_mu = 1.3.
+    A_FLX = S_DS H_f/R_mu <= 1.6 S_DS, A_RIG = 0.4 S_DS H_f/R_mu, H_f = 1 + 2.5 z/h, R_mu = 1.3
+    above grade and 1 at it.
     PV1-2012 Sec. 9 allows the tail 1/T beyond 0.77 s in place of AC156's line.
     """
-    ratio = (1.0 + 2.5 * z_over_h) / 1.3 if rules.name == "ASCE 7-22" else 1.0 + 2.0 * z_over_h
+    ratio = 1.0 + 2.0 * z_over_h
+    if rules.name == "ASCE 7-22":
+        ratio = (1.0 + 2.5 * z_over_h) / (1.3 if z_over_h > 0.0 else 1.0)
     return _corners(min(ratio, 1.6) * s_ds_g, 0.4 * ratio * s_ds_g, tail)
 
 

@@ -179,6 +179,7 @@ def test_ac156_accelerations_at_the_roof_of_published_sites():
     assert [round(v, 2) for v in found.sa_g[[1, 3]]] == [2.02, 1.51]
     edition_22 = ac156_horizontal(A22, s_ds_g=1.0, z_over_h=1.0)
     assert edition_22.sa_g[[1, 3]] == pytest.approx([1.6, 0.4 * 3.5 / 1.3], rel=1e-12)
+    assert ac156_horizontal(A22, s_ds_g=1.0, z_over_h=0.0).sa_g[[1, 3]].tolist() == [1.0, 0.4]
     assert ac156_vertical(s_ds_g=1.0).sa_g[[1, 3]] == pytest.approx([0.67, 0.27], rel=1e-12)
 
 

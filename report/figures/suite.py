@@ -1,0 +1,128 @@
+"""A made suite against its target: the spectra of every component, and their ratios.
+
+Computes nothing but where ink goes; the picture stands alone. Read `report.figures.base` first.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, Broken, bare, style
+from solver.synthesis import SpectrumFit
+
+_DPI = 200
+_PANEL_IN, _GAP_IN, _TOP_IN, _BOTTOM_IN = 1.55, 0.5, 0.5, 0.42
+_TICKS_S = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+_TICKS_G = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+_RATIO_RANGE = (0.8, 1.4)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Panel:
+    """One component of all motions.
+
+    Attributes
+    ----------
+    title : str
+    fits : tuple of SpectrumFit
+        A motion each, all over the same frequencies.
+    band_hz, limits : tuple of float
+        Where the ratios have to lie, and within what.
+    """
+
+    title: str
+    fits: tuple[SpectrumFit, ...]
+    band_hz: tuple[float, float]
+    limits: tuple[float, float]
+
+
+def suite_png(panels: Sequence[Panel]) -> bytes:
+    """Return a picture with a row for each component: spectra left, ratios right."""
+    with style():
+        height = _TOP_IN + _BOTTOM_IN + len(panels) * (_PANEL_IN + _GAP_IN) - _GAP_IN
+        figure = Figure(figsize=(WIDTH_IN, height))
+        grid = figure.subplots(len(panels), 2, squeeze=False)
+        figure.subplots_adjust(
+            left=0.075,
+            right=0.985,
+            top=1 - _TOP_IN / height,
+            bottom=_BOTTOM_IN / height,
+            hspace=_GAP_IN / _PANEL_IN,
+            wspace=0.16,
+        )
+        for (left, right), panel in zip(grid, panels, strict=True):
+            _spectra(left, panel)
+            _ratios(right, panel)
+        for axes in grid[-1]:
+            axes.set_xlabel("Period T [s]")
+        marks, names = grid[0][0].get_legend_handles_labels()
+        more = grid[0][1].get_legend_handles_labels()
+        figure.legend(marks + more[0], names + more[1], loc="upper center", ncols=5, borderpad=0.2)
+        out = io.BytesIO()
+        figure.savefig(out, format="png", dpi=_DPI, metadata={"Software": None})
+        return out.getvalue()
+
+
+def _spectra(axes: Axes, panel: Panel) -> None:
+    periods = 1.0 / panel.fits[0].freq_hz
+    each = Broken()
+    for fit in panel.fits:
+        each.add(periods, fit.achieved_g)
+    axes.plot(each.x, each.y, color=GREY, linewidth=0.45, label="each motion")
+    mean = np.mean([fit.achieved_g for fit in panel.fits], axis=0)
+    axes.plot(periods, mean, color=ACCENT, linewidth=1.6, label="mean")
+    axes.plot(
+        periods,
+        panel.fits[0].target_g,
+        color=INK,
+        linewidth=1.2,
+        linestyle=(0, (5, 1.5)),
+        label="target",
+    )
+    axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    axes.yaxis.set_major_locator(FixedLocator([tick for tick in _TICKS_G if low < tick < high]))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.set_ylabel("Pseudo-acceleration [g]")
+    axes.set_title(panel.title, loc="left", weight="semibold")
+    _periods(axes, periods[-1], periods[0])
+
+
+def _ratios(axes: Axes, panel: Panel) -> None:
+    periods = 1.0 / panel.fits[0].freq_hz
+    fast, slow = 1.0 / panel.band_hz[1], 1.0 / panel.band_hz[0]
+    axes.axhline(1.0, color=INK, linewidth=0.8, linestyle=(0, (5, 1.5)))
+    each = Broken()
+    for fit in panel.fits:
+        each.add(periods, np.clip(fit.ratio, *_RATIO_RANGE))
+    axes.plot(each.x, each.y, color=GREY, linewidth=0.45)
+    mean = np.mean([fit.ratio for fit in panel.fits], axis=0)
+    axes.plot(periods, np.clip(mean, *_RATIO_RANGE), color=ACCENT, linewidth=1.6)
+    least, greatest = panel.limits
+    limits = f"limits {least:.2f} and {greatest:.2f}"
+    axes.hlines(panel.limits, fast, slow, color=INK, linewidth=1.0, label=limits)
+    beyond = f"outside {panel.band_hz[0]:g} to {panel.band_hz[1]:g} Hz"
+    axes.axvspan(slow, periods[0], color=PALE, alpha=0.5, linewidth=0, label=beyond)
+    axes.axvspan(periods[-1], fast, color=PALE, alpha=0.5, linewidth=0)
+    axes.set_ylim(*_RATIO_RANGE)
+    axes.set_ylabel("Achieved / target")
+    _periods(axes, periods[-1], periods[0])
+
+
+def _periods(axes: Axes, shortest_s: float, longest_s: float) -> None:
+    axes.set_xscale("log")
+    axes.set_xlim(shortest_s, longest_s)
+    axes.xaxis.set_major_locator(FixedLocator(_TICKS_S))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    bare(axes)

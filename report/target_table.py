@@ -1,0 +1,300 @@
+"""Target spectra that people bring: a sheet of a workbook, or csv, read into corner points.
+
+Knows no code rules and makes no motions. Read `read_target` first; `report.sheet.archive` guards
+what a workbook may do.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from report.sheet.archive import OpenBook, open_book
+from report.sheet.cells import CellError, Found, check_saved, number
+from report.sheet.locate import Spot, found_at
+from solver.model import Floats, InputError
+from solver.synthesis import BAND_HZ, Target
+
+MAX_ROWS = 2000
+MAX_COLUMNS = 30
+MAX_BYTES = 1_000_000
+HEADING_ROWS = 10
+MAX_TOLD = 10
+
+_FREQUENCY, _PERIOD, _HORIZONTAL, _VERTICAL = "frequency", "period", "horizontal", "vertical"
+_NAMES = {
+    "frequency": _FREQUENCY,
+    "freq": _FREQUENCY,
+    "f": _FREQUENCY,
+    "period": _PERIOD,
+    "t": _PERIOD,
+    "horizontal": _HORIZONTAL,
+    "sa": _HORIZONTAL,
+    "vertical": _VERTICAL,
+}
+_UNITS = {_FREQUENCY: "hz", _PERIOD: "s", _HORIZONTAL: "g", _VERTICAL: "g"}
+_LIMITS = {
+    _FREQUENCY: (1e-3, 1e3),
+    _PERIOD: (1e-3, 1e3),
+    _HORIZONTAL: (1e-6, 100.0),
+    _VERTICAL: (1e-6, 100.0),
+}
+_SHOWN = {_FREQUENCY: "Hz", _PERIOD: "s", _HORIZONTAL: "g", _VERTICAL: "g"}
+_HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
+_WANTED = "frequency [Hz] or period [s], horizontal [g] and, if there is one, vertical [g]"
+# Printed ends of the band, such as 3.33 s, are rounded.
+_ROUNDED = 0.01
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TargetTable:
+    """A target spectrum as it was found.
+
+    Attributes
+    ----------
+    source : str
+        File, with the sheet.
+    freq_hz, horizontal_g : array, shape (m,)
+        Rising frequencies [Hz], accelerations [g].
+    vertical_g : array, shape (m,) or (0,)
+        Empty where the table has no vertical.
+    """
+
+    source: str
+    freq_hz: Floats
+    horizontal_g: Floats
+    vertical_g: Floats
+
+    @property
+    def has_vertical(self) -> bool:
+        """Whether the table has a vertical column."""
+        return len(self.vertical_g) > 0
+
+    @property
+    def horizontal(self) -> Target:
+        """Corners of the horizontal target."""
+        return self.freq_hz, self.horizontal_g
+
+    @property
+    def vertical(self) -> Target:
+        """Corners of the vertical target."""
+        return self.freq_hz, self.vertical_g
+
+
+@dataclass(frozen=True, slots=True)
+class _Cell:
+    """A cell, or a field of csv, with its place for messages."""
+
+    place: str
+    found: Found
+
+    @property
+    def text(self) -> str:
+        return str(self.found.value or "").strip()
+
+    @property
+    def is_blank(self) -> bool:
+        return self.found.is_blank
+
+
+_Rows = Sequence[Sequence[_Cell]]
+
+
+def read_target(named: str) -> TargetTable:
+    """Read a target spectrum: `BOOK.xlsx!Sheet`, `BOOK.xlsx` of one sheet, or a csv file.
+
+    One row, among the first ten, holds the headings frequency [Hz] or period [s], horizontal [g]
+    and perhaps vertical [g]; other columns are left alone. The rows below may come in any order;
+    between them the spectrum is straight on log-log axes.
+
+    Raises
+    ------
+    InputError
+        With every problem, each with its cell or ``file:LINE``.
+    """
+    path, sheet = _split(named)
+    if path.suffix.lower() == ".xlsx":
+        book = open_book(path)
+        title = _title(book, sheet)
+        return _table(f"{path.name}!{title}", _sheet_rows(book, title))
+    return _table(path.name, _text_rows(path))
+
+
+def _split(named: str) -> tuple[Path, str]:
+    whole = re.fullmatch(r"(.*?\.xlsx)!(.*)", named, re.IGNORECASE | re.DOTALL)
+    if whole is None or Path(named).is_file():
+        return Path(named), ""
+    return Path(whole[1]), whole[2].strip().strip("'")
+
+
+def _title(book: OpenBook, sheet: str) -> str:
+    titles = [one.title for one in book.typed.worksheets]
+    if not sheet and len(titles) == 1:
+        return titles[0]
+    for title in titles:
+        if title.casefold() == sheet.casefold():
+            return title
+    name, there = book.path.name, ", ".join(f"'{title}'" for title in titles[:MAX_TOLD])
+    if not sheet:
+        raise InputError(f"{name}: has {len(titles)} sheets; write {name}!Sheet, one of {there}")
+    raise InputError(f"{name}: has no sheet '{sheet}'; give one of {there}")
+
+
+def _sheet_rows(book: OpenBook, title: str) -> _Rows:
+    extent = book.extent(title)
+    if extent.last_row > MAX_ROWS + HEADING_ROWS:
+        raise InputError(
+            f"{title}!{extent.row_cell}: holds something beyond row {MAX_ROWS + HEADING_ROWS}; "
+            f"give at most {MAX_ROWS} rows"
+        )
+    columns = range(1, min(extent.last_column, MAX_COLUMNS) + 1)
+    return [
+        [_cell_at(book, Spot(title, row, column)) for column in columns]
+        for row in range(1, extent.last_row + 1)
+    ]
+
+
+def _cell_at(book: OpenBook, spot: Spot) -> _Cell:
+    found = found_at(book, spot)
+    return _Cell(found.address, found)
+
+
+def _text_rows(path: Path) -> _Rows:
+    lines = _text(path).splitlines()
+    separator = next((mark for mark in ";\t" if any(mark in line for line in lines)), ",")
+    try:
+        rows = list(csv.reader(lines, delimiter=separator, strict=True))
+    except csv.Error as error:
+        raise InputError(f"{path.name}: not csv ({error}); give {_WANTED}") from error
+    if len(rows) > MAX_ROWS + HEADING_ROWS:
+        raise InputError(f"{path.name}: has {len(rows)} lines; give at most {MAX_ROWS} rows")
+    return [
+        [_Cell(f"{path.name}:{k}", Found(sheet="", cell="", value=field.strip())) for field in row]
+        for k, row in enumerate(rows, start=1)
+    ]
+
+
+def _text(path: Path) -> str:
+    try:
+        if not path.is_file():
+            raise InputError(f"{path}: no such file; give BOOK.xlsx!Sheet or a csv of {_WANTED}")
+        if path.stat().st_size > MAX_BYTES:
+            raise InputError(f"{path.name}: larger than 1 MB; give at most {MAX_ROWS} rows")
+        text = path.read_bytes().decode("utf-8-sig")
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"{path}: cannot be read as text; give csv of {_WANTED}") from error
+    if re.search(r"[\x00-\x08\x0e-\x1f]", text):
+        raise InputError(f"{path.name}: not a text file; give csv of {_WANTED}")
+    return text
+
+
+def _table(source: str, rows: _Rows) -> TargetTable:
+    top, columns = _headings(source, rows)
+    below = [row for row in rows[top + 1 :] if not all(cell.is_blank for cell in row)]
+    problems: list[str] = []
+    values = {
+        kind: np.array([_value(row, column, kind, problems) for row in below])
+        for kind, column in columns.items()
+    }
+    if not problems:
+        problems = list(_range_problems(source, _frequencies(values)))
+    if problems:
+        more = len(problems) - MAX_TOLD
+        raise InputError(problems[:MAX_TOLD] + ([f"... and {more} more"] if more > 0 else []))
+    return _sorted(source, values)
+
+
+def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
+    """Return the row of the headings and the column of each kind."""
+    for top, row in enumerate(rows[:HEADING_ROWS]):
+        kinds = [_kind(cell) for cell in row]
+        if {_FREQUENCY, _PERIOD} & set(kinds) and _HORIZONTAL in kinds:
+            return top, _columns(row, kinds)
+    raise InputError(
+        f"{source}: no row of headings in the first {HEADING_ROWS} rows; give {_WANTED}"
+    )
+
+
+def _kind(cell: _Cell) -> str:
+    whole = _HEADING.fullmatch(cell.text.casefold())
+    return _NAMES.get(whole[1], "") if whole else ""
+
+
+def _columns(row: Sequence[_Cell], kinds: Sequence[str]) -> Mapping[str, int]:
+    problems, columns = [], {}
+    for column, (cell, kind) in enumerate(zip(row, kinds, strict=True)):
+        if not kind:
+            continue
+        whole = _HEADING.fullmatch(cell.text.casefold())
+        unit = whole[2] if whole else ""
+        if unit not in ("", _UNITS[kind]):
+            problems.append(f"{cell.place}: is '{cell.text}'; give {kind} [{_SHOWN[kind]}]")
+        if kind in columns:
+            problems.append(f"{cell.place}: a second {kind}; give one")
+        columns[kind] = column
+    if _FREQUENCY in columns and _PERIOD in columns:
+        place = row[columns[_PERIOD]].place
+        problems.append(f"{place}: both frequency and period; give one of them")
+    if problems:
+        raise InputError(problems)
+    return columns
+
+
+def _value(row: Sequence[_Cell], column: int, kind: str, problems: list[str]) -> float:
+    """Return a number above 0; where there is none, NaN with the problem noted."""
+    if column >= len(row) or row[column].is_blank:
+        place = row[min(column, len(row) - 1)].place
+        problems.append(f"{place}: {kind} is blank; give a number above 0")
+        return float("nan")
+    cell, wanted = row[column], f"give a number above 0 [{_SHOWN[kind]}]"
+    try:
+        check_saved(cell.found)
+        value = number(cell.found, wanted)
+    except CellError as error:
+        problems.append(f"{cell.place}: {kind} {error.problems[0]}")
+        return float("nan")
+    least, most = _LIMITS[kind]
+    if not least <= value <= most:
+        wanted = f"give a number from {least:g} to {most:g} [{_SHOWN[kind]}]"
+        problems.append(f"{cell.place}: {kind} is {value:g}; {wanted}")
+    return value
+
+
+def _frequencies(values: Mapping[str, Floats]) -> Floats:
+    return values[_FREQUENCY] if _FREQUENCY in values else 1.0 / values[_PERIOD]
+
+
+def _range_problems(source: str, freq_hz: Floats) -> Iterator[str]:
+    if len(freq_hz) < 2:
+        found = "1 row" if len(freq_hz) else "no rows"
+        yield f"{source}: has {found} of numbers; give at least 2"
+        return
+    apart = np.diff(np.sort(freq_hz)) > 1e-9 * np.sort(freq_hz)[1:]
+    if not apart.all():
+        at = float(np.sort(freq_hz)[1:][~apart][0])
+        yield f"{source}: {at:g} Hz ({1 / at:g} s) is there twice; give each frequency once"
+    low, high = BAND_HZ[0] * (1.0 + _ROUNDED), BAND_HZ[1] * (1.0 - _ROUNDED)
+    if freq_hz.min() > low or freq_hz.max() < high:
+        yield (
+            f"{source}: reaches from {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz; give "
+            f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz (periods from 0.03 to 3.33 s) or more"
+        )
+
+
+def _sorted(source: str, values: Mapping[str, Floats]) -> TargetTable:
+    freq_hz = _frequencies(values)
+    order = np.argsort(freq_hz)
+    none: Floats = np.empty(0)
+    return TargetTable(
+        source=source,
+        freq_hz=freq_hz[order],
+        horizontal_g=values[_HORIZONTAL][order],
+        vertical_g=values[_VERTICAL][order] if _VERTICAL in values else none,
+    )
