@@ -110,13 +110,16 @@ def report(source: Path, out: Path | None) -> None:
 @click.option("--out", type=_SCENE, default=Path("out"), show_default=True,
               help="Folder for the outputs.")  # fmt: skip
 @click.option("--quick", is_flag=True, help="Fewer records, scenes and settings: seconds.")
-def verify(out: Path, quick: bool) -> None:
+@click.option("--records", type=_SCENE, help="Folder of real records: roof_575_market in it, "
+              "ground and floors of 575 Market Street, is held against the way from ground to "
+              "roof.")  # fmt: skip
+def verify(out: Path, quick: bool, records: Path | None) -> None:
     """Check the solver and every rival, and write verification.pdf with its table and charts.
 
     Exits 1 where a check fails, with the outputs written.
     """
-    with input_errors(out), Progress() as progress:
-        found, files = _verification(quick, progress)
+    with input_errors(records or out), Progress() as progress:
+        found, files = _verification(quick, records, progress)
         progress("putting the files in place")
         _publish(files, out)
     failed = [row for row in found.checks if not row.passed]
@@ -247,13 +250,14 @@ def _tables(book: InputBook, assessment: Assessment) -> dict[str, bytes]:
 
 
 def _verification(
-    quick: bool, progress: Callable[[str], None]
+    quick: bool, records: Path | None, progress: Callable[[str], None]
 ) -> tuple[Verification, Mapping[str, bytes]]:
     """Return what was found, and every output as finished bytes by file name."""
     from report.manual.render import files
-    from solver.verification.run import verify
+    from solver.verification.run import recorded_buildings, verify
 
-    found = verify((), quick=quick, progress=progress)
+    buildings = recorded_buildings(records) if records else ()
+    found = verify((), quick=quick, progress=progress, buildings=buildings)
     return found, files(found, dt.date.today(), progress)
 
 

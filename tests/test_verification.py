@@ -35,8 +35,17 @@ def test_a_quick_verification_passes_and_fills_every_part(found):
     assert verification.passed
     assert verification.quick
     assert verification.records == ("motion-01-x", "near-fault-pulse")
-    assert len(stages) == 9
-    for name in ("checks", "work", "maps", "convergence", "links", "curves", "conditioning"):
+    assert len(stages) == 10
+    for name in (
+        "checks",
+        "work",
+        "maps",
+        "convergence",
+        "links",
+        "curves",
+        "conditioning",
+        "roofs",
+    ):
         assert len(getattr(verification, name)) > 0, name
     assert len(verification.convergence) == len(verification.curves) == 2
     assert [(link.record, link.slope_deg) for link in verification.links] == [
@@ -52,6 +61,7 @@ def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(foun
         "50 digits",
         "Symmetries",
         "Methods",
+        "From ground to roof",
     }
     assert all(row.source and row.unit and row.tolerance <= 0.025 for row in rows)
     digits = [row for row in rows if row.section == "50 digits"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from report.manual.blocks import Section
+from report.manual.building import building
 from report.manual.front import scope, summary
 from report.manual.machine import Machine
 from report.manual.precision import work
@@ -25,6 +26,7 @@ def sections(found: Verification, machine: Machine) -> tuple[Section, ...]:
         links(found),
         curves(found),
         conditioning(found),
+        building(found),
         *((peers(found.peers),) if found.peers else ()),
         software(found, machine),
     )

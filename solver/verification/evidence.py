@@ -281,6 +281,91 @@ class PeerPoint:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class RoofPrediction:
+    """A roof motion computed from the ground motion, held against the one that was recorded.
+
+    Attributes
+    ----------
+    name : str
+        Where the building's properties come from.
+    period_s, damping, alpha0 : float
+        Of the first mode [s], of every mode, and the lateral stiffness ratio.
+    n_modes : int
+    left_out_share : float
+        See `solver.building.RoofMotion`.
+    unexplained : float
+        Sum of squares of computed less recorded roof acceleration, over that of the recorded one.
+    peak_mps2 : float
+    sa_mps2 : array, shape (m,)
+        Pseudo-spectral acceleration at `RoofComparison.periods_s`, 5 % damping [m/s2].
+    band_ratios, band_scatters : array, shape (b,)
+        Geometric mean of computed over recorded spectrum in each band, and the standard deviation
+        of its natural logarithm there.
+    a_mps2 : array, shape (n,)
+        The roof motion, as long as the recorded one.
+    prd_m : array, shape (k,)
+        With the scenes of `RoofComparison` [m].
+    """
+
+    name: str
+    period_s: float
+    damping: float
+    alpha0: float
+    n_modes: int
+    left_out_share: float
+    unexplained: float
+    peak_mps2: float
+    sa_mps2: Floats
+    band_ratios: Floats
+    band_scatters: Floats
+    a_mps2: Floats
+    prd_m: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoofComparison:
+    """One building whose ground and roof were recorded, with what is computed for its roof.
+
+    Attributes
+    ----------
+    title, story : str
+        Its name; what it is, and what was recorded where.
+    is_recorded : bool
+        In an earthquake; else the building is a made one.
+    dt_s : float
+    roof_mps2 : array, shape (n,)
+        Recorded [m/s2].
+    ground_peak_mps2 : float
+    periods_s : array, shape (m,)
+    ground_sa_mps2, roof_sa_mps2 : array, shape (m,)
+        Recorded, 5 % damping [m/s2].
+    bands_s : tuple of pairs of float
+        Ends of the bands of periods [s].
+    slope_deg, scale : float
+        Slope and factor of all scenes.
+    mus, prd_m : array, shape (k,)
+        Friction coefficient of each scene, and PRD under the recorded roof motion [m].
+    predictions : tuple of RoofPrediction
+    """
+
+    title: str
+    story: str
+    is_recorded: bool
+    dt_s: float
+    roof_mps2: Floats
+    ground_peak_mps2: float
+    periods_s: Floats
+    ground_sa_mps2: Floats
+    roof_sa_mps2: Floats
+    bands_s: tuple[tuple[float, float], ...]
+    slope_deg: float
+    scale: float
+    mus: Floats
+    prd_m: Floats
+    predictions: tuple[RoofPrediction, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Verification:
     """All that `verify` found.
 
@@ -296,6 +381,8 @@ class Verification:
     curves : tuple of DesignCurves
         One for each record, the project's own first.
     conditioning : tuple of Conditioning
+    roofs : tuple of RoofComparison
+        The made building first, then those whose records were given.
     peers : tuple of PeerPoint
         Empty where none is installed.
     records : tuple of str
@@ -312,6 +399,7 @@ class Verification:
     links: tuple[LinkComparison, ...]
     curves: tuple[DesignCurves, ...]
     conditioning: tuple[Conditioning, ...]
+    roofs: tuple[RoofComparison, ...]
     peers: tuple[PeerPoint, ...]
     records: tuple[str, ...]
     quick: bool

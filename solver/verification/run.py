@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterator, Sequence
 
 from solver.motion import Record
 from solver.verification import (
+    building,
+    building_checks,
     checks,
     crosschecks,
     paper_studies,
@@ -17,6 +19,7 @@ from solver.verification import (
     stability,
     workprecision,
 )
+from solver.verification.building import FloorRecords, recorded_buildings
 from solver.verification.evidence import (
     CheckRow,
     Conditioning,
@@ -24,6 +27,8 @@ from solver.verification.evidence import (
     DesignCurves,
     LinkComparison,
     PeerPoint,
+    RoofComparison,
+    RoofPrediction,
     StabilityMap,
     Verification,
     WorkPoint,
@@ -35,17 +40,25 @@ __all__ = [
     "Conditioning",
     "Convergence",
     "DesignCurves",
+    "FloorRecords",
     "LinkComparison",
     "PeerPoint",
+    "RoofComparison",
+    "RoofPrediction",
     "StabilityMap",
     "Verification",
     "WorkPoint",
+    "recorded_buildings",
     "verify",
 ]
 
 
 def verify(
-    records: Sequence[Record], *, quick: bool, progress: Callable[[str], None]
+    records: Sequence[Record],
+    *,
+    quick: bool,
+    progress: Callable[[str], None],
+    buildings: Sequence[FloorRecords] = (),
 ) -> Verification:
     """Check the solver and measure every method, on the project's own records and on others.
 
@@ -57,6 +70,9 @@ def verify(
         Fewer records, scenes, settings and cells: seconds for minutes.
     progress : callable
         Called with a line for each stage.
+    buildings : sequence of FloorRecords
+        Real ones with motions of their ground and floors, see `recorded_buildings`; a made one
+        always runs.
 
     Returns
     -------
@@ -69,7 +85,11 @@ def verify(
     chosen = (*own_records(quick), *(records[:1] if quick else records))
     main = chosen[0]
     progress("Checks: closed forms, 50 digits, symmetries, physical checks of the paper")
-    rows = tuple(_rows(chosen))
+    rows = list(_rows(chosen))
+    progress("From ground to roof: modes, a made building, recorded ones where given")
+    made = building_checks.made_building(main)
+    roofs = tuple(building.compare(one) for one in (made, *buildings))
+    rows += building_checks.building_checks(made, roofs[0])
     progress(f"Work against precision: every method on {len(chosen)} records")
     work = tuple(workprecision.work_points(chosen, quick=quick))
     progress("Stability: maps of error over two settings")
@@ -89,13 +109,14 @@ def verify(
     progress("Other programs, where they are installed")
     judged = tuple(peers.peer_points(chosen[:3], quick=quick))
     return Verification(
-        checks=rows,
+        checks=tuple(rows),
         work=work,
         maps=maps,
         convergence=convergence,
         links=links,
         curves=curves,
         conditioning=conditioning,
+        roofs=roofs,
         peers=judged,
         records=tuple(record.name for record in chosen),
         quick=quick,

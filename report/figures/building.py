@@ -1,0 +1,105 @@
+"""A roof as recorded and as computed from its ground: spectra, and the strongest seconds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.scales import plain
+from report.units import G_MPS2
+from solver.verification.evidence import RoofComparison, RoofPrediction
+
+SHOWN_S = 16.0
+"""Of the histories: around the roof's strongest shaking [s]."""
+
+_DASHES: tuple[Any, ...] = ((0, (5, 1.5)), (0, (1, 1.2)), (0, (6, 1.5, 1, 1.5)))
+_PERIODS_S = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
+_SPECTRUM_IN, _HISTORY_IN, _ABOVE_IN, _BELOW_IN = 2.2, 1.05, 0.22, 0.42
+
+
+def comparison(found: RoofComparison) -> str:
+    """Return spectra of ground, roof and computed roofs; below, a recorded roof and the first."""
+    panels = [(_spectra, _SPECTRUM_IN)]
+    if found.is_recorded:
+        panels.append((_histories, _HISTORY_IN))
+    height = sum(_ABOVE_IN + panel_in + _BELOW_IN for _, panel_in in panels)
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, height))
+        top = height
+        for draw, panel_in in panels:
+            top -= _ABOVE_IN + panel_in
+            draw(figure.add_axes((0.085, top / height, 0.9, panel_in / height)), found)
+            top -= _BELOW_IN
+        return svg_text(figure)
+
+
+def computed(found: RoofComparison) -> tuple[RoofPrediction, ...]:
+    """Return the predictions that a building was made for: all but the ground itself."""
+    return tuple(one for one in found.predictions if one.n_modes > 0)
+
+
+def _spectra(axes: Axes, found: RoofComparison) -> None:
+    roof = "roof, recorded" if found.is_recorded else "roof, stepped"
+    for sa_mps2, look in (
+        (found.ground_sa_mps2, {"color": GREY, "linewidth": 0.9, "label": "ground"}),
+        (found.roof_sa_mps2, {"color": INK, "linewidth": 1.8, "label": roof}),
+        *(
+            (
+                one.sa_mps2,
+                {"color": ACCENT, "linewidth": 1.3, "linestyle": dash, "label": one.name},
+            )
+            for one, dash in zip(computed(found), _DASHES, strict=False)
+        ),
+    ):
+        axes.plot(found.periods_s, sa_mps2 / G_MPS2, **look)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(found.periods_s[0], found.periods_s[-1])
+    axes.xaxis.set_major_locator(FixedLocator(_PERIODS_S))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    low, high = axes.get_ylim()
+    axes.yaxis.set_major_locator(FixedLocator([t for t in _LEVELS_G if low <= t <= high]))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_locator(NullLocator())
+    axes.set_xlabel("Period T [s]")
+    axes.set_ylabel("Pseudo-acceleration [g]")
+    axes.set_title("Response spectra, 5 % damping", loc="left", weight="semibold")
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    bare(axes)
+    axes.legend(loc="lower left", handlelength=3.2)
+
+
+_LEVELS_G = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0)
+
+
+def _histories(axes: Axes, found: RoofComparison) -> None:
+    first = found.predictions[0]
+    width = round(SHOWN_S / found.dt_s)
+    energy = np.convolve(found.roof_mps2**2, np.ones(min(width, found.roof_mps2.size)), "valid")
+    start = int(energy.argmax())
+    part = slice(start, start + width)
+    t = np.arange(found.roof_mps2.size)[part] * found.dt_s
+    every = max(1, round(0.02 / found.dt_s))
+    axes.plot(t[::every], found.roof_mps2[part][::every] / G_MPS2, color=INK, linewidth=1.1)
+    axes.plot(
+        t[::every],
+        first.a_mps2[part][::every] / G_MPS2,
+        color=ACCENT,
+        linewidth=1.1,
+        linestyle=_DASHES[0],
+    )
+    axes.set_xlim(t[0], t[-1])
+    axes.set_xlabel("Time [s]")
+    axes.set_ylabel("Roof [g]")
+    title = f"Roof acceleration: recorded (solid) and {first.name} (dashed)"
+    axes.set_title(title, loc="left", weight="semibold")
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    bare(axes)

@@ -1,0 +1,231 @@
+"""The way from ground to roof, held against buildings whose ground and roof were recorded.
+
+Reads the records it is pointed at and fits a beam; draws nothing.
+Read `recorded_buildings`, then `compare`; `building_checks` has the closed forms.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from solver.building import RoofMotion, building_of_modes, building_of_periods, to_roof
+from solver.model import Floats, InputError
+from solver.motion import read_record, response_spectrum
+from solver.periods import FOOT_M, approximate_period_s
+from solver.solve import STANDARD_GRAVITY_MPS2, slide
+from solver.verification.evidence import RoofComparison, RoofPrediction
+from solver.verification.identification import Identified, identify
+
+SPECTRUM_S = np.geomspace(0.05, 8.0, 89)
+"""Periods of the compared spectra, twelve to the octave and more [s]."""
+
+BANDS_S = ((0.05, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))
+
+SLOPE_DEG, MUS, PPA_G = 2.0, (0.1, 0.2, 0.3, 0.4), 1.0
+"""Scenes: both signs of the slope; the recorded roof motion is scaled to this peak."""
+
+CODE_DAMPING = 0.05
+FRAME_ALPHA0 = 12.5
+"""Middle of the usual stiffness ratios of moment frames, see `solver.beam.beam_modes`."""
+
+BY_HEIGHT = "period by height, nothing measured"
+"""Name of the prediction that an engineer could make beforehand."""
+
+RIGID = building_of_modes([0.1], [0.05], [0.0])
+"""A building that takes the ground's motion to its roof as it is."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FloorRecords:
+    """Motions of one building in one direction, over the same time, the roof's last.
+
+    Attributes
+    ----------
+    title, story : str
+    is_recorded : bool
+        In an earthquake, not made.
+    dt_s : float
+    ground_mps2, floors_mps2 : array, shape (n,) and (n, m)
+    floors : tuple of str
+        Their ordinal numbers.
+    heights : tuple of float
+        Over the height of the building.
+    code_period_s : float
+        What its type and height give; NaN for none.
+    search_s : pair of float
+        Between which the first period is looked for [s].
+    """
+
+    title: str
+    story: str
+    is_recorded: bool
+    dt_s: float
+    ground_mps2: Floats
+    floors_mps2: Floats
+    floors: tuple[str, ...]
+    heights: tuple[float, ...]
+    code_period_s: float
+    search_s: tuple[float, float]
+
+
+def recorded_buildings(folder: Path) -> tuple[FloorRecords, ...]:
+    """Return the buildings whose records lie in a folder.
+
+    Known is ``roof_575_market``: 575 Market Street, San Francisco, in the Loma Prieta earthquake of
+    1989, by the U.S. Geological Survey, as text of time [s] and acceleration [g].
+
+    Raises
+    ------
+    InputError
+        Where there is none, or a record of it is missing or cannot be read.
+    """
+    market = folder / "roof_575_market"
+    if not market.is_dir():
+        raise InputError(f"{folder}: holds no roof_575_market; give a folder with it")
+    return (_market_street(market),)
+
+
+def _market_street(folder: Path) -> FloorRecords:
+    """Azimuth 135 of ground, 25th and 42nd floor; the ground's instrument points to 315."""
+    names = ("k_315", "i_135", "c_135")
+    records = [
+        read_record(folder / f"SF575Market_LomaPrieta_{name}.csv", units="g") for name in names
+    ]
+    n = min(record.a_mps2.size for record in records)
+    ground, *floors = (record.a_mps2[:n] for record in records)
+    code_period_s = approximate_period_s("steel moment frame", 573.0 * FOOT_M)
+    return FloorRecords(
+        title="575 Market Street, San Francisco, Loma Prieta 1989",
+        story="A steel frame of 1975, 573 ft (175 m) high (height from published lists). The U.S. "
+        "Geological Survey's instruments recorded the ground floor and the 25th and 42nd floors; "
+        "compared is azimuth 135, the ground's only horizontal one. The records begin during the "
+        "shaking and hold 0.1 to 25 Hz; their beginnings are taken as common. The 42nd floor "
+        "stands for the roof, the 25th for 25/42 of the height.",
+        is_recorded=True,
+        dt_s=records[0].dt_s,
+        ground_mps2=-ground,
+        floors_mps2=np.stack(floors, axis=1),
+        floors=("25th", "42nd"),
+        heights=(25.0 / 42.0, 1.0),
+        code_period_s=code_period_s,
+        search_s=(0.5 * code_period_s, 2.0 * code_period_s),
+    )
+
+
+def compare(records: FloorRecords) -> RoofComparison:
+    """Predict the roof from the ground and hold it against the record."""
+    roof, dt = records.floors_mps2[:, -1], records.dt_s
+    scale = PPA_G * STANDARD_GRAVITY_MPS2 / float(np.abs(roof).max())
+    roof_sa = response_spectrum(roof, dt, SPECTRUM_S)
+    return RoofComparison(
+        title=records.title,
+        story=records.story,
+        is_recorded=records.is_recorded,
+        dt_s=dt,
+        roof_mps2=roof,
+        ground_peak_mps2=float(np.abs(records.ground_mps2).max()),
+        periods_s=SPECTRUM_S,
+        ground_sa_mps2=response_spectrum(records.ground_mps2, dt, SPECTRUM_S),
+        roof_sa_mps2=roof_sa,
+        bands_s=BANDS_S,
+        slope_deg=SLOPE_DEG,
+        scale=scale,
+        mus=np.array(MUS),
+        prd_m=_slips(roof, dt, scale),
+        predictions=(
+            *(_predict(n, f, records, scale, roof_sa) for n, f in _properties(records)),
+            _held_against(
+                "the ground motion itself, no building",
+                Identified(math.nan, math.nan, math.nan, math.nan),
+                to_roof(records.ground_mps2, dt, RIGID),
+                records,
+                scale,
+                roof_sa,
+            ),
+        ),
+    )
+
+
+def _properties(records: FloorRecords) -> Iterator[tuple[str, Identified]]:
+    """Properties: fitted to all floors, to all but the roof, by height, and with usual damping."""
+    fits = []
+    for count in range(len(records.floors), 0, -1):
+        fits.append(
+            identify(
+                records.ground_mps2,
+                records.dt_s,
+                records.heights[:count],
+                records.floors_mps2[:, :count],
+                records.search_s,
+            )
+        )
+        several = "s" if count > 1 else ""
+        yield f"fitted to the {' and '.join(records.floors[:count])} floor{several}", fits[-1]
+    if not math.isnan(records.code_period_s):
+        yield (
+            BY_HEIGHT,
+            Identified(records.code_period_s, CODE_DAMPING, FRAME_ALPHA0, math.nan),
+        )
+        yield (
+            f"fitted as first, but with {100 * CODE_DAMPING:g} % damping",
+            fits[0]._replace(damping=CODE_DAMPING),
+        )
+
+
+def _predict(
+    name: str, found: Identified, records: FloorRecords, scale: float, roof_sa: Floats
+) -> RoofPrediction:
+    building = building_of_periods([found.period_s], damping=[found.damping], alpha0=found.alpha0)
+    motion = to_roof(records.ground_mps2, records.dt_s, building)
+    return _held_against(name, found, motion, records, scale, roof_sa)
+
+
+def _held_against(
+    name: str,
+    found: Identified,
+    motion: RoofMotion,
+    records: FloorRecords,
+    scale: float,
+    roof_sa: Floats,
+) -> RoofPrediction:
+    roof = records.floors_mps2[:, -1]
+    # The recorded motion ends with its record: what comes after it cannot be compared.
+    a = motion.a_mps2[: roof.size]
+    sa = response_spectrum(a, records.dt_s, SPECTRUM_S)
+    ratios, scatters = _by_band(np.log(sa / roof_sa))
+    return RoofPrediction(
+        name=name,
+        period_s=found.period_s,
+        damping=found.damping,
+        alpha0=found.alpha0,
+        n_modes=motion.n_modes,
+        left_out_share=motion.left_out_share,
+        unexplained=float(((a - roof) ** 2).sum() / (roof**2).sum()),
+        peak_mps2=float(np.abs(a).max()),
+        sa_mps2=sa,
+        band_ratios=ratios,
+        band_scatters=scatters,
+        a_mps2=a,
+        prd_m=_slips(a, records.dt_s, scale),
+    )
+
+
+def _by_band(logs: Floats) -> tuple[Floats, Floats]:
+    parts = [logs[(low <= SPECTRUM_S) & (high >= SPECTRUM_S)] for low, high in BANDS_S]
+    return np.exp([part.mean() for part in parts]), np.array([part.std() for part in parts])
+
+
+def _slips(a: Floats, dt_s: float, scale: float) -> Floats:
+    """PRD for each friction coefficient, the larger of both signs of the slope."""
+    slopes = (math.radians(SLOPE_DEG), -math.radians(SLOPE_DEG))
+    return np.array(
+        [
+            max(slide(a, dt_s, slope_rad=slope, mu=mu, scale=scale).prd_m for slope in slopes)
+            for mu in MUS
+        ]
+    )

@@ -1,0 +1,293 @@
+"""Checks of the way from ground to roof: oscillators, modes, a whole building, identification.
+
+As `checks`, whose rows they are; expected values come from closed forms, from finite elements and
+from stepping all floors of a building at once. Read `building_checks`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from solver.beam import beam_modes, floor_stiffness, storey_modes
+from solver.building import absolute_accelerations, building_of_periods, to_roof
+from solver.model import Floats
+from solver.motion import Record
+from solver.verification.building import FloorRecords
+from solver.verification.checks import ROUNDING, check
+from solver.verification.evidence import CheckRow, RoofComparison
+
+SECTION = "From ground to roof"
+
+STOREYS, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
+"""The made building."""
+
+_BENDING = ((1.875104069, 0.734095514), (4.694091133, 1.018467319), (7.854757438, 0.999224497))
+"""gamma and sigma of a clamped-free beam: Blevins, Formulas for Natural Frequency (1979), 8-1."""
+
+
+def building_checks(made: FloorRecords, found: RoofComparison) -> Iterator[CheckRow]:
+    """Make the checks; the made building's comparison is among them."""
+    yield from _steps()
+    yield from _steady_waves()
+    yield from _limits()
+    yield from _coupled()
+    yield from _sums()
+    yield from _storeys()
+    yield _whole_building(made)
+    yield from _identified(found)
+
+
+def made_building(ground: Record) -> FloorRecords:
+    """Return the motions of equal storeys on a ground, all floors stepped at once.
+
+    No modes are superposed. A beam half a storey higher has the same modes, nearly.
+    """
+    floors = _stepped(ground.a_mps2, ground.dt_s)
+    levels = (STOREYS // 2, STOREYS)
+    return FloorRecords(
+        title=f"A made building of {STOREYS} storeys",
+        story=f"Equal storeys and floors in shear and bending: first period {PERIOD_S:g} s, "
+        f"damping {100 * DAMPING:g} % in every mode, lateral stiffness ratio {ALPHA0:g}. Its "
+        f"ground is {ground.name}; its floors are stepped all at once, without modes, so that "
+        "modes and fit stand against something else.",
+        is_recorded=False,
+        dt_s=ground.dt_s,
+        ground_mps2=ground.a_mps2,
+        floors_mps2=floors[:, [level - 1 for level in levels]],
+        floors=tuple(f"{level}th" for level in levels),
+        heights=tuple(level / (STOREYS + 0.5) for level in levels),
+        code_period_s=math.nan,
+        search_s=(0.5 * PERIOD_S, 2.0 * PERIOD_S),
+    )
+
+
+def _stepped(a: Floats, dt: float) -> Floats:
+    """Absolute accelerations of all floors, unit masses, straight lines between samples.
+
+    One matrix exponential holds the floors' displacements and velocities, the ground's
+    acceleration and its slope.
+    """
+    stiff = floor_stiffness(ALPHA0, STOREYS)
+    squares, shapes = np.linalg.eigh(stiff)
+    squares *= (2.0 * math.pi / PERIOD_S) ** 2 / squares[0]
+    stiff = (shapes * squares) @ shapes.T
+    damp = (shapes * (2.0 * DAMPING * np.sqrt(squares))) @ shapes.T
+    n = 2 * STOREYS
+    rate = np.zeros((n + 2, n + 2))
+    rate[:STOREYS, STOREYS:n] = np.eye(STOREYS)
+    rate[STOREYS:n, :n] = np.hstack([-stiff, -damp])
+    rate[STOREYS:n, n] = -1.0
+    rate[n, n + 1] = 1.0
+    step = _exponential(rate * dt)
+    state, found = np.zeros(n), np.zeros((a.size, STOREYS))
+    for i in range(1, a.size):
+        slope = (a[i] - a[i - 1]) / dt
+        state = step[:n, :n] @ state + step[:n, n] * a[i - 1] + step[:n, n + 1] * slope
+        found[i] = rate[STOREYS:n, :n] @ state
+    return found
+
+
+def _exponential(matrix: Floats) -> Floats:
+    """Matrix exponential: its power series on a small part of the step, squared back."""
+    halvings = max(0, math.ceil(math.log2(float(np.abs(matrix).sum(axis=1).max()))) + 3)
+    part = matrix / 2.0**halvings
+    term = found = np.eye(len(matrix))
+    for k in range(1, 16):
+        term = term @ part / k
+        found = found + term
+    for _ in range(halvings):
+        found = found @ found
+    return found
+
+
+def _steps() -> Iterator[CheckRow]:
+    for period_s, zeta in ((0.9, 0.03), (0.05, 0.2), (6.0, 0.005)):
+        t, w = 1.37, 2.0 * math.pi / period_s
+        kappa = math.sqrt(1.0 - zeta**2)
+        wave = math.cos(kappa * w * t) - zeta / kappa * math.sin(kappa * w * t)
+        found = absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0]
+        yield check(
+            SECTION,
+            f"Step, oscillator of {period_s:g} s, {zeta:g}",
+            "1 - exp(-D t) (cos(W t) - D / W sin(W t)) after t = 1.37 s; D = zeta omega, W damped "
+            "frequency; period and damping as given",
+            "Acceleration",
+            "m/s2",
+            1.0 - math.exp(-zeta * w * t) * wave,
+            float(found),
+            ROUNDING,
+        )
+
+
+def _steady_waves() -> Iterator[CheckRow]:
+    dt, period_s, zeta = 0.001, 0.5, 0.1
+    building = building_of_periods([period_s], damping=[zeta], storeys=1)
+    for ratio in (0.5, 1.0, 2.0):
+        w = ratio * 2.0 * math.pi / period_s
+        wave = np.sin(w * dt * np.arange(round(20.0 / dt)))
+        roof = to_roof(wave, dt, building).a_mps2[: wave.size]
+        damped = (2.0 * zeta * ratio) ** 2
+        yield check(
+            SECTION,
+            f"One storey, wave of {ratio:g} its frequency",
+            "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2, damping 0.1; "
+            "step 0.001 s",
+            "Roof over ground",
+            "1",
+            math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped)),
+            float(np.abs(roof[-round(1.0 / dt) :]).max()),
+            1e-4,
+        )
+
+
+def _limits() -> Iterator[CheckRow]:
+    bending, shear = beam_modes(0.0, 3), beam_modes(math.inf, 3)
+    first = _BENDING[0][0]
+    for n, (gamma, sigma) in enumerate(_BENDING, start=1):
+        sign = (-1) ** (n - 1)
+        for name, source, modes, ratio, factor, tolerance in (
+            (
+                "bends",
+                "Blevins (1979), Table 8-1: ratios of squared gamma, and 4 sigma / gamma",
+                bending,
+                (gamma / first) ** 2,
+                sign * 4.0 * sigma / gamma,
+                1e-8,
+            ),
+            (
+                "shears",
+                "Sines: 2 n - 1, and 4 / ((2 n - 1) pi) with changing sign",
+                shear,
+                2.0 * n - 1.0,
+                sign * 4.0 / ((2.0 * n - 1.0) * math.pi),
+                ROUNDING,
+            ),
+        ):
+            problem = f"Cantilever that {name}, mode {n}"
+            found = float(modes.factors[n - 1, 0])
+            if n > 1:
+                inverse = float(1.0 / modes.period_ratios[n - 1])
+                yield check(
+                    SECTION,
+                    problem,
+                    source,
+                    "First period over this",
+                    "1",
+                    ratio,
+                    inverse,
+                    tolerance,
+                )
+            yield check(SECTION, problem, source, "Roof factor", "1", factor, found, tolerance)
+
+
+def _coupled() -> Iterator[CheckRow]:
+    source = "64 cubic finite elements with consistent masses"
+    for alpha0 in (2.0, 12.0):
+        ratios, factors = _finite_elements(alpha0)
+        modes = beam_modes(alpha0, 3)
+        for n in (1, 2, 3):
+            problem = f"Cantilever, stiffness ratio {alpha0:g}, mode {n}"
+            if n > 1:
+                found = float(1.0 / modes.period_ratios[n - 1])
+                yield check(
+                    SECTION,
+                    problem,
+                    source,
+                    "First period over this",
+                    "1",
+                    ratios[n - 1],
+                    found,
+                    1e-5,
+                )
+            found = float(modes.factors[n - 1, 0])
+            yield check(SECTION, problem, source, "Roof factor", "1", factors[n - 1], found, 1e-5)
+
+
+def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[float]]:
+    """Frequencies over the first one, and roof factors, of the first three modes."""
+    size = 1.0 / count
+    scale = np.array([1.0, size, 1.0, size])
+    turned = np.outer(scale, scale)
+    bending = np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]]) / size**3
+    shear = np.array([[36, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]])
+    mass = np.array(
+        [[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
+    ) * (size / 420.0)
+    stiff, heavy = np.zeros((2, 2 * count + 2, 2 * count + 2))
+    for k in range(0, 2 * count, 2):
+        part = slice(k, k + 4)
+        stiff[part, part] += (bending + alpha0**2 * shear / (30.0 * size)) * turned
+        heavy[part, part] += mass * turned
+    rigid = (heavy @ np.tile([1.0, 0.0], count + 1))[2:]
+    stiff, heavy = stiff[2:, 2:], heavy[2:, 2:]
+    root = np.linalg.inv(np.linalg.cholesky(heavy))
+    squares, shapes = np.linalg.eigh(root @ stiff @ root.T)
+    shapes = root.T @ shapes
+    return np.sqrt(squares / squares[0]).tolist(), (rigid @ shapes * shapes[-2]).tolist()
+
+
+def _sums() -> Iterator[CheckRow]:
+    for alpha0, name in ((0.0, " that bends"), (6.0, ", ratio 6"), (math.inf, " that shears")):
+        sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
+        yield check(
+            SECTION,
+            f"Cantilever{name}, all modes together",
+            "What is stiff moves with the ground: 1; mean of the sums of 399 and 400 modes",
+            "Sum of roof factors",
+            "1",
+            1.0,
+            float(0.5 * (sums[-1] + sums[-2])),
+            1e-4,
+        )
+
+
+def _storeys() -> Iterator[CheckRow]:
+    for storeys in (1, 2, 5):
+        angle = math.pi / (2.0 * storeys + 1.0)
+        shape = np.sin(angle * np.arange(1, storeys + 1))
+        modes = storey_modes(math.inf, storeys)
+        yield check(
+            SECTION,
+            f"Storeys in shear: {storeys}, first mode",
+            "Sines of (2 n - 1) pi k / (2 N + 1) at floor k",
+            "Roof factor",
+            "1",
+            float(shape.sum() * shape[-1] / (shape**2).sum()),
+            float(modes.factors[0, 0]),
+            1e-9,
+        )
+
+
+def _whole_building(made: FloorRecords) -> CheckRow:
+    building = building_of_periods([PERIOD_S], damping=[DAMPING], alpha0=ALPHA0, storeys=STOREYS)
+    roof = to_roof(made.ground_mps2, made.dt_s, building, share=0.0)
+    stepped = made.floors_mps2[:, -1]
+    off = float(np.abs(roof.a_mps2[: stepped.size] - stepped).max())
+    return check(
+        SECTION,
+        "The made building, all modes",
+        "One matrix exponential for all floors at once; of the roof's peak",
+        "Largest difference",
+        "1",
+        0.0,
+        off / float(np.abs(stepped).max()),
+        1e-7,
+    )
+
+
+def _identified(found: RoofComparison) -> Iterator[CheckRow]:
+    best = found.predictions[0]
+    source = "What it was made with, as a beam half a storey higher; fitted to two of its floors"
+    ratio = ALPHA0 * (1.0 + 0.5 / STOREYS)
+    for quantity, unit, expected, value, tolerance in (
+        ("First period", "s", PERIOD_S, best.period_s, 0.005),
+        ("Damping", "1", DAMPING, best.damping, 0.02),
+        ("Lateral stiffness ratio", "1", ratio, best.alpha0, 0.025),
+        ("Not explained", "1", 0.0, best.unexplained, 0.01),
+    ):
+        yield check(
+            SECTION, "The made building, fitted", source, quantity, unit, expected, value, tolerance
+        )

@@ -1,0 +1,106 @@
+"""Period, damping and stiffness ratio of a building from motions of its ground and its floors.
+
+A search, not a method of the packages: it tells how good `solver.building` can be.
+Read `identify`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from solver.beam import MOST_ALPHA0, Modes, beam_modes
+from solver.building import MOST_DAMPING, absolute_accelerations
+from solver.model import Floats
+
+MODES = 12
+"""Of a beam; more of them change nothing that a floor shows."""
+
+DAMPINGS, ALPHAS = (0.02, 0.05, 0.12), (0.0, 2.0, 6.0, 15.0, 40.0)
+"""The coarse grid; periods step by 4 %, finer than a resonance is wide."""
+
+_PERIOD_STEP, _LAST_STEP = 0.04, 1e-4
+
+_Point = tuple[float, float, float]
+
+
+class Identified(NamedTuple):
+    """The uniform beam whose floors come nearest to the recorded ones.
+
+    `unexplained` is the sum of squares of the difference over that of the recorded motions.
+    """
+
+    period_s: float
+    damping: float
+    alpha0: float
+    unexplained: float
+
+
+def identify(
+    ground_mps2: Floats,
+    dt_s: float,
+    heights: tuple[float, ...],
+    floors_mps2: Floats,
+    periods_s: tuple[float, float],
+) -> Identified:
+    """Return the beam with the least sum of squares: a grid first, then shrinking steps.
+
+    Parameters
+    ----------
+    ground_mps2, floors_mps2 : array, shape (n,) and (n, m)
+        Recorded in the same direction, over the same time.
+    heights : tuple of float, m of them
+        Of the floors over the height of the building.
+    periods_s : pair of float
+        Least and greatest first period of the grid [s].
+    """
+    every = float((floors_mps2**2).sum())
+
+    def misfit(point: _Point) -> float:
+        period_s, damping, alpha0 = (float(v) for v in _plain(point))
+        modes = _beam(alpha0, heights)
+        zeta = np.full(MODES, damping)
+        found = absolute_accelerations(ground_mps2, dt_s, period_s * modes.period_ratios, zeta)
+        rigid = 1.0 - modes.factors.sum(axis=0)
+        off = found @ modes.factors + ground_mps2[:, None] * rigid - floors_mps2
+        return float((off**2).sum()) / every
+
+    steps = int(np.log(periods_s[1] / periods_s[0]) / _PERIOD_STEP) + 2
+    grid = product(np.log(np.geomspace(*periods_s, steps)), np.log(DAMPINGS), np.log1p(ALPHAS))
+    start = min(((misfit(point), point) for point in grid), key=lambda found: found[0])
+    least, best = _descend(misfit, *start)
+    return Identified(*_plain(best), least)
+
+
+def _plain(point: _Point) -> _Point:
+    """Return period, damping and ratio of a point of the search: logarithms, within bounds."""
+    period, damping, alpha0 = np.exp(point)
+    return (
+        float(period),
+        float(min(damping, MOST_DAMPING)),
+        float(min(max(alpha0 - 1.0, 0.0), MOST_ALPHA0)),
+    )
+
+
+def _descend(misfit: Callable[[_Point], float], least: float, best: _Point) -> tuple[float, _Point]:
+    """Step to the best of the neighbours on each axis; halve the steps where none is better."""
+    reach = np.array([_PERIOD_STEP / 2.0, 0.4, 0.4])
+    while reach[0] > _LAST_STEP:
+        around: list[_Point] = [
+            tuple(best + sign * move) for move in np.diag(reach) for sign in (1.0, -1.0)
+        ]
+        found, point = min(((misfit(p), p) for p in around), key=lambda pair: pair[0])
+        if found < least:
+            least, best = found, point
+        else:
+            reach /= 2.0
+    return least, best
+
+
+@lru_cache(maxsize=256)
+def _beam(alpha0: float, heights: tuple[float, ...]) -> Modes:
+    return beam_modes(alpha0, MODES, heights)
