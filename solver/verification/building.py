@@ -14,8 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from solver.building import RoofMotion, building_of_modes, building_of_periods, to_roof
+from solver.formats import read_record
 from solver.model import Floats, InputError
-from solver.motion import read_record, response_spectrum
+from solver.motion import response_spectrum
 from solver.periods import FOOT_M, approximate_period_s
 from solver.solve import STANDARD_GRAVITY_MPS2, slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
