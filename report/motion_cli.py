@@ -18,6 +18,7 @@ from report.terminal import Progress, input_errors
 
 if TYPE_CHECKING:
     from report.suite_inputs import Targets
+    from solver.formats import MotionFile
     from solver.motion import Record
 
 _FILE = click.Path(path_type=Path)
@@ -25,6 +26,9 @@ _FILE = click.Path(path_type=Path)
 # Of the record's peak: what a converted record may lose.
 _KEPT_WITHIN = 1e-9
 _PICTURES = (".svg", ".png")
+
+UNITS = ("g", "m/s2", "cm/s2", "mm/s2", "gal")
+"""Those of `solver.formats.UNIT_CHOICES`, which takes too long to import for `--help`."""
 
 
 @click.group()
@@ -34,14 +38,19 @@ def motion() -> None:
 
 def _reading(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options that say how to read a file."""
-    units = click.Choice(["g", "m/s2", "cm/s2", "mm/s2", "gal"])
     options = (
-        click.option("--units", type=units, help="Units, where the file does not say."),
-        click.option("--dt", "dt_s", type=float, help="Time step [s], where the file has none."),
+        click.option("--units", type=click.Choice(UNITS),
+                     help="Units, where the file does not say."),
+        click.option("--dt", "dt_s", type=float, default=math.nan, metavar="S",
+                     help="Time step [s], where the file has none."),
     )  # fmt: skip
     for option in options:
         command = option(command)
     return command
+
+
+_channel = click.option("--channel", default="", metavar="NAME",
+                        help="One channel: its name, or its number in the file.")  # fmt: skip
 
 
 def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
@@ -53,26 +62,32 @@ def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path |
 
 @motion.command()
 @click.argument("file", metavar="FILE", type=_FILE)
+@_channel
 @_reading
 @click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
 @click.option("--plot", metavar="OUT.svg|OUT.png", type=_FILE, callback=_picture,
               help="Draw the records and their 5 % damped response spectra.")  # fmt: skip
 def info(
-    file: Path, units: str | None, dt_s: float | None, as_json: bool, plot: Path | None
+    file: Path, channel: str, units: str | None, dt_s: float, as_json: bool, plot: Path | None
 ) -> None:
-    """Say what FILE holds: sampling, peaks, Arias intensity, duration, drift at the end."""
+    """Say what FILE holds: its channels with sampling, peaks, Arias intensity, duration, drift.
+
+    The format is told by the content, whatever the name of the file.
+    """
     from report.motion_info import summary, table
 
     with input_errors(file):
-        records = [_record(file, units, dt_s)]
+        found = _read(file, units, dt_s)
+        records = [found.channel(channel)] if channel else found.channels
         if plot:
             _draw(records, plot)
     channels = [summary(record) for record in records]
     if as_json:
-        found = {"file": str(file), "format": "text", "notes": [], "channels": channels}
-        click.echo(json.dumps(found))
+        about = {"file": str(file), "format": found.format, "notes": list(found.notes)}
+        click.echo(json.dumps(about | {"channels": channels}))
         return
-    for line in table(channels):
+    click.echo(f"{file}: {found.format}")
+    for line in (*table(channels), *(f"note: {note}" for note in found.notes)):
         click.echo(line)
     if plot:
         click.echo(plot)
@@ -81,11 +96,18 @@ def info(
 @motion.command()
 @click.argument("file", metavar="FILE", type=_FILE)
 @click.argument("out", metavar="OUT.csv", type=_FILE)
+@_channel
 @_reading
-def convert(file: Path, out: Path, units: str | None, dt_s: float | None) -> None:
-    """Write FILE as OUT.csv: time in s and acceleration in g; never over a file that is there."""
+def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float) -> None:
+    """Write FILE as OUT.csv: time in s and acceleration in g; never over a file that is there.
+
+    Of several channels one has to be chosen.
+    """
     with input_errors(file):
-        _write(_record(file, units, dt_s), out)
+        found = _read(file, units, dt_s)
+        _write(found.channel(channel), out)
+    for note in found.notes:
+        click.echo(f"note: {note}")
     click.echo(out)
 
 
@@ -120,7 +142,7 @@ def suite(
     seed: int,
     records: tuple[str, ...],
     units: str | None,
-    dt_s: float | None,
+    dt_s: float,
 ) -> None:
     """Make motions that follow a spectrum, into DIR: x, y and z of each, suite.json, suite.png.
 
@@ -137,7 +159,7 @@ def suite(
 
         check_folder(folder, count)
         targets = _targets(code, s_ds_g, z_over_h, tail, target)
-        found = read_seeds((*records, *more), units=units or "", dt_s=_or_nan(dt_s))
+        found = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         progress("compiling the solver, the first time")
         made = make_suite(
             targets.horizontal,
@@ -171,14 +193,10 @@ def _targets(
     return ac156_targets(code, s_ds_g=s_ds_g, z_over_h=z_over_h, tail=rule)
 
 
-def _record(path: Path, units: str | None, dt_s: float | None) -> Record:
-    from solver.formats import read_record
+def _read(path: Path, units: str | None, dt_s: float) -> MotionFile:
+    from solver.formats import read_motion_file
 
-    return read_record(path, units=units or "", dt_s=_or_nan(dt_s))
-
-
-def _or_nan(dt_s: float | None) -> float:
-    return math.nan if dt_s is None else dt_s
+    return read_motion_file(path, units=units or "", dt_s=dt_s)
 
 
 def _write(record: Record, out: Path) -> None:
