@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.motion_cli import motion
+from report.motion_cli import UNITS, motion
 from report.terminal import Progress, input_errors
 
 if TYPE_CHECKING:
@@ -144,7 +144,7 @@ def verify(out: Path, quick: bool, records: Path | None) -> None:
 @click.option("--ppa-g", type=float, help="Scale to this peak horizontal acceleration [g].")
 @click.option("--factor", type=float, help="Scale by this factor.")
 @click.option("--dt", type=float, help="Time step [s], where the record has no column of times.")
-@click.option("--units", type=click.Choice(["g", "m/s2", "cm/s2", "mm/s2", "gal"]),
+@click.option("--units", type=click.Choice(UNITS),
               help="Units of the records, where the files do not say.")  # fmt: skip
 @click.option("--vertical", type=_SCENE, help="Vertical record, positive up.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
