@@ -70,9 +70,11 @@ def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path |
 def info(
     file: Path, channel: str, units: str | None, dt_s: float, as_json: bool, plot: Path | None
 ) -> None:
-    """Say what FILE holds: its channels with sampling, peaks, Arias intensity, duration, drift.
+    """Say what FILE holds: channels, peaks, duration, drift.
 
-    The format is told by the content, whatever the name of the file.
+    Peak acceleration, velocity and displacement, Arias intensity, significant duration from 5 to
+    95 % of it, and the velocity and displacement left at the end. No base line is taken off. The
+    format is told by the content, whatever the name of the file.
     """
     from report.motion_info import summary, table
 
@@ -99,9 +101,9 @@ def info(
 @_channel
 @_reading
 def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float) -> None:
-    """Write FILE as OUT.csv: time in s and acceleration in g; never over a file that is there.
+    """Write FILE as csv: time in s, acceleration in g.
 
-    Of several channels one has to be chosen.
+    Never over a file that is there. Of several channels one has to be chosen.
     """
     with input_errors(file):
         found = _read(file, units, dt_s)

@@ -27,8 +27,8 @@ _COLUMNS = (
     ("PGD [cm]", "pgd_m", 100.0),
     ("Arias [m/s]", "arias_mps", 1.0),
     ("D5-95 [s]", "d5_95_s", 1.0),
-    ("end [cm/s]", "final_velocity_mps", 100.0),
-    ("end [cm]", "final_displacement_m", 100.0),
+    ("final v [cm/s]", "final_velocity_mps", 100.0),
+    ("final d [cm]", "final_displacement_m", 100.0),
 )
 
 # A drift below this part of the peak is rounding.

@@ -133,7 +133,7 @@ def test_info_prints_a_table_for_people(column):
     assert row["points"] == "4"
     assert row["PGA [g]"] == "0.25"
     # Trapezia of 0.125 and -0.25 g; the velocity ends at -0.0025 g s.
-    assert row["end [cm/s]"] == f"{-0.0025 * G * 100:.4g}"
+    assert row["final v [cm/s]"] == f"{-0.0025 * G * 100:.4g}"
 
 
 def test_a_drift_of_rounding_prints_as_zero():
