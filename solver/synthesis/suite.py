@@ -6,6 +6,7 @@ Read `make_suite` first, then `synthesise`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -15,7 +16,7 @@ from solver.model import InputError
 from solver.motion import Record
 from solver.synthesis.matching import Frame, goal_mps2, make_frame, matched, rounded, shaped
 from solver.synthesis.seeds import Seed, grown, noise_seed, seeds_of, strongest
-from solver.synthesis.target import Target, meets, target_problems
+from solver.synthesis.target import Target, band, keeps, spectrum_fit, target_problems
 
 CORRELATION = 0.3
 """Largest correlation coefficient of two components of one motion."""
@@ -189,17 +190,21 @@ def _component(
     """Return a component with what it grew from."""
     target, frame = wanted.target, wanted.frame
     goal = goal_mps2(frame, target)
+    nearest = math.inf, ""
     for draw in range(DRAWS):
         start = grown(seed, rng, len(frame.envelope), draw)
         a = rounded(matched(frame, shaped(frame, start, target, goal), goal))
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
         alike = any(abs(correlation(record, other)) > CORRELATION for other in unlike)
-        if meets(target, record) and not alike and _strong_share(record) >= STRONG_SHARE:
+        fit = spectrum_fit(record, target, band(48))
+        if keeps(fit) and not alike and _strong_share(record) >= STRONG_SHARE:
             return record, seed.words(draw)
+        reached = f"{fit.least:.2f} to {fit.greatest:.2f}"
+        nearest = min(nearest, (max(1.0 / fit.least, fit.greatest), reached))
     duration_s = frame.dt_s * (len(frame.envelope) - 1)
     raise InputError(
-        f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum; "
-        "give a smoother target or a longer duration"
+        f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum, "
+        f"the nearest having {nearest[1]} of it; give a smoother target or a longer duration"
     )
 
 

@@ -80,9 +80,8 @@ def spectrum_fit(record: Record, target: Target, freq_hz: Floats | None = None) 
     return SpectrumFit(freq_hz=freq_hz, target_g=target_sa_g(target, freq_hz), achieved_g=achieved)
 
 
-def meets(target: Target, record: Record) -> bool:
-    """Whether a record keeps within `LEAST`, `GREATEST` and `MEAN_OFF`."""
-    fit = spectrum_fit(record, target, band(48))
+def keeps(fit: SpectrumFit) -> bool:
+    """Whether a fit lies within `LEAST`, `GREATEST` and `MEAN_OFF`."""
     return fit.least >= LEAST and fit.greatest <= GREATEST and abs(fit.mean - 1.0) <= MEAN_OFF
 
 
