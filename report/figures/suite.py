@@ -18,7 +18,7 @@ from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, Broken, bare,
 from solver.synthesis import SpectrumFit
 
 _DPI = 200
-_PANEL_IN, _GAP_IN, _TOP_IN, _BOTTOM_IN = 1.55, 0.5, 0.5, 0.42
+_PANEL_IN, _GAP_IN, _TOP_IN, _BOTTOM_IN = 1.55, 0.5, 0.5, 0.46
 _TICKS_S = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _TICKS_G = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _RATIO_RANGE = (0.8, 1.4)
