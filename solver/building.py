@@ -1,25 +1,35 @@
 """From ground to roof: an elastic building of a few modes between a ground motion and its roof.
 
-Owns periods, damping and the roof's motion; shapes of modes are `solver.beam`'s. Slides nothing.
-Read `to_roof` first, then `building_of_periods` for where a building comes from.
+Owns the roof's motion; what a building is made of is `solver.structure`'s. Slides nothing.
+Read `to_roof` first, then `shaking_to_roof` for all components of a motion.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from solver import kernels
-from solver.beam import MOST_STOREYS, Modes, beam_modes, check_alpha0, storey_modes
 from solver.model import Floats, InputError
+from solver.structure import Building, building_of_modes, building_of_periods
 
-BEAM_MODES = 40
-"""Modes of a building without storeys; beyond them each roof factor is under 0.04."""
+__all__ = [
+    "Building",
+    "RoofMotion",
+    "RoofShaking",
+    "absolute_accelerations",
+    "building_of_modes",
+    "building_of_periods",
+    "lengthened",
+    "roof_motion",
+    "shaking_to_roof",
+    "to_roof",
+]
 
 SHARE = 0.05
 """All modes left out together may change the roof acceleration by this share of its peak."""
@@ -27,28 +37,10 @@ SHARE = 0.05
 RESTING_SHARE = 0.01
 """A roof motion ends where its free vibration stays below this share of its peak."""
 
-LEAST_DAMPING, MOST_DAMPING = 0.01, 0.5
-MOST_PERIOD_S = 10.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Building:
-    """An elastic building, as far as its roof feels the ground; arrays are read-only.
-
-    Attributes
-    ----------
-    periods_s, damping : array, shape (n,)
-        Of each mode, the longest period first [s]; fraction of critical damping.
-    roof_factors : array, shape (n,)
-        Participation factor times shape at the roof, Gamma phi, of each.
-    words : str
-        How it was made, for a reader.
-    """
-
-    periods_s: Floats
-    damping: Floats
-    roof_factors: Floats
-    words: str
+FINENESS, MOST_STEPS = 20, 16
+"""Samples in a period of the fastest mode taken: straight lines between them miss up to 1.2 % of
+its peaks; and most steps for each interval of the ground's record.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +80,23 @@ class RoofMotion:
         return float(self.shares[self.n_modes]) if self.n_modes < self.shares.size else 0.0
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoofShaking:
+    """All components of a roof's motion, with one step and one length.
+
+    Attributes
+    ----------
+    dt_s : float
+    horizontal : tuple of RoofMotion
+    vertical_mps2 : array, shape (n,) or (0,)
+        That of the ground [m/s2], read-only; empty where there is none.
+    """
+
+    dt_s: float
+    horizontal: tuple[RoofMotion, ...]
+    vertical_mps2: Floats
+
+
 def to_roof(
     ground_mps2: ArrayLike, dt_s: float, building: Building, *, share: float = SHARE
 ) -> RoofMotion:
@@ -103,11 +112,11 @@ def to_roof(
 
     The mass of the arrays is neglected: what slides does not act back on the building. One
     direction at a time: no torsion, no yielding, no soil below, a roof that is stiff in its plane.
-    The vertical motion is taken to pass unchanged from ground to roof, and is not a matter of this
-    function; `lengthened` brings it to the same length.
+    The vertical motion passes unchanged from ground to roof, see `shaking_to_roof`.
 
     The motion goes on after the ground's until the free vibration stays below `RESTING_SHARE` of
-    the peak, because a block may still slide then.
+    the peak, because a block may still slide then. Where the roof would swing between the samples
+    the step is refined, see `FINENESS`.
 
     Parameters
     ----------
@@ -122,38 +131,108 @@ def to_roof(
     ------
     InputError
     """
-    ground = np.asarray(ground_mps2, dtype=np.float64)
-    _check_motion(ground, dt_s, share)
+    ground = _checked(ground_mps2, dt_s, share)
+    cut = _cut(ground, dt_s, building, share)
+    return _carried(ground, dt_s, building, cut, _steps(cut, dt_s, building))
+
+
+def roof_motion(
+    ground_mps2: ArrayLike, dt_s: float, building: Building, *, share: float = SHARE
+) -> Floats:
+    """Return the roof's absolute acceleration [m/s2] at the ground's own samples; see `to_roof`."""
+    found = to_roof(ground_mps2, dt_s, building, share=share)
+    return found.a_mps2[:: round(dt_s / found.dt_s)]
+
+
+def shaking_to_roof(
+    horizontal_mps2: Sequence[ArrayLike],
+    vertical_mps2: ArrayLike,
+    dt_s: float,
+    buildings: Sequence[Building],
+    *,
+    share: float = SHARE,
+) -> RoofShaking:
+    """Return all components at the roof, with the finest step and the greatest length of any.
+
+    Parameters
+    ----------
+    horizontal_mps2 : sequence of array_like
+        Horizontal components of the ground's motion [m/s2].
+    vertical_mps2 : array_like
+        Vertical one, which passes unchanged; empty for none.
+    buildings : sequence of Building
+        One for each horizontal component; the same one may stand for several.
+
+    Raises
+    ------
+    InputError
+    """
+    grounds = [_checked(a, dt_s, share) for a in horizontal_mps2]
+    pairs = list(zip(grounds, buildings, strict=True))
+    cuts = [_cut(a, dt_s, building, share) for a, building in pairs]
+    steps = max((_steps(c, dt_s, b) for c, b in zip(cuts, buildings, strict=True)), default=1)
+    found = [_carried(a, dt_s, b, c, steps) for (a, b), c in zip(pairs, cuts, strict=True)]
+    vertical = np.asarray(vertical_mps2, dtype=np.float64)
+    count = max([(vertical.size - 1) * steps + 1, *(one.a_mps2.size for one in found)])
+    if vertical.size:
+        vertical = lengthened(vertical, math.ceil((count - 1) / steps) + 1)
+        vertical = _refined(vertical, steps)[:count]
+    return RoofShaking(
+        dt_s=dt_s / steps,
+        horizontal=tuple(_as_long(one, count) for one in found),
+        vertical_mps2=_read_only(vertical),
+    )
+
+
+def _as_long(one: RoofMotion, count: int) -> RoofMotion:
+    more_s = (count - one.a_mps2.size) * one.dt_s
+    return replace(one, a_mps2=lengthened(one.a_mps2, count), pad_s=one.pad_s + more_s)
+
+
+class _Cut(NamedTuple):
+    """What a model is cut to: modes taken, and shares as in `RoofMotion`."""
+
+    n_modes: int
+    shares: Floats
+    left_out_share: float
+
+
+def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
     a = lengthened(ground, ground.size + _free_samples(building, dt_s))
     parts = absolute_accelerations(a, dt_s, building.periods_s, building.damping)
     parts -= a[:, None]
     parts *= building.roof_factors
     peak = float(np.abs(a + parts.sum(axis=1)).max())
+    each = np.maximum(parts.max(axis=0), -parts.min(axis=0))
     # Column n: all modes from n on together. Few enough: no later column is over the limit.
-    rest = np.cumsum(parts[:, ::-1], axis=1)[:, ::-1]
-    left_out = np.append(np.abs(rest).max(axis=0), 0.0)
+    rest = np.cumsum(parts[:, ::-1], axis=1, out=parts[:, ::-1])[:, ::-1]
+    left_out = np.append(np.maximum(rest.max(axis=0), -rest.min(axis=0)), 0.0)
     over = np.flatnonzero(left_out > share * peak)
     n_modes = int(over[-1]) + 1 if over.size else 0
-    roof = a + parts[:, :n_modes].sum(axis=1)
-    top = float(np.abs(roof).max())
-    end = max(ground.size, _last_over(roof, RESTING_SHARE * top) + 2)
     per = 1.0 / peak if peak > 0.0 else 0.0
+    return _Cut(n_modes, _read_only(each * per), float(left_out[n_modes]) * per)
+
+
+def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: int) -> RoofMotion:
+    """Return the roof's motion in so many steps for each interval of the ground's."""
+    dt, taken, n = dt_s / steps, slice(cut.n_modes), (ground.size - 1) * steps + 1
+    a = _refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
+    factors = building.roof_factors[taken]
+    found = absolute_accelerations(a, dt, building.periods_s[taken], building.damping[taken])
+    roof = a * (1.0 - factors.sum()) + found @ factors
+    top = float(np.abs(roof).max())
+    end = min(max(n, _last_over(roof, RESTING_SHARE * top) + 2), roof.size)
     return RoofMotion(
-        dt_s=dt_s,
+        dt_s=dt,
         a_mps2=_read_only(roof[:end]),
-        pad_s=(min(end, roof.size) - ground.size) * dt_s,
-        n_modes=n_modes,
-        shares=_read_only(np.abs(parts).max(axis=0) * per),
-        left_out_share=float(left_out[n_modes]) * per,
+        pad_s=(end - n) * dt,
+        n_modes=cut.n_modes,
+        shares=cut.shares,
+        left_out_share=cut.left_out_share,
         ground_peak_mps2=float(np.abs(ground).max()),
         roof_peak_mps2=top,
         building=building,
     )
-
-
-def roof_motion(ground_mps2: ArrayLike, dt_s: float, building: Building) -> Floats:
-    """Return the roof's absolute acceleration [m/s2] alone; see `to_roof`."""
-    return to_roof(ground_mps2, dt_s, building).a_mps2
 
 
 def absolute_accelerations(
@@ -173,107 +252,26 @@ def lengthened(a_mps2: ArrayLike, count: int) -> Floats:
     return _read_only(np.append(a, np.zeros(max(count - a.size, 0))))
 
 
-def building_of_periods(
-    periods_s: Sequence[float],
-    *,
-    damping: Sequence[float] = (0.05,),
-    alpha0: float = math.inf,
-    storeys: int = 0,
-) -> Building:
-    """Return a uniform building whose first modes have the given periods.
-
-    Roof factors, and the periods of higher modes over the last one given, are those of
-    `solver.beam`. With few storeys the floors' masses matter: one storey has a roof factor of 1,
-    where a beam without storeys has up to 1.57.
-
-    Parameters
-    ----------
-    periods_s : sequence of float
-        Of the first mode or modes [s], falling.
-    damping : sequence of float
-        Fraction of critical damping of the first modes; the last value holds for all others.
-    alpha0 : float
-        Lateral stiffness ratio, see `solver.beam.beam_modes`; infinite: shear building.
-    storeys : int
-        Equal storeys with equal floor masses; 0 for a beam.
-
-    Raises
-    ------
-    InputError
-    """
-    _check_periods(periods_s, damping)
-    modes = _modes(alpha0, storeys)
-    ratios = modes.period_ratios
-    given = np.array(periods_s[: ratios.size], dtype=np.float64)
-    periods = np.append(given, given[-1] * ratios[given.size :] / ratios[given.size - 1])
-    zeta = np.full(periods.size, float(damping[-1]))
-    first = np.array(damping[: periods.size], dtype=np.float64)
-    zeta[: first.size] = first
-    return Building(
-        periods_s=_read_only(periods),
-        damping=_read_only(zeta),
-        roof_factors=_read_only(modes.factors[:, 0]),
-        words=_words(given, damping, alpha0, storeys),
-    )
-
-
-def building_of_modes(
-    periods_s: Sequence[float], damping: Sequence[float], roof_factors: Sequence[float]
-) -> Building:
-    """Return a building from the modes of an analysis of it.
-
-    Parameters
-    ----------
-    periods_s, damping, roof_factors : sequence of float, equally long
-        As in `Building`; Gamma phi at the roof, in the direction of the motion.
-
-    Raises
-    ------
-    InputError
-    """
-    _check_periods(periods_s, damping)
-    counts = {len(periods_s), len(damping), len(roof_factors)}
-    if len(counts) > 1 or not np.isfinite(roof_factors).all():
-        raise InputError("modes: give a period, a damping and a roof factor for each")
-    total = sum(roof_factors)
-    return Building(
-        periods_s=_read_only(periods_s),
-        damping=_read_only(damping),
-        roof_factors=_read_only(roof_factors),
-        words=f"{len(periods_s)} modes as given, roof factors adding up to {total:.3f}",
-    )
-
-
-def _modes(alpha0: float, storeys: int) -> Modes:
-    check_alpha0(alpha0)
-    if storeys == 0:
-        return beam_modes(alpha0, BEAM_MODES)
-    if not 1 <= storeys <= MOST_STOREYS:
-        raise InputError(
-            f"storeys: found {storeys}; give a whole number from 1 to {MOST_STOREYS}, 0 for a beam"
-        )
-    return storey_modes(alpha0, storeys)
-
-
-def _words(given: Floats, damping: Sequence[float], alpha0: float, storeys: int) -> str:
-    """Return how a uniform building was made."""
-    periods = ", ".join(f"{period:.3g}" for period in given)
-    ratios = ", ".join(f"{100.0 * value:.3g}" for value in damping)
-    if storeys == 1:
-        kind = "one storey"
-    else:
-        kind = "uniform" if storeys == 0 else f"{storeys} equal storeys"
-        kind += ", in shear" if math.isinf(alpha0) else ""
-        kind += ", in bending" if alpha0 == 0.0 else ""
-        if 0.0 < alpha0 < math.inf:
-            kind += f", in shear and bending with a lateral stiffness ratio of {alpha0:.3g}"
-    return f"{kind}; period {periods} s; damping {ratios} % of critical"
-
-
 def _free_samples(building: Building, dt_s: float) -> int:
     """Samples in which the free vibration of every mode falls to `RESTING_SHARE` of itself."""
     slowest = float((2.0 * math.pi * building.damping / building.periods_s).min())
     return math.ceil(-math.log(RESTING_SHARE) / slowest / dt_s)
+
+
+def _steps(cut: _Cut, dt_s: float, building: Building) -> int:
+    """Steps for each interval that the fastest mode taken needs."""
+    if cut.n_modes == 0:
+        return 1
+    fastest = float(building.periods_s[cut.n_modes - 1])
+    return min(max(math.ceil(FINENESS * dt_s / fastest - 1e-9), 1), MOST_STEPS)
+
+
+def _refined(a: Floats, steps: int) -> Floats:
+    """Return a record with so many steps in each interval, on its straight lines."""
+    if steps == 1:
+        return a
+    at = np.arange((a.size - 1) * steps + 1)
+    return np.interp(at, np.arange(a.size) * steps, a)
 
 
 def _last_over(a: Floats, limit: float) -> int:
@@ -288,7 +286,8 @@ def _read_only(values: ArrayLike) -> Floats:
     return array
 
 
-def _check_motion(ground: Floats, dt_s: float, share: float) -> None:
+def _checked(ground_mps2: ArrayLike, dt_s: float, share: float) -> Floats:
+    ground = np.asarray(ground_mps2, dtype=np.float64)
     problems = []
     if ground.ndim != 1 or ground.size < 2 or not np.isfinite(ground).all():
         problems.append("ground motion: give one column of two or more finite numbers")
@@ -298,22 +297,4 @@ def _check_motion(ground: Floats, dt_s: float, share: float) -> None:
         problems.append(f"share of modes left out is {share!r}; give 0 to below 1")
     if problems:
         raise InputError(problems)
-
-
-def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None:
-    problems = []
-    if not len(periods_s) or not len(damping):
-        problems.append("building: give at least one period and one damping")
-    for period in periods_s:
-        if not 0.0 < period <= MOST_PERIOD_S:
-            problems.append(f"period: found {period} s; give above 0 to {MOST_PERIOD_S:g} s")
-    if any(after > before for before, after in pairwise(periods_s)):
-        problems.append("periods: give the longest first")
-    for value in damping:
-        if not LEAST_DAMPING <= value <= MOST_DAMPING:
-            problems.append(
-                f"damping: found {value}; give a fraction of critical from {LEAST_DAMPING:g} to "
-                f"{MOST_DAMPING:g}"
-            )
-    if problems:
-        raise InputError(problems)
+    return ground

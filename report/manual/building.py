@@ -8,7 +8,7 @@ from report.figures import building as figures
 from report.manual.blocks import Block, Chart, Section, slug
 from report.pages.parts import Column, Picture, Row, Table
 from report.units import G_MPS2, number
-from solver.building import RESTING_SHARE, SHARE
+from solver.building import FINENESS, RESTING_SHARE, SHARE
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import RoofComparison, RoofPrediction, Verification
 
@@ -33,7 +33,8 @@ def _model() -> tuple[str, ...]:
         "them through an elastic building: a uniform cantilever in shear and bending, or equal "
         "storeys, with one damping ratio for all modes. Each mode is an oscillator, followed "
         f"exactly; as few are taken as leave out no more than {100 * SHARE:g} % of the roof's peak "
-        "at any instant. The motion goes on after the ground's until the building rests, within "
+        f"at any instant. The step is refined to {FINENESS} samples in a period of the fastest "
+        "mode taken, and the motion goes on after the ground's until the building rests, within "
         f"{100 * RESTING_SHARE:g} % of the peak.",
         "Not in the model: the mass of the arrays, torsion, yielding, the soil below, a roof that "
         "bends in its plane, and the way of the vertical motion, which is passed on unchanged. The "

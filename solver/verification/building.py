@@ -102,7 +102,7 @@ def _market_street(folder: Path) -> FloorRecords:
     code_period_s = approximate_period_s("steel moment frame", 573.0 * FOOT_M)
     return FloorRecords(
         title="575 Market Street, San Francisco, Loma Prieta 1989",
-        story="A steel frame of 1975, 573 ft (175 m) high (height from published lists). The U.S. "
+        story="A steel frame of 1975, taken as 573 ft (175 m) high. The U.S. "
         "Geological Survey's instruments recorded the ground floor and the 25th and 42nd floors; "
         "compared is azimuth 135, the ground's only horizontal one. The records begin during the "
         "shaking and hold 0.1 to 25 Hz; their beginnings are taken as common. The 42nd floor "
@@ -196,7 +196,8 @@ def _held_against(
 ) -> RoofPrediction:
     roof = records.floors_mps2[:, -1]
     # The recorded motion ends with its record: what comes after it cannot be compared.
-    a = motion.a_mps2[: roof.size]
+    steps = round(records.dt_s / motion.dt_s)
+    a = motion.a_mps2[::steps][: roof.size]
     sa = response_spectrum(a, records.dt_s, SPECTRUM_S)
     ratios, scatters = _by_band(np.log(sa / roof_sa))
     return RoofPrediction(

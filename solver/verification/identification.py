@@ -14,8 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from solver.beam import MOST_ALPHA0, Modes, beam_modes
-from solver.building import MOST_DAMPING, absolute_accelerations
+from solver.building import absolute_accelerations
 from solver.model import Floats
+from solver.structure import MOST_DAMPING
 
 MODES = 12
 """Of a beam; more of them change nothing that a floor shows."""
