@@ -3,9 +3,10 @@
 Run from the top: .venv/bin/python tests/bench/solver_speed.py [RECORD.csv ...]
 Over the grid of the paper (29 slopes x 15 frictions x 16 PPA) the mean time of a run, against
 one streaming pass over the record (the sum of its samples, jitted) and against the paper's
-algorithm at P = 64 on the same runs (every 97th of them, for it is slow). Medians of repeats, the
-geometric mean over the records. Without arguments: the 18 records that the package pyslammer
-carries, and the example's.
+algorithm at P = 64 on the same runs (every 97th of them, for it is slow), jitted too and written
+twice: "listed", equation by equation as the paper has it, and "fast", as `method="paper"` runs it.
+Medians of repeats, the geometric mean over the records. Without arguments: the 18 records that the
+package pyslammer carries, and the example's.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ GRID = np.array(list(itertools.product(SLOPES, FRICTIONS, PPAS)))
 NO_RECORD = np.empty(0)
 NO_RECORD.setflags(write=False)
 NO_HISTORY = np.empty((2, 0))
+SUBSTEPS = 64
 
 
 @njit
@@ -58,11 +60,51 @@ def run_exact(ax: np.ndarray, x: np.ndarray, dt: float, peak: float, grid: np.nd
     return found
 
 
-def run_paper(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> None:
-    """Run every row of the grid by the paper's algorithm."""
-    for slope, mu, ppa in grid:
+@njit
+def paper_as_listed(
+    ax: np.ndarray, dt: float, theta: float, mu: float, g: float, scale: float, substeps: int
+) -> float:
+    """PRD [m] by Eqs. 1-19 of the paper, in their variables and their order."""
+    sn, cs, tn = math.sin(theta), math.cos(theta), math.tan(theta)
+    step = dt / substeps
+    v_p = u_p = v_x = u_x = dv = dv_before = prd = 0.0  # Eq. 19
+    for i in range(ax.size - 1):
+        for j in range(substeps):
+            a_p = scale * (ax[i] + (ax[i + 1] - ax[i]) * (j / substeps))
+            normal, drive = g * cs + a_p * sn, abs(a_p * cs - g * sn)  # Eqs. 6, 8
+            if (dv == 0.0 or dv * dv_before < 0.0) and drive < mu * abs(normal):  # Eq. 9
+                v_x, a_x, dv = v_p, a_p, 0.0
+            else:
+                sign = np.sign(dv)
+                a_k = sn - mu * sign * cs  # Eq. 13
+                b_k = cs + mu * sign * sn  # Eq. 15
+                c_k = g + a_p * tn  # Eq. 16
+                a_x = c_k / (a_k * tn + b_k) * a_k  # Eqs. 17, 18
+            u_p += v_p * step + 0.5 * a_p * step * step
+            v_p += a_p * step
+            u_x += v_x * step + 0.5 * a_x * step * step
+            v_x += a_x * step
+            dv_before, dv = dv, v_x - v_p
+            prd = max(prd, abs(u_x - u_p))
+    return prd
+
+
+def run_listed(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> np.ndarray:
+    """PRD of every row of the grid by the paper's algorithm as it is listed."""
+    return np.array(
+        [paper_as_listed(ax, dt, slope, mu, G, ppa * G / peak, SUBSTEPS) for slope, mu, ppa in grid]
+    )
+
+
+def run_fast(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> np.ndarray:
+    """PRD of every row of the grid by the paper's algorithm as fast as it goes."""
+    found = np.empty(len(grid))
+    for k, (slope, mu, ppa) in enumerate(grid):
         sn, cs, scale = math.sin(slope), math.cos(slope), ppa * G / peak
-        rivals.slide_constant(ax, NO_RECORD, dt, sn, cs, mu, G, scale, 64, False, NO_HISTORY)
+        scene = ax, NO_RECORD, dt, sn, cs, mu, G, scale
+        _, s_max, s_min, *_ = rivals.slide_constant(*scene, SUBSTEPS, False, NO_HISTORY)
+        found[k] = cs * max(s_max, -s_min)
+    return found
 
 
 def seconds(call: Callable[[], object], repeats: int, loops: int = 1) -> float:
@@ -77,16 +119,21 @@ def seconds(call: Callable[[], object], repeats: int, loops: int = 1) -> float:
     return statistics.median(times)
 
 
-def measure(path: Path) -> tuple[int, float, float, float]:
-    """Return the samples of a record and the time of a run: exact, paper, one pass [s]."""
+def measure(path: Path) -> tuple[int, float, float, float, float]:
+    """Return the samples of a record and the time of a run: exact, one pass, both papers [s]."""
     record = read_record(path, units="g")
     ax, dt = record.a_mps2, record.dt_s
     x, peak, few = kernels.bounds(ax), float(np.abs(ax).max()), GRID[::97]
+    listed, fast = run_listed(ax, dt, peak, few), run_fast(ax, dt, peak, few)
+    np.testing.assert_allclose(fast, listed, rtol=1e-9, atol=1e-9)
     exact = seconds(lambda: run_exact(ax, x, dt, peak, GRID), 5) / len(GRID)
-    paper = seconds(lambda: run_paper(ax, dt, peak, few), 3) / len(few)
-    exact_few = seconds(lambda: run_exact(ax, x, dt, peak, few), 15) / len(few)
+    exact_few = seconds(lambda: run_exact(ax, x, dt, peak, few), 15)
     one = seconds(lambda: total(ax), 15, loops=500)
-    return ax.size, exact, paper * exact / exact_few, one
+    papers = [
+        seconds(lambda run=run: run(ax, dt, peak, few), 3) * exact / exact_few
+        for run in (run_listed, run_fast)
+    ]
+    return ax.size, exact, one, papers[0], papers[1]
 
 
 def suites() -> dict[str, list[Path]]:
@@ -105,14 +152,15 @@ def suites() -> dict[str, list[Path]]:
 def main() -> None:
     """Print a row for each record, and the geometric means of each suite."""
     print(f"{platform.machine()}, Python {platform.python_version()}, one core")
-    headings = ("samples", "exact us", "pass us", "exact/pass", "paper/exact")
+    headings = ("samples", "exact us", "pass us", "exact/pass", "listed/exact", "fast/exact")
     print(f"{'record':32}" + "".join(f"{heading:>13}" for heading in headings))
     for name, paths in suites().items():
         logs = []
         for path in paths:
-            size, exact, paper, one = measure(path)
-            logs.append((math.log(exact / one), math.log(paper / exact)))
-            figures = (size, exact * 1e6, one * 1e6, exact / one, paper / exact)
+            size, exact, one, listed, fast = measure(path)
+            ratios = (exact / one, listed / exact, fast / exact)
+            logs.append([math.log(ratio) for ratio in ratios])
+            figures = (size, exact * 1e6, one * 1e6, *ratios)
             print(f"{path.stem:32}" + "".join(f"{figure:13.2f}" for figure in figures))
         means = [math.exp(statistics.mean(column)) for column in zip(*logs, strict=True)]
         print(f"{name + ', geometric mean':71}" + "".join(f"{mean:13.2f}" for mean in means))
