@@ -39,6 +39,8 @@ BLOCK = 1 << SHIFT
 # Samples over which a gain in speed is summed by itself.
 CHUNK = 64
 
+# An index is np.uintp where time counts: any other, numba first tests for counting from the end.
+
 
 @njit(cache=True)
 def bounds(a):
@@ -66,17 +68,17 @@ def bounds(a):
 def _push(c, ax, az, i):
     """Acceleration in one direction at sample i; c holds its weights of 1, z and x."""
     if az is None:
-        return c[0] - c[2] * ax[i]
-    return c[0] + c[1] * az[i] - c[2] * ax[i]
+        return c[0] - c[2] * ax[np.uintp(i)]
+    return c[0] + c[1] * az[np.uintp(i)] - c[2] * ax[np.uintp(i)]
 
 
 @njit(cache=True, forceinline=True)
 def _greatest_push(c, x, z, block):
     """Bound of `_push` over a block."""
-    across = min(c[2] * x[0, block], c[2] * x[1, block])
+    across = min(c[2] * x[0, np.uintp(block)], c[2] * x[1, np.uintp(block)])
     if z is None:
         return c[0] - across
-    return c[0] + max(c[1] * z[0, block], c[1] * z[1, block]) - across
+    return c[0] + max(c[1] * z[0, np.uintp(block)], c[1] * z[1, np.uintp(block)]) - across
 
 
 @njit(cache=True)
@@ -123,7 +125,7 @@ def _resting_band(down, up):
 def _is_quiet(down, up, band, x, z, block):
     """Whether no sample of a block can push a resting block over."""
     if z is None:
-        return x[0, block] >= band[0] and x[1, block] <= band[1]
+        return x[0, np.uintp(block)] >= band[0] and x[1, np.uintp(block)] <= band[1]
     return _greatest_push(down, x, z, block) <= 0.0 and _greatest_push(up, x, z, block) <= 0.0
 
 
@@ -149,7 +151,7 @@ def _next_push(down, up, band, ax, az, x, z, i):
                 continue
         end = min(((i >> SHIFT) + 1) << SHIFT, n)
         while i < end:
-            beyond = az is not None or ax[i] < band[0] or ax[i] > band[1]
+            beyond = az is not None or ax[np.uintp(i)] < band[0] or ax[np.uintp(i)] > band[1]
             if beyond and (_push(down, ax, az, i) > 0.0 or _push(up, ax, az, i) > 0.0):
                 return i
             i += 1
@@ -224,7 +226,7 @@ def _slide_on(c, ax, az, w, i, last, dt):
         while i < end:
             q_next = _push(c, ax, az, i + 1)
             middle = gained + q
-            more = middle + q_next
+            more = gained + (q + q_next)  # not middle + q_next: one sum less to wait for
             if min(middle, more) <= -w:
                 break
             total += gained
