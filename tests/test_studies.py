@@ -8,7 +8,7 @@ import pytest
 
 from solver.model import InputError, Status
 from solver.solve import slide
-from solver.studies import STATUSES, sweep
+from solver.studies import STATUSES, order_alike, sweep
 
 SLOPES = [-0.5, -0.05, 0.0, 0.07]
 FRICTIONS = [0.0, 0.02, 0.3]
@@ -66,3 +66,13 @@ def test_every_value_at_fault_is_named():
     text = str(raised.value)
     for name in ("ax_mps2[1]", "dt_s", "slopes_rad has 2.0", "mus has -0.1", "scales has shape"):
         assert name in text
+
+
+def test_scenes_that_yield_alike_are_neighbours():
+    scenes = np.array([(s, m, k) for s in SLOPES for m in FRICTIONS for k in SCALES])
+    order = order_alike(scenes)
+    assert sorted(order) == list(range(len(scenes)))
+    down = [(s, m, k) for s, m, k in scenes[order] if s * k > 0.0]
+    yields_at = [math.tan(math.atan(mu) - slope) / scale for slope, mu, scale in down]
+    assert len(down) > 4
+    assert yields_at == sorted(yields_at)

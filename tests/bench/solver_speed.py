@@ -3,10 +3,10 @@
 Run from the top: .venv/bin/python tests/bench/solver_speed.py [RECORD.csv ...]
 Over the grid of the paper (29 slopes x 15 frictions x 16 PPA) the mean time of a run, against
 one streaming pass over the record (the sum of its samples, jitted) and against the paper's
-algorithm at P = 64 on the same runs (every 97th of them, for it is slow), jitted too and written
+algorithm at P = 64 (the mean of every 97th of these runs, for it is slow), jitted too and written
 twice: "listed", equation by equation as the paper has it, and "fast", as `method="paper"` runs it.
-Medians of repeats, the geometric mean over the records. Without arguments: the 18 records that the
-package pyslammer carries, and the example's.
+Medians of repeats in turns, processor time, the geometric mean over the records. Without
+arguments: the 18 records that the package pyslammer carries, and the example's.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from numba import njit
 
 from solver import kernels, rivals
 from solver.formats import read_record
+from solver.studies import order_alike
 
 ROOT = Path(__file__).resolve().parents[2]
 G = 9.80665
@@ -33,10 +34,13 @@ SLOPES = [math.radians(0.5 * k) for k in range(-14, 15)]
 FRICTIONS = [0.1 + 0.05 * k for k in range(15)]
 PPAS = [0.1 * k for k in range(16)]
 GRID = np.array(list(itertools.product(SLOPES, FRICTIONS, PPAS)))
+GRID = GRID[order_alike(GRID)]  # as `sweep` runs them
 NO_RECORD = np.empty(0)
 NO_RECORD.setflags(write=False)
 NO_HISTORY = np.empty((2, 0))
 SUBSTEPS = 64
+REPEATS = 5
+PASSES = 500
 
 
 @njit
@@ -107,16 +111,15 @@ def run_fast(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> np.nda
     return found
 
 
-def seconds(call: Callable[[], object], repeats: int, loops: int = 1) -> float:
-    """Median time of one call [s], after one that is not counted."""
-    times = []
-    call()
-    for _ in range(repeats):
-        started = time.perf_counter()
-        for _ in range(loops):
+def seconds(*calls: Callable[[], object]) -> list[float]:
+    """Median processor time of each call [s], taken in turns, after one that is not counted."""
+    times: list[list[float]] = [[] for _ in calls]
+    for _ in range(REPEATS + 1):
+        for call, taken in zip(calls, times, strict=True):
+            started = time.process_time()
             call()
-        times.append((time.perf_counter() - started) / loops)
-    return statistics.median(times)
+            taken.append(time.process_time() - started)
+    return [statistics.median(taken[1:]) for taken in times]
 
 
 def measure(path: Path) -> tuple[int, float, float, float, float]:
@@ -126,14 +129,14 @@ def measure(path: Path) -> tuple[int, float, float, float, float]:
     x, peak, few = kernels.bounds(ax), float(np.abs(ax).max()), GRID[::97]
     listed, fast = run_listed(ax, dt, peak, few), run_fast(ax, dt, peak, few)
     np.testing.assert_allclose(fast, listed, rtol=1e-9, atol=1e-9)
-    exact = seconds(lambda: run_exact(ax, x, dt, peak, GRID), 5) / len(GRID)
-    exact_few = seconds(lambda: run_exact(ax, x, dt, peak, few), 15)
-    one = seconds(lambda: total(ax), 15, loops=500)
-    papers = [
-        seconds(lambda run=run: run(ax, dt, peak, few), 3) * exact / exact_few
-        for run in (run_listed, run_fast)
-    ]
-    return ax.size, exact, one, papers[0], papers[1]
+    exact, passes, listed_s, fast_s = seconds(
+        lambda: run_exact(ax, x, dt, peak, GRID),
+        lambda: [total(ax) for _ in range(PASSES)],
+        lambda: run_listed(ax, dt, peak, few),
+        lambda: run_fast(ax, dt, peak, few),
+    )
+    per_run = exact / len(GRID), passes / PASSES, listed_s / len(few), fast_s / len(few)
+    return ax.size, *per_run
 
 
 def suites() -> dict[str, list[Path]]:
