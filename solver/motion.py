@@ -6,8 +6,9 @@ motions (`solver.synthesis`). Read `Record` first, then `response_spectrum`.
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -170,12 +171,14 @@ def shown(value: object) -> str:
     return text if len(text) <= 32 else f"{text[:28]}...{text[-1]}"
 
 
-def raise_any(problems: Sequence[str]) -> None:
+def raise_any(problems: Iterable[str]) -> None:
     """Raise the first problems with a count of the others, if there are any."""
-    if problems:
-        more = len(problems) - MAX_PROBLEMS
-        tail = [f"... and {more} more"] if more > 0 else []
-        raise InputError([*problems[:MAX_PROBLEMS], *tail])
+    left = iter(problems)
+    told = list(itertools.islice(left, MAX_PROBLEMS))
+    if told:
+        # The others are counted without being kept: a file may have millions.
+        more = sum(1 for _ in left)
+        raise InputError([*told, f"... and {more} more"] if more else told)
 
 
 def _check_arguments(name: str, units: str, dt_s: float) -> None:

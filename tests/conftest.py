@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 RECORDS = Path(__file__).resolve().parents[2] / "shared" / "records"
+SAMPLES = Path(__file__).parent / "data" / "motions"
 G = 9.80665
 
 
@@ -41,5 +42,19 @@ def file(tmp_path):
         path = tmp_path / name
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
         return path
+
+    return write
+
+
+@pytest.fixture
+def altered(file):
+    """A function that writes a sample file with old texts replaced and returns its path."""
+
+    def write(name, *changes):
+        text = (SAMPLES / name).read_bytes().decode()
+        for old, new in changes:
+            assert old in text, old
+            text = text.replace(old, new, 1)
+        return file(text, name)
 
     return write

@@ -71,7 +71,7 @@ def test_units_are_asked_for_only_where_the_heading_has_none(file: Any) -> None:
     [
         ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: promises 4 values, found 3; give the whole file"),
         ("NPTS= 2, DT= .01 SEC", "1 2 3", "4: promises 2 values, found 3; give the count that"),
-        ("NPTS= 3, DT= SEC", "1 2 3", "4: found time step nan s; give a number above 0"),
+        ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; give dt"),
         ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; give a number above 0"),
         ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; give the count and the step as in NPTS="),
         ("NPTS= 3, DT= .01 SEC", "1 x 3", "5: found 'x'; give a number"),

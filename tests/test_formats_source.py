@@ -90,7 +90,7 @@ def test_a_given_step_beyond_the_rounding_is_refused(file: Any) -> None:
         source.step(Stated(value=0.008, rounding=0.0005, index=0))
 
 
-@pytest.mark.parametrize("value", [0.0, -0.01, math.nan, math.inf])
+@pytest.mark.parametrize("value", [0.0, -0.01, math.inf])
 def test_a_stated_step_must_be_one(file: Any, value: float) -> None:
     source = open_source(file("x"), units="", dt_s=math.nan)
     with pytest.raises(InputError, match=r"roof\.csv:1: found time step .* give a number above 0"):

@@ -16,6 +16,8 @@ from solver.formats.source import Source
 from solver.model import Floats, InputError
 from solver.motion import UNITS, Record, read_only
 
+MAX_CHANNELS = 1000
+
 # A header's peak may be of other processing, or rounded; a factor of two is another unit.
 _PEAK_WITHIN = 0.01
 _PEAK_FACTOR = 2.0
@@ -47,6 +49,7 @@ def motion_file(
     """Make the result of a reader: names that differ, notes that say which channel they are of."""
     if not channels:
         raise InputError(f"{source.name}: found no acceleration in this {form} file; give one")
+    check_number(source, len(channels))
     alone = len(channels) == 1
     names = distinct(channel.name or (source.name if alone else "") for channel in channels)
     records, told = [], list(notes)
@@ -61,6 +64,14 @@ def motion_file(
     return MotionFile(
         name=source.name, format=form, channels=tuple(records), notes=tuple(dict.fromkeys(told))
     )
+
+
+def check_number(source: Source, channels: int) -> None:
+    """Refuse a file of more channels than any instrument has."""
+    if channels > MAX_CHANNELS:
+        raise InputError(
+            f"{source.name}: found {channels} channels; give at most {MAX_CHANNELS} in a file"
+        )
 
 
 def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -> tuple[str, ...]:

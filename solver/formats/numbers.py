@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -21,6 +21,8 @@ from solver.motion import BEYOND, is_finite_number, raise_any, shown
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _FORMAT = re.compile(r"\s*(\d{1,2})\s*(?:[A-Z]{1,2})\s*(\d{1,2})(\D|$)", re.ASCII | re.IGNORECASE)
+
+_NUMBERS = re.compile(r"[\s+\-.*eEdD]*\d[\s\d+\-.*eEdD]*", re.ASCII)
 
 # Fortran prints the exponent of a double after a D.
 _FORTRAN = str.maketrans("dD", "eE")
@@ -39,6 +41,10 @@ class Layout:
     def lines(self, count: int) -> int:
         """Lines that so many values take."""
         return -(-count // self.per_line)
+
+    def fields(self, line: str) -> int:
+        """Fields that a line has, a started one included."""
+        return -(-len(line.rstrip()) // self.width)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,8 +89,7 @@ def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
     rows = [line.rstrip() for line in source.lines[block.first : last]]
     values = _fixed_fast(rows, block.count, layout)
     if values is None:
-        fields = [_cut(row, layout) for row in rows]
-        values = _slowly(source, block, fields, layout.per_line)
+        values = _slowly(source, block, rows, layout)
     _check_no_more(source, block, last)
     return values
 
@@ -95,40 +100,38 @@ def fixed_rows(source: Source, block: Block, layout: Layout) -> Floats:
     `block.count` is not looked at.
     """
     rows = [line.rstrip() for line in source.lines[block.first : block.stop]]
-    whole = [row.ljust(layout.width * -(-len(row) // layout.width)) for row in rows]
     values = None
     if all(len(row) <= layout.per_line * layout.width for row in rows):
-        values = _converted("".join(whole), layout.width)
-    return (
-        _row_by_row(source, block, [_cut(row, layout) for row in rows])
-        if values is None
-        else values
-    )
+        text = "".join(row.ljust(layout.width * layout.fields(row)) for row in rows)
+        values = _converted(text, layout.width)
+    if values is None:
+        values = _row_by_row(source, block, rows, lambda row: _cut(row, layout))
+    return values
 
 
 def free_values(source: Source, block: Block) -> Floats:
     """Values of all lines of a block, set apart by blanks; there must be as many as promised."""
-    rows = [line.translate(_FORTRAN).split() for line in source.lines[block.first : block.stop]]
+    rows = source.lines[block.first : block.stop]
+    fields = " ".join(rows).translate(_FORTRAN).split()
     try:
-        fields = [field for row in rows for field in row]
-        if any("_" in field for field in fields):
-            raise ValueError
-        values = np.array([float(field) for field in fields])
+        values = np.array([float(field) for field in fields if "_" not in field])
     except ValueError:
-        values = np.array([math.nan])
-    if not (np.abs(values) < BEYOND).all():
-        values = _row_by_row(source, block, rows)
+        values = np.empty(0)
+    if len(values) != len(fields) or not (np.abs(values) < BEYOND).all():
+        values = _row_by_row(source, block, rows, lambda row: row.translate(_FORTRAN).split())
     if len(values) != block.count:
         raise InputError(_wrong_count(source, block, len(values)))
     return values
 
 
-def header_values(source: Source, first: int, count: int, layout: Layout) -> list[float]:
+def header_values(source: Source, first: int, count: int, layout: Layout) -> list[Stated]:
     """Values of a header; nan where a field is blank, missing or no number, for many are unused."""
-    rows = source.lines[first : first + layout.lines(count)]
-    fields = [field for row in rows for field in _padded(_cut(row.rstrip(), layout), layout)]
-    values = [float(field) if not field_problem(field) else math.nan for field in fields]
-    return [*values, *[math.nan] * count][:count]
+    values = [
+        printed(field, first + row)
+        for row in range(layout.lines(count))
+        for field in _padded(_cut(source.line(first + row).rstrip(), layout), layout)
+    ]
+    return values[:count]
 
 
 def field_problem(field: str) -> str:
@@ -205,41 +208,46 @@ def _padded(fields: Sequence[str], layout: Layout) -> list[str]:
     return [*fields, *[""] * layout.per_line][: layout.per_line]
 
 
-def _slowly(source: Source, block: Block, rows: list[list[str]], per_line: int) -> Floats:
+def _slowly(source: Source, block: Block, rows: Sequence[str], layout: Layout) -> Floats:
     """Go through a block that has a fault, row by row, to say all that is wrong with it."""
-    values: list[float] = []
-    problems: list[str] = []
-    seen = 0
-    for number, fields in enumerate(rows):
-        if all(field_problem(field) for field in fields):
-            break
-        due = min(per_line, block.count - number * per_line)
-        seen += due
-        if len(fields) != due:
-            found = "1 value" if len(fields) == 1 else f"{len(fields)} values"
-            problems.append(f"{source.at(block.first + number)}: found {found}; give {due}")
-        problems += _field_problems(source, block.first + number, fields)
-        values += [float(field) for field in fields if not field_problem(field)]
-    if seen < block.count:
-        problems.append(_wrong_count(source, block, seen))
-    raise_any(problems)
-    return np.array(values)
+    # The values end with the last line that has a number.
+    count = len(rows)
+    while count and all(map(field_problem, _cut(rows[count - 1], layout))):
+        count -= 1
+    rows = rows[:count]
+    raise_any(_slow_problems(source, block, rows, layout))
+    return np.array([float(field) for row in rows for field in _cut(row, layout)])
 
 
-def _row_by_row(source: Source, block: Block, rows: list[list[str]]) -> Floats:
+def _slow_problems(
+    source: Source, block: Block, rows: Sequence[str], layout: Layout
+) -> Iterator[str]:
+    found = 0
+    for number, row in enumerate(rows):
+        fields, at = _cut(row, layout), block.first + number
+        due, found = layout.per_line, number * layout.per_line + len(fields)
+        if len(fields) != due and number < len(rows) - 1:
+            values = "1 value" if len(fields) == 1 else f"{len(fields)} values"
+            yield f"{source.at(at)}: found {values}; give {due}"
+        yield from _field_problems(source, at, fields)
+    if found != block.count:
+        yield _wrong_count(source, block, found)
+
+
+def _row_by_row(
+    source: Source, block: Block, rows: Sequence[str], split: Callable[[str], list[str]]
+) -> Floats:
     raise_any(
-        [
-            problem
-            for number, fields in enumerate(rows)
-            for problem in _field_problems(source, block.first + number, fields)
-        ]
+        problem
+        for number, row in enumerate(rows)
+        for problem in _field_problems(source, block.first + number, split(row))
     )
-    return np.array([float(field) for fields in rows for field in fields])
+    return np.array([float(field) for row in rows for field in split(row)])
 
 
-def _field_problems(source: Source, index: int, fields: Iterable[str]) -> list[str]:
-    at = source.at(index)
-    return [f"{at}: {problem}" for field in fields if (problem := field_problem(field))]
+def _field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterator[str]:
+    found = (field_problem(field) for field in fields)
+    return (f"{source.at(index)}: {problem}" for problem in found if problem)
 
 
 def _wrong_count(source: Source, block: Block, found: int) -> str:
@@ -252,8 +260,7 @@ def _wrong_count(source: Source, block: Block, found: int) -> str:
 def _check_no_more(source: Source, block: Block, last: int) -> None:
     """Refuse a further line of numbers behind the promised ones."""
     following = source.lines[last : block.stop]
-    fields = next((line.split() for line in following if line.strip()), [])
-    if fields and not any(field_problem(field.translate(_FORTRAN)) for field in fields):
+    if _NUMBERS.fullmatch(next((line for line in following if line.strip()), "")):
         raise InputError(
             f"{source.at(block.promised)}: promises {block.count} values, found more of them in"
             f" line {last + 1}; give the count that the file holds"

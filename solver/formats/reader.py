@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from solver.formats import peer, text
+from solver.formats import csmip, peer, text
 from solver.formats.motionfile import MotionFile
 from solver.formats.source import Source, open_source
 from solver.motion import Record
@@ -22,15 +22,19 @@ class _Format:
     read: Callable[[Source], MotionFile]
 
 
-# Text comes last: it takes what no other format knows.
-_FORMATS = tuple(_Format(recognises=module.recognises, read=module.read) for module in (peer, text))
+# GeoNet comes before CSMIP, whose first line is alike; text comes last, for it takes every file.
+_FORMATS = tuple(
+    _Format(recognises=module.recognises, read=module.read) for module in (csmip, peer, text)
+)
 
 
 def read_motion_file(path: Path, *, units: str = "", dt_s: float = math.nan) -> MotionFile:
     """Read all channels of a file of records.
 
-    The content tells the format: PEER AT2, or text of one column (acceleration) or more (time [s],
-    accelerations). No sample is filtered and no offset removed.
+    The content tells the format: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2; RENADIC; USGS SMC;
+    GeoNet V1A and V2A; K-NET and KiK-net; or text of one column (acceleration) or more (time [s],
+    accelerations). No sample is filtered and no offset is removed; uneven times are resampled by
+    straight lines, which the notes say.
 
     Parameters
     ----------

@@ -88,6 +88,10 @@ class Source:
     def step(self, stated: Stated) -> float:
         """Sampling interval [s] that the file states; the caller's, if any, must agree."""
         value = stated.value
+        if math.isnan(value):
+            if math.isnan(self.dt_s):
+                raise InputError(f"{self.at(stated.index)}: found no time step; give dt")
+            return self.dt_s
         if not (is_finite_number(value) and value > 0.0):
             raise InputError(
                 f"{self.at(stated.index)}: found time step {value:g} s; give a number above 0"
@@ -137,11 +141,9 @@ def _bytes(path: Path) -> bytes:
 def _lines(name: str, data: bytes) -> list[str]:
     lines = _decode(name, data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
     raise_any(
-        [
-            f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
-            for number, line in enumerate(lines, start=1)
-            if len(line) > MAX_LINE
-        ]
+        f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
+        for number, line in enumerate(lines, start=1)
+        if len(line) > MAX_LINE
     )
     return lines
 

@@ -28,6 +28,8 @@ from solver.motion import BEYOND, raise_any, shown
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
 
+_MAX_REMARKS = 200
+
 _Row = tuple[int, str]
 
 
@@ -201,7 +203,7 @@ def _remarks(lines: Sequence[str], start: int) -> list[_Row]:
             break
         if line:
             ahead.append((index, line.replace("#", " ").strip()))
-    return ahead
+    return ahead[:_MAX_REMARKS]
 
 
 def _headings(
@@ -239,11 +241,9 @@ def _parse_slowly(
     """Go through a table that has a fault, row by row, to say all that is wrong with it."""
     split = [(index, content.split(separator)) for index, content in rows]
     raise_any(
-        [
-            f"{source.at(index)}: {problem}"
-            for index, fields in split
-            for problem in _row_problems(fields, width)
-        ]
+        f"{source.at(index)}: {problem}"
+        for index, fields in split
+        for problem in _row_problems(fields, width)
     )
     return np.array([[float(field) for field in fields] for _, fields in split])
 

@@ -88,11 +88,9 @@ def _check_rising(source: Source, t_s: Floats, rows: Sequence[int]) -> None:
     steps = np.diff(t_s)
     usual = float(np.median(steps))
     raise_any(
-        [
-            f"{source.at(rows[i + 1])}: found time {t_s[i + 1]:.6g} s after {t_s[i]:.6g} s, "
-            f"the usual step being {usual:.6g} s; give rising times"
-            for i in np.flatnonzero(~(steps >= 1e-9)).tolist()
-        ]
+        f"{source.at(rows[i + 1])}: found time {t_s[i + 1]:.6g} s after {t_s[i]:.6g} s, "
+        f"the usual step being {usual:.6g} s; give rising times"
+        for i in np.flatnonzero(~(steps >= 1e-9)).tolist()
     )
 
 

@@ -43,4 +43,4 @@ def _plain(text: str) -> str:
     """One spelling for all: `CM/SEC/SEC`, `cm/s**2`, `cm s^-2`, `cmps2` and `cm/s²` are `cm/s2`."""
     plain = re.sub(r"[\s^*·]", "", text.lower()).replace("²", "2").replace("⁻", "-")
     plain = re.sub(r"sec(onds?)?", "s", plain).replace("s/s", "s2").replace("gals", "gal")
-    return re.sub(rf"^({_LENGTHS})(p|_|/)?s-?2$", r"\1/s2", plain)
+    return re.sub(rf"^({_LENGTHS})(?:[p_/]s-?2|s-2)$", r"\1/s2", plain)

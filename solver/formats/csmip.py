@@ -1,0 +1,238 @@
+"""CSMIP volumes 1 and 2 (.V1, .RAW, .V2), and RENADIC's files, which are of volume 1.
+
+Owns this format only. A file has one or more channels, each with lines of text, 100 whole and 50
+or 100 real numbers of heading, then values. Volume 1 is uncorrected: pairs of time and
+acceleration (10F7.3), which may be uneven, or even values under a line that says how they are set.
+Volume 2 is corrected: even accelerations, velocities and displacements, of which the first are
+taken. Read `read` first.
+
+Source: A.F. Shakal and M.J. Huang, Standard tape format for CSMIP strong-motion data tapes,
+California Division of Mines and Geology, OSMS 85-03, 1985.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
+from solver.formats.motionfile import MotionFile
+from solver.formats.numbers import (
+    Block,
+    Layout,
+    each,
+    fixed_values,
+    header_values,
+    layout_of,
+    printed,
+)
+from solver.formats.source import Source, Stated
+from solver.formats.times import sampled
+from solver.formats.units import unit_size
+from solver.model import Floats, InputError
+
+_VOLUME_1 = re.compile(r"\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
+_VOLUME_2 = re.compile(r"\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
+_VOLUME_3 = re.compile(r"\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", re.IGNORECASE)
+_END = re.compile(r"\s*/&")
+
+# Lines of text, then 16I5 on 7 lines, then 8F10.3.
+_TEXT_1, _TEXT_2, _WHOLE = 13, 25, 7
+_REALS_1, _REALS_2 = 50, 100
+_REAL = Layout(per_line=8, width=10)
+_PAIRS = Layout(per_line=10, width=7)
+
+# Places of real numbers, from 1: length of the record [s], and its step [s].
+_LENGTH_1, _LENGTH_2, _STEP_2 = 3, 44, 45
+
+_POINTS = re.compile(r"NO\. OF POINTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
+_PAIR_UNIT = re.compile(r"UNITS OF UNCOR\s+\w+\s+ARE\s+SEC\s+AND\s+([A-Z/0-9]+)", re.IGNORECASE)
+_EVEN_1 = re.compile(
+    r"\s*(\d+)\s+ACCELEROGRAM POINTS AT\s+([\d.]+)\s*PTS/SEC IN UNITS OF\s+([A-Z/0-9]+)"
+    r".*FORMAT:\s*\(([^)]*)\)",
+    re.ASCII | re.IGNORECASE,
+)
+_EVEN_2 = re.compile(
+    r"\s*(\d+)\s+POINTS OF ACCEL DATA EQUALLY SPACED AT\s+([\d.]+)\s*SEC[.,\s(]*(?:UNITS:|IN)\s*"
+    r"([A-Z/0-9]+)[.\s)]*(?:\(([^)]*)\))?",
+    re.ASCII | re.IGNORECASE,
+)
+_ANY_2 = re.compile(r"\s*\d+\s+POINTS OF (VELOC|DISPL|ACCEL)", re.ASCII | re.IGNORECASE)
+_PEAK_1 = re.compile(r"\bMAX\s*=\s*([-+\d.]+)\s*([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
+_PEAK_2 = re.compile(r"PEAK ACCELERATION\s*=\s*([-+\d.]+)\s*([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Part:
+    """Lines of one channel, from index `first` to before `stop`."""
+
+    first: int
+    stop: int
+
+
+def recognises(lines: Sequence[str]) -> bool:
+    """Whether the first line is that of a volume of CSMIP."""
+    first = lines[0] if lines else ""
+    return any(pattern.match(first) for pattern in (_VOLUME_1, _VOLUME_2, _VOLUME_3))
+
+
+def read(source: Source) -> MotionFile:
+    """Read the accelerations of all channels of a file."""
+    if _VOLUME_3.match(source.line(0)):
+        raise InputError(f"{source.at(0)}: found spectra; give a file of volume 1 or 2")
+    if _VOLUME_2.match(source.line(0)):
+        parts = _parts(source, _VOLUME_2)
+        return motion_file(source, "CSMIP V2", each(lambda p: _volume_2(source, p), parts))
+    parts = _parts(source, _VOLUME_1)
+    text = " ".join(source.lines[:_TEXT_1]).upper()
+    form = "RENADIC V1" if "RENADIC" in text else "CSMIP V1"
+    return motion_file(source, form, each(lambda p: _volume_1(source, p), parts))
+
+
+def _parts(source: Source, heading: re.Pattern[str]) -> list[_Part]:
+    starts = [i for i, line in enumerate(source.lines) if heading.match(line)]
+    stops = [*starts[1:], len(source.lines)]
+    return [_Part(first=a, stop=b) for a, b in zip(starts, stops, strict=True)]
+
+
+def _volume_1(source: Source, part: _Part) -> Channel:
+    even = _search(source, part, _EVEN_1)
+    dt_s, values, notes = _even_values(source, part, *even) if even else _pair_values(source, part)
+    at, peak_mps2 = _peak(source, part, _PEAK_1)
+    return Channel(
+        name=_name(source, part, _TEXT_1),
+        dt_s=dt_s,
+        a_mps2=values,
+        notes=(*notes, *peak_notes(source, at, peak_mps2, values), *offset_notes(values)),
+    )
+
+
+def _pair_values(source: Source, part: _Part) -> tuple[float, Floats, tuple[str, ...]]:
+    """Pairs of time and acceleration, ten numbers to a line."""
+    found = _search(source, part, _POINTS)
+    unit = _search(source, part, _PAIR_UNIT)
+    if not found or not unit:
+        wanted = "NO. OF POINTS" if not found else "UNITS OF UNCOR ACCEL"
+        raise InputError(
+            f"{source.at(part.first)}: found no line {wanted} = ...; give the whole file"
+        )
+    scale = source.scale(unit[1][1], unit[0])
+    first = part.first + _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1)
+    stop, ended = _stop(source, first, part.stop)
+    block = Block(first=first, stop=stop, count=2 * int(found[1][1]), promised=found[0])
+    pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
+    if len(pairs) < 2:
+        raise InputError(f"{source.at(found[0])}: found {len(pairs)} points; give at least 2")
+    per_line = _PAIRS.per_line // 2
+    rows = [first + i // per_line for i in range(len(pairs))]
+    even = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows)
+    return even.dt_s, even.columns[0] * scale, (*even.notes, *ended)
+
+
+def _even_values(
+    source: Source, part: _Part, at: int, found: re.Match[str]
+) -> tuple[float, Floats, tuple[str, ...]]:
+    """Even values under a line with their count, rate, unit and format."""
+    rate, count = printed(found[2], at).value, int(found[1])
+    layout = layout_of(found[4])
+    if not rate > 0.0 or not layout:
+        raise InputError(
+            f"{source.at(at)}: found {found[2]} points per second in format ({found[4]}); give a"
+            " rate above 0 and a format as (8f9.6)"
+        )
+    dt_s = source.step(Stated(value=1.0 / rate, rounding=0.0, index=at))
+    scale = source.scale(found[3], at)
+    stop, ended = _stop(source, at + 1, part.stop)
+    block = Block(first=at + 1, stop=stop, count=count, promised=at)
+    return dt_s, fixed_values(source, block, layout) * scale, ended
+
+
+def _volume_2(source: Source, part: _Part) -> Channel:
+    found = _search(source, part, _EVEN_2)
+    if not found:
+        raise InputError(
+            f"{source.at(part.first)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
+            " ...; give the whole file"
+        )
+    at, line = found
+    dt_s = source.step(_step_2(source, part, at, printed(line[2], at)))
+    scale = source.scale(line[3], at)
+    others = (i for i in range(at + 1, part.stop) if _ANY_2.match(source.lines[i]))
+    stop, ended = _stop(source, at + 1, part.stop)
+    block = Block(first=at + 1, stop=next(others, stop), count=int(line[1]), promised=at)
+    layout = layout_of(line[4]) if line[4] else _REAL
+    if not layout:
+        raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
+    values = fixed_values(source, block, layout) * scale
+    _check_length(source, part, len(values) * dt_s, dt_s)
+    peak_at, peak_mps2 = _peak(source, part, _PEAK_2)
+    return Channel(
+        name=_name(source, part, _TEXT_2),
+        dt_s=dt_s,
+        a_mps2=values,
+        notes=(*ended, *peak_notes(source, peak_at, peak_mps2, values)),
+    )
+
+
+def _step_2(source: Source, part: _Part, at: int, stated: Stated) -> Stated:
+    """Step of the real heading, which has more digits than the line above the values."""
+    exact = _reals_2(source, part)[_STEP_2 - 1]
+    if not exact.value > 0.0:
+        return stated
+    if abs(exact.value - stated.value) > stated.rounding + exact.rounding:
+        raise InputError(
+            f"{source.at(at)}: found a step of {stated.value:g} s and one of {exact.value:g} s in"
+            f" line {exact.index + 1}; give a file whose headings agree"
+        )
+    return exact
+
+
+def _check_length(source: Source, part: _Part, length_s: float, dt_s: float) -> None:
+    """Compare count times step with the length that the heading states: a step may be rounded."""
+    stated = _reals_2(source, part)[_LENGTH_2 - 1]
+    if stated.value > 0.0 and abs(length_s - stated.value) > 2.0 * dt_s + 0.005 * stated.value:
+        raise InputError(
+            f"{source.at(stated.index)}: the heading states {stated.value:g} s, count times step is"
+            f" {length_s:g} s; give dt with more digits, or a file whose headings agree"
+        )
+
+
+def _reals_2(source: Source, part: _Part) -> list[Stated]:
+    return header_values(source, part.first + _TEXT_2 + _WHOLE, _REALS_2, _REAL)
+
+
+def _search(
+    source: Source, part: _Part, pattern: re.Pattern[str]
+) -> tuple[int, re.Match[str]] | None:
+    """First line of a channel's heading in which the pattern is found."""
+    for index in _heading(part):
+        if found := pattern.search(source.lines[index]):
+            return index, found
+    return None
+
+
+def _heading(part: _Part) -> Iterator[int]:
+    lines = _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2) + 1
+    return iter(range(part.first, min(part.first + lines, part.stop)))
+
+
+def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
+    """Index of the line that ends a channel, with a note where there is none."""
+    for index in range(stop - 1, first - 1, -1):
+        if _END.match(source.lines[index]):
+            return index, ()
+    return stop, ("no end-of-data line (/&) stands behind the values: the file may be cut",)
+
+
+def _peak(source: Source, part: _Part, pattern: re.Pattern[str]) -> tuple[int, float]:
+    found = _search(source, part, pattern)
+    if not found:
+        return part.first, 0.0
+    index, match = found
+    return index, printed(match[1], index).value * unit_size(match[2])
+
+
+def _name(source: Source, part: _Part, lines: int) -> str:
+    heading = source.lines[part.first : min(part.first + lines, part.stop)]
+    return next((line for line in heading if line.strip().upper().startswith("CHAN")), "")

@@ -1,0 +1,95 @@
+"""Channels of a file: how one is chosen, and what is told of its values."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
+from solver.formats.motionfile import MotionFile, distinct
+from solver.formats.source import Source
+from solver.model import InputError
+
+G = 9.80665
+SOURCE = Source(name="a.v2", lines=[], units="", dt_s=math.nan)
+
+
+def made(*names: str, notes: tuple[str, ...] = ()) -> MotionFile:
+    channels = [
+        Channel(name=name, dt_s=0.01, a_mps2=np.array([0.0, float(i)]), notes=notes)
+        for i, name in enumerate(names, start=1)
+    ]
+    return motion_file(SOURCE, "made", channels, ["of the file"])
+
+
+def test_a_channel_is_chosen_by_name_or_number() -> None:
+    found = made("CHAN  1: EW ", "CHAN  2: NS", "3: Up")
+    assert found.channel("chan 1:  ew").a_mps2[1] == 1.0
+    assert found.channel(" 2 ").name == "CHAN 2: NS"
+    assert found.channel("3").name == "3: Up"
+
+
+def test_a_name_comes_before_a_number() -> None:
+    assert made("2", "1").channel("1").a_mps2[1] == 2.0
+
+
+def test_only_a_lone_channel_need_not_be_named() -> None:
+    assert made("180").channel().name == "180"
+    assert made("").channel().name == "a.v2"
+    with pytest.raises(InputError) as caught:
+        made("x", "y").channel()
+    assert caught.value.problems == (
+        "a.v2: found several channels; give one by name or number: 1 x; 2 y",
+    )
+
+
+@pytest.mark.parametrize("name", ["z", "3", "0", "-1"])
+def test_a_channel_that_is_not_there_is_refused(name: str) -> None:
+    with pytest.raises(InputError) as caught:
+        made("x", "y").channel(name)
+    assert caught.value.problems == (
+        f"a.v2: channel '{name}' is not there; give one by name or number: 1 x; 2 y",
+    )
+
+
+def test_names_are_made_to_differ() -> None:
+    assert distinct(["x", " X", "", "x (2)", "x"]) == [
+        "x", "X (2)", "channel 3", "x (2) (2)", "x (3)",
+    ]  # fmt: skip
+
+
+def test_notes_name_their_channel_where_there_are_several() -> None:
+    assert made("x", notes=("odd",)).notes == ("of the file", "odd")
+    assert made("x", "y", notes=("odd",)).notes == ("of the file", "x: odd", "y: odd")
+
+
+def test_no_channel_or_no_samples_are_refused() -> None:
+    with pytest.raises(InputError, match=r"a\.v2: found no acceleration in this made file; give o"):
+        made()
+    short = Channel(name="x", dt_s=0.01, a_mps2=np.zeros(1), notes=())
+    with pytest.raises(InputError, match=r"a\.v2: found 1 sample; give at least 2"):
+        motion_file(SOURCE, "made", [short])
+
+
+def test_a_peak_that_the_header_states_otherwise_is_told() -> None:
+    a = np.array([0.0, -0.5 * G, 0.2 * G])
+    assert peak_notes(SOURCE, 3, -0.5 * G, a) == ()
+    assert peak_notes(SOURCE, 3, 0.504 * G, a) == ()
+    assert peak_notes(SOURCE, 3, 0.6 * G, a) == (
+        "the header states a peak of 0.6 g, the values reach 0.5 g",
+    )
+    for unknown in (0.0, math.nan, math.inf):
+        assert peak_notes(SOURCE, 3, unknown, a) == ()
+    for stated in (0.24 * G, 1.01 * G):
+        with pytest.raises(InputError, match=r"a\.v2:4: the header states a peak of .* agree"):
+            peak_notes(SOURCE, 3, stated, a)
+
+
+def test_an_offset_is_told_from_one_hundredth_of_the_peak_on() -> None:
+    assert offset_notes(np.array([1.0, -1.0, 0.0])) == ()
+    assert offset_notes(np.zeros(5)) == ()
+    assert offset_notes(np.array([0.1 * G, -0.05 * G])) == (
+        "uncorrected: the mean is 0.025 g, 25 % of the peak; it is not removed",
+    )

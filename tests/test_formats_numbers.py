@@ -1,0 +1,143 @@
+"""Numbers in lines. Oracle: Python's own numbers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solver.formats.numbers import (
+    Block,
+    Layout,
+    each,
+    fixed_rows,
+    fixed_values,
+    free_values,
+    header_values,
+    layout_of,
+    printed,
+)
+from solver.formats.source import Source
+from solver.model import InputError
+
+
+def source(*lines: str) -> Source:
+    return Source(name="a", lines=list(lines), units="", dt_s=math.nan)
+
+
+def block(count: int, stop: int, first: int = 0) -> Block:
+    return Block(first=first, stop=stop, count=count, promised=9)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("8F10.3", (8, 10)),
+        ("8f9.6", (8, 9)),
+        (" 10I8", (10, 8)),
+        ("1F15.6E", (1, 15)),
+        ("5ES15.7", (5, 15)),
+        ("free", None),
+        ("0F10.3", None),
+        ("8F0.3", None),
+        ("", None),
+    ],
+)
+def test_a_fortran_format_gives_fields_and_width(
+    text: str, expected: tuple[int, int] | None
+) -> None:
+    found = layout_of(text)
+    assert (found and (found.per_line, found.width)) == expected
+
+
+@given(st.lists(st.integers(-99999, 999999), min_size=1, max_size=40))
+def test_touching_fields_are_cut_by_width(values: list[int]) -> None:
+    fields = [f"{value / 1000:8.3f}" for value in values]
+    lines = ["".join(fields[i : i + 5]) for i in range(0, len(fields), 5)]
+    read = fixed_values(source(*lines), block(len(values), len(lines)), Layout(per_line=5, width=8))
+    assert read.tolist() == [value / 1000 for value in values]
+
+
+def test_numbers_set_to_the_left_and_exponents_of_doubles_are_read() -> None:
+    layout = Layout(per_line=2, width=8)
+    read = fixed_values(source("1.5     -2.D+01 ", "3"), block(3, 2), layout)
+    assert read.tolist() == [1.5, -20.0, 3.0]
+    assert free_values(source("1.5 -2.D+01", "", "3"), block(3, 3)).tolist() == [1.5, -20.0, 3.0]
+
+
+def test_short_lines_are_allowed_only_where_they_are_asked_for() -> None:
+    layout, lines = Layout(per_line=2, width=4), ("   1   2", "   3    ", "   4   5")
+    assert fixed_rows(source(*lines), block(5, 3), layout).tolist() == [1, 2, 3, 4, 5]
+    with pytest.raises(InputError) as caught:
+        fixed_values(source(*lines), block(6, 3), layout)
+    assert caught.value.problems == ("a:2: found 1 value; give 2",)
+    with pytest.raises(InputError, match=r"a:1: found '1x'; give a number"):
+        fixed_rows(source("  1x   2"), block(2, 1), layout)
+
+
+@pytest.mark.parametrize("field", ["1_0", "nan", "inf", "1e999", "", "1 2", "****", "٣"])
+def test_what_python_or_numpy_may_take_but_is_no_number_is_refused(field: str) -> None:
+    lines = (f"{field:>8}       2", "       3       4")
+    with pytest.raises(InputError) as caught:
+        fixed_values(source(*lines), block(4, 2), Layout(per_line=2, width=8))
+    (problem,) = caught.value.problems
+    assert problem.startswith(f"a:1: found {field!r}")
+
+
+def test_counts_that_do_not_hold_are_told_at_the_line_of_the_promise() -> None:
+    layout, lines = Layout(per_line=2, width=4), ("   1   2", "   3   4", "no more")
+    for count, found in (
+        (5, "found 4; give the whole"),
+        (9, "found 4; give the whole"),
+        (3, "found 4; give the count"),
+        (2, "found more of them in line 2"),
+    ):
+        with pytest.raises(InputError) as caught:
+            fixed_values(source(*lines), block(count, 3), layout)
+        assert caught.value.problems[0].startswith(f"a:10: promises {count} values, {found}")
+
+
+def test_unused_fields_of_a_heading_may_be_anything() -> None:
+    found = header_values(source("   1****", "    -2.5"), 0, 6, Layout(per_line=2, width=4))
+    values = [number.value for number in found]
+    assert np.array_equal(
+        values, [1.0, math.nan, math.nan, -2.5, math.nan, math.nan], equal_nan=True
+    )
+    assert [number.index for number in found] == [0, 0, 1, 1, 2, 2]
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "rounding"),
+    [
+        (" .005 ", 0.005, 0.0005),
+        ("200", 200.0, 0.0),
+        ("0.1700000E+39", 1.7e38, 5e31),
+        (".20000E-01", 0.02, 5e-7),
+        ("7.8125", 7.8125, 5e-5),
+        ("-999.0", -999.0, 0.05),
+    ],
+)
+def test_a_printed_number_knows_its_rounding(text: str, value: float, rounding: float) -> None:
+    found = printed(text, 3)
+    assert (found.value, found.index) == (value, 3)
+    assert found.rounding == pytest.approx(rounding, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["", "x", "1e", ".", "1,5", "--1"])
+def test_what_is_no_number_is_nan(text: str) -> None:
+    assert math.isnan(printed(text, 0).value)
+
+
+def test_problems_of_all_items_are_told_together() -> None:
+    def read(item: int) -> int:
+        if item % 2:
+            raise InputError([f"{item} is odd", "that is all"])
+        return item * 10
+
+    assert each(read, [2, 4]) == [20, 40]
+    with pytest.raises(InputError) as caught:
+        each(read, [1, 2, 3])
+    assert caught.value.problems == ("1 is odd", "that is all", "3 is odd", "that is all")
