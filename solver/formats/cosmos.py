@@ -1,0 +1,185 @@
+"""COSMOS files, format V1.20 (.V1C, .V2, .V2c): one or more channels, each with its own heading.
+
+Owns this format only. A channel has lines of text, then blocks that say themselves how many whole
+numbers, real numbers, comments and values follow, and in which format. Accelerations are taken;
+velocities and displacements behind them are left, raw counts are refused. Read `read` first.
+
+Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
+tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the series
+[ms]) and 64 (its peak).
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from solver.formats.channels import Channel, check_number, motion_file, offset_notes, peak_notes
+from solver.formats.motionfile import MotionFile
+from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
+from solver.formats.source import Source, Stated
+from solver.formats.units import unit_size
+from solver.model import InputError
+from solver.motion import shown
+
+_FIRST = re.compile(
+    r"\s*(RAW|UNCORRECTED|CORRECTED)\s+([A-Z]+)\b.*\(FORMAT\s+V", re.ASCII | re.IGNORECASE
+)
+_REALS = re.compile(
+    r"\s*(\d+)\s+REAL-HEADER VALUES FOLLOW ON\s+\d+\s+LINES?,\s*FORMAT\s*=\s*\(([^)]*)\)",
+    re.ASCII | re.IGNORECASE,
+)
+_DATA = re.compile(
+    r"\s*(\d+)\s+([A-Z]+)\s+PTS,\s*APPROX\s+([\d.]+)\s*SECS?\s*,\s*UNITS?\s*=\s*([^,(]*?)\s*"
+    r"(?:\(\s*(\d+)\s*\))?\s*,\s*FORMAT\s*=\s*\(([^)]*)\)",
+    re.ASCII | re.IGNORECASE,
+)
+_END = re.compile(r"\s*END-OF-DATA", re.IGNORECASE)
+_NAME = re.compile(r"\s*STA\s+CHA", re.IGNORECASE)
+
+# Table 2: codes of the units of acceleration.
+_UNITS = {2: "g", 4: "cm/s2", 7: "in/s2", 10: "gal", 11: "mg"}
+
+# Places of the real numbers, from 1.
+_RECORD_STEP_S, _SERIES_STEP_MS, _PEAK = 34, 62, 64
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Part:
+    """Lines of one series of values, from index `first` to before `stop`; its data line at `at`."""
+
+    first: int
+    at: int
+    stop: int
+    line: re.Match[str]
+
+
+def recognises(lines: Sequence[str]) -> bool:
+    """Whether the first line names the quantity and the version of the format."""
+    return bool(lines and _FIRST.match(lines[0]))
+
+
+def read(source: Source) -> MotionFile:
+    """Read the accelerations of all channels of a file."""
+    parts = [part for part in _parts(source) if part.line[2].lower().startswith("accel")]
+    return motion_file(source, "COSMOS V1.20", each(lambda part: _channel(source, part), parts))
+
+
+def _parts(source: Source) -> list[_Part]:
+    """All series: those of one heading follow each other, or each has its own."""
+    headings = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
+    lines = [(i, found) for i, line in enumerate(source.lines) if (found := _DATA.match(line))]
+    check_number(source, len(lines))
+    borders = sorted([*headings, *(i for i, _ in lines), len(source.lines)])
+    return [
+        _Part(
+            first=headings[bisect_right(headings, at) - 1],
+            at=at,
+            stop=borders[bisect_right(borders, at)],
+            line=found,
+        )
+        for at, found in lines
+    ]
+
+
+def _channel(source: Source, part: _Part) -> Channel:
+    line, layout, stage = part.line, layout_of(part.line[6]), _stage(source, part)
+    if not layout:
+        raise InputError(f"{source.at(part.at)}: found format ({line[6]}); give one as (8F10.3)")
+    scale = _scale(source, part)
+    reals = _reals(source, part)
+    dt_s = source.step(_step(source, part, reals))
+    stop, notes = _stop(source, part)
+    block = Block(first=part.at + 1, stop=stop, count=int(line[1]), promised=part.at)
+    values = fixed_values(source, block, layout) * scale
+    _check_length(source, part, len(values) * dt_s, dt_s)
+    if peak := _real(reals, _PEAK):
+        notes = (*notes, *peak_notes(source, peak.index, peak.value * scale, values))
+    heading = source.lines[part.first : part.at]
+    return Channel(
+        name=next((text for text in heading if _NAME.match(text)), ""),
+        dt_s=dt_s,
+        a_mps2=values,
+        notes=(*notes, *offset_notes(values)) if stage == "UNCORRECTED" else notes,
+    )
+
+
+def _stage(source: Source, part: _Part) -> str:
+    """Whether the values are UNCORRECTED or CORRECTED."""
+    found = _FIRST.match(source.lines[part.first])
+    stage = found[1].upper() if found else ""
+    if stage == "RAW":
+        raise InputError(
+            f"{source.at(part.first)}: found raw counts; give a file of uncorrected or corrected"
+            " acceleration"
+        )
+    return stage
+
+
+def _scale(source: Source, part: _Part) -> float:
+    """Size [m/s2] of the unit, which is named, coded or both."""
+    name, code = part.line[4], part.line[5]
+    coded = _UNITS.get(int(code), "") if code else ""
+    if code and not coded:
+        raise InputError(
+            f"{source.at(part.at)}: found unit {shown(name)}, code {int(code)}; give a file of"
+            " acceleration in g or cm/s2"
+        )
+    if coded and name and unit_size(name) != unit_size(coded):
+        raise InputError(
+            f"{source.at(part.at)}: found unit {shown(name)} with code {int(code)}, which is"
+            f" {coded}; give a file in which they agree"
+        )
+    return source.scale(name or coded, part.at)
+
+
+def _reals(source: Source, part: _Part) -> list[Stated]:
+    """Real numbers of the heading."""
+    for index in range(part.first, part.at):
+        found = _REALS.match(source.lines[index])
+        layout = layout_of(found[2]) if found else None
+        if found and layout:
+            return header_values(source, index + 1, min(int(found[1]), 1000), layout)
+    raise InputError(
+        f"{source.at(part.first)}: found no block ... Real-header values follow ...; give the whole"
+        " file"
+    )
+
+
+def _real(reals: Sequence[Stated], place: int) -> Stated | None:
+    """Real number of a place, counted from 1; None where it is unknown, which is -999 or so."""
+    number = reals[place - 1] if place <= len(reals) else None
+    return number if number and number.value > -990.0 else None
+
+
+def _step(source: Source, part: _Part, reals: Sequence[Stated]) -> Stated:
+    """Step of the series, or else of the record that it was made of."""
+    for place, seconds in ((_SERIES_STEP_MS, 0.001), (_RECORD_STEP_S, 1.0)):
+        number = _real(reals, place)
+        if number and number.value > 0.0:
+            value, rounding = number.value * seconds, number.rounding * seconds
+            return Stated(value=float(f"{value:.12g}"), rounding=rounding, index=number.index)
+    at = reals[0].index if reals else part.first
+    return Stated(value=source.dt_s, rounding=0.0, index=at)
+
+
+def _check_length(source: Source, part: _Part, length_s: float, dt_s: float) -> None:
+    """Compare count times step with the length in whole seconds that the data line states."""
+    stated = printed(part.line[3], part.at).value
+    if abs(length_s - stated) > 1.0 + dt_s + 0.01 * stated:
+        raise InputError(
+            f"{source.at(part.at)}: states about {stated:g} s, count times step is {length_s:g} s;"
+            " give a file whose headings agree"
+        )
+
+
+def _stop(source: Source, part: _Part) -> tuple[int, tuple[str, ...]]:
+    """Index of the line that ends a series, with a note where there is none."""
+    for index in range(part.at + 1, part.stop):
+        if _END.match(source.lines[index]):
+            return index, ()
+    if part.stop < len(source.lines):
+        return part.stop, ()
+    return part.stop, ("no end-of-data line stands behind the values: the file may be cut",)
