@@ -1,0 +1,133 @@
+"""SMC files of the U.S. Geological Survey (.smc): one component, in cm/s2.
+
+Owns this format only. Eleven lines of text, 48 whole numbers (8I10), 50 real ones (5E15.7), lines
+of comment that begin with |, then values (8E10.4E1): even ones where the heading gives a rate, else
+pairs of time and acceleration. Read `read` first.
+
+Source: U.S. Geological Survey, National Strong-Motion Program, SMC- and BBF-format data files,
+escweb.wr.usgs.gov/nsmp-data/smcfmt.html: whole numbers 1 (sign of an unknown one), 16 (comments),
+17 (values), 18 (problem flag); real numbers 1 (sign of an unknown one), 2 (rate [1/s]), 30 and 32
+(largest and smallest value). That an uneven file counts times and accelerations together, and may
+have short lines where two pieces of film meet, is seen in files (575 Market Street, 1989).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
+from solver.formats.motionfile import MotionFile
+from solver.formats.numbers import Block, Layout, fixed_rows, fixed_values, header_values
+from solver.formats.source import Source, Stated
+from solver.formats.times import sampled
+from solver.model import Floats, InputError
+
+_KINDS = "UNCORRECTED ACCEL|CORRECTED ACCEL|VELOCITY|DISPLACEMENT|RESPONSE SPECTR|FOURIER"
+_FIRST = re.compile(rf"\s*\d\s+({_KINDS})", re.ASCII | re.IGNORECASE)
+_COMPONENT = re.compile(r"component\s*=(.*)", re.IGNORECASE)
+
+_TEXT = 11
+_WHOLE = Layout(per_line=8, width=10)
+_REAL = Layout(per_line=5, width=15)
+_VALUES = Layout(per_line=8, width=10)
+_WHOLES, _REALS = 48, 50
+
+# Places of the heading's numbers, from 1.
+_COMMENTS, _COUNT, _FLAG = 16, 17, 18
+_RATE, _LARGEST, _SMALLEST = 2, 30, 32
+
+# Real numbers that are not known are 1.7E38, and no rate or acceleration is near that.
+_UNKNOWN = 1e30
+
+
+def recognises(lines: Sequence[str]) -> bool:
+    """Whether the first line is a type number with its name."""
+    return bool(lines and _FIRST.match(lines[0]))
+
+
+def read(source: Source) -> MotionFile:
+    """Read the one component of a file of type 1 (uncorrected) or 2 (corrected)."""
+    kind = _kind(source)
+    whole = header_values(source, _TEXT, _WHOLES, _WHOLE)
+    real = header_values(source, _TEXT + _WHOLE.lines(_WHOLES), _REALS, _REAL)
+    scale = source.scale("cm/s2", 0)
+    block = _block(source, whole)
+    dt_s, values, told = _samples(source, real[_RATE - 1], block)
+    values, notes = values * scale, list(told)
+    if whole[_FLAG - 1].value == 1.0:
+        notes.append("the heading flags a problem with this record: read its comments")
+    peak = max(abs(_known(real[_LARGEST - 1])), abs(_known(real[_SMALLEST - 1]))) * scale
+    notes += peak_notes(source, real[_LARGEST - 1].index, peak, values)
+    if kind.startswith("UNCORRECTED"):
+        notes += offset_notes(values)
+    channel = Channel(name=_name(source), dt_s=dt_s, a_mps2=values, notes=tuple(notes))
+    return motion_file(source, "USGS SMC", [channel])
+
+
+def _samples(source: Source, rate: Stated, block: Block) -> tuple[float, Floats, tuple[str, ...]]:
+    if not _known(rate) > 0.0:
+        return _uneven(source, block)
+    dt_s = source.step(Stated(value=1.0 / rate.value, rounding=0.0, index=rate.index))
+    return dt_s, fixed_values(source, block, _VALUES), ()
+
+
+def _kind(source: Source) -> str:
+    found = _FIRST.match(source.line(0))
+    kind = found[1].upper() if found else ""
+    if "ACCEL" not in kind:
+        raise InputError(f"{source.at(0)}: found {kind.lower()}; give a file of acceleration")
+    return kind
+
+
+def _block(source: Source, whole: Sequence[Stated]) -> Block:
+    """Where the values stand: behind the comments."""
+    comments, count = whole[_COMMENTS - 1], whole[_COUNT - 1]
+    for number, meaning in ((comments, "lines of comment"), (count, "values")):
+        if not 0.0 <= number.value < 1e8:
+            raise InputError(
+                f"{source.at(number.index)}: found no number of {meaning}; give the whole file"
+            )
+    heading = _TEXT + _WHOLE.lines(_WHOLES) + _REAL.lines(_REALS)
+    first = heading + int(comments.value)
+    for index in range(heading, min(first, len(source.lines))):
+        if not source.lines[index].startswith("|"):
+            raise InputError(
+                f"{source.at(index)}: found a line without | among the {comments.value:.0f} of"
+                " comment; give the whole file"
+            )
+    return Block(first=first, stop=len(source.lines), count=int(count.value), promised=count.index)
+
+
+def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...]]:
+    """Pairs of time and acceleration, of which a line may have fewer than four."""
+    values = fixed_rows(source, block, _VALUES)
+    # Files count the values; one that counts the pairs cannot be a cut one.
+    if len(values) not in (block.count, 2 * block.count):
+        raise InputError(
+            f"{source.at(block.promised)}: promises {block.count} values, found {len(values)};"
+            " give the whole file"
+        )
+    rows = []
+    for index in range(block.first, block.stop):
+        fields = _VALUES.fields(source.lines[index])
+        if fields % 2:
+            raise InputError(
+                f"{source.at(index)}: found {fields} values; give pairs of time and acceleration"
+            )
+        rows += [index] * (fields // 2)
+    pairs = values.reshape(-1, 2)
+    if len(pairs) < 2:
+        raise InputError(f"{source.at(block.promised)}: found {len(pairs)} pairs; give at least 2")
+    even = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows)
+    return even.dt_s, even.columns[0], even.notes
+
+
+def _known(number: Stated) -> float:
+    return 0.0 if math.isnan(number.value) or abs(number.value) > _UNKNOWN else number.value
+
+
+def _name(source: Source) -> str:
+    found = _COMPONENT.search(source.line(5))
+    return found[1].strip() if found else ""
