@@ -1,0 +1,148 @@
+"""GeoNet files of New Zealand (.V1A uncorrected, .V2A corrected): three components, in mm/s2.
+
+Owns this format only. Each component has 16 lines of text, 40 whole numbers (10I8), 60 real ones
+(10F8.0), then accelerations (10F8.1) and, in V2A, velocities and displacements, which are left.
+Read `read` first.
+
+Source: GeoNet, Strong motion file formats, geonet.org.nz/data/supplementary/
+strong_motion_file_formats (W.J. Cousins, GNS accelerogram data files, 2008): whole numbers 34, 35
+and 36 are the counts of accelerations, velocities and displacements. Real numbers 26 (step [s]),
+31 (peak of V1A) and 36 (peak of V2A) are read off the files, and off their text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
+from solver.formats.motionfile import MotionFile
+from solver.formats.numbers import Block, Layout, each, fixed_values, header_values, printed
+from solver.formats.source import Source, Stated
+from solver.model import InputError
+
+_FIRST = re.compile(r"\s*(UN)?CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
+_SITE = re.compile(r"\s*SITE\b", re.IGNORECASE)
+_STEP_LINE = re.compile(r"([\d.]+)\s*S(?:EC)?\b(?:\s+INTERVALS)?", re.ASCII | re.IGNORECASE)
+_INTERVAL = re.compile(r"\bINTERVALS?\b", re.IGNORECASE)
+_UNIT = re.compile(r"UNITS OF\s+([\d.]+)\s+([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
+_PEAK_UNIT = re.compile(r"ACCELERATION:\s+PEAK\s+\S+\s+([A-Z/0-9]+)", re.IGNORECASE)
+
+_TEXT = 16
+_WHOLE = Layout(per_line=10, width=8)
+_WHOLES, _REALS = 40, 60
+_HEADING = _TEXT + _WHOLE.lines(_WHOLES) + _WHOLE.lines(_REALS)
+
+# Places of the heading's numbers, from 1.
+_ACCELERATIONS, _VELOCITIES, _DISPLACEMENTS = 34, 35, 36
+_STEP, _PEAK_1, _PEAK_2 = 26, 31, 36
+_UNIT_LINE, _COMPONENT_LINE, _PEAK_LINE = 11, 13, 14
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Part:
+    """Lines of one component, from index `first` to before `stop`."""
+
+    first: int
+    stop: int
+
+
+def recognises(lines: Sequence[str]) -> bool:
+    """Whether the first two lines are those of a GNS accelerogram."""
+    if len(lines) < 2 or not _FIRST.match(lines[0]):
+        return False
+    return "GNS" in lines[0] or bool(_SITE.match(lines[1]))
+
+
+def read(source: Source) -> MotionFile:
+    """Read the accelerations of all components of a file."""
+    starts = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
+    stops = [*starts[1:], len(source.lines)]
+    parts = [_Part(first=a, stop=b) for a, b in zip(starts, stops, strict=True)]
+    form = "GeoNet V1A" if _is_uncorrected(source) else "GeoNet V2A"
+    return motion_file(source, form, each(lambda part: _component(source, part), parts))
+
+
+def _is_uncorrected(source: Source) -> bool:
+    return source.line(0).strip().upper().startswith("UN")
+
+
+def _component(source: Source, part: _Part) -> Channel:
+    whole = header_values(source, part.first + _TEXT, _WHOLES, _WHOLE)
+    real = header_values(source, part.first + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
+    count = whole[_ACCELERATIONS - 1]
+    if not 0.0 <= count.value < 1e8:
+        raise InputError(
+            f"{source.at(count.index)}: found no number of accelerations; give the whole file"
+        )
+    dt_s = source.step(_step(source, part, real[_STEP - 1]))
+    scale = _scale(source, part)
+    block = _block(part, whole)
+    values = fixed_values(source, block, _WHOLE) * scale
+    uncorrected = _is_uncorrected(source)
+    peak = real[(_PEAK_1 if uncorrected else _PEAK_2) - 1]
+    notes = (
+        *_rest(source, part, whole),
+        *peak_notes(source, peak.index, peak.value * scale, values),
+    )
+    return Channel(
+        name=source.line(part.first + _COMPONENT_LINE - 1),
+        dt_s=dt_s,
+        a_mps2=values,
+        notes=(*notes, *offset_notes(values)) if uncorrected else notes,
+    )
+
+
+def _block(part: _Part, whole: Sequence[Stated]) -> Block:
+    """Where the accelerations stand: up to the velocities, if there are any."""
+    first, count = part.first + _HEADING, whole[_ACCELERATIONS - 1]
+    end = first + _WHOLE.lines(int(count.value))
+    alone = not whole[_VELOCITIES - 1].value > 0.0
+    stop = part.stop if alone else min(end, part.stop)
+    return Block(first=first, stop=stop, count=int(count.value), promised=count.index)
+
+
+def _step(source: Source, part: _Part, exact: Stated) -> Stated:
+    """Step of the real heading, held against the one in the text."""
+    at = part.first + _UNIT_LINE - 1
+    line = source.line(at)
+    found = _STEP_LINE.search(line) if _INTERVAL.search(line) else None
+    if not found:
+        return exact
+    stated = printed(found[1], at)
+    if not exact.value > 0.0:
+        return stated
+    if abs(exact.value - stated.value) > stated.rounding + exact.rounding:
+        raise InputError(
+            f"{source.at(at)}: found a step of {stated.value:g} s and one of {exact.value:g} s in"
+            f" line {exact.index + 1}; give a file whose headings agree"
+        )
+    return exact if exact.rounding <= stated.rounding else stated
+
+
+def _scale(source: Source, part: _Part) -> float:
+    """Size [m/s2] of one unit of the values: `Raw readings in units of 1.00 mm/s/s`, or mm/s/s."""
+    at = part.first + _UNIT_LINE - 1
+    if found := _UNIT.search(source.line(at)):
+        readings = printed(found[1], at).value
+        if not readings > 0.0:
+            raise InputError(f"{source.at(at)}: found units of {found[1]}; give a number above 0")
+        return source.scale(found[2], at) * readings
+    at = part.first + _PEAK_LINE - 1
+    found = _PEAK_UNIT.match(source.line(at).strip())
+    if not found:
+        raise InputError(
+            f"{source.at(at)}: found no line Acceleration: peak ... mm/s/s; give the whole file"
+        )
+    return source.scale(found[1], at)
+
+
+def _rest(source: Source, part: _Part, whole: Sequence[Stated]) -> tuple[str, ...]:
+    """Say that a file is cut behind its accelerations."""
+    counts = [whole[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
+    counts = [count for count in counts if 0.0 < count < 1e8]
+    lines = sum(_WHOLE.lines(int(count)) for count in [whole[_ACCELERATIONS - 1].value, *counts])
+    if part.first + _HEADING + lines <= part.stop:
+        return ()
+    return ("velocities or displacements are not all there: the file may be cut",)
