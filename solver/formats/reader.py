@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from solver.formats import cosmos, csmip, geonet, peer, smc, text
+from solver.formats import cosmos, csmip, geonet, knet, peer, smc, text
 from solver.formats.motionfile import MotionFile
 from solver.formats.source import Source, open_source
 from solver.motion import Record
@@ -25,7 +25,7 @@ class _Format:
 # GeoNet comes before CSMIP, whose first line is alike; text comes last, for it takes every file.
 _FORMATS = tuple(
     _Format(recognises=module.recognises, read=module.read)
-    for module in (cosmos, geonet, csmip, smc, peer, text)
+    for module in (cosmos, geonet, csmip, smc, knet, peer, text)
 )
 
 

@@ -1,0 +1,99 @@
+"""K-NET and KiK-net ASCII files of Japan (.NS, .EW, .UD, .NS2, ...): one component, as counts.
+
+Owns this format only. Seventeen lines of heading by name, then counts, eight to a line. The scale
+factor gives gal to a count; counts keep the instrument's offset. Read `read` first.
+
+Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and
+the KiK-net notes there (channels 1 to 3 in the borehole, 4 to 6 at the surface; the stated peak is
+without the mean).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
+from solver.formats.motionfile import MotionFile
+from solver.formats.numbers import Block, free_values, printed
+from solver.formats.source import Source, Stated
+from solver.model import InputError
+from solver.motion import shown
+
+_HEADING_LINES = 20
+_SCALE = re.compile(r"([\d.]+)\s*\(\s*([A-Z]+)\s*\)\s*/\s*([\d.]+)", re.ASCII | re.IGNORECASE)
+_LEADING = re.compile(r"[\d.]+", re.ASCII)
+
+_KIK_NET = {"1": "NS1", "2": "EW1", "3": "UD1", "4": "NS2", "5": "EW2", "6": "UD2"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Entry:
+    """One line of the heading."""
+
+    text: str
+    index: int
+
+
+def recognises(lines: Sequence[str]) -> bool:
+    """Whether the heading begins with the origin time and has a scale factor."""
+    near = lines[:_HEADING_LINES]
+    begins = bool(near) and near[0].startswith("Origin Time")
+    return begins and any(line.startswith("Scale Factor") for line in near)
+
+
+def read(source: Source) -> MotionFile:
+    """Read the one component of a file."""
+    rate = _number(source, "Sampling Freq(Hz)")
+    duration = _number(source, "Duration Time(s)")
+    memo = _entry(source, "Memo.")
+    dt_s = source.step(Stated(value=1.0 / rate.value, rounding=0.0, index=rate.index))
+    count = round(duration.value * rate.value)
+    block = Block(
+        first=memo.index + 1, stop=len(source.lines), count=count, promised=duration.index
+    )
+    values = free_values(source, block) * _scale(source)
+    peak = _entry(source, "Max. Acc. (gal)", "Max Acc. (gal)")
+    stated_mps2 = 0.01 * printed(peak.text, peak.index).value
+    centred = values - values.mean() if len(values) else values
+    notes = [*peak_notes(source, peak.index, stated_mps2, centred), *offset_notes(values)]
+    direction = _entry(source, "Dir.").text
+    name = _KIK_NET.get(direction, direction)
+    if name.endswith("1"):
+        notes.append("the sensor is in the borehole, not at the surface")
+    form = "KiK-net" if direction in _KIK_NET else "K-NET"
+    channel = Channel(name=name, dt_s=dt_s, a_mps2=values, notes=tuple(notes))
+    return motion_file(source, form, [channel])
+
+
+def _entry(source: Source, *names: str) -> _Entry:
+    for index, line in enumerate(source.lines[:_HEADING_LINES]):
+        for name in names:
+            if line.startswith(name):
+                return _Entry(text=line[len(name) :].strip(), index=index)
+    raise InputError(f"{source.name}: found no line {names[0]}; give the whole heading")
+
+
+def _number(source: Source, name: str) -> Stated:
+    entry = _entry(source, name)
+    found = _LEADING.match(entry.text)
+    stated = printed(found[0] if found else "", entry.index)
+    if not 0.0 < stated.value < 1e6:
+        raise InputError(
+            f"{source.at(entry.index)}: found {shown(entry.text)}; give a number above 0"
+        )
+    return stated
+
+
+def _scale(source: Source) -> float:
+    """Size [m/s2] of a count."""
+    entry = _entry(source, "Scale Factor")
+    found = _SCALE.match(entry.text)
+    over, under = (printed(found[i], entry.index).value for i in (1, 3)) if found else (0.0, 0.0)
+    if not found or not (over > 0.0 and under > 0.0):
+        raise InputError(
+            f"{source.at(entry.index)}: found {shown(entry.text)}; give a scale as"
+            " 3920(gal)/6182761"
+        )
+    return source.scale(found[2], entry.index) * over / under
