@@ -76,6 +76,10 @@ def test_counts_must_hold(altered: Any, file: Any) -> None:
         changed = line[:24] + count.rjust(8) + line[32:]
         (problem,) = problems_of(altered("geonet.v1a", (line, changed)))
         assert problem.startswith(f"geonet.v1a:20: promises {count} values, found {found}")
+    changed = line[:24] + "       0" + line[32:]
+    assert problems_of(altered("geonet.v1a", (line, changed))) == (
+        "geonet.v1a:20: promises 0 values; give at least 2",
+    )
     changed = line[:24] + "    none" + line[32:]
     (problem,) = problems_of(altered("geonet.v1a", (line, changed)))
     assert problem.startswith("geonet.v1a:20: found no number of accelerations; give the whole")

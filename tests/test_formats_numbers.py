@@ -53,7 +53,7 @@ def test_a_fortran_format_gives_fields_and_width(
     assert (found and (found.per_line, found.width)) == expected
 
 
-@given(st.lists(st.integers(-99999, 999999), min_size=1, max_size=40))
+@given(st.lists(st.integers(-99999, 999999), min_size=2, max_size=40))
 def test_touching_fields_are_cut_by_width(values: list[int]) -> None:
     fields = [f"{value / 1000:8.3f}" for value in values]
     lines = ["".join(fields[i : i + 5]) for i in range(0, len(fields), 5)]

@@ -85,6 +85,7 @@ def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
     InputError
         With every field at fault, or where the values end before the promised count.
     """
+    _check_enough(source, block)
     last = min(block.first + layout.lines(block.count), block.stop)
     rows = [line.rstrip() for line in source.lines[block.first : last]]
     values = _fixed_fast(rows, block.count, layout)
@@ -111,6 +112,7 @@ def fixed_rows(source: Source, block: Block, layout: Layout) -> Floats:
 
 def free_values(source: Source, block: Block) -> Floats:
     """Values of all lines of a block, set apart by blanks; there must be as many as promised."""
+    _check_enough(source, block)
     rows = source.lines[block.first : block.stop]
     fields = " ".join(rows).translate(_FORTRAN).split()
     try:
@@ -173,6 +175,12 @@ def skip_blank(source: Source, index: int) -> int:
     while index < len(source.lines) and not source.lines[index].strip():
         index += 1
     return index
+
+
+def _check_enough(source: Source, block: Block) -> None:
+    if block.count < 2:
+        values = "1 value" if block.count == 1 else f"{block.count} values"
+        raise InputError(f"{source.at(block.promised)}: promises {values}; give at least 2")
 
 
 def _fixed_fast(rows: Sequence[str], count: int, layout: Layout) -> Floats | None:
