@@ -1,0 +1,172 @@
+"""What is on the roof: arrays, what they could strike or fall from, and the room between.
+
+Read `report.sheet.schema` first.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import Field
+
+from report.sheet.fields import Cell, Frozen
+from report.sheet.schema.choices import (
+    Direction,
+    Id,
+    NotNegative,
+    ObjectKind,
+    Positive,
+    RequiredText,
+    SlopeUnit,
+    Text,
+)
+from report.units import Quantity
+
+
+def slope_rad(value: float, unit: SlopeUnit) -> float:
+    """Return a slope as an angle [rad]."""
+    if unit is SlopeUnit.DEGREES:
+        return math.radians(value)
+    return math.atan(value / (100.0 if unit is SlopeUnit.PERCENT else 12.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Rectangle:
+    """A rectangle in roof plan [m]."""
+
+    x_from_m: float
+    x_to_m: float
+    y_from_m: float
+    y_to_m: float
+
+
+def _plan(edge: str) -> Cell:
+    examples = {"x from": 20.0, "x to": 100.0, "y from": 15.0, "y to": 75.0}
+    return Cell(
+        edge,
+        "Rectangle in roof plan, from any fixed corner of the roof.",
+        examples[edge],
+        Quantity.PLAN,
+    )
+
+
+class Array(Frozen):
+    """A ballasted array that moves as one block."""
+
+    id: Annotated[Id, Cell("ID", "Short and unique, such as A1.", "A1")]
+    slope_value: Annotated[
+        NotNegative, Cell("Slope", "Of the roof under the array, 0 to under 45 deg.", 2.0)
+    ]
+    slope_unit: Annotated[
+        SlopeUnit, Cell("Slope unit", "In which the slope is written.", "degrees")
+    ]
+    mu: Annotated[
+        float,
+        Field(ge=0.0, le=1.5),
+        Cell("Friction coefficient", "Kinetic, by test, the least of wet and dry.", 0.45),
+    ]
+    mu_report: Annotated[
+        Text,
+        Cell(
+            "Friction test report",
+            "Laboratory, number and date of the friction test.",
+            "ASTM G115, Lab 1234, 2025-06-12",
+        ),
+    ] = ""
+    construction: Annotated[
+        RequiredText,
+        Cell(
+            "Construction",
+            "Product and layout. Arrays with the same text here are like arrays.",
+            "Tray 10 deg, landscape",
+        ),
+    ]
+    weight_n: Annotated[
+        Positive, Cell("Weight", "Of modules, racking and ballast.", 42000.0, Quantity.WEIGHT)
+    ]
+    cg_height_m: Annotated[
+        Positive, Cell("CG height", "Centre of gravity above the roof surface.", 9.0, Quantity.SIZE)
+    ]
+    support_spacing_m: Annotated[
+        Positive,
+        Cell(
+            "Support spacing",
+            "Least spacing of the supports on the roof, either way in plan.",
+            40.0,
+            Quantity.SIZE,
+        ),
+    ]
+    x_from_m: Annotated[float, _plan("x from")]
+    x_to_m: Annotated[float, _plan("x to")]
+    y_from_m: Annotated[float, _plan("y from")]
+    y_to_m: Annotated[float, _plan("y to")]
+    downslope_deg: Annotated[
+        float,
+        Field(ge=0.0, le=360.0),
+        Cell(
+            "Downslope direction",
+            "In plan, counter-clockwise from +x: 0 is +x, 90 is +y.",
+            270.0,
+            "deg",
+        ),
+    ]
+
+    @property
+    def slope_rad(self) -> float:
+        """The slope as an angle [rad]."""
+        return slope_rad(self.slope_value, self.slope_unit)
+
+    @property
+    def rectangle(self) -> Rectangle:
+        """The array in roof plan."""
+        return Rectangle(self.x_from_m, self.x_to_m, self.y_from_m, self.y_to_m)
+
+
+class RoofObject(Frozen):
+    """What stands on the roof beside the arrays, and the roof's edges."""
+
+    id: Annotated[Id, Cell("ID", "Short and unique, such as RTU-1.", "RTU-1")]
+    kind: Annotated[
+        ObjectKind,
+        Cell(
+            "Kind",
+            "An unlike array is one of other construction that is not in Arrays.",
+            "fixed object",
+        ),
+    ]
+    height_m: Annotated[
+        NotNegative | None,
+        Cell(
+            "Height",
+            "Of the object or parapet above the roof; an edge with parapet needs it.",
+            42.0,
+            Quantity.SIZE,
+        ),
+    ] = None
+    x_from_m: Annotated[float | None, _plan("x from")] = None
+    x_to_m: Annotated[float | None, _plan("x to")] = None
+    y_from_m: Annotated[float | None, _plan("y from")] = None
+    y_to_m: Annotated[float | None, _plan("y to")] = None
+
+    @property
+    def rectangle(self) -> Rectangle | None:
+        """The object in roof plan, where given."""
+        x_from, x_to, y_from, y_to = self.x_from_m, self.x_to_m, self.y_from_m, self.y_to_m
+        if x_from is None or x_to is None or y_from is None or y_to is None:
+            return None
+        return Rectangle(x_from, x_to, y_from, y_to)
+
+
+class Clearance(Frozen):
+    """The room an array has towards an object or another array."""
+
+    array: Annotated[Id, Cell("Array", "ID of the array that moves.", "A1")]
+    object: Annotated[Id, Cell("Object", "ID of an object, or of another array.", "RTU-1")]
+    direction: Annotated[
+        Direction, Cell("Direction", "From the array: down the slope, up, across.", "any")
+    ]
+    provided_m: Annotated[
+        NotNegative, Cell("Provided", "Clear distance in roof plan.", 96.0, Quantity.SIZE)
+    ]
