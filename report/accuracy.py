@@ -132,7 +132,7 @@ def _scene(array: ArrayAssessment, run: MotionRun) -> dict[str, Any]:
     """Return the governing run as arguments of `slide`."""
     motion = run.motion
     return {
-        "ax_mps2": run.governing.sign * motion.ax_mps2,
+        "ax_mps2": motion.along_mps2(run.governing.heading),
         "az_mps2": motion.az_mps2 if motion.has_vertical else None,
         "dt_s": motion.dt_s,
         "scale": motion.scale,

@@ -20,7 +20,7 @@ from report.sheet.schema import (
     Statistic,
 )
 from solver import provisions
-from solver.model import Motion, SlideHistory, SlideResult, Status
+from solver.model import Heading, Motion, SlideHistory, SlideResult, Status
 from solver.provisions import (
     AnalysisValue,
     Basis,
@@ -46,28 +46,28 @@ _KINDS = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PolarityRun:
-    """One motion with one sign of its horizontal component."""
+class HeadingRun:
+    """One motion with one horizontal component along the slope, in one polarity."""
 
-    sign: int
+    heading: Heading
     result: SlideResult
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionRun:
-    """One array under one motion, in the polarities that were asked for.
+    """One array under one motion, with each horizontal component in the polarities asked for.
 
     Attributes
     ----------
-    governing : PolarityRun
+    governing : HeadingRun
         The run with the largest PRD; one without a displacement governs over all.
     history : SlideHistory
         Of the governing run.
     """
 
     motion: Motion
-    runs: tuple[PolarityRun, ...]
-    governing: PolarityRun
+    runs: tuple[HeadingRun, ...]
+    governing: HeadingRun
     history: SlideHistory
 
 
@@ -113,6 +113,15 @@ class ArrayAssessment:
     def ratio(self) -> float:
         """Design displacement / prescriptive displacement."""
         return self.design_m / self.prescriptive.value_m
+
+    @property
+    def variation(self) -> float:
+        """Standard deviation of the motions' PRDs over their mean; NaN for one motion."""
+        peaks = [run.governing.result.prd_m for run in self.motions]
+        mean = self.analysis.mean_m
+        if len(peaks) < 2 or not mean > 0.0:
+            return math.nan
+        return math.sqrt(sum((p - mean) ** 2 for p in peaks) / (len(peaks) - 1)) / mean
 
     @property
     def worst(self) -> MotionRun:
@@ -186,8 +195,8 @@ class Assessment:
     def warnings(self) -> tuple[str, ...]:
         """Runs whose displacement is missing or not final, in words."""
         return tuple(
-            f"Array {assessed.array.id}, motion {motion.motion.id}"
-            f"{' reversed' if run.sign < 0 else ''}: {_trouble(run.result)}."
+            f"Array {assessed.array.id}, motion {motion.motion.id}, {run.heading.name}: "
+            f"{_trouble(run.result)}."
             for assessed in self.arrays
             for motion in assessed.motions
             for run in motion.runs
@@ -254,11 +263,14 @@ def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
 def _run_motion(array: Array, motion: Motion) -> MotionRun:
     slope, mu = array.slope_rad, array.mu
     runs = tuple(
-        PolarityRun(sign=sign, result=slide_motion(motion, slope_rad=slope, mu=mu, sign=sign))
-        for sign in motion.signs
+        HeadingRun(
+            heading=heading,
+            result=slide_motion(motion, slope_rad=slope, mu=mu, heading=heading),
+        )
+        for heading in motion.headings
     )
     governing = max(runs, key=lambda run: _nan_is_worst(run.result.prd_m))
-    history = slide_motion_history(motion, slope_rad=slope, mu=mu, sign=governing.sign)
+    history = slide_motion_history(motion, slope_rad=slope, mu=mu, heading=governing.heading)
     return MotionRun(motion=motion, runs=runs, governing=governing, history=history)
 
 

@@ -72,7 +72,8 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
         "runs": [
             {
                 "motion": motion.motion.id,
-                "polarity": run.sign,
+                "along": run.heading.component,
+                "polarity": run.heading.sign,
                 "scale": motion.motion.scale,
                 "dt_s": motion.motion.dt_s,
                 **asdict(run.result),

@@ -67,12 +67,13 @@ class _Pages:
 
 
 def _runs_table(assessment: Assessment) -> pd.DataFrame:
-    """One row for each array, motion and polarity, arrays together."""
+    """One row for each array, motion and run, arrays together."""
     return pd.DataFrame(
         {
             "Array": item.array.id,
             "Motion": motion.motion.id,
-            "Polarity": "as recorded" if run.sign > 0 else "reversed",
+            "Along the slope": run.heading.component,
+            "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
             "Governs": "yes" if run is motion.governing else "",
             "Scale": motion.motion.scale,
             "PRD [in]": run.result.prd_m / METRES_PER_INCH,

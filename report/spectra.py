@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from report.assess import Assessment
 from report.units import G_MPS2
@@ -17,8 +18,11 @@ from solver.motion import response_spectrum
 from solver.provisions import RequiredSpectrum
 
 PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
-# From the last corner of AC156 to its first, the printed ones among them.
-PERIODS_S: Floats = np.unique(np.concatenate([np.geomspace(1 / 33.3, 10.0, 48), PRINTED_S[1:]]))
+BAND_HZ = 0.3 * 2.0 ** (np.arange(82) / 12.0)  # 1/12 octaves to 32.3 Hz
+# From the last corner of AC156 to its first: the band, beyond it coarser, and what is printed.
+PERIODS_S: Floats = np.unique(
+    np.concatenate([1.0 / BAND_HZ, np.geomspace(3.6, 9.3, 10), [1 / 33.3], PRINTED_S[1:]])
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,32 +51,33 @@ class Spectra:
         """Ordinates of the target at the periods."""
         return self.target.at(1.0 / self.periods_s)
 
+    @property
+    def in_band(self) -> NDArray[np.bool_]:
+        """Whether a period lies in the band that a matched motion keeps to."""
+        return np.isin(self.periods_s, 1.0 / BAND_HZ)
+
 
 def spectra(assessment: Assessment, motions: Sequence[Motion]) -> tuple[Spectra, ...]:
-    """Return the spectra of both components; those without a vertical one are left out there."""
-    upright = [motion for motion in motions if motion.has_vertical]
-    across = _spectra(motions, "Horizontal", assessment.horizontal_target)
-    return (
-        (across, _spectra(upright, "Vertical", assessment.vertical_target))
-        if upright
-        else (across,)
+    """Return the spectra of each component that any motion has."""
+    across, upward = assessment.horizontal_target, assessment.vertical_target
+    parts = (
+        ("Horizontal", across, [(motion, motion.ax_mps2) for motion in motions]),
+        ("Transverse", across, [(m, m.ay_mps2) for m in motions if m.has_transverse]),
+        ("Vertical", upward, [(m, m.az_mps2) for m in motions if m.has_vertical]),
     )
+    return tuple(_spectra(title, target, rows) for title, target, rows in parts if rows)
 
 
-def _spectra(motions: Sequence[Motion], name: str, target: RequiredSpectrum) -> Spectra:
-    rows = [
-        response_spectrum(
-            (motion.az_mps2 if name == "Vertical" else motion.ax_mps2) * motion.scale,
-            motion.dt_s,
-            PERIODS_S,
-        )
-        / G_MPS2
-        for motion in motions
+def _spectra(
+    title: str, target: RequiredSpectrum, rows: Sequence[tuple[Motion, Floats]]
+) -> Spectra:
+    found = [
+        response_spectrum(a_mps2 * motion.scale, motion.dt_s, PERIODS_S) for motion, a_mps2 in rows
     ]
     return Spectra(
-        ids=tuple(motion.id for motion in motions),
+        ids=tuple(motion.id for motion, _ in rows),
         periods_s=PERIODS_S,
-        sa_g=np.array(rows),
+        sa_g=np.array(found) / G_MPS2,
         target=target,
-        title=name,
+        title=title,
     )

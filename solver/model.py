@@ -134,6 +134,32 @@ class SlideHistory:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Heading:
+    """Which horizontal component of a motion runs along the slope, and in which sense.
+
+    Attributes
+    ----------
+    swapped : bool
+        Whether the transverse component runs along the slope instead of the record.
+    sign : int
+        +1 as recorded, -1 reversed.
+    """
+
+    swapped: bool
+    sign: int
+
+    @property
+    def component(self) -> str:
+        """The component along the slope, in words: record or transverse."""
+        return "transverse" if self.swapped else "record"
+
+    @property
+    def name(self) -> str:
+        """The run in words, such as `record +` or `transverse −`."""
+        return f"{self.component} {'+' if self.sign > 0 else '−'}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Motion:
     """A roof motion ready to run: scaled, in m/s2, evenly sampled, arrays read-only.
 
@@ -142,19 +168,20 @@ class Motion:
     id, source : str
     dt_s : float
         Sampling interval [s].
-    ax_mps2, az_mps2 : array, shape (n,)
-        Horizontal and vertical (positive up) acceleration, unscaled [m/s2]; az of shape (0,)
-        where there is no vertical record.
+    ax_mps2, ay_mps2, az_mps2 : array, shape (n,)
+        Horizontal record, the other horizontal component (transverse) and vertical (positive up)
+        acceleration, unscaled [m/s2]; ay or az of shape (0,) where there is none.
     scale : float
-        Factor for both components.
+        Factor for all components.
     signs : tuple of int
-        Polarities of the horizontal component to run, from {+1, -1}.
+        Polarities of a horizontal component to run, from {+1, -1}.
     """
 
     id: str
     source: str
     dt_s: float
     ax_mps2: Floats
+    ay_mps2: Floats
     az_mps2: Floats
     scale: float
     signs: tuple[int, ...]
@@ -163,3 +190,18 @@ class Motion:
     def has_vertical(self) -> bool:
         """Whether a vertical component goes with the horizontal one."""
         return len(self.az_mps2) > 0
+
+    @property
+    def has_transverse(self) -> bool:
+        """Whether there is a second horizontal component."""
+        return len(self.ay_mps2) > 0
+
+    @property
+    def headings(self) -> tuple[Heading, ...]:
+        """The runs along the slope: each horizontal component in each of its polarities."""
+        components = (False, True) if self.has_transverse else (False,)
+        return tuple(Heading(swapped=s, sign=sign) for s in components for sign in self.signs)
+
+    def along_mps2(self, heading: Heading) -> Floats:
+        """Return the acceleration along the slope of a run, unscaled, shape (n,) [m/s2]."""
+        return (self.ay_mps2 if heading.swapped else self.ax_mps2) * heading.sign

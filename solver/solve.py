@@ -28,6 +28,7 @@ from solver.model import (
     Event,
     EventKind,
     Floats,
+    Heading,
     InputError,
     Motion,
     SlideHistory,
@@ -142,22 +143,24 @@ def slide_history(
     )
 
 
-def slide_motion(motion: Motion, *, slope_rad: float, mu: float, sign: int) -> SlideResult:
-    """Slide under a `Motion`, with one polarity (sign +1 or -1) of its horizontal component.
+def slide_motion(motion: Motion, *, slope_rad: float, mu: float, heading: Heading) -> SlideResult:
+    """Slide under a `Motion`, with one of its horizontal components along the slope.
 
     Reversing the motion is the same as reversing the slope (the paper runs both slope signs).
     """
-    return slide(**_arguments(motion, sign), slope_rad=slope_rad, mu=mu)
+    return slide(**_arguments(motion, heading), slope_rad=slope_rad, mu=mu)
 
 
-def slide_motion_history(motion: Motion, *, slope_rad: float, mu: float, sign: int) -> SlideHistory:
+def slide_motion_history(
+    motion: Motion, *, slope_rad: float, mu: float, heading: Heading
+) -> SlideHistory:
     """Return the history of what `slide_motion` runs."""
-    return slide_history(**_arguments(motion, sign), slope_rad=slope_rad, mu=mu)
+    return slide_history(**_arguments(motion, heading), slope_rad=slope_rad, mu=mu)
 
 
-def _arguments(motion: Motion, sign: int) -> dict[str, Any]:
+def _arguments(motion: Motion, heading: Heading) -> dict[str, Any]:
     return {
-        "ax_mps2": motion.ax_mps2 * sign,
+        "ax_mps2": motion.along_mps2(heading),
         "dt_s": motion.dt_s,
         "az_mps2": motion.az_mps2 if motion.has_vertical else None,
         "scale": motion.scale,

@@ -20,19 +20,37 @@ DT_S = 0.005
 
 
 def motions(count=7, *, seconds=30.0, peak_g=1.7, vertical_peak_g=0.4, seed=11):
-    """Seeded noise with the envelope of a shake-table test, vertical component included."""
-    rng = np.random.default_rng(seed)
+    """Seeded noise with the envelope of a shake-table test, in three components."""
+    rng, other = np.random.default_rng(seed), np.random.default_rng(seed + 1000)
     return tuple(
         Motion(
             id=f"M{k}",
             source=f"Seeded noise, number {k}",
             dt_s=DT_S,
             ax_mps2=_noise(rng, seconds, peak_g * G),
+            ay_mps2=_noise(other, seconds, peak_g * G),
             az_mps2=_noise(rng, seconds, vertical_peak_g * G),
             scale=1.0,
             signs=(1, -1),
         )
         for k in range(1, count + 1)
+    )
+
+
+NO_RECORD = np.empty(0)
+
+
+def motion(name, ax, az=NO_RECORD, *, ay=NO_RECORD, dt_s=0.01, signs=(1, -1)):
+    """One motion of given accelerations, as recorded."""
+    return Motion(
+        id=name,
+        source="",
+        dt_s=dt_s,
+        ax_mps2=ax,
+        ay_mps2=ay,
+        az_mps2=az,
+        scale=1.0,
+        signs=signs,
     )
 
 
@@ -158,7 +176,11 @@ def book(data=None, found=None):
                 peak_g=float(np.abs(values).max() / G),
             )
             for motion in found
-            for component, values in (("horizontal", motion.ax_mps2), ("vertical", motion.az_mps2))
+            for component, values in (
+                ("horizontal", motion.ax_mps2),
+                ("transverse", motion.ay_mps2),
+                ("vertical", motion.az_mps2),
+            )
             if len(values)
         ),
     )

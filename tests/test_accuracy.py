@@ -14,7 +14,6 @@ from report.pages import accuracy as accuracy_page
 from report.pages.parts import Scene
 from report.pdf import TEMPLATES
 from solver.methods import METHODS
-from solver.model import Motion
 from solver.solve import slide
 
 
@@ -45,7 +44,7 @@ def words(page):
 def direct(run, array, **method):
     motion = run.motion
     return slide(
-        run.governing.sign * motion.ax_mps2,
+        motion.along_mps2(run.governing.heading),
         motion.dt_s,
         slope_rad=array.slope_rad,
         mu=array.mu,
@@ -109,12 +108,13 @@ def test_friction_is_changed_by_five_percent_and_all_motions_run_again(usual):
             peaks = [
                 max(
                     slide(
-                        sign * motion.ax_mps2,
+                        sign * along,
                         motion.dt_s,
                         slope_rad=array.slope_rad,
                         mu=array.mu * factor,
                         az_mps2=motion.az_mps2,
                     ).prd_m
+                    for along in (motion.ax_mps2, motion.ay_mps2)
                     for sign in (1, -1)
                 )
                 for motion in book.motions
@@ -170,9 +170,7 @@ def test_where_nothing_slides_there_is_no_chart():
 def test_a_block_that_leaves_the_roof_has_no_error_and_no_friction_to_speak_of():
     up = np.zeros(800)
     up[300:400] = -1.4 * stand_in.G
-    lifted = Motion(
-        id="LIFT", source="", dt_s=0.01, ax_mps2=np.zeros(800), az_mps2=up, scale=1.0, signs=(1,)
-    )
+    lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
     _, scene, found = made(found=(*stand_in.motions(3, seconds=4.0), lifted))
     page = accuracy_page.page(scene, found)
     assert "leaves the roof" in page["method"]

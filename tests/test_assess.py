@@ -1,13 +1,15 @@
 """What is held against the rule set, and how a missing value never passes."""
 
 import math
+import statistics
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import stand_in
 from report.assess import assess
-from solver.model import Motion, Status
+from solver.model import Status
 from solver.provisions import Basis, Neighbour
 from solver.solve import slide
 
@@ -31,7 +33,7 @@ def lifting():
     """A motion whose vertical component lifts the array."""
     ax = np.zeros(400)
     az = np.concatenate([np.zeros(200), np.full(200, -1.2 * G)])
-    return Motion(id="UP", source="", dt_s=0.01, ax_mps2=ax, az_mps2=az, scale=1.0, signs=(1, -1))
+    return stand_in.motion("UP", ax, az)
 
 
 @pytest.fixture(scope="module")
@@ -39,21 +41,22 @@ def done():
     return assessed()
 
 
-def test_each_motion_counts_with_its_worse_polarity(done):
+def test_each_motion_counts_with_its_worst_component_and_polarity(done):
     item = done.arrays[1]
     peaks = []
     for motion in stand_in.motions():
-        both = [
+        four = [
             slide(
-                sign * motion.ax_mps2,
+                sign * along,
                 motion.dt_s,
                 slope_rad=math.radians(2.0),
                 mu=0.45,
                 az_mps2=motion.az_mps2,
             ).prd_m
+            for along in (motion.ax_mps2, motion.ay_mps2)
             for sign in (1, -1)
         ]
-        peaks.append(max(both))
+        peaks.append(max(four))
     assert [run.governing.result.prd_m for run in item.motions] == peaks
     assert item.analysis.mean_m == pytest.approx(sum(peaks) / 7)
     assert item.analysis.value_m == pytest.approx(1.1 * sum(peaks) / 7)
@@ -70,11 +73,34 @@ def test_a_reversed_motion_is_the_motion_on_the_opposite_slope(done):
 
 
 def test_a_fixed_polarity_runs_once():
-    one = Motion(
-        **{f: getattr(stand_in.motions()[0], f) for f in Motion.__slots__} | {"signs": (-1,)}
-    )
+    one = replace(stand_in.motions()[0], signs=(-1,))
     done = assessed((one,) * 3)
-    assert [run.sign for run in done.arrays[0].motions[0].runs] == [-1]
+    runs = done.arrays[0].motions[0].runs
+    assert [run.heading.name for run in runs] == ["record −", "transverse −"]
+
+
+def test_without_a_transverse_component_the_record_alone_is_run():
+    one = replace(stand_in.motions()[0], ay_mps2=np.empty(0))
+    done = assessed((one,) * 3)
+    runs = done.arrays[0].motions[0].runs
+    assert [run.heading.name for run in runs] == ["record +", "record −"]
+
+
+def test_swapping_the_horizontal_components_changes_names_alone():
+    given = stand_in.motions(3, seconds=8.0)
+    swapped = [replace(m, ax_mps2=m.ay_mps2, ay_mps2=m.ax_mps2) for m in given]
+    one, other = assessed(given), assessed(swapped)
+    for a, b in zip(one.arrays[1].motions, other.arrays[1].motions, strict=True):
+        assert a.governing.result == b.governing.result
+        assert a.governing.heading.swapped is not b.governing.heading.swapped
+        assert np.array_equal(a.history.u_m, b.history.u_m)
+
+
+def test_the_variation_is_that_of_the_peaks(done):
+    item = done.arrays[1]
+    peaks = [run.governing.result.prd_m for run in item.motions]
+    assert item.variation == pytest.approx(statistics.stdev(peaks) / statistics.mean(peaks))
+    assert math.isnan(assessed(stand_in.motions(1)).arrays[0].variation)
 
 
 def test_the_floor_governs_unless_peer_reviewed():
@@ -175,9 +201,7 @@ def test_too_few_motions_for_a_chosen_statistic_are_never_ok():
 
 def test_a_motion_that_ends_while_sliding_is_warned_of():
     ax = np.concatenate([np.zeros(100), np.full(100, -12.0)])
-    cut = Motion(
-        id="CUT", source="", dt_s=0.01, ax_mps2=ax, az_mps2=np.empty(0), scale=1.0, signs=(1,)
-    )
+    cut = stand_in.motion("CUT", ax, signs=(1,))
     done = assessed((*stand_in.motions(6), cut))
     assert any("CUT" in line and "still sliding" in line for line in done.warnings)
     assert not done.ok

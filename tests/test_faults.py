@@ -83,8 +83,8 @@ SINGLE_CELLS = [
         "rule set is 'ASCE 7-10'; choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22",
     ),
     ("Site", "B13", 7, "S_DS is 7; give a number of more than 0 to 5 [g]"),
-    ("Motions", "E8", 0, "time step is 0; give a number of more than 0 to 1 [s]"),
-    ("Motions", "E8", -0.01, "time step is -0.01; give a number of more than 0 to 1 [s]"),
+    ("Motions", "G8", 0, "time step is 0; give a number of more than 0 to 1 [s]"),
+    ("Motions", "G8", -0.01, "time step is -0.01; give a number of more than 0 to 1 [s]"),
     ("Options", "B6", "maybe", "analysis is peer reviewed is 'maybe'; choose Yes or No"),
 ]
 
@@ -207,12 +207,16 @@ CONTRADICTIONS = [
         {"Project!B13": "SI", "Arrays!N8": 10},
         ["Arrays!N8: y to is 3.05 m (10.00 ft); give more than y from, 4.57 m (15.00 ft)"],
     ),
-    ({"Motions!H9": None}, ["Motions!H9: factor or PPA is missing; give the factor"]),
-    ({"Motions!H10": None}, ["Motions!H10: factor or PPA is missing; give the PPA in g"]),
+    ({"Motions!I9": None}, ["Motions!I9: factor or PPA is missing; give the factor"]),
+    ({"Motions!I10": None}, ["Motions!I10: factor or PPA is missing; give the PPA in g"]),
     (
-        {"Motions!H8": 2},
+        {"Motions!D8": "records/x.csv"},
+        ["Motions!D8: transverse record is 'records/x.csv', as the horizontal one; give its own"],
+    ),
+    (
+        {"Motions!I8": 2},
         [
-            "Motions!H8: factor or PPA is 2, but scaling is 'as recorded'; choose a scaling or"
+            "Motions!I8: factor or PPA is 2, but scaling is 'as recorded'; choose a scaling or"
             " leave it blank"
         ],
     ),
@@ -318,6 +322,20 @@ def test_a_heading_that_is_gone_is_told(tmp_path):
     path = edit(make(tmp_path), typed({"Arrays!E7": "Grip"}))
     assert problems(path) == (
         "Arrays!B7: heading 'Friction coefficient' is missing; copy it from a fresh workbook"
+        " (roofslip new)",
+    )
+
+
+def test_an_optional_column_may_be_taken_out(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].delete_cols(11))
+    book = read_workbook(path)
+    assert [motion.source for motion in book.input.motions] == ["", "", ""]
+
+
+def test_an_optional_column_that_was_renamed_is_told_not_ignored(tmp_path):
+    path = edit(make(tmp_path), typed({"Motions!E7": "Vertical file"}))
+    assert problems(path) == (
+        "Motions!B7: heading 'Vertical record' is missing; copy it from a fresh workbook"
         " (roofslip new)",
     )
 

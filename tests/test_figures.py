@@ -12,7 +12,6 @@ from report.figures import charts as figures
 from report.pages.parts import Picture
 from report.pdf import TEMPLATES
 from report.spectra import spectra
-from solver.model import Motion
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -107,9 +106,7 @@ def test_each_history_states_its_prd_in_both_systems(assessment):
 def test_a_run_without_a_value_is_drawn_as_such():
     up = np.zeros(400)
     up[100:200] = -1.5 * stand_in.G
-    still = Motion(
-        id="M1", source="", dt_s=0.01, ax_mps2=np.zeros(400), az_mps2=up, scale=1.0, signs=(1,)
-    )
+    still = stand_in.motion("M1", np.zeros(400), up, signs=(1,))
     book = stand_in.book(found=(still,) * 3)
     assessment = stand_in.assessed(book)
     found = words(figures.histories(assessment.arrays[0].motions, True))

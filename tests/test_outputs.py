@@ -24,7 +24,7 @@ def test_json_holds_what_was_assessed_in_si(document):
         item.design_m for item in assessment.arrays
     ]
     assert document["arrays"][0]["prescriptive_m"] == pytest.approx(1.166**2 * 60 * 0.0254)
-    assert len(document["arrays"][1]["runs"]) == 14
+    assert len(document["arrays"][1]["runs"]) == 28
     assert document["clearances"][4]["required_m"] == assessment.clearances[4].required_m
     assert document["ok"] is assessment.ok
     assert document["s_ds_g"] == 1.566

@@ -225,7 +225,7 @@ def test_units_of_headings_and_cells_are_followed(tmp_path):
 
 def test_a_blank_choice_takes_its_default(tmp_path):
     def change(book):
-        book["Options"]["B5"] = book["Options"]["B6"] = book["Motions"]["I9"] = None
+        book["Options"]["B5"] = book["Options"]["B6"] = book["Motions"]["J9"] = None
 
     book = read_workbook(edit(make(tmp_path), change))
     assert book.input.options == schema.Options()
@@ -300,6 +300,25 @@ def test_motions_are_read_only(tmp_path):
     for motion in read_workbook(make(tmp_path)).motions:
         assert not motion.ax_mps2.flags.writeable
         assert not motion.az_mps2.flags.writeable
+
+
+def test_a_transverse_record_is_run_beside_the_horizontal_one(tmp_path):
+    motions = [motion.model_dump() for motion in project().motions]
+    motions[0] |= {"transverse": "records/y.csv"}
+    path = make(tmp_path, motions=motions)
+    (path.parent / "records" / "y.csv").write_text("0.1\n" * 200)
+    book = read_workbook(path)
+    m1, m2, _ = book.motions
+    assert np.allclose(m1.ay_mps2, 0.980665)
+    assert [heading.name for heading in m1.headings] == [
+        "record +",
+        "record −",
+        "transverse +",
+        "transverse −",
+    ]
+    assert [heading.name for heading in m2.headings] == ["record −"]
+    assert [r.component for r in book.records[:3]] == ["horizontal", "transverse", "vertical"]
+    assert not m2.ay_mps2.flags.writeable
 
 
 def test_records_are_listed_with_their_hashes(tmp_path):
@@ -382,7 +401,7 @@ PASTED = "Motions!C9: horizontal record:"
         (
             lambda book: (
                 pasted([0.1, 0.2])(book),
-                book["Motions"].__setitem__("E9", None),
+                book["Motions"].__setitem__("G9", None),
             ),
             [f"{PASTED} 'Pasted!North' is a pasted column; give its time step"],
         ),
@@ -451,20 +470,20 @@ def os_pipe(path):
 def test_a_bad_line_of_a_record_is_told_with_its_file_and_number(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "z.csv").write_text("0.1\nabc\n0.2\n")
-    assert problems(path) == ("Motions!F8: vertical record: z.csv:2: found 'abc'; give a number",)
+    assert problems(path) == ("Motions!E8: vertical record: z.csv:2: found 'abc'; give a number",)
 
 
 def test_components_of_different_length_or_step_do_not_go_together(tmp_path):
-    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("E8", None))
+    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("G8", None))
     for name, step, count in (("x", 0.01, 50), ("z", 0.02, 40)):
         text = "".join(f"{i * step:.2f},0.1\n" for i in range(count))
         (path.parent / "records" / f"{name}.csv").write_text(text)
-    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}9", None) for c in "BCDEFGHI"])
-    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}10", None) for c in "BCDEFGHI"])
+    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}9", None) for c in "BCDEFGHIJ"])
+    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}10", None) for c in "BCDEFGHIJ"])
     assert problems(path) == (
-        "Motions!F8: vertical record has a time step of 0.02 s, the horizontal one 0.01 s; give"
+        "Motions!E8: vertical record has a time step of 0.02 s, the horizontal one 0.01 s; give"
         " both the same",
-        "Motions!F8: vertical record has 40 samples, the horizontal one 50; give both the same",
+        "Motions!E8: vertical record has 40 samples, the horizontal one 50; give both the same",
     )
 
 
@@ -477,13 +496,13 @@ def test_silence_cannot_be_scaled_to_a_peak(tmp_path):
 def test_records_are_looked_at_even_where_their_row_has_other_faults(tmp_path):
     def change(book):
         book["Motions"]["B9"] = None
-        book["Motions"]["D9"] = "furlongs"
+        book["Motions"]["F9"] = "furlongs"
         book["Motions"]["C9"] = "records/none.csv"
 
     assert [line.split(":")[0] for line in problems(edit(make(tmp_path), change))] == [
         "Motions!B9",
         "Motions!C9",
-        "Motions!D9",
+        "Motions!F9",
     ]
 
 

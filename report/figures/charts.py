@@ -51,12 +51,13 @@ __all__ = [
 def spectra(found: Sequence[Spectra]) -> str:
     """Return the spectra of each motion thin, mean and target thick, a panel a component."""
     with style():
-        height = 2.3 * len(found)
+        height = 0.62 + _PANEL_IN[min(len(found), 3)] * len(found)
         figure = Figure(figsize=(WIDTH_IN, height))
         figure.subplots_adjust(
-            left=0.065, right=0.99, top=1 - 0.22 / height, bottom=0.42 / height, hspace=0.42
+            left=0.065, right=0.99, top=1 - 0.22 / height, bottom=0.4 / height, hspace=0.2
         )
-        for axes, part in zip(np.atleast_1d(figure.subplots(len(found), 1)), found, strict=True):
+        panels = np.atleast_1d(figure.subplots(len(found), 1, sharex=True))
+        for axes, part in zip(panels, found, strict=True):
             each = Broken()
             for row in part.sa_g:
                 each.add(part.periods_s, row)
@@ -71,30 +72,29 @@ def spectra(found: Sequence[Spectra]) -> str:
                 label="AC156 target",
             )
             _spectrum_axes(axes, part)
+        panels[0].legend(loc="upper right")
+        panels[-1].set_xlabel("Period T [s]")
         return svg_text(figure)
 
 
 def _spectrum_axes(axes: Axes, part: Spectra) -> None:
     axes.set_xscale("log")
-    axes.set_xlim(part.periods_s[0], part.periods_s[-1])
+    axes.set_xlim(_PERIOD_TICKS[0], part.periods_s[-1])
     axes.set_ylim(0, None)
-    axes.xaxis.set_major_locator(
-        FixedLocator([t for t in _PERIOD_TICKS if part.periods_s[0] <= t <= part.periods_s[-1]])
-    )
+    axes.xaxis.set_major_locator(FixedLocator(_PERIOD_TICKS))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xlabel("Period T [s]")
-    axes.set_ylabel("Pseudo-acceleration [g]")
-    axes.set_title(part.title, loc="left", weight="semibold")
+    axes.set_ylabel("Pseudo-acc. [g]")
+    axes.set_title(part.title, loc="left", weight="semibold", pad=3)
     axes.grid(True)
     axes.axvline(1 / 1.3, color=INK, linewidth=0.6, linestyle=":")
     axes.text(
         1.04 / 1.3, 0.98, "1.3 Hz", transform=axes.get_xaxis_transform(), va="top", fontsize=7
     )
     bare(axes)
-    axes.legend(loc="upper right")
 
 
+_PANEL_IN = {1: 2.0, 2: 1.9, 3: 1.32}  # a panel of so many: all stay on the page of the text
 _PERIOD_TICKS = (0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 
 

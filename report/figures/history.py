@@ -31,7 +31,7 @@ MAX_POINTS = 240  # in a history; a panel is 150 points of paper wide
 
 
 def histories(motions: Sequence[MotionRun], us_first: bool) -> str:
-    """Return the relative displacement under each motion, its governing polarity, PRD marked.
+    """Return the relative displacement under each motion, its governing run, PRD marked.
 
     All panels share one pair of axes, moved apart: a pair for each would take ten times as long.
     """
@@ -123,11 +123,16 @@ def _traces(axes: Axes, grid: _Grid, motions: Sequence[MotionRun]) -> None:
 
 
 def _titles(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool) -> None:
-    polarity = "+" if run.governing.sign > 0 else "−"
     top = grid.y(index, grid.high) + 0.045
-    name = f"{tick_text(run.motion.id)} {polarity}"
+    name = f"{tick_text(run.motion.id)} {_short(run)}"
     axes.text(grid.x(index, 0.0), top, name, weight="semibold")
     axes.text(grid.x(index, grid.seconds), top, _prd_text(run, us_first), ha="right")
+
+
+def _short(run: MotionRun) -> str:
+    """Return the governing run's polarity; the component too where there are two."""
+    heading = run.governing.heading
+    return heading.name if run.motion.has_transverse else heading.name[-1]
 
 
 def _prd_text(run: MotionRun, us_first: bool) -> str:

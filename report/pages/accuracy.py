@@ -44,12 +44,11 @@ def picture(found: Accuracy, us_first: bool) -> Picture:
 
 def _run(scene: Scene, found: Accuracy) -> str:
     run, array = found.motion.governing, found.array.array
-    way = "" if run.sign > 0 else ", reversed"
     vertical = "with" if found.motion.motion.has_vertical else "without"
     return (
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
-        f"μ = {number(array.mu, 3)}) under motion {found.motion.motion.id}{way}, {vertical} "
-        f"vertical shaking. PRD {scene.say.both(run.result.prd_m)}."
+        f"μ = {number(array.mu, 3)}) under motion {found.motion.motion.id}, {run.heading.name}, "
+        f"{vertical} vertical shaking. PRD {scene.say.both(run.result.prd_m)}."
     )
 
 

@@ -172,12 +172,15 @@ def _array_row(scene: Scene, found: ArrayAssessment) -> Row:
 
 def basis(scene: Scene) -> Mapping[str, object]:
     """Return what the page on basis and limits adds to its fixed text."""
-    with_vertical = sum(run.motion.has_vertical for run in scene.governing.motions)
-    count = len(scene.governing.motions)
-    both = sum(len(run.motion.signs) == 2 for run in scene.governing.motions)
+    motions = [run.motion for run in scene.governing.motions]
+    count = len(motions)
+    with_vertical = sum(motion.has_vertical for motion in motions)
+    with_transverse = sum(motion.has_transverse for motion in motions)
+    both = sum(len(motion.signs) == 2 for motion in motions)
     return {
         "title": scene.assessment.rules.title,
         "vertical": f"{with_vertical} of {count} motions have a vertical component",
+        "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
         "both": f"{both} of {count} motions are run in both polarities",
         "peer": "is stated to be peer reviewed"
         if scene.data.options.peer_reviewed

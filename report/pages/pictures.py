@@ -71,6 +71,6 @@ def _histories(found: ArrayAssessment, us_first: bool) -> Iterator[Picture]:
         yield Picture(
             svg=histories(found.motions[start : start + PANELS], us_first),
             caption=f"Array {found.array.id}: displacement u relative to the roof, positive down "
-            "the slope, in the polarity that counts. Dot: PRD.",
+            "the slope, in the run that counts. Dot: PRD.",
             alt=f"Relative displacement histories of array {found.array.id}",
         )

@@ -5,26 +5,32 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from report.assess import ArrayAssessment, MotionRun, PolarityRun
+from markupsafe import Markup
+
+from report.assess import ArrayAssessment, MotionRun
 from report.pages.checks import check_table
 from report.pages.parts import NO_VALUE, Column, Row, Scene, Table, Wide, statistic
 from report.units import number
-from solver.model import Status
+from solver.model import Heading, Status
 
 _SHORT = {Status.OK: "", Status.SLIDING_AT_END: "sliding", Status.UPLIFT: "uplift"}
 
 
 def array_results(scene: Scene, found: ArrayAssessment) -> Mapping[str, object]:
-    """Return the table of one array and the lines below it."""
+    """Return the table of one array and the lines above and below it."""
     troubles = [
         text
         for text in scene.assessment.warnings
         if text.casefold().startswith(f"array {found.array.id},".casefold())
     ]
-    return {"table": _peaks(scene, found), "facts": _facts(scene, found), "troubles": troubles}
+    return {
+        "table": _peaks(scene, found),
+        "facts": f"{_facts(found)} {_spread(found)}".rstrip(),
+        "troubles": troubles,
+    }
 
 
-def _facts(scene: Scene, found: ArrayAssessment) -> str:
+def _facts(found: ArrayAssessment) -> str:
     array = found.array
     return (
         f"Slope {number(math.degrees(array.slope_rad), 2)}° "
@@ -33,61 +39,103 @@ def _facts(scene: Scene, found: ArrayAssessment) -> str:
     )
 
 
+def _spread(found: ArrayAssessment) -> str:
+    """Return which motions lie farthest from the mean; nothing where there is no mean."""
+    if not found.analysis.mean_m > 0.0:
+        return ""
+    ordered = sorted(found.motions, key=lambda run: run.governing.result.prd_m)
+    least, most = ordered[0], ordered[-1]
+    return (
+        f"Motion {most.motion.id} ({most.governing.heading.name}) governs with "
+        f"{_over_mean(found, most)} of the mean PRD; the least is {least.motion.id} with "
+        f"{_over_mean(found, least)}. Coefficient of variation {number(found.variation, 2)}."
+    )
+
+
+def _over_mean(found: ArrayAssessment, run: MotionRun) -> str:
+    mean = found.analysis.mean_m
+    return number(run.governing.result.prd_m / mean, 2) if mean > 0.0 else "—"
+
+
 def _peaks(scene: Scene, found: ArrayAssessment) -> Table:
-    say = scene.say
-    rows = [
-        _run_row(scene, run, polarity, first=index == 0)
-        for run in found.motions
-        for index, polarity in enumerate(run.runs)
-    ]
+    say, headings = scene.say, _headings(found)
+    first = say.units()[0].symbol
     return Table(
-        caption=f"Array {found.array.id}: every motion in each polarity",
+        caption=f"Array {found.array.id}: every motion in every run",
         columns=(
-            Column(head="Motion", align="left", share=1.0),
-            Column(head="Sign", align="center", share=0.5),
-            *say.columns("PRD", share=0.85),
-            *say.columns("Residual", share=0.85),
-            *say.columns("Down", share=0.85),
-            *say.columns("Up", share=0.85),
-            Column(head="t PRD", unit="s", share=0.8),
-            Column(head="Stops", share=0.65),
-            Column(head="N/(m g)", share=0.8),
-            Column(head="Status", align="left", share=0.85),
+            Column(head="Motion", align="left", share=1.1),
+            *(Column(head="PRD of each run", unit=_short(heading)) for heading in headings),
+            *say.columns("PRD that counts"),
+            Column(head="PRD / mean", share=0.9),
+            *(Column(head=head, unit=first) for head in ("Residual", "Down", "Up")),
+            Column(head="t PRD", unit="s", share=0.9),
+            Column(head="Stops", share=0.85),
+            Column(head="N/(m g)", share=1.0),
+            Column(head="Status", align="left", share=1.05),
         ),
-        rows=(*rows, *_statistics(scene, found)),
+        rows=(
+            *(_motion_row(scene, found, run, headings) for run in found.motions),
+            *_statistics(scene, found, len(headings)),
+        ),
         notes=(
-            "Relative to the roof, positive down the slope; + as recorded, − reversed, bold what "
-            "counts. Stops include reversals. N/(m g): least of the run.",
+            f"{_meaning(headings)}; bold what counts. The columns behind belong to the run that "
+            "counts: relative to the roof, positive down the slope; stops include reversals; "
+            "N/(m g) is the least. The file results.xlsx has every run in both systems of units.",
         ),
         kind="compact",
     )
 
 
-def _run_row(scene: Scene, run: MotionRun, polarity: PolarityRun, *, first: bool) -> Row:
-    say, result = scene.say, polarity.result
+def _headings(found: ArrayAssessment) -> tuple[Heading, ...]:
+    """Return every run that any motion has, in order."""
+    seen = {run.heading: None for motion in found.motions for run in motion.runs}
+    return tuple(sorted(seen, key=lambda heading: (heading.swapped, -heading.sign)))
+
+
+def _short(heading: Heading) -> str:
+    return f"{'transv.' if heading.swapped else 'rec.'} {heading.name[-1]}"
+
+
+def _meaning(headings: Sequence[Heading]) -> str:
+    """Return what the runs are, in words."""
+    two = ", transv. the transverse component" if any(h.swapped for h in headings) else ""
+    return f"Rec.: the horizontal record along the slope{two}; − reversed"
+
+
+def _motion_row(
+    scene: Scene, found: ArrayAssessment, run: MotionRun, headings: Sequence[Heading]
+) -> Row:
+    say, result = scene.say, run.governing.result
     return Row(
         cells=(
-            run.motion.id if first else "",
-            "+" if polarity.sign > 0 else "−",
+            run.motion.id,
+            *(_peak(scene, run, heading) for heading in headings),
             *say.cells(result.prd_m),
-            *say.cells(result.residual_m),
-            *say.cells(result.down_m),
-            *say.cells(result.up_m),
+            _over_mean(found, run),
+            *(say.cells(value)[0] for value in (result.residual_m, result.down_m, result.up_m)),
             number(result.t_prd_s, 2),
             NO_VALUE if math.isnan(result.prd_m) else str(result.n_stops),
             number(result.n_min_g, 2),
             _SHORT[result.status] or "at rest",
-        ),
-        kind="counts" if polarity is run.governing else "",
+        )
     )
 
 
-def _statistics(scene: Scene, found: ArrayAssessment) -> Sequence[Row]:
+def _peak(scene: Scene, run: MotionRun, heading: Heading) -> str:
+    """Return the PRD of one run in the first unit; blank where the motion has no such run."""
+    for one in run.runs:
+        if one.heading == heading:
+            text = scene.say.cells(one.result.prd_m)[0]
+            return Markup("<b>{}</b>").format(text) if one is run.governing else text
+    return ""
+
+
+def _statistics(scene: Scene, found: ArrayAssessment, runs: int) -> Sequence[Row]:
     analysis, rules = found.analysis, scene.assessment.rules
     factor = rules.values["analysis_factor"].clause + scene.mark("analysis_factor")
     floor = rules.values["analysis_floor"].clause + scene.mark("analysis_floor")
     lines = (
-        ("Mean", analysis.mean_m, "", "over the motions, of the larger of both polarities"),
+        ("Mean", analysis.mean_m, "", "over the motions, of the largest of their runs"),
         ("Largest", analysis.largest_m, "", "over all motions"),
         ("Analysis", analysis.value_m, "", f"{statistic(analysis.basis)}, {factor}"),
         ("Floor", found.floor_m, scene.mark("analysis_floor"), _floor_words(scene, floor)),
@@ -95,7 +143,7 @@ def _statistics(scene: Scene, found: ArrayAssessment) -> Sequence[Row]:
     )
     return [
         Row(
-            cells=(Wide(label, 2), *scene.say.cells(value, mark=mark), Wide(words, 10)),
+            cells=(Wide(label, 1 + runs), *scene.say.cells(value, mark=mark), Wide(words, 8)),
             kind="total",
         )
         for label, value, mark, words in lines

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from report.sheet.fields import Fault, Place
+from report.sheet.fields import Draft, Fault, Place, Row, Where
+from report.sheet.motion_checks import motion_faults
 from report.sheet.schema import (
     PROVISION_KEYS,
     ObjectKind,
     Rectangle,
     RiskCategory,
-    Scaling,
     Sdc,
     SlopeUnit,
     UnitsFirst,
@@ -25,9 +25,6 @@ from report.sheet.schema import (
     slope_rad,
 )
 from report.units import Quantity, pair
-
-Row = Mapping[str, Any]
-Draft = Mapping[str, Sequence[Row]]
 
 LEAST_I_E = {
     RiskCategory.I: 1.0,
@@ -43,9 +40,6 @@ GAP_TOLERANCE_M = 0.5 * 0.0254
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
 
 
-Where = Callable[[Place], str]
-
-
 def faults(draft: Draft, where: Where) -> list[Fault]:
     """Return everything in a draft that contradicts itself.
 
@@ -56,7 +50,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
     where : callable
         Gives the address of a place, for faults that point to a second cell.
     """
-    checks = (_tables, _ids, _site, _arrays, _objects, _clearances, _motions, _overrides)
+    checks = (_tables, _ids, _site, _arrays, _objects, _clearances, motion_faults, _overrides)
     return [fault for check in checks for fault in check(draft, where)]
 
 
@@ -268,18 +262,6 @@ def _room(index: int, row: Row, scene: Mapping[str, Row], us_first: bool) -> Ite
         most = pair(max(gap, 0.0), Quantity.SIZE, us_first)
         text = f"provided is {found}, but the plan leaves {most} between {array} and {other}"
         yield Fault(place, f"{text}; give no more, or correct the rectangles")
-
-
-def _motions(draft: Draft, where: Where) -> Iterator[Fault]:
-    for index, row in enumerate(draft["motions"]):
-        scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
-        value = row.get("scale_value")
-        if scaling is Scaling.AS_RECORDED and value not in (None, 1.0):
-            text = f"factor or PPA is {value:g}, but scaling is 'as recorded'; choose a scaling or"
-            yield Fault(place, f"{text} leave it blank")
-        elif scaling in (Scaling.FACTOR, Scaling.PPA) and "scale_value" in row and value is None:
-            wanted = "the PPA in g" if scaling is Scaling.PPA else "the factor"
-            yield Fault(place, f"factor or PPA is missing; give {wanted}")
 
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:

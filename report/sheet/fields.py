@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import datetime as dt
 import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
@@ -33,6 +34,16 @@ class Fault(NamedTuple):
 
     place: Place
     text: str
+
+
+Row = Mapping[str, Any]
+"""Fields of a row of a draft; one that could not be read is absent."""
+
+Draft = Mapping[str, Sequence[Row]]
+"""Rows by section, so far as they could be read."""
+
+Where = Callable[[Place], str]
+"""Gives the address of a place."""
 
 
 class YesNo(StrEnum):

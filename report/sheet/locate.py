@@ -67,6 +67,9 @@ class TableFound:
         Rows that may hold inputs.
     others : tuple of Spot
         Headings that no field has.
+    absent : tuple of str
+        Optional fields without a column: workbooks of earlier versions, and columns that someone
+        took out.
     problems : tuple of str
         Finished lines about headings and merged cells.
     """
@@ -75,6 +78,7 @@ class TableFound:
     columns: Mapping[str, Column]
     rows: Sequence[int]
     others: tuple[Spot, ...]
+    absent: tuple[str, ...]
     problems: tuple[str, ...]
 
 
@@ -196,7 +200,9 @@ def find_table(book: OpenBook, section: Section) -> TableFound:
     _check_reach(book, sheet, top)
     last_column = _last_heading(sheet, top, right)
     headings = [Spot(sheet.title, top, column) for column in range(left, last_column + 1)]
-    columns, others, problems = _columns(book, section, headings)
+    columns, others, seen, problems = _columns(book, section, headings)
+    absent, missing = _unseen(section, headings[0], seen, others)
+    problems += missing
     used = [column.number for column in columns.values()]
     last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
     problems += _merged(sheet, top, last_row, used)
@@ -205,6 +211,7 @@ def find_table(book: OpenBook, section: Section) -> TableFound:
         columns=columns,
         rows=[row for row in range(top + 1, last_row + 1) if row not in below],
         others=tuple(others),
+        absent=absent,
         problems=tuple(problems),
     )
 
@@ -264,10 +271,12 @@ def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
 
 def _columns(
     book: OpenBook, section: Section, headings: Sequence[Spot]
-) -> tuple[dict[str, Column], list[Spot], list[str]]:
+) -> tuple[dict[str, Column], list[Spot], set[str], list[str]]:
     fields = {_key(entry.cell.label): entry for entry in entries(section.model)}
     columns: dict[str, Column] = {}
-    others, problems, seen = [], [], set()
+    others: list[Spot] = []
+    problems: list[str] = []
+    seen: set[str] = set()
     for spot in headings:
         text = found_at(book, spot).value
         entry = fields.get(_key(text))
@@ -283,12 +292,24 @@ def _columns(
                 columns[entry.name] = _column(spot, entry, _split(text)[1])
             except InputError as error:
                 problems += error.problems
-    problems += [
-        f"{headings[0].address}: heading '{entry.cell.label}' is missing; {FRESH}"
-        for entry in fields.values()
-        if entry.name not in seen
+    return columns, others, seen, problems
+
+
+def _unseen(
+    section: Section, first: Spot, seen: set[str], others: Sequence[Spot]
+) -> tuple[tuple[str, ...], list[str]]:
+    """Return optional fields that have no column, and a problem for any other.
+
+    Beside a heading that is not ours none counts as absent: it may be that very one, renamed.
+    """
+    unseen = [entry for entry in entries(section.model) if entry.name not in seen]
+    absent = [e.name for e in unseen if not e.is_required and not others]
+    problems = [
+        f"{first.address}: heading '{entry.cell.label}' is missing; {FRESH}"
+        for entry in unseen
+        if entry.name not in absent
     ]
-    return columns, others, problems
+    return tuple(absent), problems
 
 
 def _column(spot: Spot, entry: Entry, unit: str) -> Column:

@@ -211,7 +211,9 @@ def _read_row(
     rows = gathered.draft[section.key]
     rows.append(row)
     for entry in entries(section.model):
-        if entry.name in cells:
+        if entry.name in table.absent:
+            row[entry.name] = entry.default
+        elif entry.name in cells:
             place, found = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
             gathered.addresses[place] = found.address
             _read_field(section, entry, place, found, table.columns[entry.name], row, gathered)

@@ -25,10 +25,14 @@ class MotionInput(Frozen):
             "records/m1-x.csv",
         ),
     ]
-    units: Annotated[AccelUnit, Cell("Record units", "Of both components.", "g")]
-    dt_s: Annotated[
-        Annotated[float, Field(gt=0, le=1)] | None,
-        Cell("Time step", "Leave blank where the file has a column of times.", 0.01, "s"),
+    transverse: Annotated[
+        RequiredText | None,
+        Cell(
+            "Transverse record",
+            "The other horizontal component; blank for none. Each of the two is run along the"
+            " slope, and the largest counts.",
+            "records/m1-y.csv",
+        ),
     ] = None
     vertical: Annotated[
         RequiredText | None,
@@ -38,11 +42,17 @@ class MotionInput(Frozen):
             "records/m1-z.csv",
         ),
     ] = None
+    units: Annotated[AccelUnit, Cell("Record units", "Of all components.", "g")]
+    dt_s: Annotated[
+        Annotated[float, Field(gt=0, le=1)] | None,
+        Cell("Time step", "Leave blank where the file has a column of times.", 0.01, "s"),
+    ] = None
     scaling: Annotated[
         Scaling,
         Cell(
             "Scaling",
-            "As recorded, by a factor, or to a peak horizontal acceleration (PPA).",
+            "As recorded, by a factor, or to a PPA: the peak of the horizontal record. One factor"
+            " for all components.",
             "as recorded",
         ),
     ] = Scaling.AS_RECORDED
@@ -52,7 +62,11 @@ class MotionInput(Frozen):
     ] = None
     polarity: Annotated[
         Polarity,
-        Cell("Polarity", "Both runs each motion in both senses, and the larger counts.", "both"),
+        Cell(
+            "Polarity",
+            "Both runs each horizontal component in both senses, and the largest counts.",
+            "both",
+        ),
     ] = Polarity.BOTH
     source: Annotated[
         Text,
