@@ -61,6 +61,7 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
         "computed_basis": item.analysis.basis,
         "mean_prd_m": item.analysis.mean_m,
         "largest_prd_m": item.analysis.largest_m,
+        "prd_variation": item.variation,
         "prescriptive_m": item.prescriptive.value_m,
         "prescriptive_governs": item.prescriptive.governs,
         "floor_m": item.floor_m,

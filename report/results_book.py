@@ -6,6 +6,7 @@ and beside it that value as a number, so that a checker can follow, change and c
 
 from __future__ import annotations
 
+import datetime as dt
 import io
 import math
 from collections.abc import Mapping
@@ -18,6 +19,7 @@ from xlsxwriter.worksheet import Worksheet
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
 from report.sheet.workbook import InputBook
+from report.spectra import spectra
 from solver.provisions import Basis
 
 METRES_PER_INCH = 0.0254
@@ -36,9 +38,14 @@ def results_xlsx(book: InputBook, assessment: Assessment) -> bytes:
             workbook.add_worksheet(name)
         _write_table(writer, runs, "Runs", pages)
         _write_table(writer, _records_table(book), "Records", pages)
+        _write_table(writer, _spectra_table(book, assessment), "Spectra", pages)
         design_cells = _write_design(pages, book, assessment, runs)
         _write_clearances(pages, book, assessment, design_cells)
         workbook.set_calc_mode("auto")
+        # Two runs give the same bytes: the date is the project's, not the clock's.
+        workbook.set_properties(
+            {"created": dt.datetime.combine(book.input.project.date, dt.time())}
+        )
     return buffer.getvalue()
 
 
@@ -78,6 +85,7 @@ def _runs_table(assessment: Assessment) -> pd.DataFrame:
             "Scale": motion.motion.scale,
             "PRD [in]": run.result.prd_m / METRES_PER_INCH,
             "PRD [mm]": run.result.prd_m * 1e3,
+            "PRD / mean": _over(run.result.prd_m, item.analysis.mean_m),
             "Residual [in]": run.result.residual_m / METRES_PER_INCH,
             "Residual [mm]": run.result.residual_m * 1e3,
             "Down [mm]": run.result.down_m * 1e3,
@@ -93,6 +101,10 @@ def _runs_table(assessment: Assessment) -> pd.DataFrame:
     )
 
 
+def _over(value: float, mean: float) -> float:
+    return value / mean if mean > 0.0 else math.nan
+
+
 def _records_table(book: InputBook) -> pd.DataFrame:
     return pd.DataFrame(
         {
@@ -106,6 +118,18 @@ def _records_table(book: InputBook) -> pd.DataFrame:
         }
         for record in book.records
     )
+
+
+def _spectra_table(book: InputBook, assessment: Assessment) -> pd.DataFrame:
+    """One row for each period; targets and motions as columns, component by component."""
+    found = spectra(assessment, book.motions)
+    columns = {"Period [s]": found[0].periods_s}
+    for part in found:
+        columns[f"{part.title}, target [g]"] = part.target_g
+        columns |= {
+            f"{part.title}, {name} [g]": row for name, row in zip(part.ids, part.sa_g, strict=True)
+        }
+    return pd.DataFrame(columns)
 
 
 def _write_table(writer: Any, table: pd.DataFrame, name: str, pages: _Pages) -> None:

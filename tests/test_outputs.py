@@ -34,7 +34,7 @@ def test_every_number_in_json_says_its_unit_or_has_none(document):
     units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2")
     plain = {
         "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
-        "f_v", "storeys", "slope_value", "found", "limit", "scale_value", "value",
+        "f_v", "storeys", "slope_value", "found", "limit", "prd_variation", "scale_value", "value",
     }  # fmt: skip
 
     def walk(value, key=""):

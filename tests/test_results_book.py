@@ -90,3 +90,19 @@ def test_every_run_is_listed():
     rows = list(values["Runs"].iter_rows(min_row=2, values_only=True))
     assert len(rows) == 3 * 7 * 4
     assert sum(row[4] == "yes" for row in rows) == 3 * 7
+
+
+def test_the_spectrum_of_every_motion_is_listed_by_component():
+    _, values = made(stand_in.book())
+    head = [cell.value for cell in values["Spectra"][1]]
+    assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
+    assert len(head) == 1 + 3 * 8
+    assert "Transverse, M7 [g]" in head
+
+
+def test_two_runs_give_the_same_bytes():
+    book = stand_in.book()
+    assessment = stand_in.assessed(book)
+    assert results_xlsx(book, assessment) == results_xlsx(book, assessment)
+    created = load_workbook(io.BytesIO(results_xlsx(book, assessment))).properties.created
+    assert created.date() == book.input.project.date

@@ -180,7 +180,7 @@ def basis(scene: Scene) -> Mapping[str, object]:
     return {
         "title": scene.assessment.rules.title,
         "vertical": f"{with_vertical} of {count} motions have a vertical component",
-        "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
+        "transverse": f"{with_transverse} of {count} motions have one",
         "both": f"{both} of {count} motions are run in both polarities",
         "peer": "is stated to be peer reviewed"
         if scene.data.options.peer_reviewed
