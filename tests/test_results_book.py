@@ -104,5 +104,5 @@ def test_two_runs_give_the_same_bytes():
     book = stand_in.book()
     assessment = stand_in.assessed(book)
     assert results_xlsx(book, assessment) == results_xlsx(book, assessment)
-    created = load_workbook(io.BytesIO(results_xlsx(book, assessment))).properties.created
+    created = openpyxl.load_workbook(io.BytesIO(results_xlsx(book, assessment))).properties.created
     assert created.date() == book.input.project.date
