@@ -26,6 +26,8 @@ def begin(work: Callable[[], T]) -> Callable[[], T]:
         warnings.simplefilter("ignore", DeprecationWarning)
         child = os.fork()
     if child == 0:
+        # With a reading end of its own it would wait for ever where nobody asks for the outcome.
+        os.close(reading)
         _work_and_exit(work, writing)
     os.close(writing)
 
