@@ -14,7 +14,7 @@ from click.testing import CliRunner
 import report.package
 from report.cli import main
 from solver.formats import read_record
-from solver.solve import slide
+from solver.one_axis import slide
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "projects" / "example"
