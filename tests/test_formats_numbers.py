@@ -68,6 +68,14 @@ def test_numbers_set_to_the_left_and_exponents_of_doubles_are_read() -> None:
     assert free_values(source("1.5 -2.D+01", "", "3"), block(3, 3)).tolist() == [1.5, -20.0, 3.0]
 
 
+def test_free_numbers_may_touch_at_a_sign() -> None:
+    read = free_values(source("-.1234E-02-.5678E+01 1.-2.5+3"), block(5, 1))
+    assert read.tolist() == [-0.001234, -5.678, 1.0, -2.5, 3.0]
+    # An exponent without its letter is not guessed at: the count does not hold.
+    with pytest.raises(InputError, match=r"a:10: promises 2 values, found 3"):
+        free_values(source("1.0-101 2.0"), block(2, 1))
+
+
 def test_short_lines_are_allowed_only_where_they_are_asked_for() -> None:
     layout, lines = Layout(per_line=2, width=4), ("   1   2", "   3    ", "   4   5")
     assert fixed_rows(source(*lines), block(5, 3), layout).tolist() == [1, 2, 3, 4, 5]

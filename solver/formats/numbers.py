@@ -24,6 +24,8 @@ _FORMAT = re.compile(r"\s*(\d{1,2})\s*(?:[A-Z]{1,2})\s*(\d{1,2})(\D|$)", re.ASCI
 
 _NUMBERS = re.compile(r"[\s+\-.*eEdD]*\d[\s\d+\-.*eEdD]*", re.ASCII)
 
+_TOUCHING = re.compile(r"(?<=[\d.])(?=[+-])", re.ASCII)
+
 # Fortran prints the exponent of a double after a D.
 _FORTRAN = str.maketrans("dD", "eE")
 
@@ -114,13 +116,13 @@ def free_values(source: Source, block: Block) -> Floats:
     """Values of all lines of a block, set apart by blanks; there must be as many as promised."""
     _check_enough(source, block)
     rows = source.lines[block.first : block.stop]
-    fields = " ".join(rows).translate(_FORTRAN).split()
+    fields = _apart(" ".join(rows))
     try:
         values = np.array([float(field) for field in fields if "_" not in field])
     except ValueError:
         values = np.empty(0)
     if len(values) != len(fields) or not (np.abs(values) < BEYOND).all():
-        values = _row_by_row(source, block, rows, lambda row: row.translate(_FORTRAN).split())
+        values = _row_by_row(source, block, rows, _apart)
     if len(values) != block.count:
         raise InputError(_wrong_count(source, block, len(values)))
     return values
@@ -175,6 +177,11 @@ def skip_blank(source: Source, index: int) -> int:
     while index < len(source.lines) and not source.lines[index].strip():
         index += 1
     return index
+
+
+def _apart(text: str) -> list[str]:
+    """Fields set apart by blanks, or by the sign of the next one where that fills its columns."""
+    return _TOUCHING.sub(" ", text.translate(_FORTRAN)).split()
 
 
 def _check_enough(source: Source, block: Block) -> None:
