@@ -27,6 +27,8 @@ DECIMALS = {"g": 5, "m/s2": 4, "cm/s2": 2, "mm/s2": 1}
 MAX_PROBLEMS = 10
 """Problems of one file or column that are told; the others are counted."""
 
+MAX_COUNTED = 10_000
+
 BEYOND = 1e300
 """Larger numbers count as infinite, so that a change of unit cannot make them so."""
 
@@ -176,9 +178,10 @@ def raise_any(problems: Iterable[str]) -> None:
     left = iter(problems)
     told = list(itertools.islice(left, MAX_PROBLEMS))
     if told:
-        # The others are counted without being kept: a file may have millions.
-        more = sum(1 for _ in left)
-        raise InputError([*told, f"... and {more} more"] if more else told)
+        # The others are counted without being kept, and not to the end: a file may have millions.
+        more = sum(1 for _ in itertools.islice(left, MAX_COUNTED + 1))
+        words = f"{more} more" if more <= MAX_COUNTED else f"more than {MAX_COUNTED} more"
+        raise InputError([*told, f"... and {words}"] if more else told)
 
 
 def _check_arguments(name: str, units: str, dt_s: float) -> None:

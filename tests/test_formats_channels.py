@@ -54,6 +54,11 @@ def test_a_channel_that_is_not_there_is_refused(name: str) -> None:
     )
 
 
+def test_a_long_list_of_channels_is_cut() -> None:
+    with pytest.raises(InputError, match=r"30 c29; \.\.\. and 10 more$"):
+        made(*(f"c{i}" for i in range(40))).channel("roof")
+
+
 def test_names_are_made_to_differ() -> None:
     assert distinct(["x", " X", "", "x (2)", "x"]) == [
         "x", "X (2)", "channel 3", "x (2) (2)", "x (3)",

@@ -243,3 +243,7 @@ class TestFaults:
         problems = problems_of(file("0.1\n" + "x\n" * 37), dt_s=0.1)
         assert len(problems) == 11
         assert problems[9:] == ("roof.csv:11: found 'x'; give a number", "... and 27 more")
+
+    def test_countless_faults_are_not_counted_to_the_end(self, file: Any) -> None:
+        problems = problems_of(file("0.1\n" + "x\n" * 12_000), dt_s=0.1)
+        assert problems[10:] == ("... and more than 10000 more",)

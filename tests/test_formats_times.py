@@ -53,7 +53,7 @@ class TestUnevenTimes:
     def test_times_on_a_coarser_grid_lose_nothing(self) -> None:
         t = np.array([0.0, 0.02, 0.03, 0.07, 0.08, 0.09])
         a = np.array([[0.0, 1.0, -2.0, 0.5, 3.0, 0.0]])
-        found = sampled(SOURCE, t, a, range(6))
+        found = sampled(SOURCE, t, a, int)
         assert found.dt_s == 0.01
         expected = [0.0, 0.5, 1.0, -2.0, -1.375, -0.75, -0.125, 0.5, 3.0, 0.0]
         assert found.columns[0].tolist() == pytest.approx(expected, abs=1e-12)
@@ -70,7 +70,7 @@ class TestUnevenTimes:
     ) -> None:
         t = np.cumsum([step for step, _ in steps])
         a = np.array([value for _, value in steps])
-        found = sampled(SOURCE, t, a[None, :], range(len(t)))
+        found = sampled(SOURCE, t, a[None, :], int)
         if not found.notes:
             return
         even = t[0] + found.dt_s * np.arange(found.columns.shape[1])
@@ -87,7 +87,7 @@ class TestUnevenTimes:
         t = np.r_[np.arange(0, 100) * 0.01, 1.0037, 1.0081 + np.arange(0, 100) * 0.01]
         a = np.zeros((1, len(t)))
         a[0, 100] = 5.0
-        found = sampled(SOURCE, t, a, range(len(t)))
+        found = sampled(SOURCE, t, a, int)
         assert np.abs(found.columns).max() >= 5.0 * (1.0 - LOSS)
         assert found.dt_s < 0.01
 
@@ -95,12 +95,12 @@ class TestUnevenTimes:
         t = np.r_[np.arange(0, 100) * 0.01, 0.9900101, 1.0 + np.arange(0, 100) * 0.01]
         a = np.zeros((1, len(t)))
         a[0, 100] = 5.0
-        (note,) = sampled(SOURCE, t, a, range(len(t))).notes
+        (note,) = sampled(SOURCE, t, a, int).notes
         said = float(note.split("more than ")[1].split(" %")[0])
         assert 50.0 < said <= 100.0
 
     def test_a_column_of_zeros_moves_nothing(self) -> None:
-        found = sampled(SOURCE, np.array([0.0, 0.1, 0.15]), np.zeros((1, 3)), range(3))
+        found = sampled(SOURCE, np.array([0.0, 0.1, 0.15]), np.zeros((1, 3)), int)
         assert found.dt_s == 0.05
         assert found.columns.tolist() == [[0.0] * 4]
 

@@ -16,7 +16,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
+from solver.formats.channels import Channel, check_number, motion_file, offset_notes, peak_notes
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import (
     Block,
@@ -92,6 +92,7 @@ def read(source: Source) -> MotionFile:
 
 def _parts(source: Source, heading: re.Pattern[str]) -> list[_Part]:
     starts = [i for i, line in enumerate(source.lines) if heading.match(line)]
+    check_number(source, len(starts))
     stops = [*starts[1:], len(source.lines)]
     return [_Part(first=a, stop=b) for a, b in zip(starts, stops, strict=True)]
 
@@ -125,8 +126,7 @@ def _pair_values(source: Source, part: _Part) -> tuple[float, Floats, tuple[str,
     if len(pairs) < 2:
         raise InputError(f"{source.at(found[0])}: found {len(pairs)} points; give at least 2")
     per_line = _PAIRS.per_line // 2
-    rows = [first + i // per_line for i in range(len(pairs))]
-    even = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows)
+    even = sampled(source, pairs[:, 0], pairs[:, 1:].T, lambda i: first + i // per_line)
     return even.dt_s, even.columns[0] * scale, (*even.notes, *ended)
 
 

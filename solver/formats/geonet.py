@@ -16,7 +16,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
+from solver.formats.channels import Channel, check_number, motion_file, offset_notes, peak_notes
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, Layout, each, fixed_values, header_values, printed
 from solver.formats.source import Source, Stated
@@ -58,6 +58,7 @@ def recognises(lines: Sequence[str]) -> bool:
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all components of a file."""
     starts = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
+    check_number(source, len(starts))
     stops = [*starts[1:], len(source.lines)]
     parts = [_Part(first=a, stop=b) for a, b in zip(starts, stops, strict=True)]
     form = "GeoNet V1A" if _is_uncorrected(source) else "GeoNet V2A"

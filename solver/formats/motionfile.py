@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from solver.model import InputError
 from solver.motion import Record, shown
 
+_LISTED = 30
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionFile:
@@ -52,7 +54,9 @@ class MotionFile:
         found = (by_number | by_name).get(wanted)
         if found is None:
             said = f"channel {shown(name)} is not there" if wanted else "found several channels"
-            names = "; ".join(f"{i} {record.name}" for i, record in by_number.items())
+            names = "; ".join(f"{i} {record.name}" for i, record in [*by_number.items()][:_LISTED])
+            more = len(by_number) - _LISTED
+            names += f"; ... and {more} more" if more > 0 else ""
             raise InputError(f"{self.name}: {said}; give one by name or number: {names}")
         return found
 

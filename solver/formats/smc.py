@@ -120,7 +120,7 @@ def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...
     pairs = values.reshape(-1, 2)
     if len(pairs) < 2:
         raise InputError(f"{source.at(block.promised)}: found {len(pairs)} pairs; give at least 2")
-    even = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows)
+    even = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows.__getitem__)
     return even.dt_s, even.columns[0], even.notes
 
 

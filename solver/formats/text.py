@@ -7,12 +7,15 @@ blank lines and comments after `#` are skipped, but read for units. Read `read` 
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.formats import headings
 from solver.formats.channels import Channel, motion_file
@@ -40,8 +43,8 @@ class _Table:
     Attributes
     ----------
     values : array, shape (n, k)
-    rows : list of (int, str), length n
-        Index and content of each row's line.
+    start : int
+        Index of the first line that may hold numbers.
     headings : list of Heading
         One for each column, or none.
     heading_index : int
@@ -51,7 +54,7 @@ class _Table:
     """
 
     values: Floats
-    rows: list[_Row]
+    start: int
     headings: list[Heading]
     heading_index: int
     remarks: list[_Row]
@@ -109,7 +112,13 @@ def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Samp
         return Sampled(dt_s=_stated_step(source, table), columns=columns, notes=())
     times = table.values[:, 0] * (table.headings[0].seconds if table.headings else 1.0)
     _check_decimal_comma(source, table, times)
-    return sampled(source, times, columns, [index for index, _ in table.rows])
+
+    @cache
+    def indexes() -> NDArray[np.int64]:
+        rows = _rows(source.lines, table.start)
+        return np.fromiter((index for index, _ in rows), dtype=np.int64)
+
+    return sampled(source, times, columns, lambda i: int(indexes()[i]))
 
 
 def _stated_step(source: Source, table: _Table) -> float:
@@ -146,21 +155,20 @@ def _table(source: Source) -> _Table:
         raise InputError(f"{source.name}: found no numbers; give one or more columns of them")
     separator = _separator(first[1])
     width = len(first[1].split(separator))
-    rows = list(_rows(source.lines, start))
     values = _parse_fast(source.lines[start:], separator, width)
     if values is None:
-        values = _parse_slowly(source, rows, separator, width)
+        values = _parse_slowly(source, start, separator, width)
     if len(values) < 2:
         raise InputError(f"{source.name}: found 1 sample; give at least 2")
     remarks = _remarks(source.lines, start)
     heads, place = _headings(source, start, separator, width, remarks)
     if width > 2 and not heads:
         raise InputError(
-            f"{source.at(rows[0][0])}: found {width} columns without a heading; give one that names"
+            f"{source.at(first[0])}: found {width} columns without a heading; give one that names"
             " them, such as time_s,x_g,y_g"
         )
     remarks = [remark for remark in remarks if remark[0] != place]
-    return _Table(values=values, rows=rows, headings=heads, heading_index=place, remarks=remarks)
+    return _Table(values=values, start=start, headings=heads, heading_index=place, remarks=remarks)
 
 
 def _content(line: str) -> str:
@@ -235,17 +243,15 @@ def _parse_fast(lines: Sequence[str], separator: str | None, width: int) -> Floa
     return table if table.shape[1] == width and (np.abs(table) < BEYOND).all() else None
 
 
-def _parse_slowly(
-    source: Source, rows: Sequence[_Row], separator: str | None, width: int
-) -> Floats:
+def _parse_slowly(source: Source, start: int, separator: str | None, width: int) -> Floats:
     """Go through a table that has a fault, row by row, to say all that is wrong with it."""
-    split = [(index, content.split(separator)) for index, content in rows]
     raise_any(
         f"{source.at(index)}: {problem}"
-        for index, fields in split
-        for problem in _row_problems(fields, width)
+        for index, content in _rows(source.lines, start)
+        for problem in _row_problems(content.split(separator), width)
     )
-    return np.array([[float(field) for field in fields] for _, fields in split])
+    rows = _rows(source.lines, start)
+    return np.array([[float(field) for field in row.split(separator)] for _, row in rows])
 
 
 def _row_problems(fields: Sequence[str], width: int) -> list[str]:
@@ -257,7 +263,8 @@ def _row_problems(fields: Sequence[str], width: int) -> list[str]:
 
 def _check_decimal_comma(source: Source, table: _Table, times: Floats) -> None:
     """Refuse `0,12` above `0,13`: two columns by their commas, but one by their sense."""
-    if is_even(times) or not all(_DECIMAL_COMMA.fullmatch(content) for _, content in table.rows):
+    rows = list(itertools.islice(_rows(source.lines, table.start), _MAX_REMARKS))
+    if is_even(times) or not all(_DECIMAL_COMMA.fullmatch(content) for _, content in rows):
         return
-    index, content = table.rows[0]
+    index, content = rows[0]
     raise InputError(f"{source.at(index)}: found {content!r}; give a number with a decimal point")

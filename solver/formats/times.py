@@ -7,7 +7,7 @@ Owns what counts as even. Changes nothing where times are even as far as they ar
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,7 +45,7 @@ class Sampled:
     notes: tuple[str, ...]
 
 
-def sampled(source: Source, t_s: Floats, columns: Floats, rows: Sequence[int]) -> Sampled:
+def sampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int]) -> Sampled:
     """Columns at an even step: as they are where the times are even, else resampled.
 
     The record is straight between its samples, so resampling is linear. The step is the largest of
@@ -59,15 +59,15 @@ def sampled(source: Source, t_s: Floats, columns: Floats, rows: Sequence[int]) -
     t_s : array, shape (n,)
         Times [s], n >= 2.
     columns : array, shape (k, n)
-    rows : sequence of int, length n
-        Index of the line of each time.
+    line_of : function of int
+        Index of the line of a time; asked only for what is told.
 
     Raises
     ------
     InputError
         Where times do not rise, or a step that the caller gives does not agree.
     """
-    _check_rising(source, t_s, rows)
+    _check_rising(source, t_s, line_of)
     step, blur = _even_step(t_s)
     if not math.isnan(step):
         return Sampled(dt_s=_agreed(source, step, blur), columns=columns, notes=())
@@ -76,7 +76,7 @@ def sampled(source: Source, t_s: Floats, columns: Floats, rows: Sequence[int]) -
             f"{source.name}: found uneven times but dt is {source.dt_s:.6g} s; give no dt, the"
             " record is then resampled"
         )
-    return _resampled(source, t_s, columns, rows)
+    return _resampled(source, t_s, columns, line_of)
 
 
 def is_even(t_s: Floats) -> bool:
@@ -84,11 +84,11 @@ def is_even(t_s: Floats) -> bool:
     return bool((np.diff(t_s) > 0.0).all()) and not math.isnan(_even_step(t_s)[0])
 
 
-def _check_rising(source: Source, t_s: Floats, rows: Sequence[int]) -> None:
+def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) -> None:
     steps = np.diff(t_s)
     usual = float(np.median(steps))
     raise_any(
-        f"{source.at(rows[i + 1])}: found time {t_s[i + 1]:.6g} s after {t_s[i]:.6g} s, "
+        f"{source.at(line_of(i + 1))}: found time {t_s[i + 1]:.6g} s after {t_s[i]:.6g} s, "
         f"the usual step being {usual:.6g} s; give rising times"
         for i in np.flatnonzero(~(steps >= 1e-9)).tolist()
     )
@@ -128,7 +128,9 @@ def _round_step(step: float, blur: float) -> float:
     return whole if abs(whole - step) <= blur + 1e-9 * step else float(f"{step:.9g}")
 
 
-def _resampled(source: Source, t_s: Floats, columns: Floats, rows: Sequence[int]) -> Sampled:
+def _resampled(
+    source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int]
+) -> Sampled:
     steps = np.diff(t_s)
     # Differences of times are off by their last binary digits.
     usual, length = float(f"{np.median(steps):.9g}"), float(t_s[-1] - t_s[0])
@@ -151,7 +153,7 @@ def _resampled(source: Source, t_s: Floats, columns: Floats, rows: Sequence[int]
         f"times are uneven, steps of {steps.min():.4g} to {steps.max():.4g} s: resampled at"
         f" {step:g} s by straight lines, which moves no sample{moved}"
     )
-    return Sampled(dt_s=step, columns=even, notes=(note, *_gaps(source, t_s, usual, rows)))
+    return Sampled(dt_s=step, columns=even, notes=(note, *_gaps(source, t_s, usual, line_of)))
 
 
 def _candidates(usual: float) -> list[float]:
@@ -182,11 +184,11 @@ def _loss(t_s: Floats, columns: Floats, even: Floats, step: float) -> float:
     return max(move / peak if peak > 0.0 else 0.0 for move, peak in zip(moved, peaks, strict=True))
 
 
-def _gaps(source: Source, t_s: Floats, usual: float, rows: Sequence[int]) -> list[str]:
+def _gaps(source: Source, t_s: Floats, usual: float, line_of: Callable[[int], int]) -> list[str]:
     """Say where samples may be lost."""
     gaps = np.flatnonzero(np.diff(t_s) > _GAP_STEPS * usual)
     notes = [
-        f"{source.at(rows[i + 1])}: no samples between {t_s[i]:.6g} and {t_s[i + 1]:.6g} s: a"
+        f"{source.at(line_of(i + 1))}: no samples between {t_s[i]:.6g} and {t_s[i + 1]:.6g} s: a"
         " straight line stands there"
         for i in gaps[:_MAX_GAPS].tolist()
     ]
