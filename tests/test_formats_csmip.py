@@ -61,6 +61,7 @@ class TestVolume2:
         ("changes", "expected"),
         [
             ([("    98.000", "  ********")], "47: found '********', a number too large for its"),
+            ([("    98.000", "    wide  ")], "47: found 'wide'; give a number"),
             ([("    98.000", "    98,000")], "47: found '98,000'; give a number with a decimal"),
             ([("  -45.250\r\n", "  -45.250   1.0000\r\n")], "47: found 9 values; give 8"),
             ([("  -45.250\r\n", "\r\n")], "47: found 7 values; give 8"),
@@ -69,6 +70,7 @@ class TestVolume2:
             ([("   21 POINTS OF ACCEL", "   16 POINTS OF ACCEL")], "46: promises 16 values, found"),
             ([(" 21 POINTS OF ACCEL", " xx POINTS OF ACCEL")], "1: found no line ... POINTS OF"),
             ([("  .005 SEC.  (UNITS: CM/SEC/", "  .005 SEC.  (UNITS: CM/")], "46: found unit 'CM"),
+            ([("(UNITS: CM/SEC/SEC)", "in cm/sec2. (free)")], "46: found format (free); give one"),
             ([("AT  .005 SEC.", "AT  .050 SEC.")], "46: found a step of 0.05 s and one of 0.005 s"),
             ([("  -123.456    CM", "  -923.456    CM")], "18: the header states a peak of 0.9417"),
         ],
@@ -160,6 +162,16 @@ class TestVolume1:
                 "renadic.v1",
                 [("=     21", "=      1")],
                 "11: promises 2 values, found 10; give the c",
+            ),
+            (
+                "csmip-pairs.v1",
+                [("=     13", "=      1")],
+                "11: promises 2 values, found 10; give t",
+            ),
+            (
+                "csmip-pairs.v1",
+                [("=     13", "=      0")],
+                "11: promises 0 values; give at least 2",
             ),
             ("renadic.v1", [("NO. OF POINTS", "NO. OF THINGS")], "1: found no line NO. OF POINTS"),
             (

@@ -74,7 +74,7 @@ def test_units_are_asked_for_only_where_the_heading_has_none(file: Any) -> None:
         ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; give dt"),
         ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; give a number above 0"),
         ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; give the count and the step as in NPTS="),
-        ("NPTS= 3, DT= .01 SEC", "1 x 3", "5: found 'x'; give a number"),
+        ("NPTS= 3, DT= .01 SEC", "1 wide 3", "5: found 'wide'; give a number"),
         ("NPTS= 3, DT= .01 SEC", "1 ***** 3", "5: found '*****', a number too large for its"),
         ("NPTS= 3, DT= .01 SEC", "1 1_0 3", "5: found '1_0'; give a number"),
         ("NPTS= 3, DT= .01 SEC", "1 nan 3", "5: found 'nan'; give a number"),
@@ -85,6 +85,11 @@ def test_units_are_asked_for_only_where_the_heading_has_none(file: Any) -> None:
 def test_faults_are_told_with_their_line(file: Any, line: str, values: str, expected: str) -> None:
     (problem,) = problems_of(file(f"{HEADING}{line}\n{values}\n"))
     assert problem.startswith(f"roof.csv:{expected}")
+
+
+def test_a_step_that_the_heading_lacks_may_be_given(file: Any) -> None:
+    path = file(f"{HEADING}NPTS= 3, DT= SEC\n1 2 3\n")
+    assert read_motion_file(path, dt_s=0.02).channel().dt_s == 0.02
 
 
 def test_a_file_of_velocity_is_refused(file: Any) -> None:

@@ -11,6 +11,7 @@ tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 
 
 from __future__ import annotations
 
+import math
 import re
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -90,7 +91,7 @@ def _channel(source: Source, part: _Part) -> Channel:
         raise InputError(f"{source.at(part.at)}: found format ({line[6]}); give one as (8F10.3)")
     scale = _scale(source, part)
     reals = _reals(source, part)
-    dt_s = source.step(_step(source, part, reals))
+    dt_s = source.step(_step(part, reals))
     stop, notes = _stop(source, part)
     block = Block(first=part.at + 1, stop=stop, count=int(line[1]), promised=part.at)
     values = fixed_values(source, block, layout) * scale
@@ -154,7 +155,7 @@ def _real(reals: Sequence[Stated], place: int) -> Stated | None:
     return number if number and number.value > -990.0 else None
 
 
-def _step(source: Source, part: _Part, reals: Sequence[Stated]) -> Stated:
+def _step(part: _Part, reals: Sequence[Stated]) -> Stated:
     """Step of the series, or else of the record that it was made of."""
     for place, seconds in ((_SERIES_STEP_MS, 0.001), (_RECORD_STEP_S, 1.0)):
         number = _real(reals, place)
@@ -162,7 +163,7 @@ def _step(source: Source, part: _Part, reals: Sequence[Stated]) -> Stated:
             value, rounding = number.value * seconds, number.rounding * seconds
             return Stated(value=float(f"{value:.12g}"), rounding=rounding, index=number.index)
     at = reals[0].index if reals else part.first
-    return Stated(value=source.dt_s, rounding=0.0, index=at)
+    return Stated(value=math.nan, rounding=0.0, index=at)
 
 
 def _check_length(source: Source, part: _Part, length_s: float, dt_s: float) -> None:

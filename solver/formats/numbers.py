@@ -116,7 +116,7 @@ def free_values(source: Source, block: Block) -> Floats:
     """Values of all lines of a block, set apart by blanks; there must be as many as promised."""
     _check_enough(source, block)
     rows = source.lines[block.first : block.stop]
-    fields = _apart(" ".join(rows))
+    fields = _apart(" ".join(rows).translate(_FORTRAN))
     try:
         values = np.array([float(field) for field in fields if "_" not in field])
     except ValueError:
@@ -131,7 +131,7 @@ def free_values(source: Source, block: Block) -> Floats:
 def header_values(source: Source, first: int, count: int, layout: Layout) -> list[Stated]:
     """Values of a header; nan where a field is blank, missing or no number, for many are unused."""
     values = [
-        printed(field, first + row)
+        printed(field.translate(_FORTRAN), first + row)
         for row in range(layout.lines(count))
         for field in _padded(_cut(source.line(first + row).rstrip(), layout), layout)
     ]
@@ -172,16 +172,9 @@ def each(read: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Resu
     return results
 
 
-def skip_blank(source: Source, index: int) -> int:
-    """Index of the first line from there on that is not blank, or of the end."""
-    while index < len(source.lines) and not source.lines[index].strip():
-        index += 1
-    return index
-
-
 def _apart(text: str) -> list[str]:
     """Fields set apart by blanks, or by the sign of the next one where that fills its columns."""
-    return _TOUCHING.sub(" ", text.translate(_FORTRAN)).split()
+    return _TOUCHING.sub(" ", text).split()
 
 
 def _check_enough(source: Source, block: Block) -> None:
@@ -215,7 +208,6 @@ def _converted(text: str, width: int) -> Floats | None:
 
 
 def _cut(row: str, layout: Layout) -> list[str]:
-    row = row.translate(_FORTRAN)
     return [row[i : i + layout.width].strip() for i in range(0, len(row), layout.width)]
 
 
@@ -227,11 +219,11 @@ def _slowly(source: Source, block: Block, rows: Sequence[str], layout: Layout) -
     """Go through a block that has a fault, row by row, to say all that is wrong with it."""
     # The values end with the last line that has a number.
     count = len(rows)
-    while count and all(map(field_problem, _cut(rows[count - 1], layout))):
+    while count and all(map(_problem, _cut(rows[count - 1], layout))):
         count -= 1
     rows = rows[:count]
     raise_any(_slow_problems(source, block, rows, layout))
-    return np.array([float(field) for row in rows for field in _cut(row, layout)])
+    return np.array([_number(field) for row in rows for field in _cut(row, layout)])
 
 
 def _slow_problems(
@@ -257,11 +249,19 @@ def _row_by_row(
         for number, row in enumerate(rows)
         for problem in _field_problems(source, block.first + number, split(row))
     )
-    return np.array([float(field) for row in rows for field in split(row)])
+    return np.array([_number(field) for row in rows for field in split(row)])
+
+
+def _problem(field: str) -> str:
+    return field_problem(field) if field_problem(field.translate(_FORTRAN)) else ""
+
+
+def _number(field: str) -> float:
+    return float(field.translate(_FORTRAN))
 
 
 def _field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterator[str]:
-    found = (field_problem(field) for field in fields)
+    found = (_problem(field) for field in fields)
     return (f"{source.at(index)}: {problem}" for problem in found if problem)
 
 
