@@ -18,7 +18,7 @@ from report.assess import ArrayAssessment, Assessment, ClearanceCheck, MotionRun
 from report.sheet.schema import ProjectInput
 from solver.methods import METHODS, Method
 from solver.model import Floats, Motion, SlideResult, Status
-from solver.one_axis import STANDARD_GRAVITY_MPS2, slide
+from solver.sliding import STANDARD_GRAVITY_MPS2, slide
 
 SHIFT = 0.05
 """Share by which the friction coefficient is lowered and raised."""

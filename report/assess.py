@@ -1,6 +1,6 @@
 """Runs every array under every motion and holds the result against the rule set.
 
-Orders the work and keeps what came out; computes no physics (`solver.one_axis`) and reads no code
+Orders the work and keeps what came out; computes no physics (`solver.sliding`) and reads no code
 rule itself (`solver.provisions`). Read `report.package` next, which turns this into pages.
 """
 
@@ -21,7 +21,6 @@ from report.sheet.schema import (
 )
 from solver import provisions
 from solver.model import Heading, Motion, SlideHistory, SlideResult, Status
-from solver.one_axis import slide_motion, slide_motion_history
 from solver.provisions import (
     AnalysisValue,
     Basis,
@@ -31,6 +30,7 @@ from solver.provisions import (
     RequiredSpectrum,
     RuleSet,
 )
+from solver.sliding import slide_motion, slide_motion_history
 
 _BASES = {
     Statistic.RULE_SET: None,

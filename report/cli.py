@@ -184,7 +184,7 @@ def _slide_record(
     """Run one block under one record and return the result by name, with the scene."""
     from solver.formats import read_record
     from solver.model import InputError
-    from solver.one_axis import STANDARD_GRAVITY_MPS2, slide
+    from solver.sliding import STANDARD_GRAVITY_MPS2, slide
 
     step_s = math.nan if dt_s is None else dt_s
     record = read_record(path, units=units, dt_s=step_s)

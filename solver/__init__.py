@@ -5,7 +5,7 @@ Public names are listed here; everything is SI. Imports no files, pages or pictu
 
 from solver.methods import METHODS
 from solver.model import Event, EventKind, InputError, Motion, SlideHistory, SlideResult, Status
-from solver.one_axis import slide, slide_history
+from solver.sliding import slide, slide_history
 from solver.studies import Sweep, sweep
 
 __all__ = [

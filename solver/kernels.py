@@ -1,7 +1,7 @@
 """Every jitted function: plain functions of floats and arrays.
 
 Never raises, never allocates for its caller, knows no units but SI; numpy and numba only.
-Read `solver.one_axis` for what the numbers mean and `solver.motion` for spectra.
+Read `solver.sliding` for what the numbers mean and `solver.motion` for spectra.
 
 Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
     ax, az   horizontal (right) and vertical (up) acceleration of the plane     [m/s2]

@@ -1,6 +1,6 @@
 """The methods by name: what each one is, takes and is good for, and how a scene is run by it.
 
-Checks no input and packs no results (`solver.one_axis`); integrates nothing (`solver.kernels`,
+Checks no input and packs no results (`solver.sliding`); integrates nothing (`solver.kernels`,
 `solver.rivals`, `solver.regularised`). Read `METHODS` first.
 """
 

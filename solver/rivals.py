@@ -28,7 +28,7 @@ import math
 import numpy as np
 from numba import njit
 
-# Outcome codes; `solver.one_axis` maps them to `Status`.
+# Outcome codes; `solver.sliding` maps them to `Status`.
 FOLLOWED = 0
 DIVERGED = 1
 

@@ -1,7 +1,7 @@
 """Many scenes at once: all combinations of slope, friction coefficient and scale of a record.
 
 Plans the work and shapes the results; each run is `solver.kernels.slide_exact`.
-Read `solver.one_axis` for a single run.
+Read `solver.sliding` for a single run.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from solver import kernels
 from solver.model import Floats, InputError, Status
-from solver.one_axis import STANDARD_GRAVITY_MPS2, checked_record
+from solver.sliding import STANDARD_GRAVITY_MPS2, checked_record
 
 STATUSES = (Status.OK, Status.SLIDING_AT_END, Status.UPLIFT)
 """What the numbers in `Sweep.status` stand for."""

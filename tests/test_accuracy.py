@@ -14,7 +14,7 @@ from report.pages import accuracy as accuracy_page
 from report.pages.parts import Scene
 from report.pdf import TEMPLATES
 from solver.methods import METHODS
-from solver.one_axis import slide
+from solver.sliding import slide
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -10,8 +10,8 @@ import pytest
 import stand_in
 from report.assess import assess
 from solver.model import Status
-from solver.one_axis import slide
 from solver.provisions import Basis, Neighbour
+from solver.sliding import slide
 
 G = 9.80665
 

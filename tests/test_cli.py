@@ -14,7 +14,7 @@ from click.testing import CliRunner
 import report.package
 from report.cli import main
 from solver.formats import read_record
-from solver.one_axis import slide
+from solver.sliding import slide
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "projects" / "example"

@@ -18,7 +18,7 @@ from solver.beam import beam_modes
 from solver.building import absolute_accelerations, building_of_periods, roof_motion
 from solver.model import InputError
 from solver.motion import Record, response_spectrum, write_record
-from solver.one_axis import slide
+from solver.sliding import slide
 from solver.verification import building_checks as checks
 from solver.verification.building import BY_HEIGHT, SPECTRUM_S, compare, recorded_buildings
 from solver.verification.evidence import Verification

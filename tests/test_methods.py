@@ -13,7 +13,7 @@ import solver
 from solver import problems, regularised
 from solver.methods import METHODS, link_frequency
 from solver.model import InputError, Status
-from solver.one_axis import slide, slide_history
+from solver.sliding import slide, slide_history
 
 G = 9.80665
 STEPPED = ("paper", "linear", "adaptive")

@@ -9,8 +9,8 @@ from scipy import signal
 from solver.measures import measures
 from solver.model import InputError
 from solver.motion import Record
-from solver.one_axis import slide
 from solver.processing import Processing, beyond_corner, process, process_together
+from solver.sliding import slide
 
 G = 9.80665
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from solver.model import InputError, Status
-from solver.one_axis import slide
+from solver.sliding import slide
 from solver.studies import STATUSES, order_alike, sweep
 
 SLOPES = [-0.5, -0.05, 0.0, 0.07]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import oracle
-from solver.one_axis import slide
+from solver.sliding import slide
 from solver.verification import checks, crosschecks, paper_studies, reference
 from solver.verification.evidence import DesignCurves, percent_off
 from solver.verification.run import verify

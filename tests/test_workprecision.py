@@ -9,7 +9,7 @@ import pytest
 
 from solver.methods import METHODS
 from solver.model import Status
-from solver.one_axis import slide
+from solver.sliding import slide
 from solver.verification import workprecision
 from solver.verification.scenes import CASES, near_fault_pulse, prepared, scale_to, shortened
 

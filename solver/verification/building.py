@@ -17,8 +17,8 @@ from solver.building import RoofMotion, building_of_modes, building_of_periods, 
 from solver.formats import read_record
 from solver.model import Floats, InputError
 from solver.motion import response_spectrum
-from solver.one_axis import STANDARD_GRAVITY_MPS2, slide
 from solver.periods import FOOT_M, approximate_period_s
+from solver.sliding import STANDARD_GRAVITY_MPS2, slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
 from solver.verification.identification import Identified, identify
 

@@ -14,7 +14,7 @@ import numpy as np
 from solver import problems
 from solver.model import EventKind, Floats
 from solver.motion import Record
-from solver.one_axis import slide, slide_history
+from solver.sliding import slide, slide_history
 from solver.verification.evidence import CheckRow
 from solver.verification.scenes import scale_to
 

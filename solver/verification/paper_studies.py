@@ -14,7 +14,7 @@ import numpy as np
 from solver.methods import METHODS
 from solver.model import Floats, SlideHistory
 from solver.motion import Record
-from solver.one_axis import slide_history
+from solver.sliding import slide_history
 from solver.studies import sweep
 from solver.verification.evidence import (
     Convergence,

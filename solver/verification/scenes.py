@@ -15,7 +15,7 @@ from solver import kernels
 from solver.methods import NO_RECORD, Scene
 from solver.model import Floats
 from solver.motion import Record
-from solver.one_axis import STANDARD_GRAVITY_MPS2
+from solver.sliding import STANDARD_GRAVITY_MPS2
 from solver.synthesis import Target, make_suite
 
 SEED = 2003

@@ -14,7 +14,7 @@ import numpy as np
 from solver.methods import METHODS, link_frequency
 from solver.model import Floats
 from solver.motion import Record
-from solver.one_axis import STANDARD_GRAVITY_MPS2
+from solver.sliding import STANDARD_GRAVITY_MPS2
 from solver.studies import sweep
 from solver.verification.evidence import Conditioning, StabilityMap, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable, scale_to, shortened

@@ -15,7 +15,7 @@ import numpy as np
 from solver.methods import METHODS, Method, Scene
 from solver.model import SlideResult, Status
 from solver.motion import Record
-from solver.one_axis import STANDARD_GRAVITY_MPS2, slide
+from solver.sliding import STANDARD_GRAVITY_MPS2, slide
 from solver.verification.evidence import WorkPoint, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable, prepared, scale_to
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import oracle
 from solver import problems
 from solver.model import EventKind, InputError, Status
-from solver.one_axis import slide, slide_history
+from solver.sliding import slide, slide_history
 
 G = 9.81
 FIELDS = ("prd_m", "residual_m", "down_m", "up_m")
