@@ -19,6 +19,7 @@ from report.sheet.schema import (
     RoofObject,
     Statistic,
 )
+from report.sheet.targets import Targets, ac156, targets
 from solver import provisions
 from solver.model import Heading, Motion, SlideHistory, SlideResult, Status
 from solver.provisions import (
@@ -173,11 +174,20 @@ class ClearanceCheck:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assessment:
-    """Everything that was computed for a project."""
+    """Everything that was computed for a project.
+
+    Attributes
+    ----------
+    horizontal_target, vertical_target : RequiredSpectrum
+        AC156 at the roof.
+    targets : Targets
+        What the motions are held against: AC156 or the project's own.
+    """
 
     rules: RuleSet
     horizontal_target: RequiredSpectrum
     vertical_target: RequiredSpectrum
+    targets: Targets
     building_checks: tuple[Check, ...]
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
@@ -195,12 +205,14 @@ class Assessment:
     def warnings(self) -> tuple[str, ...]:
         """Runs whose displacement is missing or not final, in words."""
         return tuple(
-            f"Array {assessed.array.id}, motion {motion.motion.id}, {run.heading.name}: "
-            f"{_trouble(run.result)}."
+            f"Array {assessed.array.id}, motion {motion.motion.id}, "
+            f"{', '.join(run.heading.name for run in runs)}: "
+            f"{_trouble([run.result for run in runs])}."
             for assessed in self.arrays
             for motion in assessed.motions
-            for run in motion.runs
-            if run.result.status is not Status.OK
+            for status in Status
+            if status is not Status.OK
+            and (runs := [run for run in motion.runs if run.result.status is status])
         )
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
@@ -213,10 +225,13 @@ class Assessment:
         return max(of_array, key=lambda c: _nan_is_worst(c.demand_capacity), default=None)
 
 
-def _trouble(result: SlideResult) -> str:
-    if result.status is Status.UPLIFT:
-        return f"{result.status.sentence} (at {result.t_uplift_s:.3f} s)"
-    return f"{result.status.sentence} (at {abs(result.end_speed_mps):.3f} m/s)"
+def _trouble(results: Sequence[SlideResult]) -> str:
+    """Return in words what is wrong with runs of one outcome."""
+    status = results[0].status
+    if status is Status.UPLIFT:
+        return f"{status.sentence} (at {min(result.t_uplift_s for result in results):.3f} s)"
+    fastest = max(abs(result.end_speed_mps) for result in results)
+    return f"{status.sentence} (at {fastest:.3f} m/s)"
 
 
 def same_id(one: str, other: str) -> bool:
@@ -237,7 +252,7 @@ def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
         {row.provision: (row.value, row.reason) for row in data.overrides}
     )
     started = time.perf_counter()
-    runs = [tuple(_run_motion(array, motion) for motion in motions) for array in data.arrays]
+    runs = [tuple(run_motion(array, motion) for motion in motions) for array in data.arrays]
     seconds = time.perf_counter() - started
     arrays = tuple(
         _assess_array(data, rules, array, found)
@@ -245,10 +260,9 @@ def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
     )
     return Assessment(
         rules=rules,
-        horizontal_target=provisions.ac156_horizontal(
-            rules, s_ds_g=site.s_ds, z_over_h=site.roof_height_m / site.structure_height_m
-        ),
-        vertical_target=provisions.ac156_vertical(s_ds_g=site.s_ds),
+        horizontal_target=ac156(data)[0],
+        vertical_target=ac156(data)[1],
+        targets=targets(data),
         building_checks=provisions.building_checks(
             rules,
             risk_category=list(type(site.risk_category)).index(site.risk_category) + 1,
@@ -260,7 +274,8 @@ def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
     )
 
 
-def _run_motion(array: Array, motion: Motion) -> MotionRun:
+def run_motion(array: Array, motion: Motion) -> MotionRun:
+    """Run one array under one motion in all of its runs."""
     slope, mu = array.slope_rad, array.mu
     runs = tuple(
         HeadingRun(

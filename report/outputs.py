@@ -17,8 +17,10 @@ from pathlib import Path
 from typing import Any
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
+from report.sheet.shaking import Story
 from report.sheet.workbook import InputBook, RecordFile
-from solver.model import InputError
+from solver.building import RoofMotion
+from solver.model import InputError, Motion
 from solver.provisions import Check
 
 
@@ -28,6 +30,7 @@ def results_json(book: InputBook, assessment: Assessment) -> bytes:
         "roofslip_version": version("roofslip"),
         "workbook": {"name": book.path.name, "sha256": book.sha256},
         "records": [_record(record) for record in book.records],
+        "motions": [_motion(*pair) for pair in zip(book.motions, book.stories, strict=True)],
         "input": book.input.model_dump(mode="json"),
         "s_ds_g": book.input.site.s_ds,
         "rule_set": assessment.rules.name,
@@ -45,10 +48,38 @@ def _record(record: RecordFile) -> dict[str, Any]:
         "motion": record.motion_id,
         "component": record.component,
         "name": record.name,
+        "format": record.format,
+        "notes": list(record.notes),
         "sha256": record.sha256,
         "npts": record.npts,
         "dt_s": record.dt_s,
         "peak_g": record.peak_g,
+    }
+
+
+def _motion(motion: Motion, story: Story) -> dict[str, Any]:
+    return {
+        "id": motion.id,
+        "recorded_at": story.recorded_at,
+        "processing": story.done,
+        "scaling": story.scaling,
+        "scale": motion.scale,
+        "dt_s": motion.dt_s,
+        "npts": len(motion.ax_mps2),
+        "components": {name: asdict(found) for name, found in story.measures.items()},
+        "building": {name: _roof(found) for name, found in story.roof.items()},
+    }
+
+
+def _roof(found: RoofMotion) -> dict[str, Any]:
+    return {
+        "words": found.building.words,
+        "n_modes": found.n_modes,
+        "next_mode_share": found.next_share,
+        "left_out_share": found.left_out_share,
+        "ground_peak_mps2": found.ground_peak_mps2,
+        "roof_peak_mps2": found.roof_peak_mps2,
+        "pad_s": found.pad_s,
     }
 
 

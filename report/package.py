@@ -14,6 +14,7 @@ from typing import Any
 from report.accuracy import Accuracy, accuracy
 from report.aside import begin
 from report.assess import Assessment
+from report.beyond import beyond_corners
 from report.pages import accuracy as accuracy_page
 from report.pages import appendix, checks, front, inputs, method, motions, results
 from report.pages.parts import Part, Scene
@@ -48,11 +49,13 @@ def render(book: InputBook, assessment: Assessment, on_stage: Stage | None = Non
 def _render(book: InputBook, assessment: Assessment, tell: Stage) -> bytes:
     scene = Scene(data=book.input, assessment=assessment)
     tell("figures")
-    found = spectra(assessment, book.motions)
+    found = spectra(assessment, book.motions, book.stories)
+    beyond = beyond_corners(book.input.motions, book.stories, scene.governing)
     rivals = accuracy(book.input, book.motions, assessment, scene.governing)
     pictures = begin(lambda: _draw(scene, found, rivals))
     tell("pages")
-    context = _context(book, scene, found, rivals)
+    motion_page = motions.page(scene, book.motions, book.stories, found, beyond)
+    context = {**_context(book, scene, rivals), "motions": motion_page}
     load_renderer()
     html = _html({**context, "pictures": pictures()})
     tell("pdf")
@@ -90,19 +93,16 @@ def _html(context: Mapping[str, Any]) -> str:
     return environment.get_template("package.html").render(context)
 
 
-def _context(
-    book: InputBook, scene: Scene, found: Sequence[Spectra], rivals: Accuracy
-) -> Mapping[str, Any]:
+def _context(book: InputBook, scene: Scene, rivals: Accuracy) -> Mapping[str, Any]:
     governing = scene.governing
     return {
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
         "sheet": front.sheet(scene),
         "cover": front.cover(scene),
-        "parts": parts(scene.assessment),
+        "parts": parts(scene),
         "summary": front.summary(scene),
         "basis": front.basis(scene),
         "inputs": inputs.inputs(scene),
-        "motions": motions.page(scene, book.motions, found),
         "method": {
             "array": governing.array.id,
             "demand": method.demand_lines(scene),
@@ -129,19 +129,19 @@ def _context(
     }
 
 
-def parts(assessment: Assessment) -> tuple[Part, ...]:
+def parts(scene: Scene) -> tuple[Part, ...]:
     """Return the parts of the package in order, as the contents list them."""
     titles: tuple[tuple[str, str, tuple[str, ...]], ...] = (
         ("summary", "Summary", ()),
         ("basis", "Basis and limits of the method", ()),
         ("inputs", "Inputs", ("Site and seismic parameters", "Arrays and objects", "Roof plan")),
-        ("motions", "Roof motions", ("Motions", "Response spectra")),
+        ("motions", "Roof motions", motions.titles(scene)),
         (
             "method",
             "Method and equations",
             ("Seismic demand", "Motion of an array", "Design displacement", "Separations"),
         ),
-        ("results", "Results", tuple(f"Array {one.array.id}" for one in assessment.arrays)),
+        ("results", "Results", tuple(f"Array {one.array.id}" for one in scene.assessment.arrays)),
         ("comparison", "Comparison with the prescriptive displacement", ()),
         ("clearances", "Clearances", ()),
         ("limits", "Limits and interconnection strength", ()),

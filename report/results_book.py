@@ -111,6 +111,7 @@ def _records_table(book: InputBook) -> pd.DataFrame:
             "Motion": record.motion_id,
             "Component": record.component,
             "Record": record.name,
+            "Format": record.format,
             "Samples": record.npts,
             "Time step [s]": record.dt_s,
             "Peak [g]": record.peak_g,
@@ -122,7 +123,7 @@ def _records_table(book: InputBook) -> pd.DataFrame:
 
 def _spectra_table(book: InputBook, assessment: Assessment) -> pd.DataFrame:
     """One row for each period; targets and motions as columns, component by component."""
-    found = spectra(assessment, book.motions)
+    found = spectra(assessment, book.motions, book.stories)
     columns = {"Period [s]": found[0].periods_s}
     for part in found:
         columns[f"{part.title}, target [g]"] = part.target_g

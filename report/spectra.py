@@ -12,10 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.assess import Assessment
+from report.sheet.schema import RecordedAt
+from report.sheet.shaking import Story
+from report.sheet.targets import TargetSpectrum
 from report.units import G_MPS2
 from solver.model import Floats, Motion
-from solver.motion import response_spectrum
-from solver.provisions import RequiredSpectrum
+from solver.motion import Record, response_spectrum
 
 PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
 BAND_HZ = 0.3 * 2.0 ** (np.arange(82) / 12.0)  # 1/12 octaves to 32.3 Hz
@@ -31,15 +33,20 @@ class Spectra:
 
     Attributes
     ----------
+    ids : tuple of str
     periods_s : array, shape (m,)
     sa_g : array, shape (n, m)
+    target : TargetSpectrum
+    title : str
+    is_ground : bool
     """
 
     ids: tuple[str, ...]
     periods_s: Floats
     sa_g: Floats
-    target: RequiredSpectrum
+    target: TargetSpectrum
     title: str
+    is_ground: bool
 
     @property
     def mean_g(self) -> Floats:
@@ -48,36 +55,49 @@ class Spectra:
 
     @property
     def target_g(self) -> Floats:
-        """Ordinates of the target at the periods."""
-        return self.target.at(1.0 / self.periods_s)
+        """Ordinates of the target at the periods; NaN where it is not given."""
+        return self.target.ordinates(self.periods_s)
 
     @property
     def in_band(self) -> NDArray[np.bool_]:
-        """Whether a period lies in the band that a matched motion keeps to."""
-        return np.isin(self.periods_s, 1.0 / BAND_HZ)
+        """Whether a period lies in the band that a matched motion keeps to, and has a target."""
+        return np.isin(self.periods_s, 1.0 / BAND_HZ) & np.isfinite(self.target_g)
 
 
-def spectra(assessment: Assessment, motions: Sequence[Motion]) -> tuple[Spectra, ...]:
-    """Return the spectra of each component that any motion has."""
-    across, upward = assessment.horizontal_target, assessment.vertical_target
-    parts = (
-        ("Horizontal", across, [(motion, motion.ax_mps2) for motion in motions]),
-        ("Transverse", across, [(m, m.ay_mps2) for m in motions if m.has_transverse]),
-        ("Vertical", upward, [(m, m.az_mps2) for m in motions if m.has_vertical]),
+def spectra(
+    assessment: Assessment, motions: Sequence[Motion], stories: Sequence[Story]
+) -> tuple[Spectra, ...]:
+    """Return the spectra of each component that any motion has: at the roof, then on the ground."""
+    goals = assessment.targets
+    ground = [story for story in stories if story.recorded_at is RecordedAt.GROUND]
+    at_roof = (
+        ("Horizontal", goals.roof, [_scaled(m, m.ax_mps2) for m in motions]),
+        ("Transverse", goals.roof, [_scaled(m, m.ay_mps2) for m in motions if m.has_transverse]),
+        ("Vertical", goals.vertical, [_scaled(m, m.az_mps2) for m in motions if m.has_vertical]),
     )
-    return tuple(_spectra(title, target, rows) for title, target, rows in parts if rows)
+    below = (
+        (f"Ground, {name}", goals.ground, [s.scaled[name] for s in ground if name in s.scaled])
+        for name in ("horizontal", "transverse")
+    )
+    return (
+        *(_spectra(*part, is_ground=False) for part in at_roof if part[-1]),
+        *(_spectra(*part, is_ground=True) for part in below if part[-1]),
+    )
+
+
+def _scaled(motion: Motion, a_mps2: Floats) -> Record:
+    return Record(name=motion.id, dt_s=motion.dt_s, a_mps2=a_mps2 * motion.scale)
 
 
 def _spectra(
-    title: str, target: RequiredSpectrum, rows: Sequence[tuple[Motion, Floats]]
+    title: str, target: TargetSpectrum, records: Sequence[Record], *, is_ground: bool
 ) -> Spectra:
-    found = [
-        response_spectrum(a_mps2 * motion.scale, motion.dt_s, PERIODS_S) for motion, a_mps2 in rows
-    ]
+    found = [response_spectrum(record.a_mps2, record.dt_s, PERIODS_S) for record in records]
     return Spectra(
-        ids=tuple(motion.id for motion, _ in rows),
+        ids=tuple(record.name for record in records),
         periods_s=PERIODS_S,
         sa_g=np.array(found) / G_MPS2,
         target=target,
         title=title,
+        is_ground=is_ground,
     )

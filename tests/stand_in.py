@@ -9,9 +9,11 @@ import numpy as np
 
 from report.assess import Assessment, assess
 from report.sheet.records import RecordFile
-from report.sheet.schema import ProjectInput
-from report.sheet.workbook import EchoRow, InputBook
+from report.sheet.schema import ProjectInput, RecordedAt
+from report.sheet.workbook import EchoRow, InputBook, Story
+from solver.measures import measures
 from solver.model import Motion
+from solver.motion import Record
 
 G = 9.80665
 FOOT = 0.3048
@@ -165,14 +167,17 @@ def book(data=None, found=None):
         input=data,
         echo=tuple(_echo(data)),
         motions=found,
+        stories=tuple(story(motion) for motion in found),
         records=tuple(
             RecordFile(
                 motion_id=motion.id,
                 component=component,
                 name=f"records/{motion.id.lower()}-{component[0]}.csv",
                 sha256="ab" * 32,
+                format="text",
                 npts=len(motion.ax_mps2),
                 dt_s=motion.dt_s,
+                notes=(),
                 peak_g=float(np.abs(values).max() / G),
             )
             for motion in found
@@ -184,6 +189,30 @@ def book(data=None, found=None):
             if len(values)
         ),
     )
+
+
+def story(given, **changes):
+    """What became of a roof motion that was run as recorded."""
+    scaled = {
+        name: Record(name=given.id, dt_s=given.dt_s, a_mps2=values * given.scale)
+        for name, values in (
+            ("horizontal", given.ax_mps2),
+            ("transverse", given.ay_mps2),
+            ("vertical", given.az_mps2),
+        )
+        if len(values)
+    }
+    usual = {
+        "motion_id": given.id,
+        "recorded_at": RecordedAt.ROOF,
+        "done": "as recorded",
+        "scaling": "as recorded",
+        "measures": {name: measures(record) for name, record in scaled.items()},
+        "scaled": scaled,
+        "roof": {},
+        "unfiltered": (),
+    }
+    return Story(**(usual | changes))
 
 
 def _echo(data):

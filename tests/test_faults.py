@@ -214,15 +214,95 @@ CONTRADICTIONS = [
         ["Motions!D8: transverse record is 'records/x.csv', as the horizontal one; give its own"],
     ),
     (
-        {"Motions!I8": 2},
+        {"Motions!H8": "target spectrum", "Motions!I8": 2},
         [
-            "Motions!I8: factor or PPA is 2, but scaling is 'as recorded'; choose a scaling or"
-            " leave it blank"
+            "Motions!I8: factor or PPA is 2, but scaling is 'target spectrum'; choose another"
+            " scaling or leave it blank"
         ],
     ),
     (
-        {f"Options!{c}17": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
-        ["Options!B17: provision is 'parapet_height_in', as at Options!B16; keep one"],
+        {"Motions!M8": 1.5, "Motions!N8": 1.5},
+        ["Motions!N8: keep to is 1.5 s; give more than keep from, 1.5 s"],
+    ),
+    (
+        {"Motions!P8": 20, "Motions!Q8": 20},
+        ["Motions!Q8: low-pass corner is 20 Hz; give more than the high-pass corner, 20 Hz"],
+    ),
+    (
+        {"Motions!L9": "ground"},
+        ["Building!B6: period T1 is missing; give it, or a structure type: Motions!L9 is 'ground'"],
+    ),
+    (
+        {"Building!B7": 0.3},
+        ["Building!B7: period T2 is 0.3 s; give period T1 with it, or leave it blank"],
+    ),
+    (
+        {"Building!B6": 0.2, "Building!B7": 0.3},
+        ["Building!B7: period T2 is 0.3 s; give at most period T1, 0.2 s, or leave it blank"],
+    ),
+    (
+        {"Building!B6": 0.2, "Motions!L9": "ground", "Site!B15": 101},
+        [
+            "Site!B15: storeys is 101; ground motions reach the roof of at most 100, give motions"
+            " of the roof"
+        ],
+    ),
+    (
+        {"Spectrum!B8": 1, "Spectrum!C8": 1},
+        ["Spectrum!B7: one row is given; give at least two, or none"],
+    ),
+    (
+        {f"Spectrum!{c}{r}": 1 for r in (8, 9) for c in "BC"},
+        ["Spectrum!B9: period is 1 s, as at Spectrum!B8; give each once"],
+    ),
+    (
+        {f"Spectrum!{c}{r}": r for r in (8, 9) for c in "BC"} | {"Spectrum!D8": 1},
+        ["Spectrum!D9: vertical is missing; give it in every row, or in none"],
+    ),
+    (
+        {f"Spectrum!{c}{r}": r for r in (8, 9) for c in "BC"} | {"Motions!H8": "target spectrum"},
+        [
+            "Spectrum!B7: periods reach from 8 to 9 s, but motions are scaled over 0.2 to 5 s; add"
+            " rows, or change the scaling periods"
+        ],
+    ),
+    (
+        {"Options!B15": 5},
+        ["Options!B16: scaling periods to is 5 s; give more than scaling periods from, 5 s"],
+    ),
+    (
+        {"Motions!H8": "target spectrum", "Motions!P8": 0.5},
+        [
+            "Motions!P8: high-pass corner is 0.5 Hz, a period of 2 s, but the motion is scaled up"
+            " to periods of 5 s; lower one of them"
+        ],
+    ),
+    (
+        {"Motions!H8": "target spectrum", "Motions!L8": "ground", "Building!B6": 0.5},
+        [
+            "Site!B12: F_v is missing; Motions!H8 scales a ground motion to the design spectrum,"
+            " which needs S_1, F_v and T_L",
+            "Options!B14: long-period transition T_L is missing; Motions!H8 scales a ground motion"
+            " to the design spectrum, which needs S_1, F_v and T_L",
+        ],
+    ),
+    (
+        {"Options!B14": 0.5, "Site!B12": 1.7},
+        [
+            "Options!B14: long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS ="
+            " 0.507 s"
+        ],
+    ),
+    (
+        {"Motions!I8": 2},
+        [
+            "Motions!I8: factor or PPA is 2, but scaling is 'as recorded'; choose another scaling"
+            " or leave it blank"
+        ],
+    ),
+    (
+        {f"Options!{c}27": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
+        ["Options!B27: provision is 'parapet_height_in', as at Options!B26; keep one"],
     ),
 ]
 
@@ -242,9 +322,9 @@ def typed(changes):
 
 
 def test_an_unknown_provision_is_told_with_those_there_are(tmp_path):
-    path = edit(make(tmp_path), typed({"Options!B16": "parapet"}))
+    path = edit(make(tmp_path), typed({"Options!B26": "parapet"}))
     (line,) = problems(path)
-    assert line.startswith("Options!B16: provision is 'parapet'; choose one of prescriptive_fac")
+    assert line.startswith("Options!B26: provision is 'parapet'; choose one of prescriptive_fac")
 
 
 def test_every_error_comes_at_once_in_the_order_of_the_sheets(tmp_path):

@@ -31,7 +31,7 @@ def assessment(book):
 
 def drawn(book, assessment):
     """Every chart of the package."""
-    found = spectra(assessment, book.motions)
+    found = spectra(assessment, book.motions, book.stories)
     return [
         figures.roof_plan(book.input, True),
         figures.spectra(found),

@@ -31,10 +31,12 @@ def test_json_holds_what_was_assessed_in_si(document):
 
 
 def test_every_number_in_json_says_its_unit_or_has_none(document):
-    units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2")
+    units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2", "_hz", "_percent")
     plain = {
         "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
-        "f_v", "storeys", "slope_value", "found", "limit", "prd_variation", "scale_value", "value",
+        "f_v", "storeys", "slope_value", "found", "limit", "scale_value", "value",
+        "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
+        "left_out_share",
     }  # fmt: skip
 
     def walk(value, key=""):

@@ -2,6 +2,7 @@ import datetime as dt
 import io
 import os
 import re
+from dataclasses import replace
 from html import unescape
 from pathlib import Path
 
@@ -11,9 +12,13 @@ from pypdf import PdfReader
 
 import stand_in
 from report.package import render
+from report.pages.motions import drifts
 from report.pdf import html_to_pdf
+from report.sheet.records import Prepared
+from report.sheet.shaking import shake
 from report.units import Quantity, pair
 from solver.model import DefectError
+from solver.motion import Record
 
 GOLDEN = Path(__file__).parent / "golden" / "package.txt"
 # Pages whose text hangs on nothing but the project: no versions, no hashes.
@@ -289,3 +294,64 @@ def test_a_line_in_the_renderers_log_is_a_defect():
 def test_nothing_is_fetched_but_what_is_shipped(address):
     with pytest.raises(DefectError):
         html_to_pdf(f"<img src='{address}'>")
+
+
+def ground(name="G1", **changes):
+    """A ground motion that went through a building of 0.5 s, with its story."""
+    (given,) = stand_in.motions(1, seconds=8.0, peak_g=0.5)
+    asked = {"id": name, "record": "x", "recorded_at": "ground"}
+    data = stand_in.project(
+        motions=[asked | changes], building={"period_s": 0.5}, target={"t_l_s": 8.0}
+    )
+    components = {
+        field: Record(name=field, dt_s=given.dt_s, a_mps2=a)
+        for field, a in (("record", given.ax_mps2), ("vertical", given.az_mps2))
+    }
+    prepared = Prepared(files=(), records=components, unfiltered=components)
+    ((motion, story),) = shake(data, [prepared])
+    return data, motion, story
+
+
+def words_of(monkeypatch, data, motion, story):
+    monkeypatch.setattr("report.package.html_to_pdf", str.encode)
+    book = replace(stand_in.book(data, (motion,) * 3), stories=(story,) * 3)
+    html = render(book, stand_in.assessed(book)).decode()
+    return flat(unescape(re.sub(r"<style.*?</style>|<[^>]+>", " ", html)))
+
+
+def test_the_way_from_ground_to_roof_is_said_with_its_numbers(monkeypatch):
+    data, motion, story = ground()
+    whole = words_of(monkeypatch, data, motion, story)
+    assert "4.3 From ground to roof" in whole
+    assert "4.4 Response spectra" in whole
+    assert "one storey; period 0.5 s; damping 5 % of critical." in whole
+    assert "The array's mass is neglected" in whole
+    assert "vertical motion passes unchanged" in whole
+    roof = story.roof["horizontal"]
+    peaks = f"{roof.ground_peak_mps2 / stand_in.G:.3f} {roof.roof_peak_mps2 / stand_in.G:.3f}"
+    assert f"G1 record {peaks}" in whole
+    assert "those of the ground through the building of part 4" in whole
+    assert "Ground, horizontal: pseudo-acceleration" in whole
+    assert "the design response spectrum of ASCE 7" in whole
+
+
+def test_how_much_of_the_slip_a_high_pass_takes_is_printed(monkeypatch):
+    data, motion, story = ground(highpass_hz=0.2)
+    half = replace(motion, ax_mps2=0.5 * motion.ax_mps2)
+    whole = words_of(monkeypatch, data, half, story)
+    assert "Periods beyond the high-pass corner: PRD of array" in whole
+    row = re.search(r"G1 0\.2 5 ([\d.]+) \d+ ([\d.]+) \d+ (−?\d+)", whole)
+    assert row
+    with_it, without = float(row[1]), float(row[2])
+    assert without > with_it
+    assert float(row[3]) == pytest.approx(100 * (without - with_it) / without, abs=2)
+
+
+def test_drift_is_marked_from_ten_millimetres_on():
+    base = stand_in.motions(1, seconds=8.0)[0]
+    still = stand_in.story(base)
+    for end_m, is_marked in ((0.0099, False), (-0.0101, True)):
+        found = replace(still.measures["horizontal"], final_displacement_m=end_m)
+        level = {name: replace(m, final_displacement_m=0.0) for name, m in still.measures.items()}
+        story = replace(still, measures=level | {"horizontal": found})
+        assert drifts(story) is is_marked

@@ -25,7 +25,7 @@ from report.sheet.schema import (
 )
 from report.units import LENGTHS, WEIGHTS, Quantity
 from sheets import INCH, project
-from solver.motion import UNITS
+from solver.formats import UNIT_CHOICES
 from solver.provisions import OVERRIDABLE
 
 SITE = {
@@ -68,7 +68,7 @@ def test_input_messages_fit_into_excel():
 
 
 def test_record_units_are_those_that_records_are_read_in():
-    assert set(entry(MotionInput, "units").choices) == set(UNITS)
+    assert entry(MotionInput, "units").choices == ("from file", *UNIT_CHOICES)
 
 
 def test_provisions_to_override_are_those_of_the_solver():

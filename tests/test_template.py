@@ -9,7 +9,10 @@ from report.sheet.schema import SECTIONS, UnitsFirst
 from report.sheet.template import write_template
 from sheets import make, project
 
-SHEETS = ["README", "Project", "Site", "Arrays", "Objects", "Clearances", "Motions", "Options"]
+SHEETS = [
+    "README", "Project", "Site", "Arrays", "Objects", "Clearances", "Motions", "Building",
+    "Spectrum", "Options",
+]  # fmt: skip
 
 
 @pytest.fixture(scope="module", params=list(UnitsFirst))
@@ -114,7 +117,7 @@ def test_clearances_offer_the_arrays_and_objects_but_take_others(blank):
 
 def test_overrides_offer_the_provisions(blank):
     book = blank[1]
-    target = validation(book["Options"], "B16").formula1
+    target = validation(book["Options"], "B26").formula1
     first = target.split("!")[1].split(":")[0].replace("$", "")
     assert book["Provisions"][first].value == "prescriptive_factor_in"
 

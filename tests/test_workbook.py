@@ -483,8 +483,147 @@ def test_components_of_different_length_or_step_do_not_go_together(tmp_path):
     assert problems(path) == (
         "Motions!E8: vertical record has a time step of 0.02 s, the horizontal one 0.01 s; give"
         " both the same",
-        "Motions!E8: vertical record has 40 samples, the horizontal one 50; give both the same",
+        "Motions!E8: vertical record has 40 samples, the horizontal one 50; give both the same, or"
+        " keep to 0.39 s at most",
     )
+
+
+def test_components_that_end_apart_go_together_up_to_where_both_are_kept(tmp_path):
+    path = make(tmp_path)
+    for name, count in (("x", 200), ("z", 196)):
+        (path.parent / "records" / f"{name}.csv").write_text("0.1\n-0.2\n" * (count // 2))
+    assert problems(path) == (
+        "Motions!E8: vertical record has 196 samples, the horizontal one 200; give both the same,"
+        " or keep to 1.95 s at most",
+    )
+    book = read_workbook(edit(path, lambda b: b["Motions"].__setitem__("N8", 1.95)))
+    assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 196
+
+
+CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
+    f"{0.01 * i:.2f},{0.1 * i},{0.2 * i},{0.3 * i}\n" for i in range(5)
+)
+
+
+@pytest.mark.parametrize("names", [("East", "north", " UP "), ("1", "2", "3")])
+def test_channels_of_one_file_are_components(tmp_path, names):
+    path = make(tmp_path)
+    (path.parent / "records" / "all.csv").write_text(CHANNELS)
+
+    def change(book):
+        sheet = book["Motions"]
+        for column, name in zip("CDE", names, strict=True):
+            sheet[f"{column}8"] = f"records/all.csv | {name}"
+        sheet["F8"] = sheet["G8"] = None  # the file says its units and times
+
+    book = read_workbook(edit(path, change))
+    first = book.motions[0]
+    for a, slope in zip(
+        (first.ax_mps2, first.ay_mps2, first.az_mps2), (0.1, 0.2, 0.3), strict=True
+    ):
+        assert a == pytest.approx(slope * 9.80665 * np.arange(5))
+    assert book.records[1].name == f"records/all.csv | {names[1]}".strip()
+    assert book.records[1].format == "text"
+
+
+def test_a_channel_that_is_not_named_or_not_there_is_told_with_the_names(tmp_path):
+    path = make(tmp_path)
+    (path.parent / "records" / "all.csv").write_text(CHANNELS)
+
+    def change(book):
+        sheet = book["Motions"]
+        sheet["C8"], sheet["E8"] = "records/all.csv", "records/all.csv | Down"
+        sheet["F8"] = sheet["G8"] = None
+
+    names = "give one by name or number: 1 East; 2 North; 3 Up"
+    assert problems(edit(path, change)) == (
+        f"Motions!C8: horizontal record: all.csv: found several channels; {names}",
+        f"Motions!E8: vertical record: all.csv: channel 'Down' is not there; {names}",
+    )
+
+
+def test_units_that_neither_file_nor_sheet_says_are_asked_for(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("F8", "from file"))
+    found = problems(path)
+    assert [line.split(": ")[0] for line in found] == ["Motions!C8", "Motions!E8"]
+    assert all("give units, one of" in line for line in found)
+
+
+def test_a_file_that_says_other_units_than_the_sheet_is_told(tmp_path):
+    path = make(tmp_path)
+    (path.parent / "records" / "all.csv").write_text(CHANNELS)
+
+    def change(book):
+        sheet = book["Motions"]
+        sheet["C8"], sheet["E8"] = "records/all.csv | 1", None
+        sheet["F8"] = "cm/s2"
+
+    (line,) = problems(edit(path, change))
+    assert line.startswith("Motions!C8: horizontal record: all.csv:1: the file is in g but units")
+
+
+def test_gals_of_a_pasted_column_are_cm_s2(tmp_path):
+    def change(book):
+        pasted([100.0, -200.0])(book)
+        book["Motions"]["F9"] = "gal"
+
+    assert read_workbook(edit(make(tmp_path), change)).motions[1].ax_mps2.tolist() == [1.0, -2.0]
+
+
+def test_records_are_processed_as_their_row_asks(tmp_path):
+    def change(book):
+        sheet = book["Motions"]
+        for cell, value in {"M8": 0.5, "N8": 1.5, "O8": "mean", "S8": 0.005, "T8": 1}.items():
+            sheet[cell] = value
+
+    book = read_workbook(edit(make(tmp_path), change))
+    first = book.motions[0]
+    x = np.loadtxt(book.path.parent / "records" / "x.csv")[50:151] * 9.80665
+    level = x - x.mean()
+    assert first.dt_s == 0.005
+    assert first.ax_mps2[:201:2] == pytest.approx(level)
+    assert not first.ax_mps2[201:].any()
+    assert len(first.ax_mps2) == len(first.az_mps2) == 201 + 200
+    assert book.stories[0].done.startswith("cut to 0.5 s to 1.5 s; mean removed")
+    assert book.stories[0].unfiltered == ()
+
+
+def test_a_high_pass_keeps_the_motion_without_it_for_comparison(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("P8", 2.0))
+    book = read_workbook(path)
+    (bare,) = book.stories[0].unfiltered
+    assert bare.ax_mps2 == pytest.approx(np.loadtxt(path.parent / "records/x.csv") * 9.80665)
+    assert not np.allclose(book.motions[0].ax_mps2[: len(bare.ax_mps2)], bare.ax_mps2)
+
+
+def test_processing_that_does_not_fit_a_record_is_told(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("Q8", 60))
+    (line,) = problems(path)
+    assert line.startswith("Motions!C8: horizontal record: x.csv: low-pass corner is 60 Hz; give")
+
+
+def test_a_ground_motion_comes_out_at_the_roof(tmp_path):
+    def change(book):
+        book["Motions"]["L8"], book["Building"]["B6"] = "ground", 0.5
+
+    book = read_workbook(edit(make(tmp_path), change))
+    at_roof, story = book.motions[0], book.stories[0]
+    assert story.roof["horizontal"].building.periods_s[0] == 0.5
+    assert np.array_equal(at_roof.ax_mps2, story.roof["horizontal"].a_mps2)
+    assert book.stories[1].roof == {}
+
+
+def test_a_workbook_without_the_sheets_of_later_versions_is_read(tmp_path):
+    def change(book):
+        for title in ("Building", "Spectrum"):
+            book.remove(book[title])
+        for name in [n for n in book.defined_names if n.startswith(("target_", "building_"))]:
+            del book.defined_names[name]
+        for row in range(9, 17):
+            book["Options"][f"A{row}"] = None
+
+    data = read_workbook(edit(make(tmp_path), change)).input
+    assert same(data, project())
 
 
 def test_silence_cannot_be_scaled_to_a_peak(tmp_path):

@@ -95,7 +95,6 @@ def example() -> ProjectInput:
                     "id": f"RM{number}",
                     "record": f"records/RM{number}-x.csv",
                     "vertical": f"records/RM{number}-z.csv",
-                    "units": "g",
                     "source": SOURCE,
                 }
                 for number in range(1, COUNT + 1)

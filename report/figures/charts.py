@@ -69,7 +69,7 @@ def spectra(found: Sequence[Spectra]) -> str:
                 color=INK,
                 linewidth=1.8,
                 linestyle=(0, (5, 1.5)),
-                label="AC156 target",
+                label="target",
             )
             _spectrum_axes(axes, part)
         panels[0].legend(loc="upper right")
@@ -85,7 +85,8 @@ def _spectrum_axes(axes: Axes, part: Spectra) -> None:
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.set_ylabel("Pseudo-acc. [g]")
-    axes.set_title(part.title, loc="left", weight="semibold", pad=3)
+    goal = part.target.name or "none"
+    axes.set_title(f"{part.title} (target: {goal})", loc="left", weight="semibold", pad=3)
     axes.grid(True)
     axes.axvline(1 / 1.3, color=INK, linewidth=0.6, linestyle=":")
     axes.text(

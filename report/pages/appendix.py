@@ -25,8 +25,12 @@ LIBRARIES = (
     "weasyprint",
 )
 METHOD = "exact, event by event, on straight lines between samples"
-_WIDTHS = (7, 27, 34, 8, 40)
+_WIDTHS = (8, 27, 33, 8, 40)
 _RECORD_WIDTHS = (10, 12, 9, 10, 10, 64)
+_SECOND_WIDTHS = (10, sum(_RECORD_WIDTHS[1:-1]), 64)
+LEAST_BLANK = 3
+"""So many blank cells side by side, or below each other, share a line of the echo."""
+
 _HEADS = ("Cell", "Asked for", "Typed", "Unit", "Taken as")
 
 
@@ -40,7 +44,7 @@ def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, str], ...]:
 
 def _lines(rows: Sequence[EchoRow]) -> Iterator[str]:
     yield _even(_HEADS, _WIDTHS)
-    for row in rows:
+    for row in _condensed(rows):
         asked = (row.cell, row.label, row.typed, row.unit, row.value)
         wrapped = [
             textwrap.wrap(str(text), width - 1) or [""]
@@ -49,6 +53,52 @@ def _lines(rows: Sequence[EchoRow]) -> Iterator[str]:
         for index in range(max(map(len, wrapped))):
             texts = [part[index] if index < len(part) else "" for part in wrapped]
             yield _even(texts, _WIDTHS)
+
+
+def _condensed(rows: Sequence[EchoRow]) -> Iterator[EchoRow]:
+    """Yield the rows, cells left blank beside each other as one."""
+    blank: list[EchoRow] = []
+    for row in rows:
+        if blank and not (_is_blank(row) and _beside(blank[-1], row)):
+            yield from _joined(blank)
+            blank = []
+        if _is_blank(row):
+            blank.append(row)
+        else:
+            yield row
+    yield from _joined(blank)
+
+
+def _is_blank(row: EchoRow) -> bool:
+    return not row.typed and (row.value == "—" or row.value.endswith("(default)"))
+
+
+def _beside(one: EchoRow, other: EchoRow) -> bool:
+    """Whether two cells share a row or a column."""
+    return any(a == b for a, b in zip(_split(one.cell), _split(other.cell), strict=True))
+
+
+def _split(cell: str) -> tuple[str, str]:
+    letters = cell.rstrip("0123456789")
+    return letters, cell[len(letters) :]
+
+
+def _joined(rows: Sequence[EchoRow]) -> Sequence[EchoRow]:
+    if len(rows) < LEAST_BLANK:
+        return rows
+    taken = (
+        f"{row.label}: {row.value.removesuffix(' (default)')}" for row in rows if row.value != "—"
+    )
+    first, last = rows[0], rows[-1]
+    whole = EchoRow(
+        sheet=first.sheet,
+        cell=f"{first.cell}:{last.cell}",
+        label=f"{first.label} to {last.label}",
+        typed=f"{len(rows)} cells left blank",
+        unit="",
+        value="; ".join(taken) or "—",
+    )
+    return [whole]
 
 
 def _even(texts: Sequence[str], widths: Sequence[int]) -> str:
@@ -68,8 +118,15 @@ def records(rows: Sequence[RecordFile]) -> str:
             number(row.peak_g, 4),
             row.name,
         )
-        lines += [_even(texts, _RECORD_WIDTHS), " " * sum(_RECORD_WIDTHS[:-1]) + row.sha256]
+        lines.append(_even(texts, _RECORD_WIDTHS))
+        lines.append(_even(("", row.format, row.sha256), _SECOND_WIDTHS))
+        lines += [f"{'':10}note: {part}" for part in _notes(row)]
     return "\n".join(lines)
+
+
+def _notes(row: RecordFile) -> Iterator[str]:
+    for note in row.notes:
+        yield from textwrap.wrap(note, 104)
 
 
 def software() -> Mapping[str, str]:

@@ -11,6 +11,7 @@ from report.assess import ArrayAssessment
 from report.equations import symbol
 from report.pages.checks import all_checks, clearance_table, troubles
 from report.pages.parts import Column, Row, Scene, Table, shortened, statistic, verdict
+from report.sheet.schema import RecordedAt
 from report.units import number, ratio
 
 
@@ -180,6 +181,9 @@ def basis(scene: Scene) -> Mapping[str, object]:
     return {
         "title": scene.assessment.rules.title,
         "vertical": f"{with_vertical} of {count} motions have a vertical component",
+        "moves": "the records say, those of the ground through the building of part 4"
+        if any(row.recorded_at is RecordedAt.GROUND for row in scene.data.motions)
+        else "the records say",
         "transverse": f"{with_transverse} of {count} motions have one",
         "both": f"{both} of {count} motions are run in both polarities",
         "peer": "is stated to be peer reviewed"

@@ -1,54 +1,81 @@
-"""Roof motions and their response spectra against the target."""
+"""The part on roof motions: what they are, what was done to them, their spectra and the target."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
+from markupsafe import Markup, escape
 
+from report.beyond import Beyond
+from report.equations import symbol
+from report.pages.building import building_part
 from report.pages.parts import Column, Row, Scene, Table
+from report.sheet.schema import RecordedAt
+from report.sheet.shaking import Story
+from report.sheet.targets import OWN
 from report.spectra import PRINTED_S, Spectra
 from report.units import G_MPS2, number
 from solver.model import Floats, Motion
+from solver.provisions import Tail
+
+DRIFT_M = 0.010
+"""Displacement left at the end from which a component is marked."""
 
 
-def motion_table(scene: Scene, motions: Sequence[Motion]) -> Table:
+def titles(scene: Scene) -> tuple[str, ...]:
+    """Return the parts of the part, in order; the spectra come last."""
+    below = ("From ground to roof",) if has_ground(scene) else ()
+    return ("Motions", "Processing and drift", *below, "Response spectra")
+
+
+def has_ground(scene: Scene) -> bool:
+    """Whether any motion was recorded on the ground."""
+    return any(row.recorded_at is RecordedAt.GROUND for row in scene.data.motions)
+
+
+def motion_table(motions: Sequence[Motion], stories: Sequence[Story]) -> Table:
     """Return what each motion is, as run."""
-    asked = {row.id.casefold(): row for row in scene.data.motions}
-    rows = []
-    for motion in motions:
-        row = asked.get(motion.id.casefold())
-        peaks = (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
-        rows.append(
-            Row(
-                cells=(
-                    motion.id,
-                    motion.source or "—",
-                    *(_peak(values, motion.scale) for values in peaks),
-                    f"{motion.dt_s:g}",
-                    number((len(motion.ax_mps2) - 1) * motion.dt_s, 2),
-                    "as recorded" if row is None else row.scaling.value,
-                    f"{motion.scale:.4g}",
-                    "both" if len(motion.signs) == 2 else "+" if motion.signs[0] > 0 else "−",
-                )
-            )
-        )
+    grounds = [story.recorded_at is RecordedAt.GROUND for story in stories]
+    where = [Column(head="From", align="left", share=0.9)] if any(grounds) else []
     return Table(
         caption="Roof motions as run, after scaling",
         columns=(
             Column(head="Motion", align="left", share=1.0),
             Column(head="Source", align="left", share=3.6),
+            *where,
             Column(head="Peak", unit="record, g", share=0.95),
             Column(head="Peak", unit="transv., g", share=0.95),
             Column(head="Peak", unit="vertical, g", share=1.0),
             Column(head="Step", unit="s", share=0.7),
             Column(head="Duration", unit="s", share=0.9),
-            Column(head="Scaling", align="left", share=1.3),
+            Column(head="Scaling", align="left", share=1.4),
             Column(head="Factor", share=0.8),
             Column(head="Polarity", align="center", share=0.9),
         ),
-        rows=tuple(rows),
+        rows=tuple(
+            _motion_row(motion, story, with_place=any(grounds))
+            for motion, story in zip(motions, stories, strict=True)
+        ),
         kind="compact",
+    )
+
+
+def _motion_row(motion: Motion, story: Story, *, with_place: bool) -> Row:
+    peaks = (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
+    return Row(
+        cells=(
+            motion.id,
+            motion.source or "—",
+            *([story.recorded_at.value] if with_place else []),
+            *(_peak(values, motion.scale) for values in peaks),
+            f"{motion.dt_s:.4g}",
+            number((len(motion.ax_mps2) - 1) * motion.dt_s, 2),
+            story.scaling,
+            f"{motion.scale:.4g}",
+            "both" if len(motion.signs) == 2 else "+" if motion.signs[0] > 0 else "−",
+        )
     )
 
 
@@ -56,24 +83,114 @@ def _peak(values: Floats, scale: float) -> str:
     return number(float(np.abs(values).max() * abs(scale) / G_MPS2), 3) if len(values) else "none"
 
 
+def drift_table(scene: Scene, stories: Sequence[Story]) -> Table:
+    """Return what was done to each motion, and the drift that is left in it."""
+    unit = scene.say.units()[0]
+    names = ("horizontal", "transverse", "vertical")
+    short = {"horizontal": "record", "transverse": "transv.", "vertical": "vertical"}
+    limit = scene.say.both(DRIFT_M)
+    return Table(
+        caption="Processing, and what is left at the end of each component",
+        columns=(
+            Column(head="Motion", align="left", share=1.1),
+            Column(head="Processing", align="left", share=3.6),
+            *(
+                Column(head=f"Velocity, {unit.symbol}/s", unit=short[name], share=0.9)
+                for name in names
+            ),
+            *(
+                Column(head=f"Displacement, {unit.symbol}", unit=short[name], share=0.9)
+                for name in names
+            ),
+            Column(head="Drift", align="left", share=0.9),
+        ),
+        rows=tuple(_drift_row(story, names, unit.si) for story in stories),
+        notes=(
+            "Each component where it was recorded, processed and scaled. Drift in the input "
+            f"becomes slip: a motion with a component that ends more than {limit} from where it "
+            "began is marked.",
+        ),
+        kind="compact",
+    )
+
+
+def _drift_row(story: Story, names: Sequence[str], si: float) -> Row:
+    found = [story.measures.get(name) for name in names]
+    speeds = ("none" if m is None else number(m.final_velocity_mps / si, 2) for m in found)
+    places = ("none" if m is None else number(m.final_displacement_m / si, 2) for m in found)
+    return Row(
+        cells=(
+            story.motion_id,
+            story.done,
+            *speeds,
+            *places,
+            Markup("<b>drifts</b>") if drifts(story) else "none",
+        )
+    )
+
+
+def drifts(story: Story) -> bool:
+    """Whether a component of a motion ends away from where it began."""
+    return any(abs(m.final_displacement_m) > DRIFT_M for m in story.measures.values())
+
+
+def beyond_table(scene: Scene, found: Sequence[Beyond]) -> Table:
+    """Return how much of the slip comes from periods that a high-pass takes away."""
+    say = scene.say
+    return Table(
+        caption=f"Periods beyond the high-pass corner: PRD of array {scene.governing.array.id}",
+        columns=(
+            Column(head="Motion", align="left", share=1.2),
+            Column(head="Corner", unit="Hz"),
+            Column(head="Period", unit="s"),
+            *say.columns("With the high-pass, as run", share=1.3),
+            *say.columns("Without it", share=1.3),
+            Column(head="From beyond", unit="%", share=1.2),
+        ),
+        rows=tuple(
+            Row(
+                cells=(
+                    one.motion_id,
+                    f"{one.corner_hz:g}",
+                    f"{1.0 / one.corner_hz:.3g}",
+                    *say.cells(one.filtered_m),
+                    *say.cells(one.unfiltered_m),
+                    "—" if math.isnan(one.share) else number(100.0 * one.share, 0),
+                )
+            )
+            for one in found
+        ),
+        notes=(
+            "The same motion at the same scale without the high-pass, all else alike. The largest "
+            "run counts; where the part is negative the high-pass makes it larger. What is taken "
+            "away may be motion or drift of the instrument alike: judge the corner.",
+        ),
+        kind="compact",
+    )
+
+
 def spectrum_table(part: Spectra) -> Table:
     """Return the target and what the motions have at a few periods, and the one over the other."""
     at = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
-    share, mean = part.sa_g / part.target_g, part.mean_g / part.target_g
-    rows = (
-        _ordinates("AC156 target [g]", part.target_g[at]),
-        _ordinates(f"Mean of {len(part.ids)} motions [g]", part.mean_g[at]),
-        _ordinates("Mean / target", mean[at], kind="total", decimals=2),
-        _ordinates("Least motion / target", share.min(axis=0)[at], kind="total", decimals=2),
-        _ordinates("Largest motion / target", share.max(axis=0)[at], kind="total", decimals=2),
-    )
+    target, sa = part.target_g[at], part.sa_g[:, at]
+    count = f"{len(part.ids)} motion{'s' if len(part.ids) > 1 else ''}"
+    rows = [_ordinates(f"Mean of {count} [g]", sa.mean(axis=0))]
+    if part.target.name:
+        share = sa / target
+        rows = [
+            _ordinates(f"Target, {part.target.name} [g]", target),
+            *rows,
+            _ordinates("Mean / target", share.mean(axis=0), kind="total", decimals=2),
+            _ordinates("Least motion / target", share.min(axis=0), kind="total", decimals=2),
+            _ordinates("Largest motion / target", share.max(axis=0), kind="total", decimals=2),
+        ]
     return Table(
         caption=f"{part.title}: pseudo-acceleration, 5 % damping, achieved against the target",
         columns=(
             Column(head="Period", align="left", share=2.9),
             *(Column(head=f"{period:g} s", unit=f"{1 / period:.3g} Hz") for period in PRINTED_S),
         ),
-        rows=rows,
+        rows=tuple(rows),
         kind="compact",
     )
 
@@ -87,7 +204,7 @@ def achieved_table(found: Sequence[Spectra]) -> Table:
     return Table(
         caption="Achieved over target, 0.3 to 33 Hz in 1/12 octaves",
         columns=(
-            Column(head="Component", align="left", share=1.5),
+            Column(head="Component", align="left", share=1.7),
             Column(head="Motions", share=0.9),
             Column(head="Mean of motions", unit="least", share=0.9),
             Column(head="Mean of motions", unit="largest", share=0.9),
@@ -98,7 +215,7 @@ def achieved_table(found: Sequence[Spectra]) -> Table:
             Column(head="Single motion", unit="largest", share=0.7),
             Column(head="Single motion", unit="of, at", align="left", share=1.6),
         ),
-        rows=tuple(_achieved(part) for part in found),
+        rows=tuple(_achieved(part) for part in found if part.in_band.any()),
         kind="compact",
     )
 
@@ -106,17 +223,20 @@ def achieved_table(found: Sequence[Spectra]) -> Table:
 def _achieved(part: Spectra) -> Row:
     periods = part.periods_s[part.in_band]
     each = (part.sa_g / part.target_g)[:, part.in_band]
-    mean = (part.mean_g / part.target_g)[part.in_band]
+    mean = each.mean(axis=0)
     slow = mean[periods >= 1 / 1.3]
-    reach = [fold(values) for values in (mean, slow) for fold in (np.min, np.max)]
     return Row(
         cells=(
             part.title,
             str(len(part.ids)),
-            *(number(float(value), 2) for value in reach),
+            *(_extreme(values, fold) for values in (mean, slow) for fold in (np.min, np.max)),
             *(text for at in (each.argmin(), each.argmax()) for text in _single(part, each, at)),
         )
     )
+
+
+def _extreme(values: Floats, fold: Callable[[Floats], float]) -> str:
+    return number(float(fold(values)), 2) if values.size else "—"
 
 
 def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
@@ -128,10 +248,47 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
     )
 
 
-def page(scene: Scene, motions: Sequence[Motion], found: Sequence[Spectra]) -> Mapping[str, object]:
-    """Return the part on motions, without its chart."""
+def target_words(scene: Scene) -> Sequence[str]:
+    """Return which spectra the motions are held against, a sentence each."""
+    goals, tail = scene.assessment.targets, Tail(scene.data.target.tail)
+    roof = (
+        "the project's own spectrum (sheet Spectrum of the workbook), which replaces that of AC156"
+        if goals.roof.name == OWN
+        else Markup("AC156 required response spectrum, corners in part 5; {}").format(
+            symbol("A_FLX").join(map(escape, tail.sentence.split("A_FLX")))
+        )
+    )
+    texts: list[str] = [
+        Markup("Target at the roof: {}. Sliding is driven by long periods.").format(roof)
+    ]
+    if has_ground(scene):
+        texts.append(_GROUND.get(goals.ground.name, _GROUND[""]))
+    return texts
+
+
+_GROUND = {
+    OWN: "Target of ground motions: the project's own spectrum (sheet Spectrum of the workbook).",
+    "": "Ground motions have no target: the workbook gives neither a spectrum nor S_1, F_v and "
+    "T_L for the design spectrum of ASCE 7.",
+    "ASCE 7 design spectrum": "Target of ground motions: the design response spectrum of ASCE 7, "
+    "11.4.6, of two periods.",
+}
+
+
+def page(
+    scene: Scene,
+    motions: Sequence[Motion],
+    stories: Sequence[Story],
+    found: Sequence[Spectra],
+    beyond: Sequence[Beyond],
+) -> Mapping[str, object]:
+    """Return the part on motions, without its charts."""
     return {
-        "table": motion_table(scene, motions),
+        "table": motion_table(motions, stories),
+        "drift": drift_table(scene, stories),
+        "beyond": [beyond_table(scene, beyond)] if beyond else [],
+        "building": building_part(scene, motions, stories) if has_ground(scene) else None,
+        "target": target_words(scene),
         "achieved": achieved_table(found),
         "spectra": tuple(spectrum_table(part) for part in found),
     }

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assess import ArrayAssessment
+from report.pages.motions import titles
 from report.pages.parts import Picture, Scene
 from report.pdf import TEMPLATES
 from report.spectra import Spectra
@@ -31,13 +32,13 @@ def draw(scene: Scene, found: Sequence[Spectra]) -> Pictures:
                 alt="Roof plan with arrays, objects, edges and clearances",
             )
         ],
-        "motions-2": [
+        f"motions-{len(titles(scene))}": [
             Picture(
-                svg=figures.spectra(found),
-                caption="Response spectra of the motions as run, 5 % damping, against the AC156 "
-                "required response spectrum.",
+                svg=figures.spectra(parts),
+                caption=f"Response spectra of the motions {where}, 5 % damping, and target.",
                 alt="Response spectra of all motions, their mean and the target",
             )
+            for where, parts in _by_place(found)
         ],
         "comparison": [
             Picture(
@@ -62,6 +63,14 @@ def draw(scene: Scene, found: Sequence[Spectra]) -> Pictures:
     for count, one in enumerate(assessment.arrays, start=1):
         pictures[f"results-{count}"] = list(_histories(one, us_first))
     return pictures
+
+
+def _by_place(found: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectra]]]:
+    """Yield the spectra at the roof, and those on the ground where there are any."""
+    below = [part for part in found if part.is_ground]
+    yield "as run", [part for part in found if not part.is_ground]
+    if below:
+        yield "on the ground, scaled", below
 
 
 def _histories(found: ArrayAssessment, us_first: bool) -> Iterator[Picture]:

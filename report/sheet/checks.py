@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.sheet.fields import Draft, Fault, Place, Row, Where
-from report.sheet.motion_checks import motion_faults
+from report.sheet.motion_checks import motion_faults, site_s_ds
 from report.sheet.schema import (
     PROVISION_KEYS,
     ObjectKind,
@@ -144,7 +144,7 @@ def _s_ds(row: Row) -> Iterator[Fault]:
 
 def _sdc(row: Row) -> Iterator[Fault]:
     sdc, risk_category = row.get("sdc"), row.get("risk_category")
-    s_ds_g = s_ds(row.get("s_ds_g"), row.get("s_s_g"), row.get("f_a"))
+    s_ds_g = site_s_ds(row)
     if sdc is None or risk_category is None or s_ds_g is None:
         return
     s_1_g = row.get("s_1_g")

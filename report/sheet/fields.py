@@ -93,7 +93,8 @@ class Section:
         Sheet it is made on, its heading, and one line of instruction.
     model : type
         What one block or one row is.
-    is_table : bool
+    is_table, may_be_absent : bool
+        Whether a workbook may be without it, as those of earlier versions are.
     """
 
     key: str
@@ -102,6 +103,7 @@ class Section:
     hint: str
     model: type[Frozen]
     is_table: bool
+    may_be_absent: bool
 
     @property
     def table_name(self) -> str:

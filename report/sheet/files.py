@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
@@ -15,7 +16,7 @@ import numpy as np
 from report.sheet.archive import OpenBook
 from report.sheet.cells import CellError, Found, check_saved, number
 from report.sheet.locate import MAX_COLUMNS, Spot, cells_below
-from solver.formats import read_record
+from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 from solver.motion import Record, record_from_values
 
@@ -25,28 +26,74 @@ MAX_SAMPLES = 200_000
 MAX_TOLD = 5
 
 
-@dataclass(frozen=True, slots=True)
+BAR = "|"
+"""Stands between a file and its channel: no name of a file in Windows has it."""
+
+Reader = Callable[..., MotionFile]
+"""`solver.formats.read_motion_file`, or one that keeps what it has read."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Component:
-    """A record as it was found, with its hash."""
+    """A record as it was found.
+
+    Attributes
+    ----------
+    record : Record
+    sha256 : str
+        Of the file, or of a pasted column's values as little-endian doubles in m/s2.
+    format : str
+        Such as ``PEER AT2``, or ``pasted column``.
+    notes : tuple of str
+        What a user should know of the reading.
+    """
 
     record: Record
     sha256: str
+    format: str
+    notes: tuple[str, ...]
 
 
-def read_component(book: OpenBook, name: str, units: str, dt_s: float | None) -> Component:
-    """Return the record of a name, as the workbook gives it.
+def read_component(
+    book: OpenBook, name: str, units: str, dt_s: float | None, read: Reader = read_motion_file
+) -> Component:
+    """Return the record of a name as the workbook gives it: file, file | channel, Sheet!Header.
+
+    Parameters
+    ----------
+    units : str
+        Empty where the file has to say it.
+    dt_s : float or None
+        None where the file has to say it.
 
     Raises
     ------
     InputError
         With every problem of the record.
     """
-    heading = _heading(book, name) if "!" in name else None
+    heading = find_heading(book, name)
     if heading is not None:
         return _read_column(book, name, heading, units, dt_s)
-    path = _path(book.path.parent, name)
-    record = read_record(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
-    return Component(record, hashlib.sha256(path.read_bytes()).hexdigest())
+    path, channel = find_file(book, name)
+    found = read(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
+    return Component(
+        record=found.channel(channel),
+        sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+        format=found.format,
+        notes=found.notes,
+    )
+
+
+def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
+    """Return the file of a name and the channel, which is empty where none is named.
+
+    Raises
+    ------
+    InputError
+        Where it is not there, or leads out of the workbook's folder.
+    """
+    file, _, channel = name.partition(BAR)
+    return _path(book.path.parent, file.strip()), channel.strip()
 
 
 def _path(folder: Path, name: str) -> Path:
@@ -73,13 +120,21 @@ def _path(folder: Path, name: str) -> Path:
     return path
 
 
-def _heading(book: OpenBook, name: str) -> Spot | None:
-    """Return the heading of a pasted column; None where no sheet has the name before the !."""
+def find_heading(book: OpenBook, name: str) -> Spot | None:
+    """Return the heading of a pasted column; None for a file.
+
+    Raises
+    ------
+    InputError
+        Where there is neither a sheet of that name nor a file.
+    """
+    if "!" not in name:
+        return None
     for sheet in book.typed.worksheets:
         for title in (sheet.title, f"'{sheet.title}'"):
             if name.casefold().startswith(f"{title}!".casefold()):
                 return _heading_on(book, sheet.title, name[len(title) + 1 :].strip())
-    if (book.path.parent / name.replace("\\", "/")).is_file():
+    if (book.path.parent / name.partition(BAR)[0].strip().replace("\\", "/")).is_file():
         return None
     raise InputError(f"'{name}' names no sheet of this workbook; write Sheet!Header, or a file")
 
@@ -106,8 +161,9 @@ def _heading_on(book: OpenBook, title: str, header: str) -> Spot:
 def _read_column(
     book: OpenBook, name: str, heading: Spot, units: str, dt_s: float | None
 ) -> Component:
-    if dt_s is None:
-        raise InputError(f"'{name}' is a pasted column; give its time step")
+    missing = [("time step", dt_s is None), ("units", not units)]
+    if problems := [f"'{name}' is a pasted column; give its {w}" for w, is_so in missing if is_so]:
+        raise InputError(problems)
     extent = book.extent(heading.sheet)
     if extent.last_row > heading.row + MAX_SAMPLES:
         raise InputError(
@@ -115,9 +171,13 @@ def _read_column(
             " below the heading; clear it, or give the record as a file"
         )
     values = _numbers(cells_below(book, heading))
-    record = record_from_values(name, values, units=units, dt_s=dt_s)
+    # A gal is a cm/s2; the solver's own table has one name for each unit.
+    units = "cm/s2" if units == "gal" else units
+    record = record_from_values(name, values, units=units, dt_s=float(dt_s or 0.0))
     data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()
-    return Component(record, hashlib.sha256(data).hexdigest())
+    return Component(
+        record=record, sha256=hashlib.sha256(data).hexdigest(), format="pasted column", notes=()
+    )
 
 
 def _numbers(cells: list[Found]) -> list[float]:

@@ -127,6 +127,16 @@ def find_unit_cell(book: OpenBook, section: Section, entry: Entry, value: Spot) 
     return spot or Spot(value.sheet, value.row, value.column + 1)
 
 
+def is_absent(book: OpenBook, section: Section) -> bool:
+    """Whether a workbook has nothing of a section, neither its names nor its labels."""
+    if section.is_table:
+        return sheet_titled(book, section.sheet) is None and _table_named(book, section) is None
+    return not any(
+        _named(book, section.cell_name(entry.name)) or _beside_label(book, section, entry)
+        for entry in entries(section.model)
+    )
+
+
 def _sheets(book: OpenBook) -> list[Worksheet]:
     return list(book.typed.worksheets)
 

@@ -1,16 +1,20 @@
-"""Checks of the motions that look at more than one cell; each fault names the cell to change.
+"""Checks of motions, building and target that look at more than one cell.
 
-Works on a draft, as `checks` does, and reads no record.
+Each fault names the cell to change. Works on a draft, as `checks` does, and reads no record.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 from report.sheet.fields import Draft, Fault, Place, Row, Where
-from report.sheet.schema import Scaling
+from report.sheet.schema import RecordedAt, Scaling, s_ds
+from solver.beam import MOST_STOREYS
 
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
+"""Fields of a motion that name a record, each with what the component is called."""
 
 
 def motion_faults(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -18,6 +22,10 @@ def motion_faults(draft: Draft, where: Where) -> Iterator[Fault]:
     for index, row in enumerate(draft["motions"]):
         yield from _same_component(index, row)
         yield from _scale_value(index, row)
+        yield from _processing(index, row)
+    yield from _building(draft, where)
+    yield from _own_spectrum(draft, where)
+    yield from _scaled_to_target(draft, where)
 
 
 def _same_component(index: int, row: Row) -> Iterator[Fault]:
@@ -34,9 +42,142 @@ def _same_component(index: int, row: Row) -> Iterator[Fault]:
 def _scale_value(index: int, row: Row) -> Iterator[Fault]:
     scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
     value = row.get("scale_value")
-    if scaling is Scaling.AS_RECORDED and value not in (None, 1.0):
-        text = f"factor or PPA is {value:g}, but scaling is 'as recorded'; choose a scaling or"
+    if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
+        text = f"factor or PPA is {value:g}, but scaling is '{scaling}'; choose another scaling or"
         yield Fault(place, f"{text} leave it blank")
     elif scaling in (Scaling.FACTOR, Scaling.PPA) and "scale_value" in row and value is None:
         wanted = "the PPA in g" if scaling is Scaling.PPA else "the factor"
         yield Fault(place, f"factor or PPA is missing; give {wanted}")
+
+
+def _processing(index: int, row: Row) -> Iterator[Fault]:
+    start, end = row.get("from_s"), row.get("to_s")
+    if end is not None and end <= (start or 0.0):
+        text = f"keep to is {end:g} s; give more than keep from, {start or 0.0:g} s"
+        yield Fault(Place("motions", index, "to_s"), text)
+    high, low = row.get("highpass_hz"), row.get("lowpass_hz")
+    if high is not None and low is not None and low <= high:
+        text = f"low-pass corner is {low:g} Hz; give more than the high-pass corner, {high:g} Hz"
+        yield Fault(Place("motions", index, "lowpass_hz"), text)
+
+
+def _building(draft: Draft, where: Where) -> Iterator[Fault]:
+    ground = _first_row(draft, "recorded_at", RecordedAt.GROUND)
+    for row in draft["building"]:
+        first, second = row.get("period_s"), row.get("period_2_s")
+        unread = {"period_s", "structure"} - row.keys()
+        if ground is not None and not unread and first is None and row["structure"] is None:
+            at = where(Place("motions", ground, "recorded_at"))
+            text = f"period T1 is missing; give it, or a structure type: {at} is 'ground'"
+            yield Fault(Place("building", 0, "period_s"), text)
+        if second is not None and (first is None or second > first):
+            longest = "period T1 with it" if first is None else f"at most period T1, {first:g} s"
+            text = f"period T2 is {second:g} s; give {longest}, or leave it blank"
+            yield Fault(Place("building", 0, "period_2_s"), text)
+    if ground is not None:
+        yield from _storeys(draft)
+
+
+def _storeys(draft: Draft) -> Iterator[Fault]:
+    for row in draft["site"]:
+        count = row.get("storeys", 1)
+        if count > MOST_STOREYS:
+            text = f"storeys is {count}; ground motions reach the roof of at most {MOST_STOREYS}"
+            yield Fault(Place("site", 0, "storeys"), f"{text}, give motions of the roof")
+
+
+def _first_row(draft: Draft, field: str, value: object) -> int | None:
+    """Return the first motion with a value in a field; None for none."""
+    rows = (index for index, row in enumerate(draft["motions"]) if row.get(field) is value)
+    return next(rows, None)
+
+
+def _own_spectrum(draft: Draft, where: Where) -> Iterator[Fault]:
+    rows = draft["spectrum"]
+    if len(rows) == 1:
+        yield Fault(Place("spectrum"), "one row is given; give at least two, or none")
+    given = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
+    for (before, first), (after, second) in pairwise(sorted(given)):
+        if after - before <= 1e-9 * after:
+            at = where(Place("spectrum", first, "period_s"))
+            text = f"period is {after:g} s, as at {at}; give each once"
+            yield Fault(Place("spectrum", second, "period_s"), text)
+    verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
+    if any(verticals) and not all(verticals):
+        index = next(i for i, row in enumerate(rows) if row.get("vertical_g", 0.0) is None)
+        text = "vertical is missing; give it in every row, or in none"
+        yield Fault(Place("spectrum", index, "vertical_g"), text)
+
+
+def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield what stands against scaling to the target, and against the target itself."""
+    row = draft["target"][0] if draft["target"] else {}
+    start, end = row.get("from_s"), row.get("to_s")
+    if start is None or end is None:
+        return
+    if end <= start:
+        text = f"scaling periods to is {end:g} s; give more than scaling periods from, {start:g} s"
+        yield Fault(Place("target", 0, "to_s"), text)
+        return
+    scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
+    for index in scaled:
+        yield from _within_passband(draft, index, end)
+    if scaled and draft["spectrum"]:
+        yield from _covered(draft, start, end)
+    ground = [i for i in scaled if draft["motions"][i].get("recorded_at") is RecordedAt.GROUND]
+    if not draft["spectrum"]:
+        yield from _design_spectrum(draft, ground, where)
+
+
+def _within_passband(draft: Draft, index: int, end_s: float) -> Iterator[Fault]:
+    corner = draft["motions"][index].get("highpass_hz")
+    if corner is not None and corner * end_s > 1.0 + 1e-9:
+        text = (
+            f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the motion"
+            f" is scaled up to periods of {end_s:g} s; lower one of them"
+        )
+        yield Fault(Place("motions", index, "highpass_hz"), text)
+
+
+def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Fault]:
+    periods = [row["period_s"] for row in draft["spectrum"] if "period_s" in row]
+    if len(periods) < 2 or (min(periods) <= start_s and end_s <= max(periods)):
+        return
+    text = (
+        f"periods reach from {min(periods):g} to {max(periods):g} s, but motions are scaled over"
+        f" {start_s:g} to {end_s:g} s; add rows, or change the scaling periods"
+    )
+    yield Fault(Place("spectrum"), text)
+
+
+def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[Fault]:
+    """Yield what the design spectrum lacks where a ground motion is scaled to it."""
+    site = draft["site"][0] if draft["site"] else {}
+    target = draft["target"][0]
+    parts = {
+        Place("site", 0, "s_1_g"): ("S_1", site.get("s_1_g", math.nan)),
+        Place("site", 0, "f_v"): ("F_v", site.get("f_v", math.nan)),
+        Place("target", 0, "t_l_s"): ("long-period transition T_L", target.get("t_l_s", math.nan)),
+    }
+    for place, (label, value) in parts.items():
+        if ground and value is None:
+            at = where(Place("motions", ground[0], "scaling"))
+            text = f"{label} is missing; {at} scales a ground motion to the design spectrum, which"
+            yield Fault(place, f"{text} needs S_1, F_v and T_L")
+    if all(value is not None and value == value for _, value in parts.values()):
+        yield from _transition(site, target)
+
+
+def _transition(site: Row, target: Row) -> Iterator[Fault]:
+    s_ds_g = site_s_ds(site)
+    if s_ds_g is None:
+        return
+    t_s = 2.0 / 3.0 * site["f_v"] * site["s_1_g"] / s_ds_g
+    if target["t_l_s"] <= t_s:
+        text = f"long-period transition T_L is {target['t_l_s']:g} s; give more than T_S"
+        yield Fault(Place("target", 0, "t_l_s"), f"{text} = S_D1/S_DS = {t_s:.3g} s")
+
+
+def site_s_ds(row: Row) -> float | None:
+    """Return S_DS [g] of a draft of the site; None where it cannot be known."""
+    return s_ds(row.get("s_ds_g"), row.get("s_s_g"), row.get("f_a"))

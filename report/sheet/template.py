@@ -108,6 +108,7 @@ def _write_block(
     book: Workbook, section: Section, units: UnitsFirst, rows: Sequence[Frozen]
 ) -> None:
     sheet = book[section.sheet]
+    is_first = sheet.max_row == 1
     top = _title(sheet, section.title, section.hint)
     for column, (head, width) in enumerate(zip(BLOCK_HEADS, BLOCK_WIDTHS, strict=True), start=1):
         sheet.column_dimensions[get_column_letter(column)].width = width
@@ -116,7 +117,8 @@ def _write_block(
         value = getattr(rows[0], entry.name) if rows else _preset(entry, units)
         style.put_input(sheet.cell(row, 2), entry, value, _unit(entry, units))
         _write_block_row(book, row, section, entry, _unit(entry, units))
-    sheet.freeze_panes = f"A{top + 1}"
+    if is_first:
+        sheet.freeze_panes = f"A{top + 1}"
 
 
 def _preset(entry: Entry, units: UnitsFirst) -> object:
@@ -160,7 +162,7 @@ def _write_table(
     size = max(BLANK_ROWS, len(rows) + SPARE_ROWS)
     for column, entry in enumerate(fields, start=2):
         _write_header(sheet, header, column, entry, units)
-        values = [getattr(row, entry.name) for row in rows]
+        values = [_unless_default(getattr(row, entry.name), entry) for row in rows]
         values += [None] * (size - len(values))
         _write_inputs(sheet, header, column, entry, _unit(entry, units), values)
         _write_help(book, section, header, column, entry, units)
@@ -171,6 +173,11 @@ def _write_table(
         sheet.column_dimensions["A"].width = 10
         sheet.freeze_panes = f"C{header + 1}"
         sheet.print_title_rows = f"{header}:{header}"
+
+
+def _unless_default(value: object, entry: Entry) -> object:
+    """Return a value, or nothing where a blank cell means the same."""
+    return None if not entry.is_required and value == entry.default else value
 
 
 def _write_hints(sheet: Worksheet, top: int, fields: Sequence[Entry], units: UnitsFirst) -> None:

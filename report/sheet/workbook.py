@@ -23,14 +23,16 @@ from report.sheet.locate import (
     find_table,
     find_unit_cell,
     found_at,
+    is_absent,
     unit_size,
 )
-from report.sheet.records import Loaded, RecordFile, load_motion
+from report.sheet.records import Prepared, RecordFile, prepare
 from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.shaking import Story, shake
 from report.units import Quantity
 from solver.model import InputError, Motion
 
-__all__ = ["EchoRow", "InputBook", "RecordFile", "read_workbook"]
+__all__ = ["EchoRow", "InputBook", "RecordFile", "Story", "read_workbook"]
 
 SI_SYMBOLS = {Quantity.SIZE: "m", Quantity.PLAN: "m", Quantity.WEIGHT: "N"}
 
@@ -69,6 +71,8 @@ class InputBook:
     echo : tuple of EchoRow
         Every field in the order of the template.
     motions : tuple of Motion
+    stories : tuple of Story
+        What was done to the records of each motion.
     records : tuple of RecordFile
     """
 
@@ -77,6 +81,7 @@ class InputBook:
     input: ProjectInput
     echo: tuple[EchoRow, ...]
     motions: tuple[Motion, ...]
+    stories: tuple[Story, ...]
     records: tuple[RecordFile, ...]
 
 
@@ -93,16 +98,19 @@ def read_workbook(path: Path) -> InputBook:
     for section in SECTIONS:
         _read_section(book, section, gathered)
     gathered.take(faults(gathered.draft, gathered.where))
-    loaded = _load_motions(book, gathered)
+    prepared = _prepare_motions(book, gathered)
     if gathered.problems:
         raise InputError(gathered.finished())
+    data = _project_input(gathered)
+    shaken = shake(data, prepared)
     return InputBook(
         path=book.path,
         sha256=book.sha256,
-        input=_project_input(gathered),
+        input=data,
         echo=tuple(gathered.echo),
-        motions=tuple(item.motion for item in loaded),
-        records=tuple(file for item in loaded for file in item.files),
+        motions=tuple(motion for motion, _ in shaken),
+        stories=tuple(story for _, story in shaken),
+        records=tuple(file for item in prepared for file in item.files),
     )
 
 
@@ -153,6 +161,10 @@ class _Gathered:
 
 def _read_section(book: OpenBook, section: Section, gathered: _Gathered) -> None:
     gathered.draft[section.key] = []
+    if section.may_be_absent and is_absent(book, section):
+        defaults = {entry.name: entry.default for entry in entries(section.model)}
+        gathered.draft[section.key] += [] if section.is_table else [defaults]
+        return
     try:
         if section.is_table:
             _read_table(book, section, find_table(book, section), gathered)
@@ -278,15 +290,15 @@ def _ignored(book: OpenBook, spot: Spot) -> EchoRow:
     )
 
 
-def _load_motions(book: OpenBook, gathered: _Gathered) -> list[Loaded]:
-    loaded = []
+def _prepare_motions(book: OpenBook, gathered: _Gathered) -> list[Prepared]:
+    prepared = []
     for index, row in enumerate(gathered.draft["motions"]):
-        match load_motion(book, index, row):
-            case Loaded() as motion:
-                loaded.append(motion)
+        match prepare(book, index, row):
+            case Prepared() as one:
+                prepared.append(one)
             case found:
                 gathered.take(found)
-    return loaded
+    return prepared
 
 
 def _project_input(gathered: _Gathered) -> ProjectInput:

@@ -6,15 +6,19 @@ that look at more than one cell are in `checks`. Read `workbook` next.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 from report.sheet.fields import Cell, Frozen, Section, YesNo
+from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
     MAX_TEXT,
     AccelUnit,
+    Baseline,
     Direction,
     ObjectKind,
     Polarity,
+    RecordedAt,
     RequiredText,
     RiskCategory,
     RuleSetName,
@@ -23,6 +27,8 @@ from report.sheet.schema.choices import (
     SiteClass,
     SlopeUnit,
     Statistic,
+    StructureType,
+    TailRule,
     UnitsFirst,
 )
 from report.sheet.schema.motions import MotionInput
@@ -36,6 +42,8 @@ __all__ = [
     "SECTIONS",
     "AccelUnit",
     "Array",
+    "Baseline",
+    "BuildingInput",
     "Clearance",
     "Direction",
     "MotionInput",
@@ -45,6 +53,7 @@ __all__ = [
     "Polarity",
     "Project",
     "ProjectInput",
+    "RecordedAt",
     "Rectangle",
     "Revision",
     "RiskCategory",
@@ -55,7 +64,11 @@ __all__ = [
     "Site",
     "SiteClass",
     "SlopeUnit",
+    "SpectrumPoint",
     "Statistic",
+    "StructureType",
+    "TailRule",
+    "TargetInput",
     "UnitsFirst",
     "YesNo",
     "s_ds",
@@ -107,16 +120,32 @@ class ProjectInput(Frozen):
     objects: tuple[RoofObject, ...] = ()
     clearances: tuple[Clearance, ...] = ()
     motions: tuple[MotionInput, ...]
+    building: BuildingInput = BuildingInput()
+    spectrum: tuple[SpectrumPoint, ...] = ()
     options: Options = Options()
+    target: TargetInput = TargetInput()
     overrides: tuple[Override, ...] = ()
 
 
-def _block(key: str, sheet: str, title: str, hint: str, model: type[Frozen]) -> Section:
-    return Section(key=key, sheet=sheet, title=title, hint=hint, model=model, is_table=False)
+def _block(
+    key: str, sheet: str, title: str, hint: str, model: type[Frozen], *, may_be_absent: bool = False
+) -> Section:
+    return Section(
+        key=key,
+        sheet=sheet,
+        title=title,
+        hint=hint,
+        model=model,
+        is_table=False,
+        may_be_absent=may_be_absent,
+    )
 
 
-def _table(key: str, sheet: str, title: str, hint: str, model: type[Frozen]) -> Section:
-    return Section(key=key, sheet=sheet, title=title, hint=hint, model=model, is_table=True)
+def _table(
+    key: str, sheet: str, title: str, hint: str, model: type[Frozen], *, may_be_absent: bool = False
+) -> Section:
+    block = _block(key, sheet, title, hint, model, may_be_absent=may_be_absent)
+    return replace(block, is_table=True)
 
 
 SECTIONS = (
@@ -146,7 +175,32 @@ SECTIONS = (
         "One row for each motion. Records lie beside this workbook, or in a sheet as columns.",
         MotionInput,
     ),
+    _block(
+        "building",
+        "Building",
+        "Building between ground and roof",
+        "Only for motions recorded on the ground: give period T1, or a structure type.",
+        BuildingInput,
+        may_be_absent=True,
+    ),
+    _table(
+        "spectrum",
+        "Spectrum",
+        "The project's own target spectrum",
+        "Optional; it replaces AC156's at the roof, or the design spectrum on the ground. 5 %"
+        " damping, at least two rows.",
+        SpectrumPoint,
+        may_be_absent=True,
+    ),
     _block("options", "Options", "Options", "The defaults suit most projects.", Options),
+    _block(
+        "target",
+        "Options",
+        "Target spectrum and scaling",
+        "The target at the roof is AC156's; for ground motions the design spectrum of ASCE 7.",
+        TargetInput,
+        may_be_absent=True,
+    ),
     _table(
         "overrides",
         "Options",

@@ -99,10 +99,12 @@ class Direction(StrEnum):
 class AccelUnit(StrEnum):
     """Unit of a motion record."""
 
+    FROM_FILE = "from file"
     G = "g"
     M_S2 = "m/s2"
     CM_S2 = "cm/s2"
     MM_S2 = "mm/s2"
+    GAL = "gal"
 
 
 class Scaling(StrEnum):
@@ -111,6 +113,40 @@ class Scaling(StrEnum):
     AS_RECORDED = "as recorded"
     FACTOR = "factor"
     PPA = "PPA"
+    TARGET = "target spectrum"
+
+
+class RecordedAt(StrEnum):
+    """Where a motion was recorded, or made for."""
+
+    ROOF = "roof"
+    GROUND = "ground"
+
+
+class Baseline(StrEnum):
+    """What is fitted to an acceleration and taken off."""
+
+    NONE = "none"
+    MEAN = "mean"
+    LINEAR = "linear"
+    QUADRATIC = "quadratic"
+    CUBIC = "cubic"
+
+
+class StructureType(StrEnum):
+    """Seismic system, as far as its approximate period knows it (ASCE 7, Table 12.8-2)."""
+
+    STEEL_MOMENT_FRAME = "steel moment frame"
+    CONCRETE_MOMENT_FRAME = "concrete moment frame"
+    STEEL_BRACES = "steel eccentric or buckling-restrained braces"
+    OTHER = "other"
+
+
+class TailRule(StrEnum):
+    """How an AC156 spectrum falls below 1.3 Hz."""
+
+    AC156 = "AC156"
+    RECIPROCAL = "1/T"
 
 
 class Polarity(StrEnum):

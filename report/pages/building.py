@@ -1,0 +1,161 @@
+"""From ground to roof: the building between them, and what it made of each motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from markupsafe import Markup
+
+from report.pages.parts import Column, Row, Scene, Table
+from report.sheet.shaking import Story, first_period_s
+from report.units import G_MPS2, Quantity, number
+from solver.building import Building, RoofMotion
+from solver.model import Motion
+from solver.periods import APPROXIMATE_PERIODS, FOOT_M
+
+SHOWN_MODES = 6
+NAMES = {"horizontal": "record", "transverse": "transverse"}
+"""Horizontal components as the tables of runs call them."""
+
+
+def building_part(
+    scene: Scene, motions: Sequence[Motion], stories: Sequence[Story]
+) -> Mapping[str, object]:
+    """Return sentences and tables on the way from ground to roof."""
+    found = [
+        (motion, NAMES[name], roof)
+        for motion, story in zip(motions, stories, strict=True)
+        for name, roof in story.roof.items()
+    ]
+    return {
+        "texts": tuple(_texts(scene, found)),
+        "tables": (_modes(found), _peaks(found)),
+    }
+
+
+_Carried = tuple[Motion, str, RoofMotion]
+
+
+def _texts(scene: Scene, found: Sequence[_Carried]) -> Iterator[str]:
+    yield Markup("{} {}").format(
+        "Motions recorded on the ground go through an elastic building to the roof, each "
+        f"horizontal component by itself: {_words(found)}.",
+        _period_words(scene),
+    )
+    share = scene.data.building.left_out_percent
+    yield (
+        "As few modes are taken as leave out together no more than "
+        f"{number(share, 1)} % of the roof's peak; what is left out follows the ground as if it "
+        "were rigid. Oscillators follow the record exactly between its samples (Nigam and "
+        "Jennings, 1969), and go on until the free vibration has died down."
+    )
+    yield (
+        "The array's mass is neglected: what slides does not act back on the building. The "
+        "vertical motion passes unchanged from ground to roof. No torsion, no yielding, no soil "
+        "below, a roof that is stiff in its plane."
+    )
+
+
+def _words(found: Sequence[_Carried]) -> str:
+    names: dict[str, list[str]] = {}
+    for _, name, roof in found:
+        same = names.setdefault(roof.building.words, [])
+        same += [name] if name not in same else []
+    if len(names) == 1:
+        return next(iter(names))
+    return "; ".join(f"{' and '.join(same)}: {words}" for words, same in names.items())
+
+
+def _period_words(scene: Scene) -> Markup:
+    """Return where the first period comes from."""
+    asked, height = scene.data.building, scene.data.site.structure_height_m
+    if asked.period_s is not None or asked.structure is None:
+        return Markup("The period is as given in the workbook.")
+    coefficient, exponent = APPROXIMATE_PERIODS[asked.structure]
+    return Markup(
+        "The period is approximate, ASCE 7, 12.8.2.1, structure type “{}”: C<sub>t</sub> "
+        "h<sup>x</sup> = {} × {}<sup>{}</sup> = {} s, h in feet ({}). It is meant to be short: for "
+        "forces that is safe, for the motion of a roof it need not be."
+    ).format(
+        asked.structure.value,
+        f"{coefficient:g}",
+        number(height / FOOT_M, 1),
+        f"{exponent:g}",
+        number(first_period_s(scene.data), 3),
+        scene.say.both(height, Quantity.PLAN),
+    )
+
+
+def _modes(found: Sequence[_Carried]) -> Table:
+    """Return the slowest modes of the building in each direction."""
+    buildings: dict[str, Building] = {}
+    taken: dict[str, int] = {}
+    for _, name, roof in found:
+        buildings[name] = roof.building
+        taken[name] = max(taken.get(name, 0), roof.n_modes)
+    return Table(
+        caption="Modes of the building",
+        columns=(
+            Column(head="Direction", align="left", share=1.3),
+            Column(head="Mode", share=0.6),
+            Column(head="Period", unit="s"),
+            Column(head="Damping", unit="% of critical"),
+            Column(head="Roof factor", unit="Γφ"),
+            Column(head="Taken", align="left", share=1.0),
+        ),
+        rows=tuple(
+            Row(
+                cells=(
+                    name if mode == 0 else "",
+                    str(mode + 1),
+                    f"{building.periods_s[mode]:.3g}",
+                    number(100.0 * float(building.damping[mode]), 1),
+                    number(float(building.roof_factors[mode]), 3),
+                    "yes" if mode < taken[name] else "left out",
+                )
+            )
+            for name, building in buildings.items()
+            for mode in range(min(max(SHOWN_MODES, taken[name] + 1), building.periods_s.size))
+        ),
+        kind="compact",
+    )
+
+
+def _peaks(found: Sequence[_Carried]) -> Table:
+    """Return what the building made of each component."""
+    return Table(
+        caption="Peaks on the ground and at the roof, scaled, and modes",
+        columns=(
+            Column(head="Motion", align="left", share=1.2),
+            Column(head="Component", align="left", share=1.3),
+            Column(head="Peak", unit="ground, g"),
+            Column(head="Peak", unit="roof, g"),
+            Column(head="Roof / ground", share=1.0),
+            Column(head="Modes taken", share=0.9),
+            Column(head="Next mode", unit="% of roof's peak", share=1.2),
+            Column(head="All left out", unit="% of roof's peak", share=1.2),
+            Column(head="Goes on for", unit="s", share=0.9),
+        ),
+        rows=tuple(_peak_row(*one) for one in found),
+        kind="compact",
+    )
+
+
+def _peak_row(motion: Motion, name: str, roof: RoofMotion) -> Row:
+    ground, top = (
+        abs(motion.scale) * peak / G_MPS2 for peak in (roof.ground_peak_mps2, roof.roof_peak_mps2)
+    )
+    return Row(
+        cells=(
+            motion.id,
+            name,
+            number(ground, 3),
+            number(top, 3),
+            number(top / ground if ground > 0.0 else math.nan, 2),
+            str(roof.n_modes),
+            number(100.0 * roof.next_share, 1),
+            number(100.0 * roof.left_out_share, 1),
+            number(roof.pad_s, 1),
+        )
+    )
