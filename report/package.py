@@ -16,7 +16,7 @@ from report.aside import begin
 from report.assess import Assessment
 from report.beyond import beyond_corners
 from report.pages import accuracy as accuracy_page
-from report.pages import appendix, checks, front, inputs, method, motions, results
+from report.pages import appendix, checks, demand, front, inputs, method, motions, results
 from report.pages.parts import Part, Scene
 from report.pages.pictures import Pictures, draw
 from report.pdf import TEMPLATES, html_to_pdf, load_renderer
@@ -54,7 +54,7 @@ def _render(book: InputBook, assessment: Assessment, tell: Stage) -> bytes:
     rivals = accuracy(book.input, book.motions, assessment, scene.governing)
     pictures = begin(lambda: _draw(scene, found, rivals))
     tell("pages")
-    motion_page = motions.page(scene, book.motions, book.stories, found, beyond)
+    motion_page = motions.page(scene, book.motions, book.stories, book.records, found, beyond)
     context = {**_context(book, scene, rivals), "motions": motion_page}
     load_renderer()
     html = _html({**context, "pictures": pictures()})
@@ -105,7 +105,7 @@ def _context(book: InputBook, scene: Scene, rivals: Accuracy) -> Mapping[str, An
         "inputs": inputs.inputs(scene),
         "method": {
             "array": governing.array.id,
-            "demand": method.demand_lines(scene),
+            "demand": demand.demand_lines(scene),
             "motion": method.motion_lines(governing),
             "prescriptive": method.prescriptive_line(scene, governing),
             "design": method.design_lines(scene, governing),

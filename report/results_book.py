@@ -20,6 +20,7 @@ from xlsxwriter.worksheet import Worksheet
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
 from report.sheet.workbook import InputBook
 from report.spectra import spectra
+from report.units import G_MPS2
 from solver.provisions import Basis
 
 METRES_PER_INCH = 0.0254
@@ -37,6 +38,7 @@ def results_xlsx(book: InputBook, assessment: Assessment) -> bytes:
         for name in ("Design", "Clearances"):
             workbook.add_worksheet(name)
         _write_table(writer, runs, "Runs", pages)
+        _write_table(writer, _motions_table(book), "Motions", pages)
         _write_table(writer, _records_table(book), "Records", pages)
         _write_table(writer, _spectra_table(book, assessment), "Spectra", pages)
         design_cells = _write_design(pages, book, assessment, runs)
@@ -118,6 +120,29 @@ def _records_table(book: InputBook) -> pd.DataFrame:
             "SHA-256": record.sha256,
         }
         for record in book.records
+    )
+
+
+def _motions_table(book: InputBook) -> pd.DataFrame:
+    """One row for each component of a motion, processed and scaled, where it was recorded."""
+    return pd.DataFrame(
+        {
+            "Motion": motion.id,
+            "Component": name,
+            "Recorded at": story.recorded_at.value,
+            "Processing": story.done,
+            "Scaling": story.scaling,
+            "Factor": motion.scale,
+            "PGA [g]": found.pga_mps2 / G_MPS2,
+            "PGV [m/s]": found.pgv_mps,
+            "PGD [m]": found.pgd_m,
+            "Arias intensity [m/s]": found.arias_mps,
+            "Duration 5-95 % [s]": found.d5_95_s,
+            "Velocity at end [m/s]": found.final_velocity_mps,
+            "Displacement at end [m]": found.final_displacement_m,
+        }
+        for motion, story in zip(book.motions, book.stories, strict=True)
+        for name, found in story.measures.items()
     )
 
 

@@ -333,6 +333,7 @@ def test_the_way_from_ground_to_roof_is_said_with_its_numbers(monkeypatch):
     assert "those of the ground through the building of part 4" in whole
     assert "Ground, horizontal: pseudo-acceleration" in whole
     assert "the design response spectrum of ASCE 7" in whole
+    assert "0.793 g" in whole
 
 
 def test_how_much_of_the_slip_a_high_pass_takes_is_printed(monkeypatch):
@@ -355,3 +356,20 @@ def test_drift_is_marked_from_ten_millimetres_on():
         level = {name: replace(m, final_displacement_m=0.0) for name, m in still.measures.items()}
         story = replace(still, measures=level | {"horizontal": found})
         assert drifts(story) is is_marked
+
+
+def test_the_projects_own_spectrum_takes_the_place_of_ac156(said):
+    rows = [{"period_s": t, "horizontal_g": a, "vertical_g": a} for t, a in ((0.03, 2), (10, 1))]
+    whole = said(stand_in.project(spectrum=rows), few())
+    assert "Target at the roof: the project's own spectrum" in whole
+    assert "Target, project's own [g]" in whole
+    assert "1.6 × 1.566" not in whole
+    assert "0.67 × 1.566" not in whole
+
+
+def test_notes_of_the_reading_are_printed_once_for_a_motion(monkeypatch):
+    monkeypatch.setattr("report.package.html_to_pdf", str.encode)
+    book = stand_in.book(found=few())
+    noted = tuple(replace(row, notes=("uneven times resampled",)) for row in book.records)
+    html = render(replace(book, records=noted), stand_in.assessed(book)).decode()
+    assert html.count("<li>Motion M1: uneven times resampled.</li>") == 1

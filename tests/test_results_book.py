@@ -106,3 +106,11 @@ def test_two_runs_give_the_same_bytes():
     assert results_xlsx(book, assessment) == results_xlsx(book, assessment)
     created = openpyxl.load_workbook(io.BytesIO(results_xlsx(book, assessment))).properties.created
     assert created.date() == book.input.project.date
+
+
+def test_what_was_done_to_each_component_is_listed():
+    _, values = made(stand_in.book())
+    head, *rows = values["Motions"].iter_rows(values_only=True)
+    assert len(rows) == 7 * 3
+    assert rows[1][:5] == ("M1", "transverse", "roof", "as recorded", "as recorded")
+    assert rows[0][head.index("PGA [g]")] == pytest.approx(1.7)

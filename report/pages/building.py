@@ -51,6 +51,10 @@ def _texts(scene: Scene, found: Sequence[_Carried]) -> Iterator[str]:
         "Jennings, 1969), and go on until the free vibration has died down."
     )
     yield (
+        "The answer hangs on period and damping, most on damping: values that were measured or "
+        "analysed are better than approximate ones."
+    )
+    yield (
         "The array's mass is neglected: what slides does not act back on the building. The "
         "vertical motion passes unchanged from ground to roof. No torsion, no yielding, no soil "
         "below, a roof that is stiff in its plane."

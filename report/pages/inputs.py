@@ -88,6 +88,7 @@ def _parameters(scene: Scene) -> Sequence[tuple[str, str, str, str, str]]:
         ),
         ("Mapped acceleration, 0.2 s", "S_S", _g(site.s_s_g), "ASCE 7 11.4", given),
         ("Mapped acceleration, 1 s", "S_1", _g(site.s_1_g), "ASCE 7 11.4", given),
+        ("Long-period transition", "T_L", _seconds(scene.data.target.t_l_s), "ASCE 7 11.4", given),
         ("Site class", "", site_class, "ASCE 7 Chapter 20", given),
         ("Site coefficient, 0.2 s", "F_a", _plain(site.f_a), "ASCE 7 11.4", given),
         ("Site coefficient, 1 s", "F_v", _plain(site.f_v), "ASCE 7 11.4", given),
@@ -98,7 +99,7 @@ def _parameters(scene: Scene) -> Sequence[tuple[str, str, str, str, str]]:
         (
             "Corner period",
             "T_S",
-            NOT_GIVEN if t_s is None else f"{number(t_s, 3)} s",
+            _seconds(t_s),
             "ASCE 7 11.4",
             made,
         ),
@@ -108,6 +109,10 @@ def _parameters(scene: Scene) -> Sequence[tuple[str, str, str, str, str]]:
 
 def _g(value: float | None) -> str:
     return NOT_GIVEN if value is None else f"{number(value, 3)} g"
+
+
+def _seconds(value: float | None) -> str:
+    return NOT_GIVEN if value is None else f"{number(value, 3)} s"
 
 
 def _plain(value: float | None) -> str:

@@ -12,6 +12,7 @@ from report.beyond import Beyond
 from report.equations import symbol
 from report.pages.building import building_part
 from report.pages.parts import Column, Row, Scene, Table
+from report.sheet.records import RecordFile
 from report.sheet.schema import RecordedAt
 from report.sheet.shaking import Story
 from report.sheet.targets import OWN
@@ -43,14 +44,14 @@ def motion_table(motions: Sequence[Motion], stories: Sequence[Story]) -> Table:
         caption="Roof motions as run, after scaling",
         columns=(
             Column(head="Motion", align="left", share=1.0),
-            Column(head="Source", align="left", share=3.6),
+            Column(head="Source", align="left", share=3.2),
             *where,
             Column(head="Peak", unit="record, g", share=0.95),
             Column(head="Peak", unit="transv., g", share=0.95),
             Column(head="Peak", unit="vertical, g", share=1.0),
             Column(head="Step", unit="s", share=0.7),
             Column(head="Duration", unit="s", share=0.9),
-            Column(head="Scaling", align="left", share=1.4),
+            Column(head="Scaling", align="left", share=1.8),
             Column(head="Factor", share=0.8),
             Column(head="Polarity", align="center", share=0.9),
         ),
@@ -275,16 +276,24 @@ _GROUND = {
 }
 
 
+def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
+    """Return what is to be known of the reading of records, each once for a motion."""
+    said = (f"Motion {row.motion_id}: {note}" for row in records for note in row.notes)
+    return tuple(dict.fromkeys(f"{text.rstrip('.')}." for text in said))
+
+
 def page(
     scene: Scene,
     motions: Sequence[Motion],
     stories: Sequence[Story],
+    records: Sequence[RecordFile],
     found: Sequence[Spectra],
     beyond: Sequence[Beyond],
 ) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
     return {
         "table": motion_table(motions, stories),
+        "notes": _notes(records),
         "drift": drift_table(scene, stories),
         "beyond": [beyond_table(scene, beyond)] if beyond else [],
         "building": building_part(scene, motions, stories) if has_ground(scene) else None,

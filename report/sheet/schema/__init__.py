@@ -172,7 +172,8 @@ SECTIONS = (
         "motions",
         "Motions",
         "Roof motions",
-        "One row for each motion. Records lie beside this workbook, or in a sheet as columns.",
+        "One row for each motion. Records lie beside this workbook (file, or file | channel), or in"
+        " a sheet as columns (Sheet!Header). Columns behind Source may stay blank.",
         MotionInput,
     ),
     _block(

@@ -112,10 +112,10 @@ class SpectrumPoint(Frozen):
         Cell("Period", "Each once, in any order; straight between them on log-log axes.", 1.0, "s"),
     ]
     horizontal_g: Annotated[
-        Annotated[float, Field(ge=1e-6, le=100)],
+        Annotated[float, Field(gt=0, le=100)],
         Cell("Horizontal", "Pseudo-acceleration, 5 % damping.", 0.8, "g"),
     ]
     vertical_g: Annotated[
-        Annotated[float, Field(ge=1e-6, le=100)] | None,
+        Annotated[float, Field(gt=0, le=100)] | None,
         Cell("Vertical", "In every row, or blank in all: that of AC156.", 0.4, "g"),
     ] = None

@@ -1,0 +1,120 @@
+"""The seismic demand in equations: S_DS, and the spectra that the motions are held against."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from markupsafe import Markup
+
+from report.equations import formula, fraction, symbol
+from report.pages.parts import Line, Scene
+from report.sheet.schema import RecordedAt
+from report.sheet.targets import OWN
+from report.units import number
+
+
+def demand_lines(scene: Scene) -> tuple[Line, ...]:
+    """Return S_DS, and the corners of the target spectra that count."""
+    return (*_s_ds(scene), *_ac156(scene), *_design_spectrum(scene))
+
+
+def _s_ds(scene: Scene) -> Iterator[Line]:
+    site = scene.data.site
+    if site.s_ds_g is None and site.s_s_g is not None and site.f_a is not None:
+        yield Line(
+            formula=formula(r"S_{DS}=\frac{2}{3}F_a S_S"),
+            reference="ASCE 7 Eqs. 11.4-1, 11.4-3",
+            steps=(
+                (
+                    Markup("{} × {} × {} g").format(
+                        fraction("2", "3"), number(site.f_a, 3), number(site.s_s_g, 3)
+                    ),
+                    f"{number(site.s_ds, 3)} g",
+                ),
+            ),
+        )
+
+
+def _ac156(scene: Scene) -> Iterator[Line]:
+    """Yield the corners at the roof, of components that have no spectrum of the project's own."""
+    site, goals = scene.data.site, scene.assessment.targets
+    found, vertical = scene.assessment.horizontal_target, scene.assessment.vertical_target
+    s_ds, height = number(site.s_ds, 3), number(site.roof_height_m / site.structure_height_m, 3)
+    newer = scene.assessment.rules.name == "ASCE 7-22"
+    flexible = (
+        r"A_{FLX}=S_{DS}\frac{1+2.5\,z/h}{1.3}\leq 1.6\,S_{DS}"
+        if newer
+        else r"A_{FLX}=S_{DS}\left(1+2\,\frac{z}{h}\right)\leq 1.6\,S_{DS}"
+    )
+    rigid = (
+        r"A_{RIG}=0.4\,S_{DS}\frac{1+2.5\,z/h}{1.3}"
+        if newer
+        else r"A_{RIG}=0.4\,S_{DS}\left(1+2\,\frac{z}{h}\right)"
+    )
+    amplified = f"(1 + 2.5 × {height}) / 1.3" if newer else f"(1 + 2 × {height})"
+    if goals.roof.name != OWN:
+        yield Line(
+            formula=formula(flexible),
+            reference="AC156",
+            steps=(
+                (
+                    f"min({s_ds} g × {amplified}, 1.6 × {s_ds} g)",
+                    f"{number(float(found.sa_g[1]), 3)} g",
+                ),
+            ),
+        )
+        yield Line(
+            formula=formula(rigid),
+            reference="AC156",
+            steps=((f"0.4 × {s_ds} g × {amplified}", f"{number(float(found.sa_g[3]), 3)} g"),),
+        )
+    if goals.vertical.name != OWN:
+        yield Line(
+            formula=formula(r"A_{FLX,v}=0.67\,S_{DS},\quad A_{RIG,v}=0.27\,S_{DS}"),
+            reference="AC156, vertical",
+            steps=(
+                (
+                    f"0.67 × {s_ds} g, 0.27 × {s_ds} g",
+                    f"{number(float(vertical.sa_g[1]), 3)} g, "
+                    f"{number(float(vertical.sa_g[3]), 3)} g",
+                ),
+            ),
+        )
+
+
+def _design_spectrum(scene: Scene) -> Iterator[Line]:
+    """Yield the design spectrum where ground motions are held against it."""
+    site, t_l_s = scene.data.site, scene.data.target.t_l_s
+    on_ground = any(row.recorded_at is RecordedAt.GROUND for row in scene.data.motions)
+    has_own = scene.assessment.targets.ground.name == OWN
+    if not on_ground or has_own or site.s_1_g is None or site.f_v is None or t_l_s is None:
+        return
+    s_d1_g = 2.0 / 3.0 * site.f_v * site.s_1_g
+    yield Line(
+        formula=formula(
+            r"S_a=\mathrm{min}\left(S_{DS},\ \frac{S_{D1}}{T},\ \frac{S_{D1}T_L}{T^2}\right),"
+            r"\quad S_{D1}=\frac{2}{3}F_v S_1"
+        ),
+        reference="ASCE 7, 11.4.6",
+        steps=(
+            (
+                Markup("{}: {} × {} × {} g").format(
+                    symbol("S_D1"), fraction("2", "3"), number(site.f_v, 3), number(site.s_1_g, 3)
+                ),
+                f"{number(s_d1_g, 3)} g",
+            ),
+        ),
+        note=Markup(
+            "On the ground; below {} = 0.2 {} = {} s it falls to 0.4 {} at T = 0; {} = {} s, "
+            "{} = {} s."
+        ).format(
+            symbol("T_0"),
+            symbol("T_S"),
+            number(0.2 * s_d1_g / site.s_ds, 3),
+            symbol("S_DS"),
+            symbol("T_S"),
+            number(s_d1_g / site.s_ds, 3),
+            symbol("T_L"),
+            f"{t_l_s:g}",
+        ),
+    )
