@@ -44,16 +44,16 @@ def motion_table(motions: Sequence[Motion], stories: Sequence[Story]) -> Table:
         caption="Roof motions as run, after scaling",
         columns=(
             Column(head="Motion", align="left", share=1.0),
-            Column(head="Source", align="left", share=3.2),
+            Column(head="Source", align="left", share=3.7),
             *where,
             Column(head="Peak", unit="record, g", share=0.95),
             Column(head="Peak", unit="transv., g", share=0.95),
             Column(head="Peak", unit="vertical, g", share=1.0),
             Column(head="Step", unit="s", share=0.7),
-            Column(head="Duration", unit="s", share=0.9),
-            Column(head="Scaling", align="left", share=1.8),
+            Column(head="Duration", unit="s", share=0.85),
+            Column(head="Scaling", align="left", share=1.5),
             Column(head="Factor", share=0.8),
-            Column(head="Polarity", align="center", share=0.9),
+            Column(head="Polarity", align="center", share=0.85),
         ),
         rows=tuple(
             _motion_row(motion, story, with_place=any(grounds))
