@@ -632,6 +632,22 @@ def test_silence_cannot_be_scaled_to_a_peak(tmp_path):
     assert "Motions!C10: horizontal record is all zeros; a PPA cannot scale it" in problems(path)
 
 
+@pytest.mark.parametrize(
+    ("scaling", "goal"), [("PPA", "a PPA"), ("target spectrum", "a target spectrum")]
+)
+def test_a_part_that_is_silent_cannot_be_scaled_either(tmp_path, scaling, goal):
+    path = make(tmp_path)
+    (path.parent / "records" / "x.csv").write_text("0.1\n" * 100 + "0\n" * 100)
+
+    def change(book):
+        sheet = book["Motions"]
+        sheet["H8"], sheet["I8"], sheet["M8"] = scaling, 1 if scaling == "PPA" else None, 1.5
+
+    assert problems(edit(path, change)) == (
+        f"Motions!C8: horizontal record is all zeros; {goal} cannot scale it",
+    )
+
+
 def test_records_are_looked_at_even_where_their_row_has_other_faults(tmp_path):
     def change(book):
         book["Motions"]["B9"] = None

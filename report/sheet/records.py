@@ -176,10 +176,14 @@ def _processed(
         bare = process_together(raw, replace(processing, highpass_hz=0.0))
     except InputError as error:
         return _faults(index, "record", error)
+    kept = dict(zip(found, done, strict=True))
+    faults = list(_unscalable(index, {"scaling": row.scaling}, kept))
+    if faults:
+        return faults
     has_highpass = row.highpass_hz is not None
     return Prepared(
         files=tuple(_file(row.id, field, getattr(row, field), one) for field, one in found.items()),
-        records=dict(zip(found, done, strict=True)),
+        records=kept,
         unfiltered=dict(zip(found, bare, strict=True)) if has_highpass else {},
     )
 
