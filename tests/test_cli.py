@@ -181,7 +181,7 @@ def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
     job, _ = reported
     document = json.loads((job / "out" / "results.json").read_text())
     runs = [(array, run) for array in document["arrays"] for run in array["runs"]]
-    assert len(runs) == 3 * 7 * 2
+    assert len(runs) == 3 * 7 * 4
     for array, run_ in runs:
         columns = [
             np.loadtxt(

@@ -77,8 +77,9 @@ def test_the_folder_holds_the_motions_and_nothing_else(make):
 
 
 def test_the_workbook_runs_the_records(book, records):
-    for motion, (x, _, z) in zip(book.motions, records, strict=True):
+    for motion, (x, y, z) in zip(book.motions, records, strict=True):
         assert np.array_equal(motion.ax_mps2, x.a_mps2)
+        assert np.array_equal(motion.ay_mps2, y.a_mps2)
         assert np.array_equal(motion.az_mps2, z.a_mps2)
 
 

@@ -94,6 +94,7 @@ def example() -> ProjectInput:
                 {
                     "id": f"RM{number}",
                     "record": f"records/RM{number}-x.csv",
+                    "transverse": f"records/RM{number}-y.csv",
                     "vertical": f"records/RM{number}-z.csv",
                     "source": SOURCE,
                 }
