@@ -17,8 +17,8 @@ import numpy as np
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck, MotionRun, assess
 from report.sheet.schema import ProjectInput
 from solver.methods import METHODS, Method
-from solver.model import Floats, Motion, SlideResult, Status
-from solver.sliding import STANDARD_GRAVITY_MPS2, slide
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, SlideResult, Status
+from solver.sliding import slide
 
 SHIFT = 0.05
 """Share by which the friction coefficient is lowered and raised."""

@@ -1,4 +1,4 @@
-"""The command line; with `motion_cli` and `terminal` the only place that prints and catches.
+"""The command line; `*_cli` and `terminal` beside it alone print and catch as well.
 
 Parses, calls, reports; heavy imports stay inside the commands so that `--help` is quick.
 Exit codes: 0 done, 2 the input is at fault, 1 a defect of ours (with the traceback, or with the
@@ -8,17 +8,15 @@ checks that failed).
 from __future__ import annotations
 
 import datetime as dt
-import json
-import math
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from report.motion_cli import UNITS, motion
+from report.motion_cli import motion
+from report.slide_cli import slide
 from report.terminal import Progress, input_errors
 
 if TYPE_CHECKING:
@@ -39,6 +37,7 @@ def main() -> None:
 
 
 main.add_command(motion)
+main.add_command(slide)
 
 
 @main.command()
@@ -134,81 +133,6 @@ def verify(out: Path, quick: bool, records: Path | None) -> None:
         click.echo(out / name)
     if failed or not found.checks:
         sys.exit(1)
-
-
-@main.command()
-@click.argument("record", type=_SCENE)
-@click.option("--slope-deg", type=float, required=True, help="Roof slope [deg], positive down "
-              "in the direction of positive acceleration.")  # fmt: skip
-@click.option("--mu", type=float, required=True, help="Friction coefficient.")
-@click.option("--ppa-g", type=float, help="Scale to this peak horizontal acceleration [g].")
-@click.option("--factor", type=float, help="Scale by this factor.")
-@click.option("--dt", type=float, help="Time step [s], where the record has no column of times.")
-@click.option("--units", type=click.Choice(UNITS),
-              help="Units of the records, where the files do not say.")  # fmt: skip
-@click.option("--vertical", type=_SCENE, help="Vertical record, positive up.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
-def slide(
-    record: Path,
-    slope_deg: float,
-    mu: float,
-    ppa_g: float | None,
-    factor: float | None,
-    dt: float | None,
-    units: str | None,
-    vertical: Path | None,
-    as_json: bool,
-) -> None:
-    """Slide one block under one RECORD: a quick look, or a step of a script."""
-    if ppa_g is not None and factor is not None:
-        raise click.UsageError("give --ppa-g or --factor, not both")
-    with input_errors(record):
-        found = _slide_record(record, vertical, units or "", dt, slope_deg, mu, ppa_g, factor)
-    if as_json:
-        click.echo(json.dumps({k: None if v != v else v for k, v in found.items()}))
-        return
-    for key, value in found.items():
-        click.echo(f"{key:>14}  {value:.6g}" if isinstance(value, float) else f"{key:>14}  {value}")
-
-
-def _slide_record(
-    path: Path,
-    vertical: Path | None,
-    units: str,
-    dt_s: float | None,
-    slope_deg: float,
-    mu: float,
-    ppa_g: float | None,
-    factor: float | None,
-) -> dict[str, Any]:
-    """Run one block under one record and return the result by name, with the scene."""
-    from solver.formats import read_record
-    from solver.model import InputError
-    from solver.sliding import STANDARD_GRAVITY_MPS2, slide
-
-    step_s = math.nan if dt_s is None else dt_s
-    record = read_record(path, units=units, dt_s=step_s)
-    lift = read_record(vertical, units=units, dt_s=step_s) if vertical else None
-    if lift and lift.dt_s != record.dt_s:
-        raise InputError(
-            f"{lift.name}: time step is {lift.dt_s} s; give {record.dt_s} s as in {record.name}"
-        )
-    peak = float(abs(record.a_mps2).max())
-    if ppa_g is not None and peak == 0.0:
-        raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a PPA")
-    scale = 1.0 if factor is None else factor
-    if ppa_g is not None:
-        scale = ppa_g * STANDARD_GRAVITY_MPS2 / peak
-    result = slide(
-        record.a_mps2,
-        record.dt_s,
-        slope_rad=math.radians(slope_deg),
-        mu=mu,
-        az_mps2=lift.a_mps2 if lift else None,
-        scale=scale,
-    )
-    scene = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": record.dt_s}
-    return scene | asdict(result) | {"outcome": result.status.sentence}
 
 
 # The steps of a report

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.terminal import Progress, input_errors
+from report.terminal import UNITS, Progress, input_errors
 
 if TYPE_CHECKING:
     from report.suite_inputs import Targets
@@ -26,9 +26,6 @@ _FILE = click.Path(path_type=Path)
 # Of the record's peak: what a converted record may lose.
 _KEPT_WITHIN = 1e-9
 _PICTURES = (".svg", ".png")
-
-UNITS = ("g", "m/s2", "cm/s2", "mm/s2", "gal")
-"""Those of `solver.formats.UNIT_CHOICES`, which takes too long to import for `--help`."""
 
 
 @click.group()

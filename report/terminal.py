@@ -14,6 +14,9 @@ from typing import Any
 
 import click
 
+UNITS = ("g", "m/s2", "cm/s2", "mm/s2", "gal")
+"""Those of `solver.formats.UNIT_CHOICES`, which takes too long to import for `--help`."""
+
 _QUIET_SECONDS = 1.0
 
 

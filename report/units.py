@@ -10,8 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
+from solver.model import STANDARD_GRAVITY_MPS2
+
 NEWTONS_PER_POUND = 4.4482216152605
-G_MPS2 = 9.80665
+G_MPS2 = STANDARD_GRAVITY_MPS2
 
 LENGTHS = {"in": 0.0254, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
 """Lengths in m."""

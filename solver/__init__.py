@@ -3,8 +3,20 @@
 Public names are listed here; everything is SI. Imports no files, pages or pictures.
 """
 
+from solver.ladder import Rung, Settings, Solution, solve
 from solver.methods import METHODS
-from solver.model import Event, EventKind, InputError, Motion, SlideHistory, SlideResult, Status
+from solver.model import (
+    Event,
+    EventKind,
+    Friction,
+    InputError,
+    Motion,
+    Scene,
+    SlideHistory,
+    SlideResult,
+    Status,
+    coulomb,
+)
 from solver.sliding import slide, slide_history
 from solver.studies import Sweep, sweep
 
@@ -12,13 +24,20 @@ __all__ = [
     "METHODS",
     "Event",
     "EventKind",
+    "Friction",
     "InputError",
     "Motion",
+    "Rung",
+    "Scene",
+    "Settings",
     "SlideHistory",
     "SlideResult",
+    "Solution",
     "Status",
     "Sweep",
+    "coulomb",
     "slide",
     "slide_history",
+    "solve",
     "sweep",
 ]

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+STANDARD_GRAVITY_MPS2 = 9.80665
+
 
 class InputError(ValueError):
     """What a user can fix: every problem found, each with its place, what was found, what would do.
@@ -71,6 +73,9 @@ class SlideResult:
         u at the end of the record [m], positive down the slope for a positive slope.
     down_m, up_m : float
         Largest excursion in positive and in negative u [m], both >= 0.
+    across_m, residual_across_m : float
+        Largest excursion across the slope, either way, and where it ends, positive to the left
+        of down the slope [m]; 0 in one axis. With two axes the PRD is the largest resultant.
     t_prd_s : float
         Time of the PRD [s]; 0 when nothing moves.
     n_stops : int
@@ -88,6 +93,8 @@ class SlideResult:
     residual_m: float
     down_m: float
     up_m: float
+    across_m: float
+    residual_across_m: float
     t_prd_s: float
     n_stops: int
     n_min_g: float
@@ -103,7 +110,7 @@ class EventKind(StrEnum):
 
 
 class Event(NamedTuple):
-    """Slip begins or ends: time [s], kind, horizontal relative displacement [m].
+    """Slip begins or ends: time [s], kind, displacement down and across the slope [m].
 
     A tuple, because a run has hundreds of them.
     """
@@ -111,6 +118,7 @@ class Event(NamedTuple):
     t_s: float
     kind: EventKind
     u_m: float
+    across_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,6 +130,8 @@ class SlideHistory:
     t_s, u_m, v_mps : array, shape (n,)
         Time [s], horizontal relative displacement [m] and velocity [m/s]; all NaN
         where the result gives none.
+    across_m, across_mps : array, shape (n,) or (0,)
+        The same across the slope; empty in one axis.
     events : tuple of Event
     result : SlideResult
     """
@@ -129,13 +139,85 @@ class SlideHistory:
     t_s: Floats
     u_m: Floats
     v_mps: Floats
+    across_m: Floats
+    across_mps: Floats
     events: tuple[Event, ...]
     result: SlideResult
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Friction:
+    """Coefficient of friction by speed w: mu_fast - (mu_fast - mu_slow) exp(-rate w).
+
+    Constantinou, Mokha and Reinhorn, J. Struct. Eng. 116 (1990) 455-474, Eq. 2. `mu_static` holds
+    the block until it slips and whenever it has stopped.
+
+    Attributes
+    ----------
+    mu_slow, mu_fast : float
+        At a crawl and at great speed, >= 0.
+    rate_s_per_m : float
+        >= 0 [s/m].
+    mu_static : float
+        mu_slow or more.
+    """
+
+    mu_slow: float
+    mu_fast: float
+    rate_s_per_m: float
+    mu_static: float
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it is Coulomb's: one coefficient for all."""
+        turns = self.mu_fast != self.mu_slow and self.rate_s_per_m > 0.0
+        return not turns and self.mu_static == self.mu_slow
+
+    @property
+    def is_monotone(self) -> bool:
+        """Whether it never falls as the speed grows, from rest on: then errors cannot grow."""
+        return self.mu_fast >= self.mu_slow and self.mu_static == self.mu_slow
+
+
+def coulomb(mu: float) -> Friction:
+    """Return friction with one coefficient."""
+    return Friction(mu_slow=mu, mu_fast=mu, rate_s_per_m=0.0, mu_static=mu)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """One block under one motion, checked.
+
+    Attributes
+    ----------
+    ax_mps2, ay_mps2 : array, shape (n,)
+        Horizontal roof acceleration, in the vertical plane of the slope and across it [m/s2];
+        read-only, as all records.
+    az_mps2 : array, shape (n,) or (0,)
+        Vertical, positive up [m/s2]; empty for none.
+    dt_s, slope_rad, g_mps2 : float
+        As of `solver.slide`.
+    scale : float
+        Factor for all components.
+    friction : Friction
+    """
+
+    ax_mps2: Floats
+    ay_mps2: Floats
+    az_mps2: Floats
+    dt_s: float
+    slope_rad: float
+    friction: Friction
+    scale: float
+    g_mps2: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Heading:
     """Which horizontal component of a motion runs along the slope, and in which sense.
+
+    The other one runs across it as recorded: its sense mirrors the motion of the block and
+    changes no displacement.
 
     Attributes
     ----------
@@ -205,3 +287,21 @@ class Motion:
     def along_mps2(self, heading: Heading) -> Floats:
         """Return the acceleration along the slope of a run, unscaled, shape (n,) [m/s2]."""
         return (self.ay_mps2 if heading.swapped else self.ax_mps2) * heading.sign
+
+    def scene(self, heading: Heading, *, slope_rad: float, friction: Friction) -> Scene:
+        """Return a run of an array: a slope, its friction, and this motion with a heading."""
+        along, across = self.ax_mps2, self.ay_mps2
+        if heading.swapped:
+            along, across = across, along
+        along = along * heading.sign
+        along.setflags(write=False)
+        return Scene(
+            ax_mps2=along,
+            ay_mps2=across,
+            az_mps2=self.az_mps2,
+            dt_s=self.dt_s,
+            slope_rad=slope_rad,
+            friction=friction,
+            scale=self.scale,
+            g_mps2=STANDARD_GRAVITY_MPS2,
+        )

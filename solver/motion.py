@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver import kernels
-from solver.model import Floats, InputError
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 
-UNITS = {"g": 9.80665, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
+UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 """Acceleration units and their size in m/s2."""
 
 DECIMALS = {"g": 5, "m/s2": 4, "cm/s2": 2, "mm/s2": 1}

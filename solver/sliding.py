@@ -1,42 +1,45 @@
 """Runs one block under one motion: checks the input once, calls a kernel, packs the result.
 
-Computes no physics itself (see `solver.kernels`) and knows no code rules (`solver.provisions`).
+Computes no physics itself (see `solver.kernels`, and `solver.plane` for two axes), knows no code
+rules (`solver.provisions`) and chooses no model (`solver.ladder`). Read `slide` first.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from numbers import Real
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver import kernels
+from solver import kernels, plane
 from solver.methods import (
     METHODS,
     NO_RECORD,
     Method,
     Outcome,
     Parameters,
-    Scene,
+    Prepared,
     exact_events,
     least_normal,
 )
 from solver.model import (
+    STANDARD_GRAVITY_MPS2,
     Event,
     EventKind,
     Floats,
     Heading,
     InputError,
     Motion,
+    Scene,
     SlideHistory,
     SlideResult,
     Status,
+    coulomb,
 )
-
-STANDARD_GRAVITY_MPS2 = 9.80665
+from solver.plane import PlaneOutcome
 
 _NO_HISTORY = np.empty((2, 0))
 
@@ -58,6 +61,7 @@ def slide(
     *,
     slope_rad: float,
     mu: float,
+    ay_mps2: ArrayLike | None = None,
     az_mps2: ArrayLike | None = None,
     scale: float = 1.0,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
@@ -76,10 +80,13 @@ def slide(
         Roof slope [rad], positive down in the direction of positive ax; |slope| < pi/2.
     mu : float
         Friction coefficient, static and kinetic, >= 0.
+    ay_mps2 : array_like, shape (n,), optional
+        Horizontal roof acceleration across the slope, positive to the left of down the slope
+        [m/s2]. With it the block slides in two axes, followed to a `tolerance`.
     az_mps2 : array_like, shape (n,), optional
         Vertical roof acceleration, positive up [m/s2].
     scale : float
-        Factor for both components.
+        Factor for all components.
     g_mps2 : float
         Acceleration of gravity [m/s2], > 0.
     method : str
@@ -90,7 +97,7 @@ def slide(
     **parameters : float
         Those of the method: `substeps` in each sampling interval, `stiffness_per_m` of a link for
         each unit of the block's weight [1/m], `velocity_mps` and relative `tolerance` of the
-        regularised friction.
+        regularised friction; in two axes `tolerance`, of the PRD.
 
     Returns
     -------
@@ -109,8 +116,11 @@ def slide(
     >>> slide(pulse, 0.1, slope_rad=0.0, mu=0.2).status
     <Status.OK: 'ok'>
     """
-    scene = _checked(ax_mps2, dt_s, slope_rad, mu, az_mps2, scale, g_mps2, method, parameters)
-    return _run(METHODS[method], parameters, scene, _NO_HISTORY)
+    records = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
+    scene = _checked(records, dt_s, slope_rad, mu, scale, g_mps2, method, parameters)
+    if ay_mps2 is not None:
+        return in_plane(scene, **parameters)[0]
+    return _run(METHODS[method], parameters, _prepared(scene), _NO_HISTORY)
 
 
 def slide_history(
@@ -119,6 +129,7 @@ def slide_history(
     *,
     slope_rad: float,
     mu: float,
+    ay_mps2: ArrayLike | None = None,
     az_mps2: ArrayLike | None = None,
     scale: float = 1.0,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
@@ -130,17 +141,46 @@ def slide_history(
     The method `exact` alone gives events: the slips of the others begin and end somewhere inside
     a step.
     """
-    scene = _checked(ax_mps2, dt_s, slope_rad, mu, az_mps2, scale, g_mps2, method, parameters)
-    samples = np.full((2, scene.ax.size), np.nan)
-    result = _run(METHODS[method], parameters, scene, samples)
-    events = _events(scene, result) if method == "exact" else ()
-    return SlideHistory(
-        t_s=np.arange(scene.ax.size, dtype=np.float64) * scene.dt,
-        u_m=samples[0],
-        v_mps=samples[1],
-        events=events,
-        result=result,
-    )
+    records = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
+    scene = _checked(records, dt_s, slope_rad, mu, scale, g_mps2, method, parameters)
+    if ay_mps2 is not None:
+        return _plane_history(scene, **parameters)
+    return _history(METHODS[method], parameters, scene)
+
+
+def checked(
+    ax_mps2: ArrayLike,
+    dt_s: float,
+    *,
+    slope_rad: float,
+    mu: float,
+    ay_mps2: ArrayLike | None = None,
+    az_mps2: ArrayLike | None = None,
+    scale: float = 1.0,
+    g_mps2: float = STANDARD_GRAVITY_MPS2,
+) -> Scene:
+    """Return a scene of arguments as in `slide`, or raise with every fault of them."""
+    records = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
+    return _checked(records, dt_s, slope_rad, mu, scale, g_mps2, "exact", {})
+
+
+def along(scene: Scene) -> SlideResult:
+    """Slide a checked scene along the slope, exactly: what shakes it across is left out."""
+    return _run(METHODS["exact"], {}, _prepared(scene), _NO_HISTORY)
+
+
+def in_plane(scene: Scene, tolerance: float = plane.DEFAULT_TOLERANCE) -> tuple[SlideResult, float]:
+    """Slide a checked scene in two axes; return the result with a bound of its error [m]."""
+    n_min_g, t_uplift = least_normal(_prepared(scene))
+    if n_min_g < 0.0:
+        return _without_displacement(Status.UPLIFT, n_min_g, t_uplift), math.nan
+    found = plane.follow(_with_second_axis(scene), tolerance)
+    return _plane_result(found, n_min_g), found.error_m
+
+
+def along_history(scene: Scene) -> SlideHistory:
+    """Return the history of what `along` runs."""
+    return _history(METHODS["exact"], {}, scene)
 
 
 def slide_motion(motion: Motion, *, slope_rad: float, mu: float, heading: Heading) -> SlideResult:
@@ -148,26 +188,22 @@ def slide_motion(motion: Motion, *, slope_rad: float, mu: float, heading: Headin
 
     Reversing the motion is the same as reversing the slope (the paper runs both slope signs).
     """
-    return slide(**_arguments(motion, heading), slope_rad=slope_rad, mu=mu)
+    return along(motion.scene(heading, slope_rad=slope_rad, friction=coulomb(mu)))
 
 
 def slide_motion_history(
     motion: Motion, *, slope_rad: float, mu: float, heading: Heading
 ) -> SlideHistory:
     """Return the history of what `slide_motion` runs."""
-    return slide_history(**_arguments(motion, heading), slope_rad=slope_rad, mu=mu)
+    return along_history(motion.scene(heading, slope_rad=slope_rad, friction=coulomb(mu)))
 
 
-def _arguments(motion: Motion, heading: Heading) -> dict[str, Any]:
-    return {
-        "ax_mps2": motion.along_mps2(heading),
-        "dt_s": motion.dt_s,
-        "az_mps2": motion.az_mps2 if motion.has_vertical else None,
-        "scale": motion.scale,
-    }
+def in_plane_history(scene: Scene, tolerance: float = plane.DEFAULT_TOLERANCE) -> SlideHistory:
+    """Return the history of what `in_plane` runs."""
+    return _plane_history(scene, tolerance)
 
 
-def _run(method: Method, parameters: Parameters, scene: Scene, samples: Floats) -> SlideResult:
+def _run(method: Method, parameters: Parameters, scene: Prepared, samples: Floats) -> SlideResult:
     """Run a scene; `samples` of shape (2, n) is filled with u and its rate, (2, 0) with nothing."""
     n_min_g, t_uplift = least_normal(scene)
     if n_min_g < 0.0:
@@ -180,7 +216,7 @@ def _run(method: Method, parameters: Parameters, scene: Scene, samples: Floats) 
     return _result(found, scene.cs, n_min_g)
 
 
-def _events(scene: Scene, result: SlideResult) -> tuple[Event, ...]:
+def _events(scene: Prepared, result: SlideResult) -> tuple[Event, ...]:
     """Return the events of the exact method: at most a slip before each stop, and one more."""
     if math.isnan(result.prd_m):
         return ()
@@ -201,6 +237,8 @@ def _result(found: Outcome, cs: float, n_min_g: float) -> SlideResult:
         residual_m=cs * found.s_end,
         down_m=cs * found.s_max,
         up_m=cs * abs(found.s_min),
+        across_m=0.0,
+        residual_across_m=0.0,
         t_prd_s=found.t_peak,
         n_stops=found.n_stops,
         n_min_g=n_min_g,
@@ -216,6 +254,8 @@ def _without_displacement(status: Status, n_min_g: float, t_uplift: float) -> Sl
         residual_m=math.nan,
         down_m=math.nan,
         up_m=math.nan,
+        across_m=math.nan,
+        residual_across_m=math.nan,
         t_prd_s=math.nan,
         n_stops=0,
         n_min_g=n_min_g,
@@ -224,12 +264,94 @@ def _without_displacement(status: Status, n_min_g: float, t_uplift: float) -> Sl
     )
 
 
+def _plane_result(found: PlaneOutcome, n_min_g: float) -> SlideResult:
+    speed = math.hypot(*found.end_mps)
+    return SlideResult(
+        status=Status.OK if speed == 0.0 else Status.SLIDING_AT_END,
+        prd_m=found.prd_m,
+        residual_m=found.end_m[0],
+        down_m=found.down_m,
+        up_m=found.up_m,
+        across_m=max(found.left_m, found.right_m),
+        residual_across_m=found.end_m[1],
+        t_prd_s=found.t_prd_s,
+        n_stops=found.n_stops,
+        n_min_g=n_min_g,
+        t_uplift_s=math.nan,
+        end_speed_mps=speed,
+    )
+
+
+def _history(method: Method, parameters: Parameters, scene: Scene) -> SlideHistory:
+    samples = np.full((2, scene.ax_mps2.size), np.nan)
+    prepared = _prepared(scene)
+    result = _run(method, parameters, prepared, samples)
+    return SlideHistory(
+        t_s=_times(scene),
+        u_m=samples[0],
+        v_mps=samples[1],
+        across_m=NO_RECORD,
+        across_mps=NO_RECORD,
+        events=_events(prepared, result) if method.name == "exact" else (),
+        result=result,
+    )
+
+
+def _plane_history(scene: Scene, tolerance: float = plane.DEFAULT_TOLERANCE) -> SlideHistory:
+    n_min_g, t_uplift = least_normal(_prepared(scene))
+    samples = np.full((4, scene.ax_mps2.size), np.nan)
+    events: tuple[Event, ...] = ()
+    if n_min_g < 0.0:
+        result = _without_displacement(Status.UPLIFT, n_min_g, t_uplift)
+    else:
+        found = plane.follow(_with_second_axis(scene), tolerance)
+        samples, seen = plane.history(_with_second_axis(scene), found)
+        events = tuple(Event(t, kind, x, y) for t, kind, x, y in seen)
+        result = _plane_result(found, n_min_g)
+    return SlideHistory(
+        t_s=_times(scene),
+        u_m=samples[0],
+        v_mps=samples[2],
+        across_m=samples[1],
+        across_mps=samples[3],
+        events=events,
+        result=result,
+    )
+
+
+def _times(scene: Scene) -> Floats:
+    return np.arange(scene.ax_mps2.size, dtype=np.float64) * scene.dt_s
+
+
+def _with_second_axis(scene: Scene) -> Scene:
+    """Return the scene with a second component, zero where it has none."""
+    if scene.ay_mps2.size:
+        return scene
+    zero = np.zeros_like(scene.ax_mps2)
+    zero.setflags(write=False)
+    return replace(scene, ay_mps2=zero)
+
+
+def _prepared(scene: Scene) -> Prepared:
+    """Return a scene in the letters of the kernels of one axis."""
+    return Prepared(
+        ax=scene.ax_mps2,
+        x=kernels.bounds(scene.ax_mps2),
+        az=scene.az_mps2,
+        dt=scene.dt_s,
+        sn=math.sin(scene.slope_rad),
+        cs=math.cos(scene.slope_rad),
+        mu=scene.friction.mu_slow,
+        g=scene.g_mps2,
+        scale=scene.scale,
+    )
+
+
 def _checked(
-    ax_mps2: ArrayLike,
+    records: Mapping[str, ArrayLike | None],
     dt_s: float,
     slope_rad: float,
     mu: float,
-    az_mps2: ArrayLike | None,
     scale: float,
     g_mps2: float,
     method: str,
@@ -237,10 +359,7 @@ def _checked(
 ) -> Scene:
     """Return the scene with read-only contiguous records, or raise with every fault."""
     problems: list[str] = []
-    ax = checked_record("ax_mps2", ax_mps2, problems)
-    az = NO_RECORD if az_mps2 is None else checked_record("az_mps2", az_mps2, problems)
-    if az_mps2 is not None and az.shape != ax.shape:
-        problems.append(f"az_mps2 has shape {az.shape}; give the shape of ax_mps2, {ax.shape}")
+    ax, ay, az = _checked_records(records, problems)
     if not (math.isfinite(dt_s) and dt_s > 0.0):
         problems.append(f"dt_s is {dt_s!r}; give a number of seconds above 0")
     if not abs(slope_rad) < math.pi / 2:
@@ -251,23 +370,52 @@ def _checked(
         problems.append(f"scale is {scale!r}; give a finite factor")
     if not (math.isfinite(g_mps2) and g_mps2 > 0.0):
         problems.append(f"g_mps2 is {g_mps2!r}; give a number of m/s2 above 0")
-    if method not in METHODS:
+    if records["ay_mps2"] is not None:
+        problems += _plane_faults(method, parameters)
+    elif method not in METHODS:
         problems.append(f"method is {method!r}; give one of {', '.join(METHODS)}")
     else:
-        problems += _faults(METHODS[method], parameters, az_mps2 is not None)
+        problems += _faults(METHODS[method], parameters, records["az_mps2"] is not None)
     if problems:
         raise InputError(problems)
     return Scene(
-        ax=ax,
-        x=kernels.bounds(ax),
-        az=az,
-        dt=float(dt_s),
-        sn=math.sin(slope_rad),
-        cs=math.cos(slope_rad),
-        mu=float(mu),
-        g=float(g_mps2),
+        ax_mps2=ax,
+        ay_mps2=ay,
+        az_mps2=az,
+        dt_s=float(dt_s),
+        slope_rad=float(slope_rad),
+        friction=coulomb(float(mu)),
         scale=float(scale),
+        g_mps2=float(g_mps2),
     )
+
+
+def _checked_records(records: Mapping[str, ArrayLike | None], problems: list[str]) -> list[Floats]:
+    found = {
+        name: NO_RECORD if values is None else checked_record(name, values, problems)
+        for name, values in records.items()
+    }
+    shape = found["ax_mps2"].shape
+    problems += [
+        f"{name} has shape {found[name].shape}; give the shape of ax_mps2, {shape}"
+        for name, values in records.items()
+        if values is not None and found[name].shape != shape
+    ]
+    return list(found.values())
+
+
+def _plane_faults(method: str, parameters: Parameters) -> list[str]:
+    """Return what two axes do not take."""
+    found = []
+    if method != "exact":
+        found.append(f"method is {method!r}; two axes take 'exact' alone, or leave ay_mps2 out")
+    low, high = plane.TOLERANCES
+    for name, value in parameters.items():
+        if name != "tolerance":
+            found.append(f"two axes have no parameter {name!r}; they have tolerance")
+        elif not (isinstance(value, Real) and low <= float(value) <= high):
+            found.append(f"tolerance is {value!r}; give a number from {low:g} to {high:g}")
+    return found
 
 
 def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list[str]:

@@ -15,8 +15,8 @@ from numba import get_num_threads
 from numpy.typing import ArrayLike, NDArray
 
 from solver import kernels
-from solver.model import Floats, InputError, Status
-from solver.sliding import STANDARD_GRAVITY_MPS2, checked_record
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Status
+from solver.sliding import checked_record
 
 STATUSES = (Status.OK, Status.SLIDING_AT_END, Status.UPLIFT)
 """What the numbers in `Sweep.status` stand for."""

@@ -1,7 +1,6 @@
 """The commands as a person or a script calls them."""
 
 import json
-import math
 import shutil
 import subprocess
 import sys
@@ -13,7 +12,6 @@ from click.testing import CliRunner
 
 import report.package
 from report.cli import main
-from solver.formats import read_record
 from solver.sliding import slide
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -64,51 +62,6 @@ def test_check_of_a_blank_workbook_names_every_cell_and_exits_2(tmp_path):
 def test_check_of_what_is_not_there_exits_2(tmp_path):
     assert run("check", tmp_path / "nothing").exit_code == 2
     assert run("check", Path(RECORD)).exit_code == 2
-
-
-def test_slide_gives_what_the_solver_gives():
-    done = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--json")
-    assert done.exit_code == 0
-    record = read_record(Path(RECORD), units="g")
-    expected = slide(record.a_mps2, record.dt_s, slope_rad=math.radians(2), mu=0.5)
-    found = json.loads(done.output)
-    assert found["prd_m"] == expected.prd_m
-    assert found["residual_m"] == expected.residual_m
-    assert found["t_uplift_s"] is None
-    assert found["dt_s"] == 0.005
-
-
-def test_slide_scales_to_a_ppa_and_by_a_factor():
-    peak = np.abs(read_record(Path(RECORD), units="g").a_mps2).max() / 9.80665
-    one = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--ppa-g", 2 * peak, "--json")
-    two = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--factor", 2, "--json")
-    assert json.loads(one.output)["prd_m"] == pytest.approx(json.loads(two.output)["prd_m"])
-
-
-def test_slide_takes_a_vertical_record():
-    plain = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5)
-    lifted = run(
-        "slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--vertical", RECORD.replace("-x", "-z")
-    )
-    assert (plain.exit_code, lifted.exit_code) == (0, 0)
-    assert "prd_m" in plain.output
-    assert plain.output != lifted.output
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--slope-deg", "95", "--mu", "0.5"], "give an angle between"),
-        (["--slope-deg", "2", "--mu", "-1"], "give a friction coefficient of 0 or more"),
-        (["--slope-deg", "2", "--mu", "0.5", "--dt", "0.01"], "0.01"),
-        (["--slope-deg", "2", "--mu", "0.5", "--ppa-g", "1", "--factor", "1"], "not both"),
-        (["--slope-deg", "2"], "--mu"),
-    ],
-)
-def test_slide_says_what_is_wrong_and_exits_2(arguments, message):
-    done = run("slide", RECORD, *arguments)
-    assert done.exit_code == 2
-    assert message in done.output
 
 
 def test_a_defect_of_ours_exits_1_with_the_traceback(tmp_path, monkeypatch):

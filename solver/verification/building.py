@@ -15,10 +15,10 @@ import numpy as np
 
 from solver.building import RoofMotion, building_of_modes, building_of_periods, to_roof
 from solver.formats import read_record
-from solver.model import Floats, InputError
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 from solver.motion import response_spectrum
 from solver.periods import FOOT_M, approximate_period_s
-from solver.sliding import STANDARD_GRAVITY_MPS2, slide
+from solver.sliding import slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
 from solver.verification.identification import Identified, identify
 

@@ -13,8 +13,9 @@ import numpy as np
 
 from solver import problems
 from solver.methods import METHODS, Method, link_frequency
+from solver.model import STANDARD_GRAVITY_MPS2
 from solver.motion import Record
-from solver.sliding import STANDARD_GRAVITY_MPS2, slide, slide_history
+from solver.sliding import slide, slide_history
 from solver.verification import reference
 from solver.verification.checks import ROUNDING, G, check, trapezoid
 from solver.verification.evidence import CheckRow

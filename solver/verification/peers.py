@@ -16,9 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.model import Floats
+from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.motion import Record
-from solver.sliding import STANDARD_GRAVITY_MPS2
 from solver.verification.evidence import PeerPoint, percent_off
 from solver.verification.scenes import CASES, Case, scale_to
 from solver.verification.workprecision import run

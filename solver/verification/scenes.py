@@ -12,10 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from solver import kernels
-from solver.methods import NO_RECORD, Scene
-from solver.model import Floats
+from solver.methods import NO_RECORD, Prepared
+from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.motion import Record
-from solver.sliding import STANDARD_GRAVITY_MPS2
 from solver.synthesis import Target, make_suite
 
 SEED = 2003
@@ -74,9 +73,9 @@ def scale_to(record: Record, ppa_g: float) -> float:
     return ppa_g * STANDARD_GRAVITY_MPS2 / float(np.abs(record.a_mps2).max())
 
 
-def prepared(record: Record, case: Case) -> Scene:
+def prepared(record: Record, case: Case) -> Prepared:
     """Return what `Method.follow` takes, so that nothing but the method is timed."""
-    return Scene(
+    return Prepared(
         ax=record.a_mps2,
         x=kernels.bounds(record.a_mps2),
         az=NO_RECORD,

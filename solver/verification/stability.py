@@ -12,9 +12,8 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 
 from solver.methods import METHODS, link_frequency
-from solver.model import Floats
+from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.motion import Record
-from solver.sliding import STANDARD_GRAVITY_MPS2
 from solver.studies import sweep
 from solver.verification.evidence import Conditioning, StabilityMap, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable, scale_to, shortened

@@ -1,0 +1,297 @@
+"""Chooses the least model that answers a scene: one array under one motion.
+
+Follows nothing itself (`solver.sliding` and `solver.plane` do) and knows no code rules.
+Read `Rung`, then `solve`.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+import numpy as np
+
+from solver import plane, sliding
+from solver.methods import NO_RECORD
+from solver.model import Floats, InputError, Scene, SlideHistory, SlideResult, Status, coulomb
+
+
+class Rung(IntEnum):
+    """The models of a scene, from the least to the fullest."""
+
+    NO_SLIP = 0
+    ONE_AXIS = 1
+    ONE_AXIS_VERTICAL = 2
+    TWO_AXES = 3
+    SPEED_FRICTION = 4
+
+    @property
+    def title(self) -> str:
+        """The model in words."""
+        return _TITLES[self]
+
+
+_TITLES = {
+    Rung.NO_SLIP: "no slip",
+    Rung.ONE_AXIS: "one axis",
+    Rung.ONE_AXIS_VERTICAL: "one axis with vertical",
+    Rung.TWO_AXES: "two axes with vertical",
+    Rung.SPEED_FRICTION: "two axes, friction by speed",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """How to choose.
+
+    Attributes
+    ----------
+    matters_m, matters_share : float
+        A component whose effect on the PRD is below the first [m] or the second, of the PRD, is
+        not modelled.
+    tolerance : float
+        Of two axes and of friction by speed, relative to the PRD (`plane.TOLERANCES`).
+    forced : Rung or None
+        This rung and no other.
+    """
+
+    matters_m: float = 1e-3
+    matters_share: float = 0.005
+    tolerance: float = plane.DEFAULT_TOLERANCE
+    forced: Rung | None = None
+
+    def bound_m(self, prd_m: float) -> float:
+        """Return the effect on a PRD below which nothing more is modelled [m]."""
+        return max(self.matters_m, self.matters_share * prd_m)
+
+
+DEFAULT = Settings()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Solution:
+    """A scene's result, the model that gave it, and what a fuller one would change.
+
+    Attributes
+    ----------
+    rung : Rung
+    reason : str
+        Why this rung, in a clause.
+    result : SlideResult
+    next_rung : Rung
+        The first one above that was left out; the rung itself where there is none.
+    next_effect_m : float
+        What that would change in the PRD [m]: exact for the vertical, else an estimate; NaN where
+        the motion or the test report has nothing to tell it from.
+    error_m : float
+        Bound of the error of the PRD against the rung's exact solution [m]; 0 where the rung is
+        followed to rounding, NaN where there is no displacement.
+    friction_demand : float
+        Largest shear over normal force of a block that is held: it slips where this is above the
+        friction coefficient; inf where the normal force vanishes.
+    seconds : float
+        What choosing and running took.
+    """
+
+    rung: Rung
+    reason: str
+    result: SlideResult
+    next_rung: Rung
+    next_effect_m: float
+    error_m: float
+    friction_demand: float
+    seconds: float = math.nan
+
+
+def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
+    """Answer a scene with the least model that does.
+
+    Climbs only while the next rung can matter. A block that is never pushed over is not run. The
+    vertical is left out where the exact runs with and without it agree to `Settings.bound_m`; the
+    second axis where its estimate (`second_axis_effect`) is below that; friction by speed is
+    modelled where the scene's friction depends on it. Where the normal force falls below zero no
+    rung gives a displacement, a forced one included.
+
+    Raises
+    ------
+    InputError
+        Where a rung is forced that the scene does not allow.
+    """
+    started = time.perf_counter()
+    demand = friction_demand(scene)
+    if math.isinf(demand) and sliding.along(scene).status is Status.UPLIFT:
+        found = _lifted(scene)
+    elif settings.forced is None:
+        found = _climbed(scene, settings, demand)
+    else:
+        found = _forced(scene, settings, settings.forced, demand)
+    return replace(found, seconds=time.perf_counter() - started)
+
+
+def history(scene: Scene, found: Solution, settings: Settings = DEFAULT) -> SlideHistory:
+    """Return the motion at the samples of a scene that was solved, by the same rung."""
+    run = _run_as(scene, found.rung)
+    if found.rung >= Rung.TWO_AXES:
+        return sliding.in_plane_history(run, settings.tolerance)
+    return sliding.along_history(run)
+
+
+def friction_demand(scene: Scene) -> float:
+    """Return the largest |G| / N at the samples; between them it is less, |G| being convex."""
+    sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
+    ax, ay, az = (_or_zero(a) * scene.scale for a in (scene.ax_mps2, scene.ay_mps2, scene.az_mps2))
+    normal = (scene.g_mps2 + az) * cs + ax * sn
+    if np.min(normal) <= 0.0:
+        return math.inf
+    return float(np.max(np.hypot((scene.g_mps2 + az) * sn - ax * cs, ay) / normal))
+
+
+def second_axis_effect(scene: Scene, found: SlideResult) -> float:
+    """Estimate what a second axis would change in the PRD of one axis [m].
+
+    Across the slope the block needs a share p = max |ay| / (mu N) of its friction at most, N the
+    least normal force: sqrt(1 - p^2) of it is left along the slope. Sliding, it is carried across
+    by about p times its way, which makes the resultant longer by sqrt(1 + p^2). inf where the
+    second component could move the block by itself.
+    """
+    mu, push = scene.friction.mu_slow, float(np.abs(_or_zero(scene.ay_mps2)).max())
+    least_normal = found.n_min_g * scene.g_mps2
+    if push == 0.0:
+        return 0.0
+    share = push * abs(scene.scale) / (mu * least_normal) if mu * least_normal > 0.0 else math.inf
+    if not share < 1.0:
+        return math.inf
+    weaker = sliding.along(replace(scene, friction=coulomb(mu * math.sqrt(1.0 - share**2))))
+    longer = (math.hypot(1.0, share) - 1.0) * max(weaker.prd_m, found.prd_m)
+    return abs(weaker.prd_m - found.prd_m) + longer
+
+
+def vertical_effect(scene: Scene, found: SlideResult) -> float:
+    """Return what the vertical changes in the PRD of one axis [m], exactly; 0 without one."""
+    if not scene.az_mps2.size:
+        return 0.0
+    return abs(sliding.along(_level(scene)).prd_m - found.prd_m)
+
+
+def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
+    if demand <= scene.friction.mu_static:
+        return _still(scene, demand)
+    if not scene.friction.is_constant:
+        why = "the friction coefficient is given by speed"
+        return _in_plane(scene, settings, Rung.SPEED_FRICTION, why, demand)
+    found = sliding.along(scene)
+    across, bound = second_axis_effect(scene, found), settings.bound_m(found.prd_m)
+    if across > bound:
+        why = "the second component could move the array by itself"
+        if math.isfinite(across):
+            why = f"the second component may change the PRD by {_mm(across)}, over {_mm(bound)}"
+        return _in_plane(scene, settings, Rung.TWO_AXES, why, demand)
+    lift = vertical_effect(scene, found)
+    if lift > bound:
+        why = f"the vertical changes the PRD by {_mm(lift)}, over {_mm(bound)}"
+        return _along(scene, Rung.ONE_AXIS_VERTICAL, found, why, demand)
+    why = f"nothing more changes the PRD by over {_mm(bound)}"
+    return _along(scene, Rung.ONE_AXIS, sliding.along(_level(scene)), why, demand)
+
+
+def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solution:
+    hold, why = scene.friction.mu_static, "asked for"
+    if rung is Rung.NO_SLIP and demand > hold:
+        raise InputError(
+            f"no slip is asked for, but the friction demand is {demand:.3g} and the coefficient "
+            f"{hold:.3g}; ask for a fuller model"
+        )
+    if rung is Rung.NO_SLIP:
+        return _still(scene, demand)
+    if rung >= Rung.TWO_AXES:
+        return _in_plane(scene, settings, rung, why, demand)
+    return _along(scene, rung, sliding.along(_run_as(scene, rung)), why, demand)
+
+
+def _lifted(scene: Scene) -> Solution:
+    rung = Rung.ONE_AXIS_VERTICAL if scene.az_mps2.size else Rung.ONE_AXIS
+    return Solution(
+        rung=rung,
+        reason="the normal force falls below zero: no model goes on from there",
+        result=sliding.along(scene),
+        next_rung=rung,
+        next_effect_m=math.nan,
+        error_m=math.nan,
+        friction_demand=math.inf,
+    )
+
+
+def _still(scene: Scene, demand: float) -> Solution:
+    hold = scene.friction.mu_static
+    return Solution(
+        rung=Rung.NO_SLIP,
+        reason=f"the friction demand, {demand:.2f}, is below the coefficient, {hold:.2f}",
+        result=sliding.along(_run_as(scene, Rung.NO_SLIP)),
+        next_rung=Rung.NO_SLIP,
+        next_effect_m=0.0,
+        error_m=0.0,
+        friction_demand=demand,
+    )
+
+
+def _along(scene: Scene, rung: Rung, found: SlideResult, why: str, demand: float) -> Solution:
+    """Return what was found in one axis, with the effect of what was left out first."""
+    following, effect = rung, math.nan
+    if rung is Rung.ONE_AXIS and scene.az_mps2.size:
+        following, effect = Rung.ONE_AXIS_VERTICAL, vertical_effect(scene, sliding.along(scene))
+    elif scene.ay_mps2.size:
+        following, effect = Rung.TWO_AXES, second_axis_effect(scene, found)
+    return Solution(
+        rung=rung,
+        reason=why,
+        result=found,
+        next_rung=following,
+        next_effect_m=effect,
+        error_m=0.0,
+        friction_demand=demand,
+    )
+
+
+def _in_plane(scene: Scene, settings: Settings, rung: Rung, why: str, demand: float) -> Solution:
+    found, error = sliding.in_plane(_run_as(scene, rung), settings.tolerance)
+    following, effect = rung, math.nan
+    if not scene.friction.is_constant and rung is Rung.TWO_AXES:
+        fuller, _ = sliding.in_plane(scene, settings.tolerance)
+        following, effect = Rung.SPEED_FRICTION, abs(fuller.prd_m - found.prd_m)
+    return Solution(
+        rung=rung,
+        reason=why,
+        result=found,
+        next_rung=following,
+        next_effect_m=effect,
+        error_m=error,
+        friction_demand=demand,
+    )
+
+
+def _run_as(scene: Scene, rung: Rung) -> Scene:
+    """Return of a scene what a rung models."""
+    if rung is Rung.NO_SLIP:
+        return replace(scene, friction=coulomb(scene.friction.mu_static))
+    if rung is Rung.ONE_AXIS:
+        return _level(scene)
+    if rung is Rung.TWO_AXES:
+        return replace(scene, friction=coulomb(scene.friction.mu_slow))
+    return scene
+
+
+def _level(scene: Scene) -> Scene:
+    return replace(scene, az_mps2=NO_RECORD)
+
+
+def _or_zero(values: Floats) -> Floats:
+    return values if values.size else _ZERO
+
+
+def _mm(value_m: float) -> str:
+    return f"{value_m * 1e3:.2g} mm"
+
+
+_ZERO = np.zeros(1)

@@ -1,0 +1,150 @@
+"""The block in two axes by SciPy's DOP853, restarted at every sample and event: slow and plain.
+
+Apart from the kernels: in horizontal coordinates (the paper's, with a second axis), by a general
+solver of eighth order, with friction as a callable of speed.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import DOP853
+from scipy.optimize import brentq
+
+RTOL = 1e-13
+"""Of a step; its absolute tolerance is a hundredth of that by the speed at its beginning."""
+
+
+@dataclass
+class PlaneOracle:
+    prd: float
+    x_max: float
+    x_min: float
+    y_max: float
+    y_min: float
+    end: tuple[float, float]
+    n_stops: int
+    history: np.ndarray
+
+
+class _Interval:
+    """Drive and normal force in one interval, linear in time, along the roof."""
+
+    def __init__(self, sample_0, sample_1, dt):
+        self.first, self.gain, self.dt = sample_0, (sample_1 - sample_0) / dt, dt
+
+    def at(self, t):
+        return self.first + self.gain * t
+
+
+def slide(ax, ay, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665, mu_static=None):
+    """Return the motion of the linearly interpolated record; mu is a number or mu(speed)."""
+    law = mu if callable(mu) else lambda _: mu
+    hold = law(0.0) if mu_static is None else mu_static
+    sn, cs = math.sin(slope_rad), math.cos(slope_rad)
+    weight = g + scale * (np.zeros_like(ax) if az is None else np.asarray(az))
+    rows = np.array(
+        [
+            sn * weight - cs * scale * np.asarray(ax),
+            -scale * np.asarray(ay),
+            cs * weight + sn * scale * np.asarray(ax),
+        ]
+    ).T
+    state, moving, n_stops = np.zeros(4), False, 0
+    seen, history = [np.zeros(2)], np.zeros((4, len(ax)))
+
+    def push(x):
+        return math.hypot(x[0], x[1]) - hold * x[2]
+
+    for i in range(len(ax) - 1):
+        span, t = _Interval(rows[i], rows[i + 1], dt), 0.0
+        while t < dt:
+            if not moving:
+                if push(span.at(t)) <= 0.0:
+                    if push(span.at(dt)) <= 0.0:
+                        break
+                    t = brentq(lambda t, s=span: push(s.at(t)), t, dt, xtol=1e-18, rtol=1e-15)
+                    if t >= dt:
+                        break
+                t, state, moving = _begin(span, t, state, law)
+                continue
+            t, state, moving = _follow(span, t, state, law, seen, cs)
+            n_stops += not moving
+        history[:, i + 1] = state * (cs, 1.0, cs, 1.0)
+    seen = np.array(seen) * (cs, 1.0)
+    x, y = seen.T
+    return PlaneOracle(
+        prd=float(np.hypot(x, y).max()),
+        x_max=float(x.max()),
+        x_min=float(x.min()),
+        y_max=float(y.max()),
+        y_min=float(y.min()),
+        end=(float(state[0] * cs), float(state[1])),
+        n_stops=n_stops,
+        history=history,
+    )
+
+
+def _begin(span, t, state, law):
+    """The first instant of a slip: until the speed is 2e-5 of what the interval may give.
+
+    So slow a block goes the way it is driven, behind it by the turn of the drive in w / |G|.
+    """
+    scale = 2e-5 * _quasi_static(span, t, span.dt - t, law)
+    high = brentq(
+        lambda h: _quasi_static(span, t, h, law) - scale, 0.0, span.dt - t, rtol=1e-14, xtol=1e-25
+    )
+    x, y = span.at(t + high)[:2]
+    speed, drive = _quasi_static(span, t, high, law), math.hypot(x, y)
+    turn = (x * span.gain[1] - y * span.gain[0]) / drive**2
+    lag = speed * turn / (drive + (drive - law(0.0) * span.at(t + high)[2]))
+    angle = math.atan2(y, x) - lag
+    e = np.array([math.cos(angle), math.sin(angle)])
+    net = [math.hypot(*x[:2]) - law(0.0) * x[2] for x in (span.at(t), span.at(t + high))]
+    way = high * high * (max(net[0], 0.0) / 3.0 + net[1] / 6.0)
+    return t + high, np.array([*(state[:2] + way * e), *(speed * e)]), True
+
+
+def _quasi_static(span, t, h, law):
+    """Speed gained in h from rest, by Simpson's rule."""
+    net = [math.hypot(*x[:2]) - law(0.0) * x[2] for x in (span.at(t + f * h) for f in (0, 0.5, 1))]
+    return h * (max(net[0], 0.0) + 4.0 * net[1] + net[2]) / 6.0
+
+
+def _follow(span, t, state, law, seen, cs):
+    """Follow to the end of the interval or to a stop; looks at every extreme on the way."""
+    top = span.dt * float(np.abs(span.at(0.0)).max() + np.abs(span.at(span.dt)).max())
+    speed = max(math.hypot(state[2], state[3]), 1e-5 * top)
+    floor, atol = 1e-13 * speed + 1e-14 * top, RTOL * speed * np.array([span.dt, span.dt, 1.0, 1.0])
+
+    def rate(t, y):
+        x, w = span.at(t), math.hypot(y[2], y[3])
+        f = law(w) * x[2] / w
+        return np.array([y[2], y[3], x[0] - f * y[2], x[1] - f * y[3]])
+
+    solver = DOP853(rate, t, state, span.dt, rtol=RTOL, atol=1e-2 * atol)
+    while solver.status == "running":
+        before, w = solver.y, math.hypot(*solver.y[2:])
+        solver.step()
+        if solver.status == "failed":
+            raise ArithmeticError("DOP853 failed")
+        _extremes(solver.dense_output(), before, solver, seen, cs)
+        slower = math.hypot(*solver.y[2:])
+        if slower < floor and slower < w:
+            return solver.t, np.array([solver.y[0], solver.y[1], 0.0, 0.0]), False
+    return span.dt, solver.y, True
+
+
+def _extremes(dense, before, solver, seen, cs):
+    seen.append(solver.y[:2].copy())
+    for quantity in (
+        lambda y: cs * cs * y[0] * y[2] + y[1] * y[3],
+        lambda y: y[2],
+        lambda y: y[3],
+    ):
+        times = np.linspace(solver.t_old, solver.t, 9)
+        values = [quantity(dense(t)) for t in times]
+        for a, b, one, other in zip(times[:-1], times[1:], values[:-1], values[1:], strict=True):
+            if one * other < 0.0:
+                root = brentq(lambda t, q=quantity: q(dense(t)), a, b, xtol=1e-16)
+                seen.append(dense(root)[:2])

@@ -1,0 +1,171 @@
+"""The choice of a model: each rung where it suffices, none where a fuller one matters."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from solver import ladder, sliding
+from solver.ladder import Rung, Settings, friction_demand, second_axis_effect, solve
+from solver.model import Friction, InputError, Scene, Status, coulomb
+
+G = 9.80665
+DT = 0.01
+EMPTY = np.empty(0)
+
+
+def shaking(seed, peak_g, seconds=20.0):
+    """Noise of periods from 0.2 to 3 s, from rest to rest."""
+    rng = np.random.default_rng(seed)
+    n = round(seconds / DT)
+    freq = np.fft.rfftfreq(n, DT)
+    wave = np.fft.irfft(((freq > 0.3) & (freq < 5.0)) * np.exp(2j * np.pi * rng.random(freq.size)))
+    wave = wave[:n] * np.sin(np.pi * np.arange(n) / n)
+    wave *= peak_g * G / np.abs(wave).max()
+    wave[0] = wave[-1] = 0.0
+    wave.setflags(write=False)
+    return wave
+
+
+def times(record, factor):
+    scaled = record * factor
+    scaled.setflags(write=False)
+    return scaled
+
+
+def scene(ax, ay=EMPTY, az=EMPTY, *, slope_deg=2.0, mu=0.4, friction=None):
+    return Scene(
+        ax_mps2=ax,
+        ay_mps2=ay,
+        az_mps2=az,
+        dt_s=DT,
+        slope_rad=math.radians(slope_deg),
+        friction=friction or coulomb(mu),
+        scale=1.0,
+        g_mps2=G,
+    )
+
+
+AX, AY, AZ = shaking(1, 1.0), shaking(2, 0.9), shaking(3, 0.4)
+
+
+def test_a_block_that_friction_holds_is_not_run():
+    found = solve(scene(AX, AY, AZ, mu=1.5, slope_deg=0.0))
+    demand = np.max(np.hypot(AX, AY) / (G + AZ))
+    assert found.rung is Rung.NO_SLIP
+    assert found.friction_demand == pytest.approx(demand, rel=1e-14)
+    assert demand < 1.5
+    assert (found.result.prd_m, found.next_effect_m, found.error_m) == (0.0, 0.0, 0.0)
+    assert sliding.in_plane(scene(AX, AY, AZ, mu=1.5, slope_deg=0.0))[0].prd_m == 0.0
+
+
+@pytest.mark.parametrize("factor", [0.999, 1.001])
+def test_the_friction_demand_tells_slip_from_none(factor):
+    still = scene(AX, AY, AZ)
+    mu = friction_demand(still) * factor
+    moved = sliding.in_plane(replace(still, friction=coulomb(mu)))[0].prd_m
+    assert (solve(replace(still, friction=coulomb(mu))).rung is Rung.NO_SLIP) == (moved == 0.0)
+    assert (moved > 0.0) == (factor < 1.0)
+
+
+def test_one_component_is_one_axis_and_says_that_the_rest_is_not_known():
+    found = solve(scene(AX))
+    assert found.rung is Rung.ONE_AXIS
+    assert found.result == sliding.along(scene(AX))
+    assert math.isnan(found.next_effect_m)
+
+
+def test_a_vertical_that_matters_is_modelled():
+    found = solve(scene(AX, az=AZ))
+    assert found.rung is Rung.ONE_AXIS_VERTICAL
+    assert found.result == sliding.along(scene(AX, az=AZ))
+
+
+def test_a_vertical_that_does_not_matter_is_left_out_and_its_effect_is_exact():
+    faint = times(AZ, 1e-4)
+    found = solve(scene(AX, az=faint))
+    with_it, without = sliding.along(scene(AX, az=faint)), sliding.along(scene(AX))
+    assert found.rung is Rung.ONE_AXIS
+    assert found.result == without
+    assert found.next_rung is Rung.ONE_AXIS_VERTICAL
+    assert found.next_effect_m == abs(with_it.prd_m - without.prd_m) > 0.0
+
+
+def test_a_second_component_that_matters_is_modelled():
+    found = solve(scene(AX, AY, AZ))
+    assert found.rung is Rung.TWO_AXES
+    assert found.result.across_m > 0.01
+    assert found.error_m <= 1e-6 * found.result.prd_m
+    assert found.result.prd_m > 1.1 * sliding.along(scene(AX, az=AZ)).prd_m
+
+
+def test_a_faint_second_component_is_left_out_and_its_effect_is_below_the_estimate():
+    found = solve(scene(AX, times(AY, 0.001), AZ))
+    fuller = sliding.in_plane(scene(AX, times(AY, 0.001), AZ))[0]
+    assert found.rung is Rung.ONE_AXIS_VERTICAL
+    assert found.next_rung is Rung.TWO_AXES
+    assert 0.0 < abs(fuller.prd_m - found.result.prd_m) <= found.next_effect_m
+    assert found.next_effect_m <= Settings().bound_m(found.result.prd_m)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.1, 0.03, 0.01])
+@pytest.mark.parametrize("mu", [0.2, 0.4, 0.6])
+@pytest.mark.parametrize("slope_deg", [0.0, 3.0, 7.0])
+@pytest.mark.parametrize("seed", [11, 12, 13])
+def test_the_estimate_of_the_second_axis_is_above_what_it_changes(share, mu, slope_deg, seed):
+    ax, ay, az = shaking(seed, 0.9), shaking(seed + 50, 0.9 * share), shaking(seed + 90, 0.3)
+    one = scene(ax, ay, az, slope_deg=slope_deg, mu=mu)
+    found = sliding.along(one)
+    assert abs(sliding.in_plane(one)[0].prd_m - found.prd_m) <= second_axis_effect(one, found)
+
+
+def test_friction_by_speed_is_modelled_where_it_is_given():
+    law = Friction(mu_slow=0.3, mu_fast=0.5, rate_s_per_m=20.0, mu_static=0.3)
+    found = solve(scene(AX, AY, AZ, friction=law))
+    plain = solve(scene(AX, AY, AZ, mu=0.3))
+    assert found.rung is Rung.SPEED_FRICTION
+    assert found.result.prd_m < plain.result.prd_m
+
+
+def test_a_forced_rung_is_run_and_tells_what_the_next_would_change():
+    full = scene(AX, AY, AZ)
+    one = solve(full, Settings(forced=Rung.ONE_AXIS))
+    lifted = solve(full, Settings(forced=Rung.ONE_AXIS_VERTICAL))
+    two = solve(full, Settings(forced=Rung.TWO_AXES))
+    assert one.result == sliding.along(scene(AX))
+    assert one.next_effect_m == abs(lifted.result.prd_m - one.result.prd_m)
+    assert lifted.next_rung is Rung.TWO_AXES
+    assert lifted.next_effect_m >= abs(two.result.prd_m - lifted.result.prd_m)
+    assert {one.reason, lifted.reason, two.reason} == {"asked for"}
+
+
+def test_two_axes_forced_with_one_component_give_one_axis():
+    found = solve(scene(AX, az=AZ), Settings(forced=Rung.TWO_AXES, tolerance=1e-10))
+    one = sliding.along(scene(AX, az=AZ))
+    assert found.result.prd_m == pytest.approx(one.prd_m, rel=1e-9)
+    assert found.result.across_m == 0.0
+
+
+def test_no_slip_forced_on_a_block_that_slips_is_refused():
+    with pytest.raises(InputError, match="friction demand"):
+        solve(scene(AX), Settings(forced=Rung.NO_SLIP))
+
+
+@pytest.mark.parametrize("ay", [EMPTY, AY])
+@pytest.mark.parametrize("forced", [None, *Rung])
+def test_where_the_normal_force_vanishes_no_rung_gives_a_number(ay, forced):
+    found = solve(scene(AX, ay, times(AZ, 4.0)), Settings(forced=forced))
+    assert found.result.status is Status.UPLIFT
+    assert math.isnan(found.result.prd_m)
+    assert math.isnan(found.error_m)
+    assert found.friction_demand == math.inf
+
+
+def test_every_rung_has_a_name():
+    assert len({rung.title for rung in Rung}) == len(Rung)
+
+
+def test_choosing_is_timed():
+    assert 0.0 < solve(scene(AX)).seconds < 60.0
+    assert ladder.DEFAULT.forced is None
