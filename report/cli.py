@@ -178,10 +178,11 @@ def _verification(
 ) -> tuple[Verification, Mapping[str, bytes]]:
     """Return what was found, and every output as finished bytes by file name."""
     from report.manual.render import files
-    from solver.verification.run import recorded_buildings, verify
+    from solver.verification.run import recorded_buildings, recorded_triples, verify
 
     buildings = recorded_buildings(records) if records else ()
-    found = verify((), quick=quick, progress=progress, buildings=buildings)
+    motions = recorded_triples(records) if records else ()
+    found = verify((), quick=quick, progress=progress, buildings=buildings, motions=motions)
     return found, files(found, dt.date.today(), progress)
 
 

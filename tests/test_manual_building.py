@@ -55,7 +55,18 @@ def fonts():
 
 def verification(*roofs):
     nothing = dict.fromkeys(
-        ("checks", "work", "maps", "convergence", "links", "curves", "conditioning", "peers"), ()
+        (
+            "checks",
+            "work",
+            "maps",
+            "convergence",
+            "links",
+            "curves",
+            "conditioning",
+            "rungs",
+            "peers",
+        ),
+        (),
     )
     return Verification(**nothing, roofs=roofs, records=(), quick=True, seconds=1.0)
 

@@ -35,7 +35,7 @@ def test_a_quick_verification_passes_and_fills_every_part(found):
     assert verification.passed
     assert verification.quick
     assert verification.records == ("motion-01-x", "near-fault-pulse")
-    assert len(stages) == 10
+    assert len(stages) == 11
     for name in (
         "checks",
         "work",
@@ -45,6 +45,7 @@ def test_a_quick_verification_passes_and_fills_every_part(found):
         "curves",
         "conditioning",
         "roofs",
+        "rungs",
     ):
         assert len(getattr(verification, name)) > 0, name
     assert len(verification.convergence) == len(verification.curves) == 2
@@ -62,6 +63,7 @@ def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(foun
         "Symmetries",
         "Methods",
         "From ground to roof",
+        "Two axes and the choice of model",
     }
     assert all(row.source and row.unit and row.tolerance <= 0.025 for row in rows)
     digits = [row for row in rows if row.section == "50 digits"]

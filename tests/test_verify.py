@@ -272,7 +272,7 @@ def test_other_programs_have_a_section_where_there_are_any(found):
     )
     lost = replace(peer, seconds=math.nan, prd_error_percent=math.nan, note="did not converge")
     words = said(replace(found, peers=(peer, lost)))
-    assert "12 Other programs" in words
+    assert "13 Other programs" in words
     assert "Other 1.2 motion-01-x, flat 500 ms 1.25 % as its example" in words
     assert "Other 1.2 motion-01-x, flat — failed did not converge" in words
 
@@ -284,7 +284,9 @@ def test_without_other_programs_there_is_no_such_section(words):
 def command(monkeypatch, tmp_path, found, *more):
     """Run the command on what is found already; pictures and layout are tested above."""
     monkeypatch.setattr(
-        solver.verification.run, "verify", lambda records, *, quick, progress, buildings: found
+        solver.verification.run,
+        "verify",
+        lambda records, *, quick, progress, buildings, motions: found,
     )
     monkeypatch.setattr(report.manual.render, "html_to_pdf", str.encode)
     return CliRunner().invoke(main, ["verify", "--out", str(tmp_path / "v"), *more])

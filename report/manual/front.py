@@ -19,6 +19,7 @@ from report.manual.blocks import (
 )
 from report.manual.building import answer
 from report.manual.precision import floor
+from report.manual.rungs import answers
 from report.manual.studies import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT, worst_mm
 from report.pages.parts import Column, Row, Table, verdict
 from solver.verification.evidence import (
@@ -99,6 +100,8 @@ def _answers(found: Verification) -> Iterator[tuple[str, str, str]]:
     yield "The paper's parametric study", f"{runs:,} runs in {seconds(took)}", "9"
     if told := answer(found):
         yield "The roof of a real building, computed from its ground", told, "11"
+    for question, told in answers(found):
+        yield question, told, "12"
     extent = "quick: fewer records, scenes and settings" if found.quick else "full"
     yield "Extent of this verification", f"{extent}; {found.seconds:.0f} s in all", "2"
 
@@ -166,9 +169,10 @@ def scope(found: Verification) -> Section:
                 title="What is verified",
                 texts=(
                     "The solver: one rigid block on a sloped roof plane that is shaken along the "
-                    "slope's fall and upright, held by Coulomb friction alone. The records are "
+                    "slope's fall, across it and upright, held by friction alone. The records are "
                     "samples joined by straight lines. Every number of a calculation package that "
-                    "is a displacement comes from this solver with the method “exact”.",
+                    "is a displacement comes from this solver: in one axis with the method "
+                    "“exact”, in two axes with power series (section 12).",
                     "The way from ground to roof, where the motions given are those of the ground: "
                     "checks in section 3, whole buildings in section 11.",
                     "Not verified here: code rules and their numbers (marked in each package "

@@ -8,6 +8,7 @@ from report.manual.front import scope, summary
 from report.manual.machine import Machine
 from report.manual.precision import work
 from report.manual.robustness import conditioning, stability
+from report.manual.rungs import rungs
 from report.manual.studies import convergence, curves, links
 from report.manual.tables import checks, methods, peers, software
 from solver.verification.evidence import Verification
@@ -27,6 +28,7 @@ def sections(found: Verification, machine: Machine) -> tuple[Section, ...]:
         curves(found),
         conditioning(found),
         building(found),
+        *((rungs(found),) if found.rungs else ()),
         *((peers(found.peers),) if found.peers else ()),
         software(found, machine),
     )

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import Floats, Status
+from solver.verification.rung_evidence import RungEvidence
 
 FLOOR_M = 1e-3
 """Errors in percent are of the exact displacement, or of a millimetre where that is less [m]."""
@@ -383,6 +384,8 @@ class Verification:
     conditioning : tuple of Conditioning
     roofs : tuple of RoofComparison
         The made building first, then those whose records were given.
+    rungs : tuple of RungEvidence
+        One.
     peers : tuple of PeerPoint
         Empty where none is installed.
     records : tuple of str
@@ -400,6 +403,7 @@ class Verification:
     curves: tuple[DesignCurves, ...]
     conditioning: tuple[Conditioning, ...]
     roofs: tuple[RoofComparison, ...]
+    rungs: tuple[RungEvidence, ...]
     peers: tuple[PeerPoint, ...]
     records: tuple[str, ...]
     quick: bool

@@ -16,13 +16,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.model import STANDARD_GRAVITY_MPS2, Floats
+from solver import sliding
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Scene, coulomb
 from solver.motion import Record
 from solver.verification.evidence import PeerPoint, percent_off
+from solver.verification.plane_scipy import samples_of
 from solver.verification.scenes import CASES, Case, scale_to
+from solver.verification.triples import Triple
 from solver.verification.workprecision import run
 
 SUBSTEPS = 10
+PLANE_S = 10.0
+"""Longest part of a motion in two axes [s]."""
+
+PLANE_CASES = (Case(2.0, 0.4, 1.0), Case(0.0, 0.3, 1.0), Case(5.0, 0.5, 1.5))
+MUJOCO = "mujoco"
 STIFFNESS_PER_M = 1e5
 
 _G = STANDARD_GRAVITY_MPS2
@@ -54,6 +62,46 @@ def peer_points(records: Sequence[Record], *, quick: bool) -> Iterator[PeerPoint
         for record in records:
             for case in CASES[:2] if quick else CASES[:4]:
                 yield _point(peer, record, case)
+
+
+def plane_points(triples: Sequence[Triple], *, quick: bool) -> Iterator[PeerPoint]:
+    """Run what is installed and knows two axes on the strongest seconds of motions."""
+    if importlib.util.find_spec(MUJOCO) is None:
+        return
+    for triple in triples:
+        part = triple.cut(min(round(PLANE_S / triple.dt_s) + 1, triple.x_mps2.size))
+        for case in PLANE_CASES[:1] if quick else PLANE_CASES:
+            scene = part.scene(case, coulomb(case.mu))
+            exact, _ = sliding.in_plane(scene)
+            for contact, note in _contacts(scene) if not math.isnan(exact.prd_m) else ():
+                yield _plane_point(scene, part.name, case, exact.prd_m, contact, note)
+
+
+def _contacts(scene: Scene) -> tuple[tuple[str, str], ...]:
+    """Return the settings of a contact: as it comes, and as stiff as its step allows."""
+    stiff = f'solref="{2.0 * scene.dt_s / SUBSTEPS:g} 1" solimp="0.99 0.9999 1e-6"'
+    return ("", "contact as it comes"), (stiff, "contact as stiff as its step allows")
+
+
+def _plane_point(
+    scene: Scene, record: str, case: Case, prd_m: float, contact: str, note: str
+) -> PeerPoint:
+    note, seconds = f"two axes and vertical: {_MUJOCO_NOTE}; {note}", math.nan
+    try:
+        start = time.perf_counter()
+        found = _mujoco_plane(scene, contact)
+        seconds = time.perf_counter() - start
+    except Exception as error:  # nobody knows what another program raises
+        found, note = math.nan, f"{type(error).__name__}: {error}"
+    return PeerPoint(
+        peer="MuJoCo",
+        version=_version(MUJOCO),
+        record=record,
+        scene=str(case),
+        seconds=seconds,
+        prd_error_percent=float(percent_off(found, prd_m)),
+        note=note,
+    )
 
 
 def _point(peer: Peer, record: Record, case: Case) -> PeerPoint:
@@ -153,19 +201,22 @@ def _pyslammer(a: Floats, dt: float, case: Case) -> float:
     return max(found)
 
 
+_MUJOCO_NOTE = f"box on a plane, elliptic cone, no-slip solver, {SUBSTEPS} sub-steps"
 _MUJOCO = """<mujoco>
 <option timestep="{step}" cone="elliptic" noslip_iterations="20" iterations="50"/>
-<worldbody><geom type="plane" size="0 0 1" condim="3" friction="{mu} 0 0"/>
-<body pos="0 0 0.1"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>
-<geom type="box" size="0.5 0.5 0.1" mass="1" condim="3" friction="{mu} 0 0"/></body></worldbody>
-</mujoco>"""
+<worldbody><geom type="plane" size="0 0 1" condim="3" friction="{mu} 0 0" {contact}/>
+<body pos="0 0 0.1"><joint type="slide" axis="1 0 0"/>{across}<joint type="slide" axis="0 0 1"/>
+<geom type="box" size="0.5 0.5 0.1" mass="1" condim="3" friction="{mu} 0 0" {contact}/>
+</body></worldbody></mujoco>"""
 
 
 def _mujoco(a: Floats, dt: float, case: Case) -> float:
     """Let a box slide on a plane, gravity being what the roof's own axes feel."""
     mujoco = importlib.import_module("mujoco")
     step = dt / SUBSTEPS
-    model = mujoco.MjModel.from_xml_string(_MUJOCO.format(step=step, mu=case.mu))
+    model = mujoco.MjModel.from_xml_string(
+        _MUJOCO.format(step=step, mu=case.mu, across="", contact="")
+    )
     data = mujoco.MjData(model)
     sine, cosine = math.sin(case.slope_rad), math.cos(case.slope_rad)
     fine = np.interp(np.arange((a.size - 1) * SUBSTEPS) / SUBSTEPS, np.arange(a.size), a)
@@ -175,6 +226,28 @@ def _mujoco(a: Floats, dt: float, case: Case) -> float:
         mujoco.mj_step(model, data)
         peak = max(peak, abs(data.qpos[0]))
     return float(peak * cosine)
+
+
+_ACROSS = '<joint type="slide" axis="0 1 0"/>'
+
+
+def _mujoco_plane(scene: Scene, contact: str) -> float:
+    """Let a box slide both ways, gravity being what the roof's own axes feel."""
+    mujoco = importlib.import_module("mujoco")
+    step, mu = scene.dt_s / SUBSTEPS, scene.friction.mu_slow
+    xml = _MUJOCO.format(step=step, mu=mu, across=_ACROSS, contact=contact)
+    model = mujoco.MjModel.from_xml_string(xml)
+    data = mujoco.MjData(model)
+    cosine = math.cos(scene.slope_rad)
+    rows = samples_of(scene)
+    at = np.arange((len(rows) - 1) * SUBSTEPS) / SUBSTEPS
+    down, across, cap = (np.interp(at, np.arange(len(rows)), row) for row in rows.T)
+    peak = 0.0
+    for pull in zip(down.tolist(), across.tolist(), (-cap / mu).tolist(), strict=True):
+        model.opt.gravity[:] = pull
+        mujoco.mj_step(model, data)
+        peak = max(peak, math.hypot(data.qpos[0] * cosine, data.qpos[1]))
+    return float(peak)
 
 
 PEERS = (
@@ -187,9 +260,9 @@ PEERS = (
     ),
     Peer(
         name="MuJoCo",
-        module="mujoco",
-        package="mujoco",
-        note=f"box on a plane, elliptic cone, no-slip solver, {SUBSTEPS} sub-steps",
+        module=MUJOCO,
+        package=MUJOCO,
+        note=_MUJOCO_NOTE,
         prd_m=_mujoco,
     ),
     Peer(

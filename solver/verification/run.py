@@ -16,6 +16,8 @@ from solver.verification import (
     crosschecks,
     paper_studies,
     peers,
+    rung_study,
+    rungs,
     stability,
     workprecision,
 )
@@ -33,7 +35,9 @@ from solver.verification.evidence import (
     Verification,
     WorkPoint,
 )
+from solver.verification.rung_evidence import RungEvidence
 from solver.verification.scenes import own_records
+from solver.verification.triples import Triple, own_triples, recorded_triples
 
 __all__ = [
     "CheckRow",
@@ -45,10 +49,13 @@ __all__ = [
     "PeerPoint",
     "RoofComparison",
     "RoofPrediction",
+    "RungEvidence",
     "StabilityMap",
+    "Triple",
     "Verification",
     "WorkPoint",
     "recorded_buildings",
+    "recorded_triples",
     "verify",
 ]
 
@@ -59,6 +66,7 @@ def verify(
     quick: bool,
     progress: Callable[[str], None],
     buildings: Sequence[FloorRecords] = (),
+    motions: Sequence[Triple] = (),
 ) -> Verification:
     """Check the solver and measure every method, on the project's own records and on others.
 
@@ -73,6 +81,9 @@ def verify(
     buildings : sequence of FloorRecords
         Real ones with motions of their ground and floors, see `recorded_buildings`; a made one
         always runs.
+    motions : sequence of Triple
+        Real ones of three components, see `recorded_triples`, for the comparison of the models
+        with two axes; the project's own always run. If quick, the first one only.
 
     Returns
     -------
@@ -90,6 +101,10 @@ def verify(
     made = building_checks.made_building(main)
     roofs = tuple(building.compare(one) for one in (made, *buildings))
     rows += building_checks.building_checks(made, roofs[0])
+    progress("Two axes: checks, rung against rung, work against precision")
+    triples = (*own_triples(quick), *(motions[:1] if quick else motions))
+    rows += rungs.rung_checks(triples, quick=quick)
+    models = rung_study.rung_evidence(triples, quick=quick)
     progress(f"Work against precision: every method on {len(chosen)} records")
     work = tuple(workprecision.work_points(chosen, quick=quick))
     progress("Stability: maps of error over two settings")
@@ -107,7 +122,10 @@ def verify(
     progress("The paper's design curves, its Figs. 10 to 12")
     curves = tuple(paper_studies.design_curves(record) for record in chosen)
     progress("Other programs, where they are installed")
-    judged = tuple(peers.peer_points(chosen[:3], quick=quick))
+    judged = (
+        *peers.peer_points(chosen[:3], quick=quick),
+        *peers.plane_points(triples[:3], quick=quick),
+    )
     return Verification(
         checks=tuple(rows),
         work=work,
@@ -117,6 +135,7 @@ def verify(
         curves=curves,
         conditioning=conditioning,
         roofs=roofs,
+        rungs=(models,),
         peers=judged,
         records=tuple(record.name for record in chosen),
         quick=quick,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from solver import kernels
 from solver.methods import NO_RECORD, Prepared
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.motion import Record
-from solver.synthesis import Target, make_suite
+from solver.synthesis import SuiteMotion, Target, make_suite
 
 SEED = 2003
 """Of the project's own records."""
@@ -55,8 +56,14 @@ CASES = (
 
 def own_records(quick: bool) -> tuple[Record, ...]:
     """Return the project's records: motions that follow AC156, and a near-fault pulse."""
-    suite = make_suite(HORIZONTAL, VERTICAL, count=1 if quick else 2, seed=SEED, dt_s=0.01)
-    return (*(motion.x for motion in suite), near_fault_pulse())
+    return (*(motion.x for motion in own_suite(quick)), near_fault_pulse())
+
+
+@lru_cache
+def own_suite(quick: bool) -> tuple[SuiteMotion, ...]:
+    """Return the motions whose first component the records are."""
+    count = 1 if quick else 2
+    return tuple(make_suite(HORIZONTAL, VERTICAL, count=count, seed=SEED, dt_s=0.01))
 
 
 def near_fault_pulse() -> Record:

@@ -1,0 +1,114 @@
+"""Models side by side: what each step up does to the PRD; work against precision in two axes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
+from report.figures.scales import decades
+from report.letters import lettered
+from solver.verification.rung_evidence import PlaneWork, RungChange
+
+_RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
+_SPREAD = 0.31
+"""Of the dots of a row, to each side of its middle."""
+
+
+def changes(found: Sequence[RungChange]) -> str:
+    """Return a row for each change: every run a dot, 10 to 90 % a bar, the median a mark."""
+    height = 0.5 + 0.31 * len(found)
+    with style():
+        figure, axes = framed(height, 1.95, 0.15, 0.08, 0.42)
+        axes.axvline(1.0, color=INK, linewidth=0.8, zorder=1)
+        for row, one in enumerate(found):
+            _row(axes, row, one)
+        axes.set_xscale("log")
+        axes.set_ylim(len(found) - 0.5, -0.5)
+        axes.set_yticks(range(len(found)), [one.name for one in found])
+        axes.tick_params(axis="y", length=0)
+        low, high = axes.get_xlim()
+        axes.xaxis.set_major_locator(FixedLocator([v for v in _RATIOS if low <= v <= high]))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.set_xlabel("PRD of the fuller model over that of the lesser")
+        axes.grid(True, axis="x")
+        axes.set_axisbelow(True)
+        bare(axes)
+        axes.spines["left"].set_visible(False)
+        return svg_text(figure)
+
+
+def _row(axes: Any, row: int, one: RungChange) -> None:
+    if not one.ratios.size:
+        return
+    # Dots side by side in turns: the same every time, and no two of one value on each other.
+    turn = 0.5 * (1.0 + math.sqrt(5.0))
+    aside = _SPREAD * (2.0 * np.mod(turn * np.arange(one.ratios.size), 1.0) - 1.0)
+    axes.plot(one.ratios, row + aside, linestyle="", marker=".", markersize=2.2, color=GREY)
+    axes.plot([one.at(10.0), one.at(90.0)], [row, row], color=ACCENT, linewidth=2.0)
+    axes.plot([one.median] * 2, [row - 0.36, row + 0.36], color=ACCENT, linewidth=2.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Look:
+    """How a method's line is drawn."""
+
+    color: str
+    linestyle: Any
+    marker: str
+
+
+_LOOKS = (
+    _Look(color=ACCENT, linestyle="-", marker="o"),
+    _Look(color=INK, linestyle="-", marker="s"),
+    _Look(color=INK, linestyle=(0, (1, 1.2)), marker="s"),
+    _Look(color=GREY, linestyle="-", marker="^"),
+    _Look(color=GREY, linestyle=(0, (5, 1.5)), marker="^"),
+    _Look(color=GREY, linestyle=(0, (6, 1.5, 1, 1.5)), marker="D"),
+    _Look(color=GREY, linestyle=(0, (1, 1.2)), marker="v"),
+    _Look(color=GREY, linestyle=(0, (3, 1, 1, 1, 1, 1)), marker="x"),
+)
+
+
+def work(found: Sequence[PlaneWork]) -> str:
+    """Return a line for each method, from coarse to fine; failed runs are left out."""
+    names = list(dict.fromkeys(one.method for one in found))
+    with style():
+        height = 2.7
+        figure = Figure(figsize=(WIDTH_IN, height))
+        axes = figure.add_axes((0.085, 0.155, 0.5, 0.81))
+        for name, look in zip(names, _LOOKS, strict=False):
+            own = [one for one in found if one.method == name and not math.isnan(one.seconds)]
+            axes.plot(
+                [one.seconds for one in own],
+                [max(one.error_percent, LEAST_PERCENT) for one in own],
+                color=look.color,
+                linestyle=look.linestyle,
+                marker=look.marker,
+                markersize=3.6,
+                markerfacecolor="white" if look.color == GREY else look.color,
+                linewidth=1.2,
+                label=lettered(name),
+            )
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        decades(axes.xaxis)
+        decades(axes.yaxis, most=8)
+        axes.grid(True, color=PALE)
+        axes.set_axisbelow(True)
+        bare(axes)
+        axes.set_xlabel("Time per run [s]")
+        axes.set_ylabel("Error [% of the PRD]")
+        axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
+        return svg_text(figure)
+
+
+LEAST_PERCENT = 1e-12
+"""Error that is drawn as the least."""

@@ -1,0 +1,231 @@
+"""A block in two axes by SciPy: a slow, careful reference, and what a general solver does at first.
+
+SciPy is loaded when it runs, and is needed by nothing else. Apart from `solver.biaxial`: no series
+and no bound. Read `reference`, then `regularised`. Letters as in `solver.biaxial`.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from solver.model import Floats, Scene
+
+Solver = Literal["RK45", "DOP853", "Radau"]
+
+REFERENCE_RTOL = 1e-12
+"""Of a step, of the speed at its beginning."""
+
+BEGINNING = 2e-5
+"""Speed, of what the interval may give, from which a slip is integrated."""
+
+EVALUATIONS = 40_000
+"""Evaluations of the right-hand side before a run is given up as stalled."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Integrated:
+    """What a general solver gave.
+
+    Attributes
+    ----------
+    followed : bool
+        Whether it came to the end; else all lengths are NaN.
+    prd_m : float
+        Largest distance in plan at its steps [m].
+    end_m : tuple of float
+        Place at the end, x and y [m].
+    end_speed_mps : float
+    evaluations : int
+        Of the right-hand side.
+    """
+
+    followed: bool
+    prd_m: float
+    end_m: tuple[float, float]
+    end_speed_mps: float
+    evaluations: int
+
+
+def is_installed() -> bool:
+    """Whether SciPy is."""
+    return importlib.util.find_spec("scipy") is not None
+
+
+def samples_of(scene: Scene) -> Floats:
+    """Return G down the slope, G across it and mu N at the samples, shape (n, 3) [m/s2]."""
+    sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
+    ax, ay = scene.scale * scene.ax_mps2, scene.scale * scene.ay_mps2
+    weight = scene.g_mps2 + (scene.scale * scene.az_mps2 if scene.az_mps2.size else 0.0 * ax)
+    cap = scene.friction.mu_slow * (cs * weight + sn * ax)
+    return np.column_stack([sn * weight - cs * ax, -ay, cap])
+
+
+class _Interval:
+    """G and mu N between two samples, and the block's acceleration there."""
+
+    def __init__(self, first: Floats, last: Floats, dt: float):
+        self.dt = dt
+        self.x, self.y, self.c = first.tolist()
+        self.rx, self.ry, self.rc = ((last - first) / dt).tolist()
+
+    def at(self, t: float) -> tuple[float, float, float]:
+        return self.x + self.rx * t, self.y + self.ry * t, self.c + self.rc * t
+
+    def excess(self, t: float) -> float:
+        """How much more than friction can hold the block is pushed."""
+        x, y, c = self.at(t)
+        return math.hypot(x, y) - c
+
+    def rate(self, t: float, y: Floats) -> Floats:
+        _, _, vx, vy = y.tolist()
+        f = (self.c + self.rc * t) / math.hypot(vx, vy)
+        return np.array([vx, vy, self.x + self.rx * t - f * vx, self.y + self.ry * t - f * vy])
+
+    def gained(self, t: float, h: float) -> float:
+        """Return the speed that a slow block gains in h from rest, by Simpson's rule."""
+        ends = max(self.excess(t), 0.0) + self.excess(t + h)
+        return h * (ends + 4.0 * self.excess(t + 0.5 * h)) / 6.0
+
+
+def reference(scene: Scene) -> Floats:
+    """Return the block's place at the samples, shape (2, n) [m]: x as the slope falls, y across.
+
+    DOP853 with friction as it is, begun anew at every sample and whenever slip begins, ended when
+    it stops. A slip begins in the direction of the drive, see `BEGINNING`.
+    """
+    rows = samples_of(scene)
+    places = np.zeros((2, len(rows)))
+    state, moving = np.zeros(4), False
+    for i in range(len(rows) - 1):
+        span, t = _Interval(rows[i], rows[i + 1], scene.dt_s), 0.0
+        while t < scene.dt_s:
+            if moving:
+                t, state, moving = _slid(span, t, state)
+                continue
+            onset = _onset(span, t)
+            if not onset < scene.dt_s:
+                break
+            t, state, moving = _begun(span, onset, state)
+        places[:, i + 1] = state[:2]
+    places[0] *= math.cos(scene.slope_rad)
+    return places
+
+
+def _onset(span: _Interval, t: float) -> float:
+    """When a block at rest at t begins to slip: |G| - mu N is convex; inf for not here."""
+    from scipy.optimize import brentq
+
+    if span.excess(t) > 0.0:
+        return t
+    if span.excess(span.dt) <= 0.0:
+        return math.inf
+    return float(brentq(span.excess, t, span.dt, xtol=1e-18, rtol=1e-15))
+
+
+def _begun(span: _Interval, t: float, state: Floats) -> tuple[float, Floats, bool]:
+    """Return the first instants of a slip: it goes as G does, behind it by the turn in w / |G|."""
+    from scipy.optimize import brentq
+
+    left = span.dt - t
+    wanted = BEGINNING * span.gained(t, left)
+    h = float(brentq(lambda h: span.gained(t, h) - wanted, 0.0, left, rtol=1e-14, xtol=1e-25))
+    x, y, c = span.at(t + h)
+    speed, drive = span.gained(t, h), math.hypot(x, y)
+    lag = speed * (x * span.ry - y * span.rx) / drive**2 / (2.0 * drive - c)
+    angle = math.atan2(y, x) - lag
+    way = h * h * (max(span.excess(t), 0.0) / 3.0 + span.excess(t + h) / 6.0)
+    e = np.array([math.cos(angle), math.sin(angle)])
+    return t + h, np.concatenate([state[:2] + way * e, speed * e]), True
+
+
+def _slid(span: _Interval, t: float, state: Floats) -> tuple[float, Floats, bool]:
+    """Follow a slip to the end of the interval or to a stop."""
+    from scipy.integrate import DOP853
+
+    top = span.dt * max(math.hypot(*span.at(u)[:2]) + span.at(u)[2] for u in (0.0, span.dt))
+    speed = max(math.hypot(state[2], state[3]), 1e-5 * top)
+    floor = 1e-13 * speed + 1e-14 * top
+    atol = 1e-2 * REFERENCE_RTOL * speed * span.dt
+    solver = DOP853(span.rate, t, state, span.dt, rtol=REFERENCE_RTOL, atol=atol)
+    while solver.t < span.dt:
+        before = math.hypot(solver.y[2], solver.y[3])
+        message = solver.step()
+        slower = math.hypot(solver.y[2], solver.y[3])
+        if message or (slower < floor and slower < before):
+            return float(solver.t), np.array([solver.y[0], solver.y[1], 0.0, 0.0]), False
+    return span.dt, np.asarray(solver.y), True
+
+
+class _StalledError(Exception):
+    """The evaluations are used up."""
+
+
+class _Rate:
+    """The state's rate at any time, friction mu N tanh(w / v0); v0 = 0: as it is, none at rest."""
+
+    def __init__(self, scene: Scene, velocity: float):
+        self.rows: list[list[float]] = samples_of(scene).tolist()
+        self.dt, self.velocity = scene.dt_s, velocity
+        self.asked = 0
+
+    def __call__(self, t: float, y: Floats) -> tuple[float, float, float, float]:
+        self.asked += 1
+        if self.asked > EVALUATIONS:
+            raise _StalledError
+        _, _, vx, vy = y.tolist()
+        i = min(int(t / self.dt), len(self.rows) - 2)
+        part = t / self.dt - i
+        gx, gy, c = (
+            a + (b - a) * part for a, b in zip(self.rows[i], self.rows[i + 1], strict=True)
+        )
+        w = math.hypot(vx, vy)
+        f = 0.0
+        if w > 0.0:
+            f = c * (math.tanh(w / self.velocity) if self.velocity > 0.0 else 1.0) / w
+        return vx, vy, gx - f * vx, gy - f * vy
+
+
+def regularised(scene: Scene, solver: Solver, velocity_mps: float, tolerance: float) -> Integrated:
+    """Run one of SciPy's adaptive solvers without events.
+
+    Parameters
+    ----------
+    solver : Solver
+    velocity_mps : float
+        v0 of the friction mu N tanh(w / v0); 0 for Coulomb's, with its jump.
+    tolerance : float
+        Relative; the absolute one is a thousandth of it, as in SciPy's defaults.
+    """
+    from scipy.integrate import solve_ivp
+
+    rate = _Rate(scene, velocity_mps)
+    end = (scene.ax_mps2.size - 1) * scene.dt_s
+    try:
+        with np.errstate(over="ignore"):  # Radau's own, in its differences for the Jacobian
+            found = solve_ivp(
+                rate, (0.0, end), np.zeros(4), method=solver, rtol=tolerance, atol=1e-3 * tolerance
+            )
+    except _StalledError:
+        return _lost(rate.asked)
+    if not (found.success and np.isfinite(found.y).all()):
+        return _lost(rate.asked)
+    x, y = found.y[0] * math.cos(scene.slope_rad), found.y[1]
+    return Integrated(
+        followed=True,
+        prd_m=float(np.hypot(x, y).max()),
+        end_m=(float(x[-1]), float(y[-1])),
+        end_speed_mps=math.hypot(*found.y[2:, -1].tolist()),
+        evaluations=rate.asked,
+    )
+
+
+def _lost(evaluations: int) -> Integrated:
+    nan = math.nan
+    return Integrated(
+        followed=False, prd_m=nan, end_m=(nan, nan), end_speed_mps=nan, evaluations=evaluations
+    )

@@ -1,0 +1,154 @@
+"""Two axes: work against precision, and what is left of each method when a block has stopped.
+
+Against fixed steps (`solver.plane_rivals`) and, where it is installed, SciPy. Read `work`, then
+`stops`.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from functools import partial
+
+from solver import plane, plane_rivals, sliding
+from solver.model import Scene, coulomb
+from solver.verification import plane_scipy
+from solver.verification.plane_scipy import Solver, samples_of
+from solver.verification.rung_evidence import PlaneWork, StopPoint
+from solver.verification.rungs import TIGHT, stopped_scene
+from solver.verification.scenes import Case
+from solver.verification.triples import Triple
+from solver.verification.workprecision import least_seconds
+
+OURS = "Power series, event by event"
+HOLDING = "Fixed steps, held where it reverses"
+CHATTERING = "Fixed steps, friction against v alone"
+
+CASE = Case(2.0, 0.4, 1.0)
+SAMPLES = (101, 151)
+"""Of the part of a motion, quick and full: SciPy takes a second for a run."""
+
+TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
+SUBSTEPS = (1, 4, 16, 64, 256, 1024)
+
+SCIPY: tuple[tuple[Solver, float, tuple[float, ...]], ...] = (
+    ("RK45", 1e-2, (1e-3, 1e-4, 1e-5, 1e-6)),
+    ("RK45", 1e-3, (1e-3, 1e-4, 1e-5, 1e-6)),
+    ("DOP853", 1e-3, (1e-3, 1e-4, 1e-5, 1e-6)),
+    ("Radau", 1e-3, (1e-3, 1e-4, 1e-5)),
+    ("Radau", 1e-4, (1e-4, 1e-5)),
+)
+"""Solver, v0 [m/s] of the friction mu N tanh(w / v0), relative tolerances."""
+
+
+def work(triple: Triple, *, quick: bool) -> tuple[str, tuple[PlaneWork, ...]]:
+    """Return the scene in words, and every method over its settings on it."""
+    part = triple.cut(SAMPLES[not quick])
+    scene = part.scene(CASE, coulomb(CASE.mu))
+    exact, _ = sliding.in_plane(scene, TIGHT)
+    found = (*_ours(scene), *_fixed(scene, exact.prd_m), *_scipy(scene, exact.prd_m, quick))
+    return f"{part.name}, {CASE}", tuple(found)
+
+
+def _ours(scene: Scene) -> Iterator[PlaneWork]:
+    """Its error is the largest at the samples: that of the PRD may be nothing by chance."""
+    truth = sliding.in_plane_history(scene, TIGHT)
+    for tolerance in TOLERANCES:
+        found = plane.follow(scene, tolerance)
+        seen = sliding.in_plane_history(scene, tolerance)
+        off = max(
+            abs(found.prd_m - truth.result.prd_m),
+            float(abs(seen.u_m - truth.u_m).max()),
+            float(abs(seen.across_m - truth.across_m).max()),
+        )
+        yield PlaneWork(
+            method=OURS,
+            setting=f"tol. {tolerance:g}",
+            seconds=least_seconds(partial(plane.follow, scene, tolerance)),
+            steps=found.n_steps,
+            error_percent=100.0 * off / truth.result.prd_m,
+        )
+
+
+def _fixed(scene: Scene, prd_m: float) -> Iterator[PlaneWork]:
+    rows, cs = samples_of(scene), math.cos(scene.slope_rad)
+    for method, holds in ((HOLDING, True), (CHATTERING, False)):
+        for substeps in SUBSTEPS:
+            run = partial(plane_rivals.slide_fixed, rows, scene.dt_s, cs, substeps, holds)
+            yield PlaneWork(
+                method=method,
+                setting=f"P = {substeps}",
+                seconds=least_seconds(run),
+                steps=substeps * (len(rows) - 1),
+                error_percent=100.0 * abs(run()[0] - prd_m) / prd_m,
+            )
+
+
+def _scipy(scene: Scene, prd_m: float, quick: bool) -> Iterator[PlaneWork]:
+    if not plane_scipy.is_installed():
+        return
+    for solver, velocity_mps, tolerances in SCIPY[:3] if quick else SCIPY:
+        for tolerance in tolerances[:2] if quick else tolerances:
+            start = time.perf_counter()
+            found = plane_scipy.regularised(scene, solver, velocity_mps, tolerance)
+            seconds = time.perf_counter() - start
+            yield PlaneWork(
+                method=f"SciPy {solver}, v0 = {1e3 * velocity_mps:g} mm/s",
+                setting=f"tol. {tolerance:g}",
+                seconds=seconds if found.followed else math.nan,
+                steps=found.evaluations,
+                error_percent=100.0 * abs(found.prd_m - prd_m) / prd_m,
+            )
+
+
+def stops() -> Iterator[StopPoint]:
+    """Run the block that is stopped under a push, and rests for 1.8 s, by every method.
+
+    Its place is known in closed form, see `rungs.stopped_scene` and its checks.
+    """
+    scene = stopped_scene()
+    truth, _ = sliding.in_plane(scene, TIGHT)
+    place = truth.residual_m, truth.residual_across_m
+    for tolerance in (1e-4, 1e-6):
+        ours = plane.follow(scene, tolerance)
+        yield StopPoint(
+            method=OURS,
+            setting=f"tol. {tolerance:g}",
+            steps=ours.n_steps,
+            error_m=math.dist(ours.end_m, place),
+            end_speed_mps=math.hypot(*ours.end_mps),
+        )
+    rows = samples_of(scene)
+    for method, holds in ((HOLDING, True), (CHATTERING, False)):
+        for substeps in (10, 100, 1000):
+            _, x, y, speed = plane_rivals.slide_fixed(rows, scene.dt_s, 1.0, substeps, holds)
+            yield StopPoint(
+                method=method,
+                setting=f"{1e3 * scene.dt_s / substeps:g} ms",
+                steps=substeps * (len(rows) - 1),
+                error_m=math.dist((x, y), place),
+                end_speed_mps=speed,
+            )
+    if plane_scipy.is_installed():
+        yield from _scipy_stops(scene, place)
+
+
+def _scipy_stops(scene: Scene, place: tuple[float, float]) -> Iterator[StopPoint]:
+    runs: tuple[tuple[Solver, float, float], ...] = (
+        ("RK45", 1e-2, 1e-4),
+        ("RK45", 1e-3, 1e-6),
+        ("Radau", 1e-3, 1e-6),
+        ("Radau", 1e-5, 1e-6),
+        ("DOP853", 0.0, 1e-6),
+    )
+    for solver, velocity_mps, tolerance in runs:
+        found = plane_scipy.regularised(scene, solver, velocity_mps, tolerance)
+        friction = f"v0 = {1e3 * velocity_mps:g} mm/s" if velocity_mps else "Coulomb, no events"
+        yield StopPoint(
+            method=f"SciPy {solver}, {friction}",
+            setting=f"tol. {tolerance:g}",
+            steps=found.evaluations,
+            error_m=math.dist(found.end_m, place),
+            end_speed_mps=found.end_speed_mps,
+        )

@@ -1,0 +1,173 @@
+"""What the comparison of the models finds, as frozen records: rung against rung, work, speed.
+
+Computes nothing but ratios. Read `solver.verification.rung_study` for what fills them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.model import Floats
+
+LEAST_M = 5e-3
+"""PRD of both rungs from which on their ratio is told [m]: below, it says little."""
+
+VERTICAL, SECOND, WORST = "Vertical", "Second axis", "Second axis, worst heading"
+OVER_SLOW, OVER_FAST = "Friction by speed, over μ slow", "Friction by speed, over μ fast"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RungChange:
+    """What a fuller model does to the PRD, over many runs.
+
+    Attributes
+    ----------
+    name : str
+    ratios : array, shape (n,)
+        PRD of the fuller model over that of the lesser, rising; of the runs in which both are
+        `LEAST_M` or more.
+    n_small : int
+        Runs in which one of them is less.
+    most_m : float
+        Largest change of the PRD, either way, of all runs [m].
+    """
+
+    name: str
+    ratios: Floats
+    n_small: int
+    most_m: float
+
+    def at(self, percent: float) -> float:
+        """Return a percentile of the ratios; NaN where there are none."""
+        return float(np.percentile(self.ratios, percent)) if self.ratios.size else float("nan")
+
+    @property
+    def median(self) -> float:
+        """The middle ratio."""
+        return self.at(50.0)
+
+    @property
+    def share_above_one(self) -> float:
+        """Share of the ratios that are above 1; NaN where there are none."""
+        return float(np.mean(self.ratios > 1.0)) if self.ratios.size else float("nan")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RungStudy:
+    """The same scenes by every rung.
+
+    Attributes
+    ----------
+    motions : tuple of str
+    n_recorded : int
+        Of the motions, in earthquakes.
+    slopes_deg, mus, ppas_g : tuple of float
+        The scenes: every one with every other.
+    slow_share, rate_s_per_m : float
+        Friction by speed: mu_slow, the coefficient of the other rungs, over mu_fast; its rate.
+    n_runs, n_uplift : int
+        Scenes times motions and headings, and those in which the normal force vanishes.
+    changes : tuple of RungChange
+        `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW` and `OVER_FAST`.
+    largest_error : float
+        Largest bound of the error of two axes, of the PRD.
+    """
+
+    motions: tuple[str, ...]
+    n_recorded: int
+    slopes_deg: tuple[float, ...]
+    mus: tuple[float, ...]
+    ppas_g: tuple[float, ...]
+    slow_share: float
+    rate_s_per_m: float
+    n_runs: int
+    n_uplift: int
+    changes: tuple[RungChange, ...]
+    largest_error: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlaneWork:
+    """One run of a method in two axes.
+
+    Attributes
+    ----------
+    method, setting : str
+    seconds : float
+        Of a run [s]; NaN for a failed one.
+    steps : int
+        Steps, or for SciPy evaluations of the right-hand side.
+    error_percent : float
+        In place, largest at samples or of the PRD, of the PRD; NaN for a failed run.
+    """
+
+    method: str
+    setting: str
+    seconds: float
+    steps: int
+    error_percent: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StopPoint:
+    """One run of a block that is stopped by friction while something pushes it, and then rests.
+
+    Attributes
+    ----------
+    method, setting : str
+    steps : int
+        As in `PlaneWork`.
+    error_m : float
+        In place at the end [m]; NaN for a failed run.
+    end_speed_mps : float
+        What is left of its speed, 0 in truth [m/s].
+    """
+
+    method: str
+    setting: str
+    steps: int
+    error_m: float
+    end_speed_mps: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RungTime:
+    """What a run of a rung takes, beside the others.
+
+    Attributes
+    ----------
+    title : str
+    seconds : float
+        Median over the scenes, warm, with what chooses left out [s].
+    ratio : float
+        To one axis.
+    """
+
+    title: str
+    seconds: float
+    ratio: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RungEvidence:
+    """All that is found of the models.
+
+    Attributes
+    ----------
+    study : RungStudy
+    work_scene : str
+    work : tuple of PlaneWork
+    stops : tuple of StopPoint
+    times_motion : str
+        Length and step of the motion of `times`.
+    times : tuple of RungTime
+    """
+
+    study: RungStudy
+    work_scene: str
+    work: tuple[PlaneWork, ...]
+    stops: tuple[StopPoint, ...]
+    times_motion: str
+    times: tuple[RungTime, ...]

@@ -1,0 +1,186 @@
+"""Rung against rung: the same scenes by every model, and what each takes.
+
+Read `rung_evidence`, whose pieces the other functions make.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import statistics
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from solver import sliding
+from solver.methods import NO_RECORD
+from solver.model import Friction, Heading, Scene, coulomb
+from solver.verification import plane_work
+from solver.verification.rung_evidence import (
+    LEAST_M,
+    OVER_FAST,
+    OVER_SLOW,
+    SECOND,
+    VERTICAL,
+    WORST,
+    RungChange,
+    RungEvidence,
+    RungStudy,
+    RungTime,
+)
+from solver.verification.scenes import Case
+from solver.verification.triples import Triple
+from solver.verification.workprecision import least_seconds
+
+SLOPES_DEG, MUS, PPAS_G = (0.0, 2.0, 5.0), (0.3, 0.4, 0.5, 0.6), (0.5, 1.0, 1.5)
+"""Scenes: every one with every other; if quick, the ends alone."""
+
+SLOW_SHARE, RATE_S_PER_M = 0.8, 30.0
+"""mu_slow over mu_fast, and the rate between them [s/m]."""
+
+TIMED = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Runs:
+    """PRD of one motion, scene and heading by each model [m], and the error of two axes of it."""
+
+    one_axis_m: float
+    vertical_m: float
+    two_axes_m: float
+    by_speed_m: float
+    fast_m: float
+    error: float
+
+
+def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
+    """Run everything; the first motion is that of the work and the times."""
+    scene, work = plane_work.work(triples[0], quick=quick)
+    first = triples[0]
+    length = (first.x_mps2.size - 1) * first.dt_s
+    return RungEvidence(
+        study=study(triples, quick=quick),
+        work_scene=scene,
+        work=work,
+        stops=tuple(plane_work.stops()),
+        times_motion=f"{first.name}, {length:.0f} s at {first.dt_s:g} s",
+        times=times(first),
+    )
+
+
+def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
+    """Run every scene of every motion with every heading by every rung."""
+    slopes, mus, ppas = ((v[0], v[-1]) if quick else v for v in (SLOPES_DEG, MUS, PPAS_G))
+    cases = [Case(*case) for case in itertools.product(slopes, mus, ppas)]
+    by_scene = [list(_by_heading(triple, case)) for triple in triples for case in cases]
+    every = [run for runs in by_scene for run in runs]
+    kept = [run for run in every if run is not None]
+    return RungStudy(
+        motions=tuple(triple.name for triple in triples),
+        n_recorded=sum(triple.is_recorded for triple in triples),
+        slopes_deg=tuple(slopes),
+        mus=tuple(mus),
+        ppas_g=tuple(ppas),
+        slow_share=SLOW_SHARE,
+        rate_s_per_m=RATE_S_PER_M,
+        n_runs=len(every),
+        n_uplift=len(every) - len(kept),
+        changes=tuple(_changes(kept, by_scene)),
+        largest_error=max((run.error for run in kept), default=math.nan),
+    )
+
+
+def _changes(
+    kept: Sequence[_Runs], by_scene: Sequence[Sequence[_Runs | None]]
+) -> Iterator[RungChange]:
+    yield _change(VERTICAL, [(r.one_axis_m, r.vertical_m) for r in kept])
+    yield _change(SECOND, [(r.vertical_m, r.two_axes_m) for r in kept])
+    worst = [[run for run in runs if run is not None] for runs in by_scene]
+    pairs = [
+        (max(run.vertical_m for run in runs), max(run.two_axes_m for run in runs))
+        for runs in worst
+        if runs
+    ]
+    yield _change(WORST, pairs)
+    yield _change(OVER_SLOW, [(r.two_axes_m, r.by_speed_m) for r in kept])
+    yield _change(OVER_FAST, [(r.fast_m, r.by_speed_m) for r in kept])
+
+
+def _change(name: str, pairs: Sequence[tuple[float, float]]) -> RungChange:
+    lesser, fuller = np.array(pairs).reshape(-1, 2).T
+    told = np.minimum(lesser, fuller) >= LEAST_M
+    return RungChange(
+        name=name,
+        ratios=np.sort(fuller[told] / lesser[told]),
+        n_small=int((~told).sum()),
+        most_m=float(np.abs(fuller - lesser).max(initial=0.0)),
+    )
+
+
+def _by_heading(triple: Triple, case: Case) -> Iterator[_Runs | None]:
+    """Give the runs of each horizontal component along the slope in each sense."""
+    for swapped, sign in itertools.product((False, True), (1, -1)):
+        yield _runs(_scene(triple, case, Heading(swapped=swapped, sign=sign)), case.mu)
+
+
+def _scene(triple: Triple, case: Case, heading: Heading) -> Scene:
+    scene = triple.motion.scene(heading, slope_rad=case.slope_rad, friction=coulomb(case.mu))
+    return replace(scene, scale=triple.scale_to(case.ppa_g))
+
+
+def _runs(scene: Scene, mu: float) -> _Runs | None:
+    """Run a scene by every model; None where the normal force vanishes.
+
+    The friction of the lesser models is that at a crawl, as `solver.ladder` has it.
+    """
+    vertical = sliding.along(scene)
+    if math.isnan(vertical.prd_m):
+        return None
+    both, error = sliding.in_plane(scene)
+    fast = coulomb(mu / SLOW_SHARE)
+    return _Runs(
+        one_axis_m=sliding.along(replace(scene, az_mps2=NO_RECORD)).prd_m,
+        vertical_m=vertical.prd_m,
+        two_axes_m=both.prd_m,
+        by_speed_m=sliding.in_plane(replace(scene, friction=by_speed(mu)))[0].prd_m,
+        fast_m=sliding.in_plane(replace(scene, friction=fast))[0].prd_m,
+        error=error / both.prd_m if both.prd_m > 0.0 else 0.0,
+    )
+
+
+def by_speed(mu_slow: float) -> Friction:
+    """Return friction that rises from a crawl on."""
+    return Friction(
+        mu_slow=mu_slow,
+        mu_fast=mu_slow / SLOW_SHARE,
+        rate_s_per_m=RATE_S_PER_M,
+        mu_static=mu_slow,
+    )
+
+
+def times(triple: Triple) -> tuple[RungTime, ...]:
+    """Time every rung on the scenes `TIMED`; the first two are one solver."""
+    medians = []
+    for title, law, second, vertical in _RUNGS:
+        run = sliding.in_plane if second else sliding.along
+        each = [
+            least_seconds(
+                partial(run, triple.scene(case, law(case.mu), second=second, vertical=vertical))
+            )
+            for case in TIMED
+        ]
+        medians.append((title, statistics.median(each)))
+    return tuple(
+        RungTime(title=title, seconds=seconds, ratio=seconds / medians[0][1])
+        for title, seconds in medians
+    )
+
+
+_RUNGS: tuple[tuple[str, Callable[[float], Friction], bool, bool], ...] = (
+    ("One axis", coulomb, False, False),
+    ("One axis with vertical", coulomb, False, True),
+    ("Two axes with vertical", coulomb, True, True),
+    ("Two axes, friction by speed", by_speed, True, True),
+)

@@ -1,0 +1,293 @@
+"""Checks of the models against each other, closed forms and SciPy, one row for each value.
+
+As `checks`, whose rows they are. Read `rung_checks`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from solver import ladder, sliding
+from solver.ladder import Rung, Settings
+from solver.methods import NO_RECORD
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
+from solver.verification import plane_scipy
+from solver.verification.checks import check
+from solver.verification.evidence import CheckRow
+from solver.verification.scenes import Case
+from solver.verification.triples import Triple, readonly
+
+SECTION = "Two axes and the choice of model"
+
+TIGHT = 1e-10
+"""Tightest tolerance of two axes."""
+
+AGREES = 1e-9
+"""Tolerance where two ways must give the same to rounding and the tightest tolerance."""
+
+REFERENCE_SAMPLES = (61, 101)
+"""Of the part of a motion that SciPy follows carefully, quick and full."""
+
+CASES = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
+
+
+def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]:
+    """Make the checks; the first motion, a made one, stands for all where one is enough.
+
+    Left out are motions whose vertical lifts the block off the roof in one of `CASES`.
+    """
+    kept = [triple for triple in triples if _stays(triple)]
+    for triple in kept:
+        yield from _one_axis(triple)
+        yield from _turned(triple)
+        yield _in_proportion(triple)
+        yield from _friction_by_speed(triple)
+        yield _estimates(triple, quick=quick)
+    yield from _circle()
+    yield from _stop()
+    yield from _choices(kept[0])
+    if plane_scipy.is_installed():
+        for triple in [kept[0], *(one for one in kept if one.is_recorded)][: 1 if quick else 3]:
+            yield from _against_scipy(triple, REFERENCE_SAMPLES[not quick])
+
+
+def _stays(triple: Triple) -> bool:
+    runs = (sliding.along(triple.scene(case, coulomb(case.mu))) for case in CASES)
+    return all(run.status is not Status.UPLIFT for run in runs)
+
+
+def _one_axis(triple: Triple) -> Iterator[CheckRow]:
+    for case in CASES:
+        one = triple.scene(case, coulomb(case.mu), second=False)
+        exact, (found, _) = sliding.along(one), sliding.in_plane(one, TIGHT)
+        for quantity, known, value in (
+            ("PRD", exact.prd_m, found.prd_m),
+            ("Residual (error relative to the PRD)", exact.residual_m, found.residual_m),
+        ):
+            yield check(
+                SECTION,
+                f"Nothing across the slope: {triple.name}, {case}",
+                "The exact method of one axis with vertical",
+                quantity,
+                "m",
+                known,
+                value,
+                AGREES,
+                of=exact.prd_m,
+            )
+
+
+def _turned(triple: Triple) -> Iterator[CheckRow]:
+    case = CASES[0]
+    flat = triple.scene(case, coulomb(case.mu))
+    one, _ = sliding.in_plane(flat, TIGHT)
+    for degrees in (30.0, 137.0):
+        turned, _ = sliding.in_plane(_turned_by(flat, degrees), TIGHT)
+        back = _turn(np.array([turned.residual_m, turned.residual_across_m]), -degrees)
+        off = math.dist(back.tolist(), (one.residual_m, one.residual_across_m))
+        name = f"Both components turned by {degrees:g} degrees: {triple.name}, {case}"
+        source = "A flat roof has no direction: the answer turns with the motion"
+        yield check(SECTION, name, source, "PRD", "m", one.prd_m, turned.prd_m, AGREES)
+        yield check(
+            SECTION,
+            name,
+            source,
+            "Residual, turned back: difference of the PRD",
+            "1",
+            0.0,
+            off / one.prd_m,
+            AGREES,
+        )
+
+
+def _in_proportion(triple: Triple) -> CheckRow:
+    case = CASES[0]
+    one = triple.scene(case, coulomb(case.mu), second=False)
+    line, _ = sliding.in_plane(_turned_by(one, 53.0), TIGHT)
+    return check(
+        SECTION,
+        f"One component turned by 53 degrees: {triple.name}, {case}",
+        "Components in proportion slide along one line, as the exact method of one axis has it",
+        "PRD",
+        "m",
+        sliding.along(one).prd_m,
+        line.prd_m,
+        AGREES,
+    )
+
+
+def _turned_by(scene: Scene, degrees: float) -> Scene:
+    across = scene.ay_mps2 if scene.ay_mps2.size else np.zeros_like(scene.ax_mps2)
+    x, y = _turn(np.array([scene.ax_mps2, across]), degrees)
+    return replace(scene, ax_mps2=readonly(x), ay_mps2=readonly(y))
+
+
+def _turn(pair: Floats, degrees: float) -> Floats:
+    sn, cs = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
+    return np.array([[cs, -sn], [sn, cs]]) @ pair
+
+
+def _circle() -> Iterator[CheckRow]:
+    """In the turning frame v stands still: A^2 = (mu g)^2 + (w v)^2."""
+    a, omega, mu, count, turns = 6.0, 2.0 * math.pi, 0.3, 2000, 12
+    dt = 1.0 / count
+    t = np.arange(turns * count + 1) * dt
+    history = sliding.in_plane_history(
+        Scene(
+            ax_mps2=readonly(a * np.cos(omega * t)),
+            ay_mps2=readonly(a * np.sin(omega * t)),
+            az_mps2=NO_RECORD,
+            dt_s=dt,
+            slope_rad=0.0,
+            friction=coulomb(mu),
+            scale=1.0,
+            g_mps2=STANDARD_GRAVITY_MPS2,
+        ),
+        TIGHT,
+    )
+    # Straight lines between samples leave so much of a sine.
+    a *= (math.sin(0.5 * omega * dt) / (0.5 * omega * dt)) ** 2
+    speed = math.sqrt(a * a - (mu * STANDARD_GRAVITY_MPS2) ** 2) / omega
+    half = history.u_m.size - 1 - count // 2
+    across = math.hypot(
+        history.u_m[-1] - history.u_m[half], history.across_m[-1] - history.across_m[half]
+    )
+    name = "Roof in a circle, 6 m/s2 at 1 Hz, mu = 0.3, flat: after 12 turns"
+    source = "Steady: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples to a turn"
+    found = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
+    yield check(SECTION, name, source, "Speed", "m/s", speed, found, AGREES)
+    yield check(SECTION, name, source, "Diameter", "m", 2.0 * speed / omega, across, AGREES)
+
+
+def stopped_scene() -> Scene:
+    """Return a block thrown down the roof and stopped under a steady push across it."""
+    ax, ay = np.zeros(201), np.full(201, -2.0)
+    ax[1:6] = -9.0
+    return Scene(
+        ax_mps2=readonly(ax),
+        ay_mps2=readonly(ay),
+        az_mps2=NO_RECORD,
+        dt_s=0.01,
+        slope_rad=0.0,
+        friction=coulomb(0.4),
+        scale=1.0,
+        g_mps2=STANDARD_GRAVITY_MPS2,
+    )
+
+
+def _stop() -> Iterator[CheckRow]:
+    scene = stopped_scene()
+    history = sliding.in_plane_history(scene, TIGHT)
+    at, push, c = 6, 2.0, 0.4 * STANDARD_GRAVITY_MPS2
+    vx, vy = float(history.v_mps[at]), float(history.across_mps[at])
+    w, along = math.hypot(vx, vy), push * vy
+    less = c * c - push * push
+    rest = (c * w + along) / less
+    ahead = (w * w + (2.0 * c * w * along + along * along) / push**2) / (4.0 * less) * push
+    aside = -push * vx * (2.0 * c * w + along) / (push * (4.0 * c * c - push * push))
+    name = "A block stopped under a push of 2 m/s2 across its way, mu = 0.4, flat"
+    source = (
+        "(v (mu N + G cos ψ))' = G^2 - (mu N)^2, ψ the angle from G to v, and its like for both "
+        "ways, from the speed at 0.06 s on"
+    )
+    for quantity, unit, known, found in (
+        ("Time to the stop", "s", rest, history.events[-1].t_s - at * scene.dt_s),
+        ("Way along the push", "m", ahead, float(history.across_m[-1] - history.across_m[at])),
+        ("Way across the push", "m", -aside, float(history.u_m[-1] - history.u_m[at])),
+    ):
+        yield check(SECTION, name, source, quantity, unit, known, found, AGREES)
+
+
+def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
+    case = CASES[1]
+    plain, _ = sliding.in_plane(triple.scene(case, coulomb(case.mu)), TIGHT)
+    for drop in (1e-4, 1e-5, 1e-6):
+        law = Friction(
+            mu_slow=case.mu * (1.0 - drop),
+            mu_fast=case.mu,
+            rate_s_per_m=30.0,
+            mu_static=case.mu * (1.0 - drop),
+        )
+        found, _ = sliding.in_plane(triple.scene(case, law), TIGHT)
+        yield check(
+            SECTION,
+            f"Friction less by {100.0 * drop:.4g} % at a crawl: {triple.name}, {case}",
+            "Tends to two axes with one coefficient: within 50 times the difference",
+            "PRD",
+            "m",
+            plain.prd_m,
+            found.prd_m,
+            50.0 * drop,
+        )
+
+
+def _estimates(triple: Triple, *, quick: bool) -> CheckRow:
+    """How many of some scenes are changed by the second axis more than was estimated."""
+    over = count = 0
+    for share in (0.3, 0.1, 0.03, 0.01):
+        for case in CASES[:2] if quick else CASES:
+            full = triple.scene(case, coulomb(case.mu))
+            scene = replace(full, ay_mps2=readonly(share * full.ay_mps2))
+            one = sliding.along(scene)
+            change = abs(sliding.in_plane(scene)[0].prd_m - one.prd_m)
+            over += not change <= ladder.second_axis_effect(scene, one)
+            count += 1
+    return check(
+        SECTION,
+        f"Estimated effect of the second axis: {triple.name}, {count} scenes",
+        "The second component times 0.3, 0.1, 0.03 and 0.01, run in both ways",
+        "Scenes in which it is more than estimated",
+        "1",
+        0.0,
+        float(over),
+        0.0,
+    )
+
+
+def _choices(triple: Triple) -> Iterator[CheckRow]:
+    case = CASES[1]
+    full = triple.scene(case, coulomb(case.mu))
+    peak = ladder.friction_demand(full)
+    law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
+    faint = replace(full, ay_mps2=readonly(1e-4 * full.ay_mps2))
+    level = replace(faint, az_mps2=readonly(1e-5 * full.az_mps2))
+    for what, scene, rung in (
+        ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Rung.NO_SLIP),
+        ("Two components of nearly nothing", level, Rung.ONE_AXIS),
+        ("A second component of nearly nothing", faint, Rung.ONE_AXIS_VERTICAL),
+        ("Three components", full, Rung.TWO_AXES),
+        ("Friction by speed", replace(full, friction=law), Rung.SPEED_FRICTION),
+    ):
+        yield check(
+            SECTION,
+            f"{what}: {triple.name}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g",
+            "The least model that answers, number of its rung",
+            "Rung chosen",
+            "1",
+            float(rung),
+            float(ladder.solve(scene, Settings()).rung),
+            0.0,
+        )
+
+
+def _against_scipy(triple: Triple, samples: int) -> Iterator[CheckRow]:
+    case = CASES[1]
+    scene = triple.cut(samples).scene(case, coulomb(case.mu))
+    x, y = plane_scipy.reference(scene)
+    for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
+        history = sliding.in_plane_history(scene, tolerance)
+        off = float(np.hypot(history.u_m - x, history.across_m - y).max())
+        yield check(
+            SECTION,
+            f"Tolerance of 1 / {1.0 / tolerance:,.0f}: {triple.cut(samples).name}, {case}",
+            "SciPy's DOP853 with a relative tolerance of 10⁻¹², begun anew at samples and events",
+            "Largest difference in place, of the PRD",
+            "1",
+            0.0,
+            off / history.result.prd_m,
+            tolerance,
+        )

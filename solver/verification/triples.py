@@ -1,0 +1,148 @@
+"""Motions of three components for the comparison of rungs: made ones, and real ones of a folder.
+
+Runs nothing. Read `own_triples`, then `Triple.scene`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from solver.formats import read_motion_file
+from solver.methods import NO_RECORD
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, InputError, Motion, Scene
+from solver.motion import Record
+from solver.verification.scenes import Case, own_suite
+
+_UP = ("up", "v", "ud", "vertical", "vert", "z")
+"""Words by which a channel of a file says that it is the vertical one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Triple:
+    """Two horizontal components and the vertical one, over the same time.
+
+    Attributes
+    ----------
+    name : str
+    is_recorded : bool
+        In an earthquake, not made.
+    dt_s : float
+    x_mps2, y_mps2, z_mps2 : array, shape (n,)
+        Read-only [m/s2].
+    """
+
+    name: str
+    is_recorded: bool
+    dt_s: float
+    x_mps2: Floats
+    y_mps2: Floats
+    z_mps2: Floats
+
+    @property
+    def motion(self) -> Motion:
+        """The motion with both senses of both horizontal components, unscaled."""
+        return Motion(
+            id=self.name,
+            source="",
+            dt_s=self.dt_s,
+            ax_mps2=self.x_mps2,
+            ay_mps2=self.y_mps2,
+            az_mps2=self.z_mps2,
+            scale=1.0,
+            signs=(1, -1),
+        )
+
+    def scale_to(self, ppa_g: float) -> float:
+        """Return the factor that brings the larger horizontal peak to so many g."""
+        peak = max(float(np.abs(a).max()) for a in (self.x_mps2, self.y_mps2))
+        return ppa_g * STANDARD_GRAVITY_MPS2 / peak
+
+    def scene(
+        self, case: Case, friction: Friction, *, second: bool = True, vertical: bool = True
+    ) -> Scene:
+        """Return a case of this motion as recorded, or of a part of its components."""
+        return Scene(
+            ax_mps2=self.x_mps2,
+            ay_mps2=self.y_mps2 if second else NO_RECORD,
+            az_mps2=self.z_mps2 if vertical else NO_RECORD,
+            dt_s=self.dt_s,
+            slope_rad=case.slope_rad,
+            friction=friction,
+            scale=self.scale_to(case.ppa_g),
+            g_mps2=STANDARD_GRAVITY_MPS2,
+        )
+
+    def cut(self, samples: int) -> Triple:
+        """Return so many samples with the most horizontal energy."""
+        energy = np.convolve(self.x_mps2**2 + self.y_mps2**2, np.ones(samples), "valid")
+        first = int(energy.argmax())
+        x, y, z = (
+            readonly(a[first : first + samples]) for a in (self.x_mps2, self.y_mps2, self.z_mps2)
+        )
+        return Triple(
+            name=f"{(samples - 1) * self.dt_s:g} s of {self.name}",
+            is_recorded=self.is_recorded,
+            dt_s=self.dt_s,
+            x_mps2=x,
+            y_mps2=y,
+            z_mps2=z,
+        )
+
+
+def readonly(values: Floats) -> Floats:
+    """Return a copy that nobody changes: the kernels compile another version for such as may be."""
+    copied = np.array(values, dtype=np.float64)
+    copied.setflags(write=False)
+    return copied
+
+
+def own_triples(quick: bool) -> tuple[Triple, ...]:
+    """Return motions of the project whose components follow AC156 spectra."""
+    return tuple(
+        Triple(
+            name=motion.x.name.removesuffix("-x"),
+            is_recorded=False,
+            dt_s=motion.x.dt_s,
+            x_mps2=motion.x.a_mps2,
+            y_mps2=motion.y.a_mps2,
+            z_mps2=motion.z.a_mps2,
+        )
+        for motion in own_suite(quick)
+    )
+
+
+def recorded_triples(folder: Path) -> tuple[Triple, ...]:
+    """Return the motions of those files below a folder that hold three components.
+
+    Two horizontal ones and one that calls itself up or vertical; what cannot be read, or holds
+    less, is passed over.
+    """
+    found = (_triple(path) for path in sorted(folder.rglob("*")) if path.is_file())
+    return tuple(triple for triple in found if triple is not None)
+
+
+def _triple(path: Path) -> Triple | None:
+    try:
+        channels = read_motion_file(path).channels
+    except InputError:
+        return None
+    up = [one for one in channels if _is_vertical(one)]
+    level = [one for one in channels if not _is_vertical(one)]
+    if len(up) != 1 or len(level) != 2:
+        return None
+    return Triple(
+        name=path.stem,
+        is_recorded=True,
+        dt_s=up[0].dt_s,
+        x_mps2=level[0].a_mps2,
+        y_mps2=level[1].a_mps2,
+        z_mps2=up[0].a_mps2,
+    )
+
+
+def _is_vertical(channel: Record) -> bool:
+    words = channel.name.lower().replace(":", " ").replace("(", " ").split()
+    return any(word in _UP for word in words)

@@ -1,0 +1,84 @@
+"""The comparison of the models in the manual: what was found is printed, and nothing else."""
+
+import re
+from dataclasses import replace
+
+import numba
+import numpy as np
+import pytest
+
+from report.figures.base import load_fonts
+from report.manual.rungs import answers, rungs
+from report.pdf import TEMPLATES
+from solver.verification import plane_scipy, rung_study
+from solver.verification.evidence import Verification
+from solver.verification.rung_evidence import SECOND
+from solver.verification.triples import own_triples
+
+pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    load_fonts(TEMPLATES / "fonts")
+    return rung_study.rung_evidence(own_triples(True), quick=True)
+
+
+def verification(*evidence):
+    nothing = dict.fromkeys(
+        ("checks", "work", "maps", "convergence", "links", "curves", "conditioning", "roofs"), ()
+    )
+    return Verification(**nothing, rungs=evidence, peers=(), records=(), quick=True, seconds=1.0)
+
+
+def words(section):
+    blocks = section.blocks
+    tables = [table for block in blocks for table in (*block.top, *block.tables)]
+    cells = [cell for table in tables for row in table.rows for cell in row.cells]
+    texts = [text for block in blocks for text in block.texts]
+    return " ".join([*texts, *cells, *(note for table in tables for note in table.notes)])
+
+
+def test_the_factor_of_the_second_axis_is_told(evidence):
+    said = words(rungs(verification(evidence)))
+    second = next(one for one in evidence.study.changes if one.name == SECOND)
+    assert f"PRD is {second.median:.2f} times that of one axis with the same heading" in said
+    assert "One axis underestimates." in said
+    assert "No records of three components were given" in said
+    (answer,) = answers(verification(evidence))
+    assert f"{second.median:.2f} times" in answer[1]
+
+
+def test_no_number_is_printed_raw(evidence):
+    said = words(rungs(verification(evidence)))
+    assert not re.search(r"\bnan\b|\d+e[-+]?\d|None|\{|\}", said)
+
+
+def test_recorded_motions_and_lifted_runs_are_told(evidence):
+    study = replace(evidence.study, n_recorded=1, n_uplift=3)
+    said = words(rungs(verification(replace(evidence, study=study))))
+    assert "1 recorded in earthquakes" in said
+    assert "In 3 runs the vertical lifts the block" in said
+    assert "No records of three" not in said
+
+
+def test_where_nothing_slides_nothing_is_claimed(evidence):
+    none = [replace(one, ratios=np.empty(0)) for one in evidence.study.changes]
+    study = replace(evidence.study, changes=tuple(none))
+    found = verification(replace(evidence, study=study))
+    assert "No scene slides 5 mm or more" in words(rungs(found))
+    assert answers(found) == ()
+
+
+def test_without_scipy_the_manual_says_so(evidence, monkeypatch):
+    monkeypatch.setattr(plane_scipy, "is_installed", lambda: False)
+    work = tuple(one for one in evidence.work if "SciPy" not in one.method)
+    said = words(rungs(verification(replace(evidence, work=work))))
+    assert "SciPy is not installed here" in said
+
+
+def test_the_charts_are_the_same_every_time(evidence):
+    one, other = (rungs(verification(evidence)) for _ in range(2))
+    charts = [[c.picture.svg for b in part.blocks for c in b.charts] for part in (one, other)]
+    assert charts[0] == charts[1]
+    assert len(charts[0]) == 2

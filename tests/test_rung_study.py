@@ -1,0 +1,71 @@
+"""Rung against rung: ratios of what the solver gives, small and lifted runs counted apart."""
+
+import math
+from dataclasses import replace
+
+import numba
+import numpy as np
+import pytest
+
+from solver.sliding import slide
+from solver.verification import rung_study
+from solver.verification.rung_evidence import LEAST_M, OVER_SLOW, SECOND, WORST, RungChange
+from solver.verification.triples import own_triples, readonly
+
+pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+
+
+@pytest.fixture(scope="module")
+def study():
+    return rung_study.study(own_triples(True), quick=True)
+
+
+def named(study, name):
+    return next(one for one in study.changes if one.name == name)
+
+
+def test_every_run_is_counted(study):
+    assert study.n_runs == 2 * 2 * 2 * 4
+    for one in study.changes:
+        count = study.n_runs // 4 if one.name == WORST else study.n_runs
+        assert one.ratios.size + one.n_small + (study.n_uplift if one.name != WORST else 0) == count
+        assert np.all(np.diff(one.ratios) >= 0.0)
+
+
+def test_a_ratio_is_that_of_two_slides(study):
+    (triple,) = own_triples(True)
+    scene = {"slope_rad": 0.0, "mu": 0.3, "scale": triple.scale_to(1.5)}
+    one = slide(triple.x_mps2, triple.dt_s, az_mps2=triple.z_mps2, **scene)
+    two = slide(triple.x_mps2, triple.dt_s, ay_mps2=triple.y_mps2, az_mps2=triple.z_mps2, **scene)
+    assert min(one.prd_m, two.prd_m) > LEAST_M
+    ratio = two.prd_m / one.prd_m
+    assert np.abs(named(study, SECOND).ratios - ratio).min() == pytest.approx(0.0, abs=1e-9)
+
+
+def test_one_axis_underestimates_and_friction_that_rises_with_speed_slides_less(study):
+    assert named(study, SECOND).median > 1.0
+    assert named(study, WORST).median > 1.0
+    assert named(study, OVER_SLOW).median < 1.0
+    assert study.largest_error <= 1e-6
+
+
+def test_lifted_runs_are_counted_and_not_compared():
+    (triple,) = own_triples(True)
+    lifting = replace(triple, z_mps2=readonly(20.0 * triple.z_mps2))
+    study = rung_study.study((lifting,), quick=True)
+    assert study.n_uplift == study.n_runs
+    assert all(one.ratios.size == 0 and math.isnan(one.median) for one in study.changes)
+    assert math.isnan(study.largest_error)
+
+
+def test_percentiles_and_the_share_above_one():
+    change = RungChange(name="x", ratios=np.array([0.5, 1.5, 2.0]), n_small=0, most_m=0.0)
+    assert (change.median, change.at(0.0), change.at(100.0)) == (1.5, 0.5, 2.0)
+    assert change.share_above_one == pytest.approx(2.0 / 3.0)
+
+
+def test_rungs_are_timed_against_the_first():
+    found = rung_study.times(own_triples(True)[0])
+    assert found[0].ratio == 1.0
+    assert len({one.title for one in found}) == 4
+    assert all(one.ratio == pytest.approx(one.seconds / found[0].seconds) for one in found)

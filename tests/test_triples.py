@@ -1,0 +1,55 @@
+"""Motions of three components: made ones, and those that a folder holds."""
+
+import shutil
+
+import numba
+import numpy as np
+import pytest
+from conftest import RECORDS, SAMPLES
+
+from solver.verification.scenes import own_records
+from solver.verification.triples import own_triples, recorded_triples
+
+pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+
+
+def test_the_own_motions_are_those_of_the_records():
+    (triple,) = own_triples(True)
+    assert triple.x_mps2 is own_records(True)[0].a_mps2
+    assert not triple.is_recorded
+    assert not np.array_equal(triple.x_mps2, triple.y_mps2)
+
+
+def test_a_scene_has_the_larger_horizontal_peak_and_one_factor_for_all():
+    (triple,) = own_triples(True)
+    scale = triple.scale_to(0.5)
+    peaks = [np.abs(a).max() * scale for a in (triple.x_mps2, triple.y_mps2)]
+    assert max(peaks) == pytest.approx(0.5 * 9.80665)
+
+
+def test_a_part_is_the_strongest_and_sampled_alike():
+    (triple,) = own_triples(True)
+    part = triple.cut(101)
+    assert part.x_mps2.size == part.y_mps2.size == part.z_mps2.size == 101
+    assert not part.x_mps2.flags.writeable
+    energy = np.sum(part.x_mps2**2 + part.y_mps2**2)
+    assert energy >= np.sum((triple.x_mps2**2 + triple.y_mps2**2)[:101])
+
+
+def test_files_of_three_components_are_found_and_what_is_not_one_is_passed_over(tmp_path):
+    (tmp_path / "below").mkdir()
+    for path in SAMPLES.iterdir():
+        shutil.copy(path, tmp_path / "below" / path.name)
+    (tmp_path / "notes.txt").write_text("no motion")
+    found = recorded_triples(tmp_path)
+    assert found
+    assert all(one.is_recorded for one in found)
+    assert all(one.x_mps2.size == one.y_mps2.size == one.z_mps2.size for one in found)
+
+
+def test_the_vertical_is_told_by_its_name_wherever_it_stands():
+    if not RECORDS.is_dir():
+        pytest.skip("the real records are not here")
+    found = {one.name: one for one in recorded_triples(RECORDS)}
+    assert np.abs(found["20161113_110259_WTMC_20"].z_mps2).max() == pytest.approx(18.02, abs=0.01)
+    assert np.abs(found["llolleo1002271"].z_mps2).max() == pytest.approx(6.88, abs=0.01)
