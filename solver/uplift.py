@@ -1,0 +1,75 @@
+"""Uplift: when, how long and how deep the normal force of a block falls below zero.
+
+Beside every model: where it happens no displacement is given. Follows no motion.
+Read `uplift`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.forces import forces
+from solver.model import Floats, Scene
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Uplift:
+    """The normal force N of a block over a record.
+
+    Attributes
+    ----------
+    n_min_g : float
+        Least N / (m g); below zero this is the depth of the uplift.
+    t_min_s : float
+        When that is [s], the first time.
+    t_first_s : float
+        When N first falls below zero [s]; NaN if it never does.
+    duration_s : float
+        How long N is below zero, all times together [s].
+    times : int
+        How often N falls below zero, a record that begins there counted.
+    """
+
+    n_min_g: float
+    t_min_s: float
+    t_first_s: float
+    duration_s: float
+    times: int
+
+    @property
+    def lifts(self) -> bool:
+        """Whether the block would leave the roof."""
+        return self.n_min_g < 0.0
+
+
+def uplift(scene: Scene) -> Uplift:
+    """Return when and how deep N falls below zero, exactly for straight lines between samples."""
+    normal, dt = forces(scene).normal_mps2, scene.dt_s
+    least = int(np.argmin(normal))
+    below, starts = _below(normal), _starts(normal)
+    return Uplift(
+        n_min_g=float(normal[least]) / scene.g_mps2,
+        t_min_s=least * dt,
+        t_first_s=float(starts[0]) * dt if starts.size else math.nan,
+        duration_s=float(below.sum()) * dt,
+        times=starts.size,
+    )
+
+
+def _below(normal: Floats) -> Floats:
+    """Return the share of each interval in which a line between samples is below zero."""
+    first, last = normal[:-1], normal[1:]
+    deep = np.maximum(-first, 0.0) + np.maximum(-last, 0.0)
+    whole = np.abs(first) + np.abs(last)
+    return deep / np.where(whole > 0.0, whole, 1.0)
+
+
+def _starts(normal: Floats) -> Floats:
+    """Return when a line falls below zero, in samples, the beginning of the record included."""
+    first, last = normal[:-1], normal[1:]
+    (at,) = np.nonzero((first >= 0.0) & (last < 0.0))
+    begins = [0.0] if normal[0] < 0.0 else []
+    return np.array([*begins, *(at + first[at] / (first[at] - last[at]))])

@@ -1,0 +1,54 @@
+"""What a plane hands to a block, against the equations of the paper written apart."""
+
+import math
+
+import numpy as np
+import pytest
+
+from solver import ladder
+from solver.forces import forces
+from solver.model import Scene, coulomb
+
+RNG = np.random.default_rng(3)
+AX, AY, AZ = RNG.normal(0.0, 3.0, (3, 50))
+EMPTY = np.empty(0)
+
+
+def scene(ax, ay=EMPTY, az=EMPTY, slope=0.1, scale=1.0):
+    return Scene(
+        ax_mps2=ax,
+        ay_mps2=ay,
+        az_mps2=az,
+        dt_s=0.01,
+        slope_rad=slope,
+        friction=coulomb(0.4),
+        scale=scale,
+        g_mps2=9.81,
+    )
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.1, -0.3])
+def test_gravity_less_the_acceleration_of_the_roof_is_turned_into_the_plane(slope):
+    found = forces(scene(AX, AY, AZ, slope=slope, scale=0.5))
+    along = np.array([math.cos(slope), -math.sin(slope)])
+    outward = np.array([math.sin(slope), math.cos(slope)])
+    pull = np.array([-0.5 * AX, -9.81 - 0.5 * AZ])
+    np.testing.assert_allclose(found.down_mps2, along @ pull, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(found.normal_mps2, -(outward @ pull), rtol=0.0, atol=1e-14)
+    np.testing.assert_array_equal(found.across_mps2, -0.5 * AY)
+
+
+def test_components_that_are_absent_are_zero():
+    np.testing.assert_array_equal(forces(scene(AX)).across_mps2, np.zeros(50))
+    np.testing.assert_array_equal(
+        forces(scene(AX)).normal_mps2, forces(scene(AX, az=np.zeros(50))).normal_mps2
+    )
+
+
+def test_the_friction_demand_is_the_largest_between_the_samples_too():
+    found = forces(scene(AX, AY, AZ)).friction_demand
+    fine, at = np.linspace(0.0, 49.0, 49_001), np.arange(50.0)
+    between = [np.interp(fine, at, a) for a in (AX, AY, AZ)]
+    assert found == pytest.approx(forces(scene(*between)).friction_demand, rel=1e-14)
+    assert found == pytest.approx(ladder.friction_demand(scene(AX, AY, AZ)), rel=1e-14)
+    assert forces(scene(AX, AY, 10.0 * AZ)).friction_demand == math.inf
