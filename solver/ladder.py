@@ -14,8 +14,10 @@ from enum import IntEnum
 import numpy as np
 
 from solver import plane, sliding
+from solver.forces import forces
 from solver.methods import NO_RECORD
 from solver.model import Floats, InputError, Scene, SlideHistory, SlideResult, Status, coulomb
+from solver.row import Row, slide_row
 
 
 class Rung(IntEnum):
@@ -26,6 +28,7 @@ class Rung(IntEnum):
     ONE_AXIS_VERTICAL = 2
     TWO_AXES = 3
     SPEED_FRICTION = 4
+    ROW = 5
 
     @property
     def title(self) -> str:
@@ -39,6 +42,7 @@ _TITLES = {
     Rung.ONE_AXIS_VERTICAL: "one axis with vertical",
     Rung.TWO_AXES: "two axes with vertical",
     Rung.SPEED_FRICTION: "two axes, friction by speed",
+    Rung.ROW: "a row of linked blocks, one axis",
 }
 
 
@@ -54,13 +58,16 @@ class Settings:
     tolerance : float
         Of two axes and of friction by speed, relative to the PRD (`plane.TOLERANCES`).
     forced : Rung or None
-        This rung and no other.
+        This rung and no other. A row is never chosen, only asked for.
+    row : Row or None
+        The blocks and links of `Rung.ROW`.
     """
 
     matters_m: float = 1e-3
     matters_share: float = 0.005
     tolerance: float = plane.DEFAULT_TOLERANCE
     forced: Rung | None = None
+    row: Row | None = None
 
     def bound_m(self, prd_m: float) -> float:
         """Return the effect on a PRD below which nothing more is modelled [m]."""
@@ -120,7 +127,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
         Where a rung is forced that the scene does not allow.
     """
     started = time.perf_counter()
-    demand = friction_demand(scene)
+    demand = forces(scene).friction_demand
     if math.isinf(demand) and sliding.along(scene).status is Status.UPLIFT:
         found = _lifted(scene)
     elif settings.forced is None:
@@ -131,21 +138,19 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
 
 
 def history(scene: Scene, found: Solution, settings: Settings = DEFAULT) -> SlideHistory:
-    """Return the motion at the samples of a scene that was solved, by the same rung."""
+    """Return the motion at the samples of a scene that was solved, by the same rung.
+
+    Raises
+    ------
+    InputError
+        For a row: `solver.row.row_history` gives the motion of each of its blocks.
+    """
+    if found.rung is Rung.ROW:
+        raise InputError("a row has a history for each block; ask solver.row.row_history")
     run = _run_as(scene, found.rung)
     if found.rung >= Rung.TWO_AXES:
         return sliding.in_plane_history(run, settings.tolerance)
     return sliding.along_history(run)
-
-
-def friction_demand(scene: Scene) -> float:
-    """Return the largest |G| / N at the samples; between them it is less, |G| being convex."""
-    sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
-    ax, ay, az = (_or_zero(a) * scene.scale for a in (scene.ax_mps2, scene.ay_mps2, scene.az_mps2))
-    normal = (scene.g_mps2 + az) * cs + ax * sn
-    if np.min(normal) <= 0.0:
-        return math.inf
-    return float(np.max(np.hypot((scene.g_mps2 + az) * sn - ax * cs, ay) / normal))
 
 
 def second_axis_effect(scene: Scene, found: SlideResult) -> float:
@@ -205,6 +210,8 @@ def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solu
         )
     if rung is Rung.NO_SLIP:
         return _still(scene, demand)
+    if rung is Rung.ROW:
+        return _linked(scene, settings.row, demand)
     if rung >= Rung.TWO_AXES:
         return _in_plane(scene, settings, rung, why, demand)
     return _along(scene, rung, sliding.along(_run_as(scene, rung)), why, demand)
@@ -267,6 +274,34 @@ def _in_plane(scene: Scene, settings: Settings, rung: Rung, why: str, demand: fl
         next_rung=following,
         next_effect_m=effect,
         error_m=error,
+        friction_demand=demand,
+    )
+
+
+def _linked(scene: Scene, row: Row | None, demand: float) -> Solution:
+    """Return the farthest of a row's blocks, with the largest excursions of them all."""
+    if row is None:
+        raise InputError("a row of blocks is asked for, but not given; give Settings.row")
+    found = slide_row(scene, row)
+    worst = int(np.argmax(found.prd_m))
+    result = replace(
+        found.rigid,
+        status=found.status,
+        prd_m=found.prd_m[worst],
+        residual_m=found.residual_m[worst],
+        down_m=max(found.down_m),
+        up_m=max(found.up_m),
+        t_prd_s=math.nan,
+        n_stops=found.n_stops,
+        end_speed_mps=math.nan,
+    )
+    return Solution(
+        rung=Rung.ROW,
+        reason=f"asked for; its links change the PRD by {_mm(found.flexibility_m)}",
+        result=result,
+        next_rung=Rung.ROW,
+        next_effect_m=math.nan,
+        error_m=found.error_m,
         friction_demand=demand,
     )
 

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from solver import ladder
 from solver.forces import forces
 from solver.model import Scene, coulomb
 
@@ -50,5 +49,4 @@ def test_the_friction_demand_is_the_largest_between_the_samples_too():
     fine, at = np.linspace(0.0, 49.0, 49_001), np.arange(50.0)
     between = [np.interp(fine, at, a) for a in (AX, AY, AZ)]
     assert found == pytest.approx(forces(scene(*between)).friction_demand, rel=1e-14)
-    assert found == pytest.approx(ladder.friction_demand(scene(AX, AY, AZ)), rel=1e-14)
     assert forces(scene(AX, AY, 10.0 * AZ)).friction_demand == math.inf

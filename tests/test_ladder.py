@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from solver import ladder, sliding
-from solver.ladder import Rung, Settings, friction_demand, second_axis_effect, solve
+from solver.forces import forces
+from solver.ladder import Rung, Settings, history, second_axis_effect, solve
 from solver.model import Friction, InputError, Scene, Status, coulomb
+from solver.row import Row, slide_row
 
 G = 9.80665
 DT = 0.01
@@ -63,7 +65,7 @@ def test_a_block_that_friction_holds_is_not_run():
 @pytest.mark.parametrize("factor", [0.999, 1.001])
 def test_the_friction_demand_tells_slip_from_none(factor):
     still = scene(AX, AY, AZ)
-    mu = friction_demand(still) * factor
+    mu = forces(still).friction_demand * factor
     moved = sliding.in_plane(replace(still, friction=coulomb(mu)))[0].prd_m
     assert (solve(replace(still, friction=coulomb(mu))).rung is Rung.NO_SLIP) == (moved == 0.0)
     assert (moved > 0.0) == (factor < 1.0)
@@ -153,13 +155,44 @@ def test_no_slip_forced_on_a_block_that_slips_is_refused():
 
 
 @pytest.mark.parametrize("ay", [EMPTY, AY])
-@pytest.mark.parametrize("forced", [None, *Rung])
+@pytest.mark.parametrize("forced", [None, *list(Rung)[:-1]])
 def test_where_the_normal_force_vanishes_no_rung_gives_a_number(ay, forced):
     found = solve(scene(AX, ay, times(AZ, 4.0)), Settings(forced=forced))
     assert found.result.status is Status.UPLIFT
     assert math.isnan(found.result.prd_m)
     assert math.isnan(found.error_m)
     assert found.friction_demand == math.inf
+
+
+def test_a_row_is_run_where_it_is_asked_for():
+    row = Row(mus=(0.3, 0.4, 0.5), stiffness_per_s2=1e3)
+    found = solve(scene(AX, az=AZ), Settings(forced=Rung.ROW, row=row))
+    direct = slide_row(scene(AX, az=AZ), row)
+    assert found.result.prd_m == max(direct.prd_m) > direct.rigid.prd_m
+    assert found.error_m == direct.error_m
+    with pytest.raises(InputError, match="row_history"):
+        history(scene(AX, az=AZ), found)
+    with pytest.raises(InputError, match="not given"):
+        solve(scene(AX), Settings(forced=Rung.ROW))
+
+
+@pytest.mark.parametrize("forced", [None, Rung.NO_SLIP, Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL])
+def test_the_history_is_of_the_rung_that_was_chosen(forced):
+    run = scene(AX, az=AZ, mu=2.0 if forced is Rung.NO_SLIP else 0.4)
+    settings = Settings(forced=forced)
+    found = solve(run, settings)
+    seen = history(run, found, settings)
+    assert seen.result == found.result
+    assert np.abs(seen.u_m).max() == pytest.approx(found.result.prd_m, rel=0.02, abs=1e-12)
+
+
+def test_the_history_in_two_axes_has_both():
+    run = scene(AX, AY, AZ)
+    found = solve(run)
+    seen = history(run, found)
+    assert seen.result == found.result
+    far = np.hypot(seen.u_m, seen.across_m).max()
+    assert far == pytest.approx(found.result.prd_m, rel=0.01)
 
 
 def test_every_rung_has_a_name():

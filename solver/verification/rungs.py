@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from solver import ladder, sliding
+from solver.forces import forces
 from solver.ladder import Rung, Settings
 from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
@@ -251,7 +252,7 @@ def _estimates(triple: Triple, *, quick: bool) -> CheckRow:
 def _choices(triple: Triple) -> Iterator[CheckRow]:
     case = CASES[1]
     full = triple.scene(case, coulomb(case.mu))
-    peak = ladder.friction_demand(full)
+    peak = forces(full).friction_demand
     law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
     faint = replace(full, ay_mps2=readonly(1e-4 * full.ay_mps2))
     level = replace(faint, az_mps2=readonly(1e-5 * full.az_mps2))
