@@ -45,8 +45,11 @@ VX, VY, EX, EY, W, Q, E, SHARE = range(8)
 # Samples in a block of `kernels.bounds`.
 SHIFT = 4
 
-LEAST_TOLERANCE = 2e-15
+LEAST_TOLERANCE = 1e-14
 """Tolerance of a step below which rounding is larger."""
+
+ROUNDING = 4e-16
+"""Error of the net push by the sizes of drive and friction."""
 
 CLOSE = 3.0
 """Error in place that closing a stop may make, by tolerance and largest distance."""
@@ -111,9 +114,9 @@ def _part(order, before, last, tol):
 
 @njit
 def _left_out(order, part, last, ratio):
-    """Size of the terms that a series leaves out, each `ratio` of the one before."""
+    """Six times the size of the terms that a series leaves out, each `ratio` of the one before."""
     ratio = min(ratio, 0.9)
-    size = last * ratio / (1.0 - ratio)
+    size = 6.0 * last * ratio / (1.0 - ratio)
     for _ in range(order if part < 1.0 else 0):
         size *= part
     return size
@@ -146,8 +149,7 @@ def _sliding(w, vx, vy, gx, gy, rx, ry, c, rc, span, tol, most, law, b):
             vx, vy = share * vx, share * vy
         w = share * (rx * x + ry * y - q) + (share * gx * ex + share * gy * ey)
         b[VX, k + 1], b[VY, k + 1], b[W, k + 1] = vx, vy, w
-        before = last
-        last = abs(vx) + abs(vy)
+        before, last = last, abs(vx) + abs(vy)
         if last <= tol and before <= tol and k > 1:
             order = k + 1
             break
@@ -276,11 +278,12 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
 
 @njit
 def _value(b, first, order, part):
-    """The sum of b[E, k] part^(k - first) from `first` on."""
-    total = b[E, order]
+    """The sum of b[E, k] part^(k - first) from `first` on, and its slope."""
+    total, slope = b[E, order], 0.0
     for k in range(order - 1, first - 1, -1):
+        slope = slope * part + total
         total = total * part + b[E, k]
-    return total
+    return total, slope
 
 
 @njit
@@ -308,40 +311,42 @@ def _keeps_sign(b, first, order, part):
 def _zero(b, order, begin, part):
     """Where the series in row E changes sign after `begin` for the first time, or -1: up to `part`.
 
-    It is looked at in some places, close together at both ends, and at the vertex of the parabola
-    through any three of them that come near zero and go back. Then by the Illinois method.
+    It is looked at in some places, close together at both ends; between two from which it falls to
+    both sides towards zero, at its least. The root is found by the Illinois method.
     """
     first, side = 0, 0
     while first < 2 and b[E, first] == 0.0:
         first += 1
     if begin == 0.0 and _keeps_sign(b, first, order, part):
         return -1.0
-    low, high, at_low, at_high = begin, begin, 0.0, _value(b, first, order, begin)
-    up = at_high > 0.0
+    low = high = begin
+    at_high, slope = _value(b, first, order, begin)
+    at_low, up = at_high, at_high > 0.0
     for m in range(1, SCAN + 1):
-        before, at_before, low, at_low = low, at_low, high, at_high
         x = m / SCAN
+        low, at_low, falls = high, at_high, (slope < 0.0) == up
         high = begin + (part - begin) * (x * x * (3.0 - 2.0 * x))
-        at_high = _value(b, first, order, high)
+        at_high, slope = _value(b, first, order, high)
+        if (at_high > 0.0) == up and falls and (slope > 0.0) == up:
+            left, right, there = low, high, at_high
+            while (there > 0.0) == up and right - left > 1e-12 * part:
+                at = 0.5 * (left + right)
+                there, tilt = _value(b, first, order, at)
+                if (tilt > 0.0) == up:
+                    right = at
+                else:
+                    left = at
+            if (there > 0.0) != up:
+                high, at_high = at, there
         if (at_high > 0.0) != up:
             break
-        if m > 1 and abs(at_low) < min(abs(at_before), abs(at_high)):
-            rise, rise_before = (
-                (at_high - at_low) / (high - low),
-                (at_low - at_before) / (low - before),
-            )
-            at = 0.5 * (low + before - rise_before * (high - before) / (rise - rise_before))
-            found = _value(b, first, order, at)
-            if (found > 0.0) != up:
-                low, at_low, high, at_high = before, at_before, at, found
-                break
     if (at_high > 0.0) == up:
         return -1.0
     for _ in range(60):
         if not (high - low > 1e-13 * high and at_low != at_high):
             break
         at = (low * at_high - high * at_low) / (at_high - at_low)
-        found = _value(b, first, order, at)
+        found, _ = _value(b, first, order, at)
         # The end that stays counts half from its second time on.
         if (found > 0.0) == (at_high > 0.0):
             at_low *= 0.5 if side == 1 else 1.0
@@ -358,7 +363,7 @@ def _close(vx, vy, gx, gy, rx, ry, c, rc):
 
     With psi the angle from G to v: (w (q + G cos psi))' = G^2 - q^2 gives the time; the ways along
     and across G follow from the derivatives of w^2 (G + 2 q cos psi + G cos^2 psi) and of
-    w^2 sin psi (2 q + G cos psi).
+    w^2 sin psi (2 q + G cos psi), written without dividing by G.
 
     Returns the time, the way and a bound of its error; inf, 0, 0, inf where it may not stop.
     """
@@ -366,18 +371,14 @@ def _close(vx, vy, gx, gy, rx, ry, c, rc):
     g = math.sqrt(gx * gx + gy * gy)
     if not c > g:
         return never
-    w2, along, side = vx * vx + vy * vy, gx * vx + gy * vy, gx * vy - gy * vx
-    w, less = math.sqrt(w2), c * c - g * g
-    time = (c * w + along) / less
+    w, along = math.sqrt(vx * vx + vy * vy), gx * vx + gy * vy
+    less, more = c * c - g * g, 4.0 * c * c - g * g
+    time, lag = (c * w + along) / less, (2.0 * c * w + along) / more
     change = (math.sqrt(rx * rx + ry * ry) + abs(rc)) * time / (c - g)
     if change > 0.3:
         return never
-    wrong = change * w * time
-    if g < 1e-12 * c:
-        return time, 0.5 * time * vx, 0.5 * time * vy, wrong
-    ahead = (w2 + (2.0 * c * w * along + along * along) / (g * g)) / (4.0 * less)
-    aside = side * (2.0 * c * w + along) / (g * g * (4.0 * c * c - g * g))
-    return time, ahead * gx - aside * gy, ahead * gy + aside * gx, wrong
+    pull = (w * w + 3.0 * along * lag) / (4.0 * less)
+    return time, lag * vx + pull * gx, lag * vy + pull * gy, change * w * time
 
 
 @njit
@@ -519,7 +520,7 @@ def _onset(gx, gy, c, hx, hy, d):
 @njit
 def _note(events, n, t, kind, sx, sy):
     """Write event n, where there is room, and return how many there are."""
-    if events is not None and n < events.shape[0]:
+    if n < events.shape[0]:
         events[n, 0], events[n, 1], events[n, 2], events[n, 3] = t, kind, sx, sy
     return n + 1
 
@@ -527,9 +528,8 @@ def _note(events, n, t, kind, sx, sy):
 @njit
 def _fill(history, i, end, sx, sy, vx, vy):
     """Write samples i to end - 1."""
-    if history is not None:
-        for k in range(i, end):
-            history[0, k], history[1, k], history[2, k], history[3, k] = sx, sy, vx, vy
+    for k in range(i, min(end, history.shape[1])):
+        history[0, k], history[1, k], history[2, k], history[3, k] = sx, sy, vx, vy
 
 
 @njit(cache=True)
@@ -558,10 +558,10 @@ def slide_plane(
         Largest degree of a series, from 4 to `ORDER`.
     law : tuple of float, or None
         mu(w) = law[0] - law[1] exp(-law[2] w) while sliding; law[3] >= mu(0) until it slips.
-    events : array, shape (m, 4), or None
+    events : array, shape (m, 4)
         Filled with time, kind, sx and sy of the events, as far as there is room.
-    history : array, shape (4, n), or None
-        Filled with sx, sy, vx and vy at the samples.
+    history : array, shape (4, n) or (4, 0)
+        Filled with sx, sy, vx and vy at the samples, or with nothing.
     top : array, shape (6,)
         Filled: the largest distance in plan, its time, largest and least sx, largest and least sy.
     end : array, shape (4,)
@@ -663,7 +663,7 @@ def slide_plane(
                     continue
             part = stop if stop >= 0.0 else part
             h = span * part
-            off += miss
+            off += miss + ROUNDING * (abs(gx) + abs(gy) + hold * c) * h
             if grows > 0.0:
                 off *= math.exp(grows * c * h)
             error += off * h

@@ -21,8 +21,10 @@ TOLERANCES = (1e-10, 1e-2)
 
 # Tolerance of a step by that of the run: then the bound of the error is below the tolerance of the
 # run in all but long slips, and the error itself a hundredth of it or less.
-_SHARE = 5e-4
+_SHARE = 1.5e-4
 _ATTEMPTS = 5
+
+_NO_EVENTS, _NO_HISTORY = np.empty((0, 4)), np.empty((4, 0))
 
 # What one run more, and how much finer, tells of the error where no bound does.
 _FINER = 0.03
@@ -87,7 +89,7 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> PlaneOutcome:
     found = _bounded(scene, tolerance)
     if scene.friction.is_monotone:
         return found
-    finer = _run(scene, _FINER * found.step_tolerance, None, None)
+    finer = _run(scene, _FINER * found.step_tolerance, _NO_EVENTS, _NO_HISTORY)
     changes = np.subtract(_places(finer), _places(found))
     return replace(finer, error_m=2.0 * float(np.abs(changes).max()))
 
@@ -119,7 +121,7 @@ def _bounded(scene: Scene, tolerance: float) -> PlaneOutcome:
     """Return the first of some runs, each finer than the one before, that keeps to a tolerance."""
     steps, share = 0, _SHARE * tolerance
     for _ in range(_ATTEMPTS):
-        found = _run(scene, share, None, None)
+        found = _run(scene, share, _NO_EVENTS, _NO_HISTORY)
         steps += found.n_steps
         wanted = tolerance * found.prd_m
         if not scene.friction.is_monotone or found.error_m <= wanted:
@@ -135,7 +137,7 @@ def _places(found: PlaneOutcome) -> tuple[float, ...]:
     return found.prd_m, *sides, *found.end_m
 
 
-def _run(scene: Scene, step: float, events: Floats | None, samples: Floats | None) -> PlaneOutcome:
+def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOutcome:
     friction, cs = scene.friction, math.cos(scene.slope_rad)
     law = None
     if not friction.is_constant:

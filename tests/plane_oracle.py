@@ -86,13 +86,16 @@ def slide(ax, ay, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665, mu_static
 
 
 def _begin(span, t, state, law):
-    """The first instant of a slip: until the speed is 2e-5 of what the interval may give.
+    """The first instant of a slip: until the speed is 2e-5 of what it may soon be.
 
     So slow a block goes the way it is driven, behind it by the turn of the drive in w / |G|.
     """
-    scale = 2e-5 * _quasi_static(span, t, span.dt - t, law)
+    longest = span.dt - t
+    while math.hypot(*span.at(t + longest)[:2]) < law(0.0) * span.at(t + longest)[2]:
+        longest *= 0.5
+    scale = 2e-5 * _quasi_static(span, t, longest, law)
     high = brentq(
-        lambda h: _quasi_static(span, t, h, law) - scale, 0.0, span.dt - t, rtol=1e-14, xtol=1e-25
+        lambda h: _quasi_static(span, t, h, law) - scale, 0.0, longest, rtol=1e-14, xtol=1e-25
     )
     x, y = span.at(t + high)[:2]
     speed, drive = _quasi_static(span, t, high, law), math.hypot(x, y)

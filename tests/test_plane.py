@@ -195,6 +195,7 @@ TRAPS = {
     ),
     "at the yield acceleration": ([0, -2.0, -2.0, -2.0, -2.5, 0, 0], [0, 0, 0, 0, 0.1, 0, 0]),
     "a touch of it": ([0, -1.5, -2.2, -1.5, 0, 0], [0, -1.7, 0, 1.7, 0, 0]),
+    "a stop and a slip in a step": ([-2, 5, 0, -1, 1, 5, 0], [3, -4, 6, 2, 2, 0, 0]),
     "jumps": ([-9, 9, -9, 9, -9, 0, 0, 0], [9, 9, -9, -9, 9, 0, 0, 0]),
     "back through rest": ([0, -5, -5, 9, 9, 9, -3, 0, 0], [0, 0, 0, 1e-7, 1e-7, 0, 0, 0, 0]),
     "a turn near rest": ([0, -5, -5, 6, 6, 6, 0, 0, 0], [0, 0, 0, 0.3, 2.5, 2.5, 0, 0, 0]),
@@ -236,8 +237,8 @@ def assert_every_tolerance_is_kept_to(block):
 
 @pytest.mark.parametrize(("degrees", "mu"), [(0.0, 0.3), (5.0, 0.4)])
 def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
-    ax, ay, az = shaking(7, n=90, dt=0.02)
-    assert_every_tolerance_is_kept_to(scene(ax, ay, 0.02, degrees=degrees, friction=mu, az=az))
+    ax, ay, az = shaking(7, n=45, dt=0.04)
+    assert_every_tolerance_is_kept_to(scene(ax, ay, 0.04, degrees=degrees, friction=mu, az=az))
 
 
 @pytest.mark.parametrize(
@@ -252,15 +253,15 @@ def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
         pytest.skip("the real records are not here; noise covers the same code")
     ax, ay, az = (channel.a_mps2 for channel in read_motion_file(RECORDS / name).channels)
     peak = int(np.abs(ax).argmax())
-    part = slice(peak - 8, peak + 17)
+    part = slice(peak - 6, peak + 12)
     block = scene(ax[part], ay[part], 0.02, degrees=degrees, friction=mu, az=az[part], scale=scale)
     assert_every_tolerance_is_kept_to(block)
 
 
 def test_the_history_is_that_of_scipy_and_its_events_alternate():
-    ax, ay, az = shaking(8, n=80, dt=0.02)
-    exact = plane_oracle.slide(ax, ay, 0.02, slope_rad=0.05, mu=0.35, az=az, g=G)
-    block = replace(scene(ax, ay, 0.02, friction=0.35, az=az), slope_rad=0.05)
+    ax, ay, az = shaking(8, n=40, dt=0.04)
+    exact = plane_oracle.slide(ax, ay, 0.04, slope_rad=0.05, mu=0.35, az=az, g=G)
+    block = replace(scene(ax, ay, 0.04, friction=0.35, az=az), slope_rad=0.05)
     found = follow(block, 1e-9)
     samples, events = history(block, found)
     assert samples == pytest.approx(exact.history, abs=1e-9)
