@@ -81,9 +81,9 @@ def work(found: Sequence[PlaneWork]) -> str:
     """Return a line for each method, from coarse to fine; failed runs are left out."""
     names = list(dict.fromkeys(one.method for one in found))
     with style():
-        height = 2.7
+        height = 2.4
         figure = Figure(figsize=(WIDTH_IN, height))
-        axes = figure.add_axes((0.085, 0.155, 0.5, 0.81))
+        axes = figure.add_axes((0.085, 0.17, 0.5, 0.79))
         for name, look in zip(names, _LOOKS, strict=False):
             own = [one for one in found if one.method == name and not math.isnan(one.seconds)]
             axes.plot(

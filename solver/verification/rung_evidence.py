@@ -15,6 +15,7 @@ LEAST_M = 5e-3
 """PRD of both rungs from which on their ratio is told [m]: below, it says little."""
 
 VERTICAL, SECOND, WORST = "Vertical", "Second axis", "Second axis, worst heading"
+STIFF, SOFT = "Row, links of 1 mm", "Row, links of 10 mm"
 OVER_SLOW, OVER_FAST = "Friction by speed, over μ slow", "Friction by speed, over μ fast"
 
 
@@ -70,7 +71,11 @@ class RungStudy:
     n_runs, n_uplift : int
         Scenes times motions and headings, and those in which the normal force vanishes.
     changes : tuple of RungChange
-        `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW` and `OVER_FAST`.
+        `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW`, `OVER_FAST`, `STIFF` and `SOFT`.
+    row_ppa_g : float
+        Of the rows, which run in the first heading alone.
+    row_shares : tuple of float
+        Friction of the blocks of a row over that of the scene.
     largest_error : float
         Largest bound of the error of two axes, of the PRD.
     """
@@ -85,6 +90,8 @@ class RungStudy:
     n_runs: int
     n_uplift: int
     changes: tuple[RungChange, ...]
+    row_ppa_g: float
+    row_shares: tuple[float, ...]
     largest_error: float
 
 

@@ -17,12 +17,15 @@ import numpy as np
 from solver import sliding
 from solver.methods import NO_RECORD
 from solver.model import Friction, Heading, Scene, coulomb
+from solver.row import Row, RowResult, slide_row
 from solver.verification import plane_work
 from solver.verification.rung_evidence import (
     LEAST_M,
     OVER_FAST,
     OVER_SLOW,
     SECOND,
+    SOFT,
+    STIFF,
     VERTICAL,
     WORST,
     RungChange,
@@ -39,6 +42,15 @@ SLOPES_DEG, MUS, PPAS_G = (0.0, 2.0, 5.0), (0.3, 0.4, 0.5, 0.6), (0.5, 1.0, 1.5)
 
 SLOW_SHARE, RATE_S_PER_M = 0.8, 30.0
 """mu_slow over mu_fast, and the rate between them [s/m]."""
+
+ROW_SHARES = (0.8, 1.1, 0.9, 1.2, 1.0)
+"""Friction of the blocks of a row, from the top of the slope down, over that of the scene."""
+
+STRETCHES_M = {STIFF: 1e-3, SOFT: 1e-2}
+"""How much a link of a row stretches under the weight of a block [m]."""
+
+ROW_DAMPING = 0.05
+"""Damping ratio of one block on its link."""
 
 TIMED = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
 
@@ -87,7 +99,9 @@ def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
         rate_s_per_m=RATE_S_PER_M,
         n_runs=len(every),
         n_uplift=len(every) - len(kept),
-        changes=tuple(_changes(kept, by_scene)),
+        changes=(*_changes(kept, by_scene), *_rows(triples, cases, ppas[len(ppas) // 2])),
+        row_ppa_g=ppas[len(ppas) // 2],
+        row_shares=ROW_SHARES,
         largest_error=max((run.error for run in kept), default=math.nan),
     )
 
@@ -150,6 +164,31 @@ def _runs(scene: Scene, mu: float) -> _Runs | None:
     )
 
 
+def _rows(triples: Sequence[Triple], cases: Sequence[Case], ppa_g: float) -> Iterator[RungChange]:
+    """Compare the block that goes farthest of a row with the row as one rigid array."""
+    first = Heading(swapped=False, sign=1)
+    scenes = [
+        (case.mu, _scene(triple, case, first))
+        for triple in triples
+        for case in cases
+        if case.ppa_g == ppa_g
+    ]
+    for name, stretch_m in STRETCHES_M.items():
+        found = [slide_row(scene, row_of(mu, stretch_m, scene.g_mps2)) for mu, scene in scenes]
+        pairs = [(one.rigid.prd_m, max(one.prd_m)) for one in found]
+        yield _change(name, [pair for pair in pairs if not math.isnan(sum(pair))])
+
+
+def row_of(mu: float, stretch_m: float, g_mps2: float) -> Row:
+    """Return five blocks whose links stretch so far under the weight of a block."""
+    stiffness = g_mps2 / stretch_m
+    return Row(
+        mus=tuple(mu * share for share in ROW_SHARES),
+        stiffness_per_s2=stiffness,
+        damping_per_s=2.0 * ROW_DAMPING * math.sqrt(stiffness),
+    )
+
+
 def by_speed(mu_slow: float) -> Friction:
     """Return friction that rises from a crawl on."""
     return Friction(
@@ -163,14 +202,11 @@ def by_speed(mu_slow: float) -> Friction:
 def times(triple: Triple) -> tuple[RungTime, ...]:
     """Time every rung on the scenes `TIMED`; the first two are one solver."""
     medians = []
-    for title, law, second, vertical in _RUNGS:
-        run = sliding.in_plane if second else sliding.along
-        each = [
-            least_seconds(
-                partial(run, triple.scene(case, law(case.mu), second=second, vertical=vertical))
-            )
-            for case in TIMED
+    for title, run, law, second, vertical in _RUNGS:
+        scenes = [
+            triple.scene(case, law(case.mu), second=second, vertical=vertical) for case in TIMED
         ]
+        each = [least_seconds(partial(run, scene)) for scene in scenes]
         medians.append((title, statistics.median(each)))
     return tuple(
         RungTime(title=title, seconds=seconds, ratio=seconds / medians[0][1])
@@ -178,9 +214,15 @@ def times(triple: Triple) -> tuple[RungTime, ...]:
     )
 
 
-_RUNGS: tuple[tuple[str, Callable[[float], Friction], bool, bool], ...] = (
-    ("One axis", coulomb, False, False),
-    ("One axis with vertical", coulomb, False, True),
-    ("Two axes with vertical", coulomb, True, True),
-    ("Two axes, friction by speed", by_speed, True, True),
+def _row(scene: Scene) -> RowResult:
+    return slide_row(scene, row_of(scene.friction.mu_slow, STRETCHES_M[STIFF], scene.g_mps2))
+
+
+_RUNGS: tuple[tuple[str, Callable[[Scene], object], Callable[[float], Friction], bool, bool], ...]
+_RUNGS = (
+    ("One axis", sliding.along, coulomb, False, False),
+    ("One axis with vertical", sliding.along, coulomb, False, True),
+    ("Two axes with vertical", sliding.in_plane, coulomb, True, True),
+    ("Two axes, friction by speed", sliding.in_plane, by_speed, True, True),
+    ("Row of five blocks, links of 1 mm", _row, coulomb, False, True),
 )

@@ -16,6 +16,7 @@ from solver.forces import forces
 from solver.ladder import Rung, Settings
 from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
+from solver.row import Row, slide_row
 from solver.verification import plane_scipy
 from solver.verification.checks import check
 from solver.verification.evidence import CheckRow
@@ -47,6 +48,7 @@ def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]
         yield from _turned(triple)
         yield _in_proportion(triple)
         yield from _friction_by_speed(triple)
+        yield from _one_block(triple)
         yield _estimates(triple, quick=quick)
     yield from _circle()
     yield from _stop()
@@ -223,6 +225,25 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
             plain.prd_m,
             found.prd_m,
             50.0 * drop,
+        )
+
+
+def _one_block(triple: Triple) -> Iterator[CheckRow]:
+    """Rows that move as one block: of one, and of three alike, whose links have nothing to do."""
+    case = CASES[1]
+    scene = triple.scene(case, coulomb(case.mu), second=False)
+    exact = sliding.along(scene)
+    for count in (1, 3):
+        found = slide_row(scene, Row(mus=(case.mu,) * count, stiffness_per_s2=1e4))
+        yield check(
+            SECTION,
+            f"Row of equal blocks, {count} of them: {triple.name}, {case}",
+            "The exact method of one axis with vertical: their links have nothing to do",
+            "PRD, largest of the blocks",
+            "m",
+            exact.prd_m,
+            max(found.prd_m),
+            AGREES,
         )
 
 
