@@ -1,14 +1,17 @@
 """The comparison of the models in the manual: what was found is printed, and nothing else."""
 
+import io
 import re
 from dataclasses import replace
 
 import numba
 import numpy as np
+import pandas as pd
 import pytest
 
 from report.figures.base import load_fonts
 from report.manual.rungs import answers, rungs
+from report.manual.table import verification_csv
 from report.pdf import TEMPLATES
 from solver.verification import plane_scipy, rung_study
 from solver.verification.evidence import Verification
@@ -82,3 +85,12 @@ def test_the_charts_are_the_same_every_time(evidence):
     charts = [[c.picture.svg for b in part.blocks for c in b.charts] for part in (one, other)]
     assert charts[0] == charts[1]
     assert len(charts[0]) == 2
+
+
+def test_the_runs_are_in_the_table_of_the_verification(evidence):
+    table = pd.read_csv(io.BytesIO(verification_csv(verification(evidence))))
+    assert set(table["kind"]) == {"run in two axes"}
+    assert list(table["PRD error [%]"]) == pytest.approx(
+        [one.error_percent for one in evidence.work], rel=1e-12
+    )
+    assert set(table["scene"]) == {evidence.work_scene}

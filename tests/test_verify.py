@@ -185,7 +185,8 @@ def test_all_and_only_the_checks_and_runs_are_in_the_table(made, found):
     checks, runs = table[table["kind"] == "check"], table[table["kind"] == "run"]
     assert len(checks) == len(found.checks)
     assert len(runs) == len(found.work)
-    assert len(table) == len(checks) + len(runs)
+    in_two_axes = sum(len(one.work) for one in found.rungs)
+    assert len(table) == len(checks) + len(runs) + in_two_axes
     assert checks["found"].tolist() == [row.found for row in found.checks]
     assert checks["error [-]"].tolist() == [row.error for row in found.checks]
     assert set(checks["passed"]) == {"yes"}

@@ -17,6 +17,7 @@ from report.letters import lettered
 from solver.verification.rung_evidence import PlaneWork, RungChange
 
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
+_DOT = "#9a9a9a"
 _SPREAD = 0.31
 """Of the dots of a row, to each side of its middle."""
 
@@ -51,7 +52,7 @@ def _row(axes: Any, row: int, one: RungChange) -> None:
     # Dots side by side in turns: the same every time, and no two of one value on each other.
     turn = 0.5 * (1.0 + math.sqrt(5.0))
     aside = _SPREAD * (2.0 * np.mod(turn * np.arange(one.ratios.size), 1.0) - 1.0)
-    axes.plot(one.ratios, row + aside, linestyle="", marker=".", markersize=2.2, color=GREY)
+    axes.plot(one.ratios, row + aside, linestyle="", marker=".", markersize=1.8, color=_DOT)
     axes.plot([one.at(10.0), one.at(90.0)], [row, row], color=ACCENT, linewidth=2.0)
     axes.plot([one.median] * 2, [row - 0.36, row + 0.36], color=ACCENT, linewidth=2.0)
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import pandas as pd
 
 from solver.verification.evidence import CheckRow, Verification, WorkPoint
+from solver.verification.rung_evidence import PlaneWork
 
 
 def verification_csv(found: Verification) -> bytes:
-    """Return one table: checks first, then runs; a cell that does not apply is empty."""
+    """Return one table: checks, runs, those in two axes; a cell that does not apply is empty."""
     rows = [*map(_check, found.checks), *map(_run, found.work)]
+    rows += [_run_in_two_axes(one.work_scene, point) for one in found.rungs for point in one.work]
     text: str = pd.DataFrame(rows, columns=list(_COLUMNS)).to_csv(index=False, lineterminator="\n")
     return text.encode()
 
@@ -68,4 +70,15 @@ def _run(point: WorkPoint) -> dict[str, object]:
         "residual error [m]": point.residual_error_m,
         "residual error [%]": point.residual_error_percent,
         "status": point.status.value,
+    }
+
+
+def _run_in_two_axes(scene: str, point: PlaneWork) -> dict[str, object]:
+    return {
+        "kind": "run in two axes",
+        "method": point.method,
+        "parameters": point.setting,
+        "scene": scene,
+        "time per run [s]": point.seconds,
+        "PRD error [%]": point.error_percent,
     }

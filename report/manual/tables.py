@@ -185,8 +185,8 @@ def software(found: Verification, machine: Machine) -> Section:
                 texts=(
                     "Times hold for this machine while it did nothing else; errors do not depend "
                     "on it. To repeat: roofslip verify"
-                    f"{' --quick' if found.quick else ''}. All checks and all runs with their "
-                    "numbers are in verification.csv, the charts as files in charts/.",
+                    f"{' --quick' if found.quick else ''}. All checks and all runs of methods "
+                    "with their numbers are in verification.csv, the charts as files in charts/.",
                 ),
                 tables=(
                     Table(
