@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from report.assess import ArrayAssessment, Assessment, ClearanceCheck, MotionRun, assess
+from report.assess import ArrayAssessment, Assessment, ClearanceCheck, assess
+from report.runs import MotionRun
 from report.sheet.schema import ProjectInput
 from solver.methods import METHODS, Method
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, SlideResult, Status
@@ -55,8 +56,8 @@ class MethodRun:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Accuracy:
-    """The governing run by every method, and the design with 5 % less and 5 % more friction.
+class Rivals:
+    """The governing run, along the slope alone, by every method: they know one axis.
 
     Attributes
     ----------
@@ -64,6 +65,8 @@ class Accuracy:
         The one with the largest design displacement.
     motion : MotionRun
         Its motion with the largest PRD.
+    exact : SlideResult
+        Of its governing run along the slope alone.
     doubled : float
         |PRD / PRD - 1| of the exact method with a sample added midway between each two: the same
         motion, so that what is found is rounding. NaN without a displacement.
@@ -71,15 +74,28 @@ class Accuracy:
         Time of the exact run, the least of some [s].
     runs : tuple of MethodRun
         Empty where nothing slides or the block leaves the roof.
-    less, given, more : Assessment
-        With the friction coefficients lowered, as given, and raised.
     """
 
     array: ArrayAssessment
     motion: MotionRun
+    exact: SlideResult
     doubled: float
     seconds: float
     runs: tuple[MethodRun, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Accuracy:
+    """The governing run by every method, and the design with 5 % less and 5 % more friction.
+
+    Attributes
+    ----------
+    rivals : Rivals
+    less, given, more : Assessment
+        With the friction coefficients lowered, as given, and raised.
+    """
+
+    rivals: Rivals
     less: Assessment
     given: Assessment
     more: Assessment
@@ -91,25 +107,31 @@ class Accuracy:
         return tuple(after for before, after in pairs if before.ok and not after.ok)
 
 
-def accuracy(
-    data: ProjectInput,
-    motions: Sequence[Motion],
-    given: Assessment,
-    array: ArrayAssessment,
-) -> Accuracy:
-    """Run the governing array's governing motion by every method, and all arrays at other mu."""
+def rivals(array: ArrayAssessment) -> Rivals:
+    """Run the governing motion of an array by every method."""
     motion = array.worst
-    scene = _scene(array, motion)
-    peak = motion.governing.result.prd_m
-    return Accuracy(
+    scene = _scene(motion)
+    exact = slide(**scene)
+    peak = exact.prd_m
+    return Rivals(
         array=array,
         motion=motion,
+        exact=exact,
         doubled=abs(slide(**_doubled(scene)).prd_m / peak - 1.0) if peak > 0.0 else math.nan,
         seconds=_seconds(scene),
         runs=tuple(_runs(scene, peak)) if peak > 0.0 else (),
-        less=assess(_with_friction(data, 1.0 - SHIFT), motions),
+    )
+
+
+def accuracy(
+    data: ProjectInput, motions: Sequence[Motion], given: Assessment, found: Rivals
+) -> Accuracy:
+    """Run all arrays under all motions with other friction."""
+    return Accuracy(
+        rivals=found,
+        less=assess(_with_friction(data, 1.0 - SHIFT), motions, hold_models=False),
         given=given,
-        more=assess(_with_friction(data, 1.0 + SHIFT), motions),
+        more=assess(_with_friction(data, 1.0 + SHIFT), motions, hold_models=False),
     )
 
 
@@ -124,20 +146,26 @@ def _seconds(scene: dict[str, Any]) -> float:
 
 
 def _with_friction(data: ProjectInput, factor: float) -> ProjectInput:
-    changed = [array.model_copy(update={"mu": array.mu * factor}) for array in data.arrays]
+    names = ("mu", "mu_fast", "mu_static")
+    changed = [
+        array.model_copy(
+            update={name: mu * factor for name in names if (mu := getattr(array, name)) is not None}
+        )
+        for array in data.arrays
+    ]
     return data.model_copy(update={"arrays": type(data.arrays)(changed)})
 
 
-def _scene(array: ArrayAssessment, run: MotionRun) -> dict[str, Any]:
-    """Return the governing run as arguments of `slide`."""
-    motion = run.motion
+def _scene(run: MotionRun) -> dict[str, Any]:
+    """Return the governing run, along the slope alone, as arguments of `slide`."""
+    found = run.governing.scene
     return {
-        "ax_mps2": motion.along_mps2(run.governing.heading),
-        "az_mps2": motion.az_mps2 if motion.has_vertical else None,
-        "dt_s": motion.dt_s,
-        "scale": motion.scale,
-        "slope_rad": array.array.slope_rad,
-        "mu": array.array.mu,
+        "ax_mps2": found.ax_mps2,
+        "az_mps2": found.az_mps2 if run.motion.has_vertical else None,
+        "dt_s": found.dt_s,
+        "scale": found.scale,
+        "slope_rad": found.slope_rad,
+        "mu": found.friction.mu_slow,
     }
 
 

@@ -8,20 +8,23 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from report.runs import RUNGS, MotionRun, nan_is_worst, run_motion
 from report.sheet.schema import (
     Array,
     Clearance,
+    Direction,
+    Model,
     ObjectKind,
     ProjectInput,
     RoofObject,
     Statistic,
 )
 from report.sheet.targets import Targets, ac156, targets
-from solver import provisions
-from solver.model import Heading, Motion, SlideHistory, SlideResult, Status
+from solver import ladder, provisions
+from solver.model import Motion, SlideResult, Status
 from solver.provisions import (
     AnalysisValue,
     Basis,
@@ -31,7 +34,6 @@ from solver.provisions import (
     RequiredSpectrum,
     RuleSet,
 )
-from solver.sliding import slide_motion, slide_motion_history
 
 _BASES = {
     Statistic.RULE_SET: None,
@@ -39,41 +41,15 @@ _BASES = {
     Statistic.LARGEST_1_1: Basis.LARGEST_FACTORED,
     Statistic.MEAN: Basis.MEAN,
 }
+_OPPOSITE = {Direction.DOWN: Direction.UP, Direction.UP: Direction.DOWN}
+ALIKE_DEG = 1.0
+"""Slopes that fall within so many degrees of each other fall in the same direction."""
+
 _KINDS = {
     ObjectKind.FIXED: Neighbour.FIXED,
     ObjectKind.UNLIKE_ARRAY: Neighbour.UNLIKE,
     ObjectKind.EDGE_WITHOUT_PARAPET: Neighbour.EDGE,
 }
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HeadingRun:
-    """One motion with one horizontal component along the slope, in one polarity."""
-
-    heading: Heading
-    result: SlideResult
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MotionRun:
-    """One array under one motion, with each horizontal component in the polarities asked for.
-
-    Attributes
-    ----------
-    governing : HeadingRun
-        The run with the largest PRD; one without a displacement governs over all.
-    history : SlideHistory
-        Of the governing run.
-    """
-
-    motion: Motion
-    runs: tuple[HeadingRun, ...]
-    governing: HeadingRun
-    history: SlideHistory
-
-
-def _nan_is_worst(value: float) -> float:
-    return math.inf if math.isnan(value) else value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,6 +63,12 @@ class ArrayAssessment:
     design_m : float
         Design displacement [m]: the larger of the value from analysis and the floor. NaN where
         there is no value from analysis.
+    directions : mapping
+        The value from analysis of the excursions in each direction; `analysis` is that of any.
+    chosen : mapping
+        The same by the models that the scenes need; differs where a model is asked for.
+    needed : tuple of MotionRun
+        The runs behind it, in the order of `motions`.
     checks : tuple of Check
         Limits that the array must keep for the analysis route.
     prescriptive_checks : tuple of Check
@@ -96,6 +78,9 @@ class ArrayAssessment:
     array: Array
     motions: tuple[MotionRun, ...]
     analysis: AnalysisValue
+    directions: Mapping[Direction, AnalysisValue]
+    chosen: Mapping[Direction, AnalysisValue]
+    needed: tuple[MotionRun, ...]
     prescriptive: Prescriptive
     floor_m: float
     design_m: float
@@ -109,6 +94,28 @@ class ArrayAssessment:
         if math.isnan(self.design_m):
             return "no value"
         return "floor" if self.floor_m > self.analysis.value_m else "analysis"
+
+    def design_towards_m(self, direction: Direction) -> float:
+        """Return the design displacement in a direction [m]: not below the floor either."""
+        return self._floored(self.directions[direction])
+
+    def chosen_towards_m(self, direction: Direction) -> float:
+        """Return the same by the models that the scenes need [m]."""
+        return self._floored(self.chosen[direction])
+
+    def _floored(self, found: AnalysisValue) -> float:
+        return math.nan if math.isnan(found.value_m) else max(found.value_m, self.floor_m)
+
+    @property
+    def is_model_asked_for(self) -> bool:
+        """Whether the workbook asks for a model."""
+        return self.array.model in RUNGS
+
+    @property
+    def is_model_enough(self) -> bool:
+        """Whether the models that the scenes need would not ask for more room, any way."""
+        pairs = ((self.chosen_towards_m(d), self.design_towards_m(d)) for d in Direction)
+        return all(math.isnan(b) or a <= b + ladder.DEFAULT.bound_m(b) for a, b in pairs)
 
     @property
     def ratio(self) -> float:
@@ -127,7 +134,7 @@ class ArrayAssessment:
     @property
     def worst(self) -> MotionRun:
         """The motion with the largest PRD."""
-        return max(self.motions, key=lambda run: _nan_is_worst(run.governing.result.prd_m))
+        return max(self.motions, key=lambda run: nan_is_worst(run.governing.result.prd_m))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,8 +143,9 @@ class ClearanceCheck:
 
     Attributes
     ----------
-    governing_array : str
-        Whose design displacement counts: the larger of the two between arrays.
+    governing_array, governing_direction : str, Direction
+        Whose design displacement counts, in its own direction: the larger of the two between
+        arrays.
     least_m : float
         Least separation of the rule set for this neighbour [m]; 0 for none.
     """
@@ -145,6 +153,7 @@ class ClearanceCheck:
     clearance: Clearance
     neighbour: Neighbour
     governing_array: str
+    governing_direction: Direction
     design_m: float
     factor: float
     least_m: float
@@ -199,7 +208,8 @@ class Assessment:
         checks = [*self.building_checks, *(check for a in self.arrays for check in a.checks)]
         limits_kept = all(check.ok for check in checks)
         has_values = not any(math.isnan(a.design_m) for a in self.arrays) and not self.warnings
-        return limits_kept and has_values and all(gap.ok for gap in self.clearances)
+        modelled = all(item.is_model_enough for item in self.arrays)
+        return limits_kept and has_values and modelled and all(gap.ok for gap in self.clearances)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -222,7 +232,7 @@ class Assessment:
             for item in self.clearances
             if same_id(item.clearance.array, array_id) or same_id(item.clearance.object, array_id)
         ]
-        return max(of_array, key=lambda c: _nan_is_worst(c.demand_capacity), default=None)
+        return max(of_array, key=lambda c: nan_is_worst(c.demand_capacity), default=None)
 
 
 def _trouble(results: Sequence[SlideResult]) -> str:
@@ -239,8 +249,15 @@ def same_id(one: str, other: str) -> bool:
     return one.casefold() == other.casefold()
 
 
-def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
+def assess(
+    data: ProjectInput, motions: Sequence[Motion], *, hold_models: bool = True
+) -> Assessment:
     """Run every array under every motion and check every limit and clearance.
+
+    Parameters
+    ----------
+    hold_models : bool
+        Whether models that are asked for are held against those that the scenes need.
 
     Raises
     ------
@@ -252,10 +269,10 @@ def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
         {row.provision: (row.value, row.reason) for row in data.overrides}
     )
     started = time.perf_counter()
-    runs = [tuple(run_motion(array, motion) for motion in motions) for array in data.arrays]
+    runs = [_runs(array, motions, hold_models) for array in data.arrays]
     seconds = time.perf_counter() - started
     arrays = tuple(
-        _assess_array(data, rules, array, found)
+        _assess_array(data, rules, array, *found)
         for array, found in zip(data.arrays, runs, strict=True)
     )
     return Assessment(
@@ -274,37 +291,48 @@ def assess(data: ProjectInput, motions: Sequence[Motion]) -> Assessment:
     )
 
 
-def run_motion(array: Array, motion: Motion) -> MotionRun:
-    """Run one array under one motion in all of its runs."""
-    slope, mu = array.slope_rad, array.mu
-    runs = tuple(
-        HeadingRun(
-            heading=heading,
-            result=slide_motion(motion, slope_rad=slope, mu=mu, heading=heading),
-        )
-        for heading in motion.headings
-    )
-    governing = max(runs, key=lambda run: _nan_is_worst(run.result.prd_m))
-    history = slide_motion_history(motion, slope_rad=slope, mu=mu, heading=governing.heading)
-    return MotionRun(motion=motion, runs=runs, governing=governing, history=history)
+def _runs(
+    array: Array, motions: Sequence[Motion], hold_models: bool
+) -> tuple[tuple[MotionRun, ...], ...]:
+    """Return the runs of an array, and those by the models that its scenes need."""
+    runs = tuple(run_motion(array, motion) for motion in motions)
+    if array.model is Model.CHOOSE or not hold_models:
+        return runs, runs
+    return runs, tuple(run_motion(array, motion, Model.CHOOSE) for motion in motions)
+
+
+def _towards(
+    rules: RuleSet, runs: Sequence[MotionRun], basis: Basis | None
+) -> Mapping[Direction, AnalysisValue]:
+    return {
+        direction: provisions.analysis_value(rules, [run.peak_m(direction) for run in runs], basis)
+        for direction in Direction
+    }
 
 
 def _assess_array(
-    data: ProjectInput, rules: RuleSet, array: Array, runs: tuple[MotionRun, ...]
+    data: ProjectInput,
+    rules: RuleSet,
+    array: Array,
+    runs: tuple[MotionRun, ...],
+    needed: tuple[MotionRun, ...],
 ) -> ArrayAssessment:
     site = data.site
     prescriptive = provisions.prescriptive_displacement(
         rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
     )
-    analysis = provisions.analysis_value(
-        rules, [run.governing.result.prd_m for run in runs], _BASES[data.options.statistic]
-    )
+    basis = _BASES[data.options.statistic]
+    directions = _towards(rules, runs, basis)
+    analysis = directions[Direction.ANY]
     floor = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
     no_value = math.isnan(analysis.value_m)
     return ArrayAssessment(
         array=array,
         motions=runs,
         analysis=analysis,
+        directions=directions,
+        chosen=directions if needed is runs else _towards(rules, needed, basis),
+        needed=needed,
         prescriptive=prescriptive,
         floor_m=floor,
         design_m=math.nan if no_value else max(analysis.value_m, floor),
@@ -317,7 +345,7 @@ def _assess_array(
             *provisions.analysis_checks(rules, slope_rad=array.slope_rad, n_motions=len(runs)),
         ),
         prescriptive_checks=provisions.prescriptive_checks(
-            rules, slope_rad=array.slope_rad, mu=array.mu
+            rules, slope_rad=array.slope_rad, mu=array.least_mu
         ),
         # The lighter side of a section is at most half of the array.
         interconnection_n=provisions.interconnection_strength_n(
@@ -334,7 +362,12 @@ def _check_clearance(
 ) -> ClearanceCheck:
     near = _by_id(arrays, row.array)
     others = [a for a in arrays if same_id(a.array.id, row.object)]
-    governing = max([near, *others], key=lambda a: _nan_is_worst(a.design_m))
+    facing = [(near, row.direction)]
+    facing += [
+        (other, facing_direction(near.array, other.array, row.direction)) for other in others
+    ]
+    governing, direction = max(facing, key=lambda a: nan_is_worst(a[0].design_towards_m(a[1])))
+    design_m = governing.design_towards_m(direction)
     if others:
         alike = same_id(near.array.construction, others[0].array.construction)
         neighbour = Neighbour.LIKE if alike else Neighbour.UNLIKE
@@ -342,7 +375,7 @@ def _check_clearance(
         found = next(item for item in data.objects if same_id(item.id, row.object))
         neighbour = _neighbour(rules, found, near.array)
     required = provisions.required_separation(
-        rules, neighbour, design_m=governing.design_m, importance=data.site.i_e
+        rules, neighbour, design_m=design_m, importance=data.site.i_e
     )
     factor = rules[provisions.SEPARATION_KEYS[neighbour]]
     if rules.importance_in_separation:
@@ -351,11 +384,23 @@ def _check_clearance(
         clearance=row,
         neighbour=neighbour,
         governing_array=governing.array.id,
-        design_m=governing.design_m,
+        governing_direction=direction,
+        design_m=design_m,
         factor=factor,
         least_m=provisions.least_separation_m(rules, neighbour),
         required_m=required,
     )
+
+
+def facing_direction(near: Array, other: Array, direction: Direction) -> Direction:
+    """Return a direction of an array as seen from the array across the gap.
+
+    Any where their slopes fall in different directions.
+    """
+    turn = (near.downslope_deg - other.downslope_deg) % 360.0
+    if min(turn, 360.0 - turn) > ALIKE_DEG:
+        return Direction.ANY
+    return _OPPOSITE.get(direction, direction)
 
 
 def _by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:

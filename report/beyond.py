@@ -9,7 +9,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from report.assess import ArrayAssessment, run_motion, same_id
+from report.assess import ArrayAssessment, same_id
+from report.runs import run_motion
 from report.sheet.schema import MotionInput
 from report.sheet.shaking import Story
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
+from report.sheet.schema import Direction
 from report.sheet.shaking import Story
 from report.sheet.workbook import InputBook, RecordFile
 from solver.building import RoofMotion
@@ -88,6 +89,7 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
         "id": item.array.id,
         "slope_rad": item.array.slope_rad,
         "mu": item.array.mu,
+        "friction": asdict(item.array.friction),
         "computed_m": item.analysis.value_m,
         "computed_basis": item.analysis.basis,
         "mean_prd_m": item.analysis.mean_m,
@@ -98,6 +100,25 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
         "floor_m": item.floor_m,
         "design_m": item.design_m,
         "design_governs": item.governs,
+        "model_asked_for": item.array.model,
+        "model_is_enough": item.is_model_enough,
+        "directions": {
+            direction: {
+                "mean_m": found.mean_m,
+                "largest_m": found.largest_m,
+                "computed_m": found.value_m,
+                "design_m": item.design_towards_m(direction),
+                "design_by_chosen_model_m": item.chosen_towards_m(direction),
+            }
+            for direction, found in item.directions.items()
+        },
+        "peaks": [
+            {
+                "motion": motion.motion.id,
+                **{f"{d.value}_m": motion.peak_m(d) for d in Direction},
+            }
+            for motion in item.motions
+        ],
         "interconnection_n": item.interconnection_n,
         "checks": [_check(check) for check in item.checks],
         "prescriptive_checks": [_check(check) for check in item.prescriptive_checks],
@@ -109,6 +130,13 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
                 "scale": motion.motion.scale,
                 "dt_s": motion.motion.dt_s,
                 **asdict(run.result),
+                "rung": int(run.solution.rung),
+                "model": run.solution.rung.title,
+                "reason": run.solution.reason,
+                "next_rung": int(run.solution.next_rung),
+                "next_effect_m": run.solution.next_effect_m,
+                "error_m": run.solution.error_m,
+                "friction_demand": run.solution.friction_demand,
             }
             for motion in item.motions
             for run in motion.runs
@@ -123,6 +151,7 @@ def _clearance(item: ClearanceCheck) -> dict[str, Any]:
         "direction": item.clearance.direction,
         "neighbour": item.neighbour,
         "governing_array": item.governing_array,
+        "governing_direction": item.governing_direction,
         "design_m": item.design_m,
         "factor": item.factor,
         "required_m": item.required_m,

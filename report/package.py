@@ -11,12 +11,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from report.accuracy import Accuracy, accuracy
+from report.accuracy import Accuracy, Rivals, accuracy, rivals
 from report.aside import begin
 from report.assess import Assessment
 from report.beyond import beyond_corners
 from report.pages import accuracy as accuracy_page
-from report.pages import appendix, checks, demand, front, inputs, method, motions, results
+from report.pages import appendix, checks, demand, front, inputs, method, model, motions, results
 from report.pages.parts import Part, Scene
 from report.pages.pictures import Pictures, draw
 from report.pdf import TEMPLATES, html_to_pdf, load_renderer
@@ -51,20 +51,21 @@ def _render(book: InputBook, assessment: Assessment, tell: Stage) -> bytes:
     tell("figures")
     found = spectra(assessment, book.motions, book.stories)
     beyond = beyond_corners(book.input.motions, book.stories, scene.governing)
-    rivals = accuracy(book.input, book.motions, assessment, scene.governing)
-    pictures = begin(lambda: _draw(scene, found, rivals))
+    compared = rivals(scene.governing)
+    pictures = begin(lambda: _draw(scene, found, compared))
     tell("pages")
+    sureness = accuracy(book.input, book.motions, assessment, compared)
     motion_page = motions.page(scene, book.motions, book.stories, book.records, found, beyond)
-    context = {**_context(book, scene, rivals), "motions": motion_page}
+    context = {**_context(book, scene, sureness), "motions": motion_page}
     load_renderer()
     html = _html({**context, "pictures": pictures()})
     tell("pdf")
     return html_to_pdf(html)
 
 
-def _draw(scene: Scene, found: Sequence[Spectra], rivals: Accuracy) -> Pictures:
+def _draw(scene: Scene, found: Sequence[Spectra], compared: Rivals) -> Pictures:
     pictures = draw(scene, found)
-    charts = [accuracy_page.picture(rivals, scene.say.us_first)] if rivals.runs else []
+    charts = [accuracy_page.picture(compared, scene.say.us_first)] if compared.runs else []
     return {**pictures, "accuracy": charts}
 
 
@@ -93,7 +94,7 @@ def _html(context: Mapping[str, Any]) -> str:
     return environment.get_template("package.html").render(context)
 
 
-def _context(book: InputBook, scene: Scene, rivals: Accuracy) -> Mapping[str, Any]:
+def _context(book: InputBook, scene: Scene, sureness: Accuracy) -> Mapping[str, Any]:
     governing = scene.governing
     return {
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
@@ -117,7 +118,8 @@ def _context(book: InputBook, scene: Scene, rivals: Accuracy) -> Mapping[str, An
         "clearances": checks.clearances(scene),
         "limits": checks.limits(scene),
         "provisions": checks.provisions(scene),
-        "accuracy": accuracy_page.page(scene, rivals),
+        "model": model.page(scene),
+        "accuracy": accuracy_page.page(scene, sureness),
         "appendix": {
             "echo": appendix.echo(book.echo),
             "records": appendix.records(book.records),
@@ -146,6 +148,7 @@ def parts(scene: Scene) -> tuple[Part, ...]:
         ("clearances", "Clearances", ()),
         ("limits", "Limits and interconnection strength", ()),
         ("provisions", "Provisions and overrides", ()),
+        ("model", "Model used", ()),
         ("accuracy", "Accuracy and sensitivity", ()),
     )
     numbered = [

@@ -9,21 +9,20 @@ from __future__ import annotations
 import datetime as dt
 import io
 import math
-from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
-from xlsxwriter.utility import xl_rowcol_to_cell
 from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
+from report.book_directions import DirectionCells, PeakRanges, write_directions, write_peaks
+from report.book_sheets import METRES_PER_INCH, Pages, write_headings
+from report.sheet.schema import Direction
 from report.sheet.workbook import InputBook
 from report.spectra import spectra
 from report.units import G_MPS2
 from solver.provisions import Basis
-
-METRES_PER_INCH = 0.0254
 
 
 def results_xlsx(book: InputBook, assessment: Assessment) -> bytes:
@@ -33,46 +32,23 @@ def results_xlsx(book: InputBook, assessment: Assessment) -> bytes:
     options = {"strings_to_formulas": False, "strings_to_urls": False, "nan_inf_to_errors": True}
     with pd.ExcelWriter(buffer, engine="xlsxwriter", engine_kwargs={"options": options}) as writer:
         workbook: Workbook = writer.book
-        pages = _Pages(workbook)
+        pages = Pages(workbook)
         runs = _runs_table(assessment)
-        for name in ("Design", "Clearances"):
+        for name in ("Design", "Directions", "Clearances", "Peaks"):
             workbook.add_worksheet(name)
         _write_table(writer, runs, "Runs", pages)
         _write_table(writer, _motions_table(book), "Motions", pages)
         _write_table(writer, _records_table(book), "Records", pages)
         _write_table(writer, _spectra_table(book, assessment), "Spectra", pages)
-        design_cells = _write_design(pages, book, assessment, runs)
-        _write_clearances(pages, book, assessment, design_cells)
+        peaks = write_peaks(pages, assessment, runs)
+        _write_design(pages, book, assessment, peaks)
+        _write_clearances(pages, book, assessment, write_directions(pages, assessment, peaks))
         workbook.set_calc_mode("auto")
         # Two runs give the same bytes: the date is the project's, not the clock's.
         workbook.set_properties(
             {"created": dt.datetime.combine(book.input.project.date, dt.time())}
         )
     return buffer.getvalue()
-
-
-class _Pages:
-    """The formats that all sheets share."""
-
-    def __init__(self, workbook: Workbook):
-        self.workbook = workbook
-        self.title = workbook.add_format({"bold": True, "font_size": 14})
-        self.head = workbook.add_format(
-            {"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"}
-        )
-        self.note = workbook.add_format({"italic": True, "font_color": "#555555"})
-        self.plain = workbook.add_format({})
-        self.numbers = {
-            decimals: workbook.add_format({"num_format": f"0.{'0' * decimals}"})
-            for decimals in (1, 2, 3, 4)
-        }
-
-    def sheet(self, name: str, title: str, note: str) -> Worksheet:
-        """Return a sheet with its heading written."""
-        sheet: Worksheet = self.workbook.get_worksheet_by_name(name)
-        sheet.write_string(0, 0, title, self.title)
-        sheet.write_string(1, 0, note, self.note)
-        return sheet
 
 
 def _runs_table(assessment: Assessment) -> pd.DataFrame:
@@ -90,11 +66,20 @@ def _runs_table(assessment: Assessment) -> pd.DataFrame:
             "PRD / mean": _over(run.result.prd_m, item.analysis.mean_m),
             "Residual [in]": run.result.residual_m / METRES_PER_INCH,
             "Residual [mm]": run.result.residual_m * 1e3,
-            "Down [mm]": run.result.down_m * 1e3,
-            "Up [mm]": run.result.up_m * 1e3,
+            "Residual across [in]": run.result.residual_across_m / METRES_PER_INCH,
+            **{
+                f"{direction.value.capitalize()} [in]": run.excursion_m(direction) / METRES_PER_INCH
+                for direction in (Direction.DOWN, Direction.UP, Direction.ACROSS)
+            },
             "Time of PRD [s]": run.result.t_prd_s,
             "Stops": run.result.n_stops,
             "Least N/(m g)": run.result.n_min_g,
+            "Friction demand": run.solution.friction_demand,
+            "Model": f"{int(run.solution.rung)}, {run.solution.rung.title}",
+            "Why": run.solution.reason,
+            "Next model": f"{int(run.solution.next_rung)}, {run.solution.next_rung.title}",
+            "It would change [in]": run.solution.next_effect_m / METRES_PER_INCH,
+            "Error below [in]": run.solution.error_m / METRES_PER_INCH,
             "Outcome": run.result.status.sentence,
         }
         for item in assessment.arrays
@@ -158,7 +143,7 @@ def _spectra_table(book: InputBook, assessment: Assessment) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def _write_table(writer: Any, table: pd.DataFrame, name: str, pages: _Pages) -> None:
+def _write_table(writer: Any, table: pd.DataFrame, name: str, pages: Pages) -> None:
     table.to_excel(writer, sheet_name=name, index=False, na_rep="no value")
     sheet: Worksheet = writer.sheets[name]
     sheet.freeze_panes(1, 0)
@@ -178,36 +163,22 @@ _DESIGN_HEADINGS = (
 )  # fmt: skip
 
 
-def _write_design(
-    pages: _Pages, book: InputBook, assessment: Assessment, runs: pd.DataFrame
-) -> dict[str, str]:
-    """Write the design displacement of each array as formulas; return its cell by array id."""
+def _write_design(pages: Pages, book: InputBook, assessment: Assessment, peaks: PeakRanges) -> None:
+    """Write the design displacement of each array as formulas."""
     sheet = pages.sheet(
         "Design",
         "Design displacement",
-        f"{assessment.rules.name}. From the peaks on the sheet Runs; change a number and follow.",
+        f"{assessment.rules.name}. From the sheet Peaks, any direction; change a number and "
+        "follow. The sheet Directions goes on from here.",
     )
-    _headings(pages, sheet, 3, _DESIGN_HEADINGS)
-    cells = {}
+    write_headings(pages, sheet, 3, _DESIGN_HEADINGS)
     for row, item in enumerate(assessment.arrays, start=4):
-        _write_design_row(pages, sheet, row, book, assessment, item, _peak_range(runs, item))
-        cells[item.array.id.casefold()] = f"Design!$N${row + 1}"
-    return cells
-
-
-def _peak_range(runs: pd.DataFrame, item: ArrayAssessment) -> str:
-    """Return the governing peaks of one array as a list of cells of the sheet Runs."""
-    column = list(runs.columns).index("PRD [in]")
-    rows = [
-        index + 1
-        for index, (array, governs) in enumerate(zip(runs["Array"], runs["Governs"], strict=True))
-        if array == item.array.id and governs
-    ]
-    return ",".join(f"Runs!{xl_rowcol_to_cell(row, column)}" for row in rows)
+        found = peaks[item.array.id, Direction.ANY]
+        _write_design_row(pages, sheet, row, book, assessment, item, found)
 
 
 def _write_design_row(
-    pages: _Pages,
+    pages: Pages,
     sheet: Worksheet,
     row: int,
     book: InputBook,
@@ -256,37 +227,37 @@ def _write_design_row(
 
 
 _CLEARANCE_HEADINGS = (
-    "Array", "Object", "Direction", "Condition", "Governing array", "Design [in]", "Factor",
-    "Least [in]", "Required [in]", "Required [mm]", "Provided [in]", "D/C", "Result",
+    "Array", "Object", "Direction", "Condition", "Governing array, direction", "Design [in]",
+    "Factor", "Least [in]", "Required [in]", "Required [mm]", "Provided [in]", "D/C", "Result",
     "Required by Roofslip [in]", "Difference [in]",
 )  # fmt: skip
 
 
 def _write_clearances(
-    pages: _Pages, book: InputBook, assessment: Assessment, design_cells: Mapping[str, str]
+    pages: Pages, book: InputBook, assessment: Assessment, design_cells: DirectionCells
 ) -> None:
     sheet = pages.sheet(
         "Clearances",
         "Clearances",
         f"{assessment.rules.name}. Factor includes the importance factor where it belongs here.",
     )
-    _headings(pages, sheet, 3, _CLEARANCE_HEADINGS)
+    write_headings(pages, sheet, 3, _CLEARANCE_HEADINGS)
     for row, item in enumerate(assessment.clearances, start=4):
         _write_clearance_row(pages, sheet, row, assessment, item, design_cells)
 
 
 def _write_clearance_row(
-    pages: _Pages,
+    pages: Pages,
     sheet: Worksheet,
     row: int,
     assessment: Assessment,
     item: ClearanceCheck,
-    design_cells: Mapping[str, str],
+    design_cells: DirectionCells,
 ) -> None:
     clearance, inch, r = item.clearance, METRES_PER_INCH, row + 1
     texts = (
         clearance.array, clearance.object, clearance.direction, item.neighbour,
-        item.governing_array,
+        f"{item.governing_array}, {item.governing_direction.value}",
     )  # fmt: skip
     for column, text in enumerate(texts):
         sheet.write_string(row, column, text)
@@ -298,7 +269,7 @@ def _write_clearance_row(
             sheet.write_string(row, column, "no value")
         sheet.write_string(row, 12, "NG")
         return
-    design = design_cells[item.governing_array.casefold()]
+    design = design_cells[item.governing_array.casefold(), item.governing_direction]
     numbers = [
         (5, f"={design}", item.design_m / inch, 2),
         (8, f"=MAX(F{r}*G{r},H{r})", item.required_m / inch, 2),
@@ -312,11 +283,3 @@ def _write_clearance_row(
     result = "OK" if item.ok else "NG"
     sheet.write_formula(row, 12, f'=IF(I{r}<=K{r},"OK","NG")', pages.plain, result)
     sheet.write_number(row, 13, item.required_m / inch, pages.numbers[2])
-
-
-def _headings(pages: _Pages, sheet: Worksheet, row: int, headings: tuple[str, ...]) -> None:
-    for column, heading in enumerate(headings):
-        sheet.write_string(row, column, heading, pages.head)
-    sheet.set_row(row, 48)
-    sheet.set_column(0, len(headings) - 1, 13)
-    sheet.freeze_panes(row + 1, 1)

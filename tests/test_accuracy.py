@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import stand_in
-from report.accuracy import accuracy
+from report.accuracy import accuracy, rivals
 from report.figures.base import load_fonts
 from report.package import render
 from report.pages import accuracy as accuracy_page
@@ -25,7 +25,11 @@ def fonts():
 def made(data=None, found=None):
     book = stand_in.book(data, found or stand_in.motions(3, seconds=10.0))
     scene = Scene(data=book.input, assessment=stand_in.assessed(book))
-    return book, scene, accuracy(book.input, book.motions, scene.assessment, scene.governing)
+    return (
+        book,
+        scene,
+        accuracy(book.input, book.motions, scene.assessment, rivals(scene.governing)),
+    )
 
 
 PEER = {"peer_reviewed": True}
@@ -38,7 +42,7 @@ def usual():
 
 
 def words(page):
-    return " ".join([page["run"], page["method"], *page["sentences"]])
+    return " ".join([page["run"], page["plane"], page["method"], *page["sentences"]])
 
 
 def direct(run, array, **method):
@@ -56,18 +60,42 @@ def direct(run, array, **method):
 
 def test_each_method_is_run_on_the_governing_scene(usual):
     _, scene, found = usual
-    assert found.array is scene.governing
-    exact = found.motion.governing.result.prd_m
-    assert exact == max(m.governing.result.prd_m for m in found.array.motions)
-    assert {run.method.name for run in found.runs} == set(METHODS) - {
+    assert found.rivals.array is scene.governing
+    peak = found.rivals.motion.governing.result.prd_m
+    assert peak == max(m.governing.result.prd_m for m in found.rivals.array.motions)
+    exact = found.rivals.exact.prd_m
+    assert found.rivals.exact == direct(found.rivals.motion, found.rivals.array.array)
+    assert {run.method.name for run in found.rivals.runs} == set(METHODS) - {
         "exact",
         "regularised",
         "paper",
     }
-    for run in found.runs:
-        again = direct(found.motion, found.array.array, method=run.method.name, **run.parameters)
+    for run in found.rivals.runs:
+        again = direct(
+            found.rivals.motion, found.rivals.array.array, method=run.method.name, **run.parameters
+        )
         assert run.result == again
         assert run.error == pytest.approx(abs(again.prd_m - exact) / exact)
+
+
+def test_the_page_says_plainly_that_the_rivals_know_one_axis(usual):
+    _, scene, found = usual
+    page = accuracy_page.page(scene, found)
+    peak = found.rivals.motion.governing.result.prd_m
+    assert f"PRD {peak / 0.0254:.1f} in" in page["run"]
+    assert "two axes with vertical" in page["run"]
+    assert "know one axis only" in page["plane"]
+    assert f"{found.rivals.exact.prd_m / 0.0254:.1f} in" in page["plane"]
+    assert "no result of this package" in page["plane"]
+    assert found.rivals.motion.governing.solution.error_m < 1e-6
+    assert "below 10" in page["plane"]
+
+
+def test_in_one_axis_the_rivals_are_held_against_the_result_itself():
+    alone = tuple(replace(m, ay_mps2=np.empty(0)) for m in stand_in.motions(3, seconds=8.0))
+    _, scene, found = made(found=alone)
+    assert found.rivals.exact == found.rivals.motion.governing.result
+    assert accuracy_page.page(scene, found)["plane"] == ""
 
 
 def test_without_vertical_shaking_the_papers_own_method_is_shown():
@@ -75,7 +103,7 @@ def test_without_vertical_shaking_the_papers_own_method_is_shown():
         replace(motion, az_mps2=np.empty(0)) for motion in stand_in.motions(3, seconds=8.0)
     )
     _, scene, found = made(found=level)
-    names = {run.method.name for run in found.runs}
+    names = {run.method.name for run in found.rivals.runs}
     assert "paper" in names
     assert "adaptive" not in names
     assert "without vertical shaking" in accuracy_page.page(scene, found)["run"]
@@ -83,18 +111,18 @@ def test_without_vertical_shaking_the_papers_own_method_is_shown():
 
 def test_the_same_motion_with_twice_the_samples_gives_the_same_answer(usual):
     *_, found = usual
-    assert found.doubled < 1e-12
+    assert found.rivals.doubled < 1e-12
 
 
 def test_the_table_of_methods_agrees_with_the_solver(usual):
     _, scene, found = usual
     rows = accuracy_page.page(scene, found)["methods"].rows
-    exact = direct(found.motion, found.array.array)
+    exact = direct(found.rivals.motion, found.rivals.array.array)
     assert rows[0].cells[2] == f"{exact.prd_m / 0.0254:.1f}"
     by_title = {row.cells[0]: row.cells for row in rows[1:]}
     for method in METHODS.values():
         if method.title in by_title:
-            one = direct(found.motion, found.array.array, method=method.name)
+            one = direct(found.rivals.motion, found.rivals.array.array, method=method.name)
             cells = by_title[method.title]
             assert cells[2] == f"{one.prd_m / 0.0254:.1f}"
             assert cells[-1] == f"{100 * abs(one.prd_m / exact.prd_m - 1):.3f}"
@@ -112,9 +140,13 @@ def test_friction_is_changed_by_five_percent_and_all_motions_run_again(usual):
                         motion.dt_s,
                         slope_rad=array.slope_rad,
                         mu=array.mu * factor,
+                        ay_mps2=across,
                         az_mps2=motion.az_mps2,
                     ).prd_m
-                    for along in (motion.ax_mps2, motion.ay_mps2)
+                    for along, across in (
+                        (motion.ax_mps2, motion.ay_mps2),
+                        (motion.ay_mps2, motion.ax_mps2),
+                    )
                     for sign in (1, -1)
                 )
                 for motion in book.motions
@@ -161,7 +193,7 @@ def test_where_nothing_slides_there_is_no_chart():
     arrays = [stand_in.array("B1", 0.0, mu=1.5)]
     still = tuple(replace(motion, scale=1e-3) for motion in stand_in.motions(3, seconds=4.0))
     _, scene, found = made(stand_in.project(arrays=arrays, objects=[], clearances=[]), still)
-    assert found.runs == ()
+    assert found.rivals.runs == ()
     page = accuracy_page.page(scene, found)
     assert "Nothing slides" in page["method"]
     assert page["methods"] is None
@@ -176,24 +208,24 @@ def test_a_block_that_leaves_the_roof_has_no_error_and_no_friction_to_speak_of()
     assert "leaves the roof" in page["method"]
     assert "no design displacement" in words(page)
     assert not re.search(r"\bnan\b", words(page))
-    assert math.isnan(found.doubled)
+    assert math.isnan(found.rivals.doubled)
 
 
 def test_a_failed_run_is_counted_in_the_caption_and_said_in_the_table(usual):
     _, scene, found = usual
-    first = next(run for run in found.runs if run.is_default)
+    first = next(run for run in found.rivals.runs if run.is_default)
     failed = replace(first, error=math.nan)
-    runs = tuple(failed if run is first else run for run in found.runs)
-    changed = replace(found, runs=runs)
-    assert "1 failed run is not drawn" in accuracy_page.picture(changed, True).caption
+    runs = tuple(failed if run is first else run for run in found.rivals.runs)
+    changed = replace(found, rivals=replace(found.rivals, runs=runs))
+    assert "1 failed run is not drawn" in accuracy_page.picture(changed.rivals, True).caption
     rows = accuracy_page.page(scene, changed)["methods"].rows
     assert [row.cells[-1] for row in rows].count("failed") == 1
 
 
 def test_two_charts_are_the_same_bytes_and_name_every_method(usual):
     *_, found = usual
-    svg = accuracy_page.picture(found, True).svg
-    assert svg == accuracy_page.picture(found, True).svg
+    svg = accuracy_page.picture(found.rivals, True).svg
+    assert svg == accuracy_page.picture(found.rivals, True).svg
     for text in ("exact", "linear acceleration", "link, explicit", "normal force frozen"):
         assert f">{text}<" in svg
 
@@ -204,7 +236,7 @@ def test_the_page_is_in_the_package(monkeypatch):
     html = unescape(render(book, stand_in.assessed(book)).decode())
     section = html[html.index('<h1 id="accuracy">') : html.index('<h1 id="echo">')]
     assert "Governing run: array A" in section
-    assert "The governing run by every method" in section
+    assert "The governing run along the slope alone, by every method" in section
     assert "Design displacement at other friction" in section
     assert section.count("<img") == 1
 

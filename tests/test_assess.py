@@ -9,6 +9,8 @@ import pytest
 
 import stand_in
 from report.assess import assess
+from report.sheet.schema import Direction
+from solver.ladder import Rung
 from solver.model import Status
 from solver.provisions import Basis, Neighbour
 from solver.sliding import slide
@@ -41,35 +43,96 @@ def done():
     return assessed()
 
 
+def slid(motion, along, across, slope_deg, mu):
+    return slide(
+        along,
+        motion.dt_s,
+        slope_rad=math.radians(slope_deg),
+        mu=mu,
+        ay_mps2=across,
+        az_mps2=motion.az_mps2,
+    )
+
+
+def four(motion, slope_deg, mu):
+    """The four combinations that are run, each by the solver itself."""
+    pairs = ((motion.ax_mps2, motion.ay_mps2), (motion.ay_mps2, motion.ax_mps2))
+    return [slid(motion, s * x, y, slope_deg, mu) for x, y in pairs for s in (1, -1)]
+
+
 def test_each_motion_counts_with_its_worst_component_and_polarity(done):
     item = done.arrays[1]
-    peaks = []
-    for motion in stand_in.motions():
-        four = [
-            slide(
-                sign * along,
-                motion.dt_s,
-                slope_rad=math.radians(2.0),
-                mu=0.45,
-                az_mps2=motion.az_mps2,
-            ).prd_m
-            for along in (motion.ax_mps2, motion.ay_mps2)
-            for sign in (1, -1)
-        ]
-        peaks.append(max(four))
+    peaks = [max(r.prd_m for r in four(motion, 2.0, 0.45)) for motion in stand_in.motions()]
     assert [run.governing.result.prd_m for run in item.motions] == peaks
     assert item.analysis.mean_m == pytest.approx(sum(peaks) / 7)
     assert item.analysis.value_m == pytest.approx(1.1 * sum(peaks) / 7)
     assert item.worst.governing.result.prd_m == max(peaks)
 
 
+def test_reversing_the_component_across_mirrors_the_motion_and_changes_no_displacement():
+    for motion in stand_in.motions(2, seconds=12.0):
+        for along, across in (
+            (motion.ax_mps2, motion.ay_mps2),
+            (-motion.ay_mps2, motion.ax_mps2),
+        ):
+            one = slid(motion, along, across, 3.0, 0.4)
+            other = slid(motion, along, -across, 3.0, 0.4)
+            assert one.across_m > 0.0
+            for name in ("prd_m", "down_m", "up_m", "across_m", "residual_m", "t_prd_s"):
+                assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-11)
+            assert one.residual_across_m == pytest.approx(-other.residual_across_m, rel=1e-10)
+
+
+def test_each_direction_has_the_farthest_of_all_runs_of_each_motion(done):
+    item = done.arrays[2]
+    found = [four(motion, 3.0, 0.55) for motion in stand_in.motions()]
+    for direction, name in (("down", "down_m"), ("up", "up_m"), ("across", "across_m")):
+        peaks = [max(getattr(r, name) for r in results) for results in found]
+        assert [m.peak_m(Direction(direction)) for m in item.motions] == peaks
+        value = item.directions[Direction(direction)].value_m
+        assert value == pytest.approx(1.1 * sum(peaks) / 7)
+        assert item.design_towards_m(Direction(direction)) == max(value, item.floor_m)
+
+
 def test_a_reversed_motion_is_the_motion_on_the_opposite_slope(done):
     motion = stand_in.motions()[0]
     reversed_ = done.arrays[2].motions[0].runs[1].result
-    opposite = slide(
-        motion.ax_mps2, motion.dt_s, slope_rad=-math.radians(3.0), mu=0.55, az_mps2=motion.az_mps2
+    opposite = slid(motion, motion.ax_mps2, motion.ay_mps2, -3.0, 0.55)
+    assert reversed_.prd_m == pytest.approx(opposite.prd_m, rel=1e-9)
+    assert reversed_.down_m == pytest.approx(opposite.up_m, rel=1e-6)
+
+
+def test_a_model_that_is_asked_for_is_run_and_held_against_the_one_that_is_needed():
+    arrays = [
+        stand_in.array("A1", 2.0, model="one axis with vertical"),
+        stand_in.array("A2", 2.0, x=120),
+    ]
+    for reviewed in (False, True):
+        done = assessed(
+            arrays=arrays, objects=[], clearances=[], options={"peer_reviewed": reviewed}
+        )
+        asked, free = done.arrays
+        assert {r.solution.rung for m in asked.motions for r in m.runs} == {Rung.ONE_AXIS_VERTICAL}
+        assert asked.chosen == free.directions
+        assert asked.analysis.value_m < free.analysis.value_m
+        assert free.is_model_enough
+        enough = free.design_m <= asked.design_m
+        assert asked.is_model_enough is enough
+        assert done.ok is enough
+
+
+def test_friction_by_speed_reaches_the_solver():
+    arrays = [stand_in.array("A1", 2.0, mu=0.4, mu_fast=0.5, mu_rate_s_per_m=20.0)]
+    done = assessed(stand_in.motions(3, seconds=8.0), arrays=arrays, objects=[], clearances=[])
+    constant = assessed(
+        stand_in.motions(3, seconds=8.0),
+        arrays=[stand_in.array("A1", 2.0, mu=0.4)],
+        objects=[],
+        clearances=[],
     )
-    assert reversed_.prd_m == opposite.prd_m
+    runs = [run for m in done.arrays[0].motions for run in m.runs]
+    assert {run.solution.rung for run in runs} == {Rung.SPEED_FRICTION}
+    assert done.arrays[0].analysis.mean_m < constant.arrays[0].analysis.mean_m
 
 
 def test_a_fixed_polarity_runs_once():
@@ -93,7 +156,8 @@ def test_swapping_the_horizontal_components_changes_names_alone():
     for a, b in zip(one.arrays[1].motions, other.arrays[1].motions, strict=True):
         assert a.governing.result == b.governing.result
         assert a.governing.heading.swapped is not b.governing.heading.swapped
-        assert np.array_equal(a.history.u_m, b.history.u_m)
+        assert np.array_equal(a.history().u_m, b.history().u_m)
+        assert a.history().result == a.governing.result
 
 
 def test_the_variation_is_that_of_the_peaks(done):

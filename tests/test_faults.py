@@ -188,6 +188,25 @@ CONTRADICTIONS = [
     ({"Arrays!C8": 45}, ["Arrays!C8: slope is 45 degrees; give 0 to less than 45 degrees"]),
     ({"Arrays!C9": 120}, ["Arrays!C9: slope is 120 percent; give 0 to less than 100 percent"]),
     (
+        {"Arrays!P8": 0.5},
+        ["Arrays!Q8: friction rate is missing; give friction at speed with its rate, or neither"],
+    ),
+    (
+        {"Arrays!Q9": 20, "Arrays!R9": 0.4},
+        [
+            "Arrays!P9: friction at speed is missing; give friction at speed with its rate, or"
+            " neither",
+            "Arrays!R9: static friction is 0.4; give the friction coefficient, 0.45, or more",
+        ],
+    ),
+    (
+        {"Arrays!P8": 0.5, "Arrays!Q8": 20, "Arrays!S8": "one axis"},
+        [
+            "Arrays!S8: model is 'one axis', which leaves friction by speed out; leave it at"
+            " choose, or blank friction at speed and static"
+        ],
+    ),
+    (
         {"Objects!D10": None},
         ["Objects!D10: height is missing; give the parapet's height above the roof"],
     ),

@@ -8,6 +8,7 @@ import pytest
 
 import stand_in
 from report.outputs import publish, results_json
+from report.sheet.schema import Direction
 from solver.model import InputError
 
 
@@ -30,13 +31,31 @@ def test_json_holds_what_was_assessed_in_si(document):
     assert document["s_ds_g"] == 1.566
 
 
+def test_json_holds_the_model_of_each_run_and_the_peaks_in_each_direction(document):
+    assessment = stand_in.assessed(stand_in.book())
+    array, item = document["arrays"][2], assessment.arrays[2]
+    for direction in Direction:
+        found = array["directions"][direction]
+        assert found["design_m"] == item.design_towards_m(direction)
+        peaks = [motion[f"{direction}_m"] for motion in array["peaks"]]
+        assert found["mean_m"] == pytest.approx(sum(peaks) / len(peaks))
+    run, solution = array["runs"][0], item.motions[0].runs[0].solution
+    assert (run["rung"], run["model"]) == (3, "two axes with vertical")
+    assert (run["reason"], run["error_m"]) == (solution.reason, solution.error_m)
+    assert run["across_m"] == solution.result.across_m
+    assert run["next_effect_m"] is None
+    gap = document["clearances"][3]
+    assert gap["governing_direction"] == "up"
+    assert gap["design_m"] == item.design_towards_m(Direction.UP)
+
+
 def test_every_number_in_json_says_its_unit_or_has_none(document):
     units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2", "_hz", "_percent")
     plain = {
         "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
         "f_v", "storeys", "slope_value", "found", "limit", "scale_value", "value",
         "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
-        "left_out_share",
+        "left_out_share", "mu_slow", "mu_fast", "mu_static", "rung", "next_rung", "friction_demand",
     }  # fmt: skip
 
     def walk(value, key=""):

@@ -8,6 +8,7 @@ import pytest
 
 import stand_in
 from report.results_book import results_xlsx
+from report.sheet.schema import Direction
 
 
 def made(book):
@@ -28,7 +29,14 @@ def compute(book, sheet, cell):
         where = match["sheet"] or sheet
         return repr(compute(book, where, match["cell"].replace("$", "")))
 
-    text = re.sub(r"(?:(?P<sheet>\w+)!)?(?P<cell>\$?[A-Z]{1,2}\$?\d+)\b", reference, value[1:])
+    def cells(match):
+        where = match["sheet"] or sheet
+        block = book[where][f"{match['first']}:{match['last']}"]
+        return ",".join(repr(compute(book, where, c.coordinate)) for row in block for c in row)
+
+    cell = r"\$?[A-Z]{1,2}\$?\d+"
+    text = re.sub(rf"(?:(?P<sheet>\w+)!)?(?P<first>{cell}):(?P<last>{cell})", cells, value[1:])
+    text = re.sub(rf"(?:(?P<sheet>\w+)!)?(?P<cell>{cell})\b", reference, text)
     text = re.sub(r"(?<![<>])=(?!=)", "==", text).replace("^", "**")
     functions = {
         "MAX": max,
@@ -69,6 +77,36 @@ def test_the_prescriptive_value_is_a_live_formula():
     formulas, values = made(stand_in.book())
     assert formulas["Design"]["F5"].value == "=MAX(C5*D5*MAX(B5-0.4,0)^2,E5)"
     assert values["Design"]["F5"].value == pytest.approx(81.573, abs=5e-4)
+
+
+def test_a_clearance_follows_from_the_runs_through_its_direction():
+    book = stand_in.book(stand_in.project(options={"peer_reviewed": True}))
+    formulas, values = made(book)
+    gap = stand_in.assessed(book).clearances[3]
+    assert (gap.governing_array, gap.governing_direction) == ("A3", Direction.UP)
+    assert values["Clearances"]["E8"].value == "A3, up"
+    source = formulas["Clearances"]["F8"].value
+    row = re.fullmatch(r"=Directions!\$H\$(\d+)", source)[1]
+    head = [cell.value for cell in formulas["Directions"][4]]
+    assert (values["Directions"][f"A{row}"].value, values["Directions"][f"B{row}"].value) == (
+        "A3",
+        "up",
+    )
+    assert values["Directions"][f"H{row}"].value == pytest.approx(gap.design_m / 0.0254)
+    assert head[7] == "Design [in]"
+    peaks = re.fullmatch(
+        r"=AVERAGE\(Peaks!D(\d+):D(\d+)\)", formulas["Directions"][f"C{row}"].value
+    )
+    assert int(peaks[2]) - int(peaks[1]) == 6
+    assert formulas["Peaks"][f"D{peaks[1]}"].value.startswith("=MAX(Runs!")
+
+
+def test_the_model_of_every_run_is_listed():
+    _, values = made(stand_in.book())
+    head, first, *_ = values["Runs"].iter_rows(values_only=True)
+    assert first[head.index("Model")] == "3, two axes with vertical"
+    assert "move the array by itself" in first[head.index("Why")]
+    assert first[head.index("Across [in]")] > 0.0
 
 
 def test_without_a_value_the_book_says_so_and_ng():

@@ -173,7 +173,7 @@ def test_a_project_of_many_arrays_gets_a_table_that_holds_them(tmp_path):
     array = project().arrays[0].model_dump()
     arrays = [array | {"id": f"A{i}"} for i in range(40)]
     book = load_workbook(make(tmp_path, arrays=arrays, clearances=[]))
-    assert book["Arrays"].tables["arrays_table"].ref == "B7:O52"
+    assert book["Arrays"].tables["arrays_table"].ref == "B7:S52"
 
 
 def test_a_text_that_looks_like_a_formula_is_written_as_text(tmp_path):

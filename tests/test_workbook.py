@@ -197,7 +197,7 @@ CHANGES = {
     "a date as text": lambda book: book["Project"].__setitem__("B11", "2026-03-05"),
     "a number as a text": lambda book: book["Project"].__setitem__("B12", 1),
     "a truth value for a yes": lambda book: book["Options"].__setitem__("B6", True),
-    "notes beside the table": lambda book: book["Arrays"].__setitem__("R9", "ask the client"),
+    "notes beside the table": lambda book: book["Arrays"].__setitem__("V9", "ask the client"),
     "notes far to the right": lambda book: book["Arrays"].__setitem__("GR9", "ask the client"),
     "a name in other capitals": lambda book: setattr(
         book["Arrays"].tables["arrays_table"], "displayName", "ARRAYS_TABLE"
@@ -237,11 +237,11 @@ def test_a_blank_choice_takes_its_default(tmp_path):
 
 def test_a_heading_that_is_not_ours_is_named_in_the_echo(tmp_path):
     def change(book):
-        book["Arrays"]["P7"], book["Arrays"]["P8"] = "Colour", "black"
+        book["Arrays"]["T7"], book["Arrays"]["T8"] = "Colour", "black"
 
     book = read_workbook(edit(make(tmp_path), change))
     (row,) = [row for row in book.echo if row.value.startswith("not an input")]
-    assert (row.sheet, row.cell, row.label) == ("Arrays", "P7", "column 'Colour'")
+    assert (row.sheet, row.cell, row.label) == ("Arrays", "T7", "column 'Colour'")
 
 
 def test_every_cell_is_echoed_with_what_was_typed_and_what_was_taken(path):

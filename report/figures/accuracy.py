@@ -1,4 +1,4 @@
-"""Work against precision on the governing run of a package.
+"""Work against precision on the governing run of a package, along the slope alone.
 
 The cost axis counts steps, not seconds, so that two runs draw the same bytes.
 """
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.accuracy import Accuracy, MethodRun
+from report.accuracy import MethodRun, Rivals
 from report.figures.base import bare, framed, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades
@@ -20,7 +20,7 @@ FLOOR = 1e-16  # an error of no digit at all is drawn here: a double carries no 
 _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 
 
-def work_precision(found: Accuracy, us_first: bool) -> str:
+def work_precision(found: Rivals, us_first: bool) -> str:
     """Return the error in PRD against steps for each sampling interval, a line a method."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     with style():
@@ -37,7 +37,7 @@ def work_precision(found: Accuracy, us_first: bool) -> str:
             va="center",
         )
         _axes(axes, max(run.steps for run in found.runs))
-        peak = found.motion.governing.result.prd_m / unit.si
+        peak = found.exact.prd_m / unit.si
         other = axes.secondary_yaxis(
             "right", functions=(lambda e: e * peak / 100.0, lambda u: u * 100.0 / peak)
         )

@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 
 WIDTH_IN = 6.7
 INK, GREY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
+ACROSS = "#c8651b"  # beside ACCENT, told apart by anyone, in grey too
 FAMILY = "Source Sans 3"
 
 _STYLE: Any = {

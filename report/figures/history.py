@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from report.assess import MotionRun
 from report.figures.base import (
     ACCENT,
+    ACROSS,
     GREY,
     INK,
     PALE,
@@ -24,10 +24,11 @@ from report.figures.base import (
     svg_text,
     tick_text,
 )
+from report.runs import MotionRun
 from report.units import Quantity, Unit, number, pair
 from solver.model import Floats
 
-MAX_POINTS = 240  # in a history; a panel is 150 points of paper wide
+MAX_POINTS = 150  # in a history; a panel is 150 points of paper wide
 
 
 def histories(motions: Sequence[MotionRun], us_first: bool) -> str:
@@ -43,7 +44,7 @@ def histories(motions: Sequence[MotionRun], us_first: bool) -> str:
         axes.set_xlim(-0.08 * grid.columns, grid.columns)
         axes.set_ylim(-grid.rows - 0.3, 0.0)
         _rules(axes, grid, len(motions))
-        _traces(axes, grid, motions)
+        _traces(axes, grid)
         for index, run in enumerate(motions):
             _titles(axes, grid, index, run, us_first)
         return svg_text(figure)
@@ -53,17 +54,19 @@ class _Grid:
     """Where the panels of a figure lie, and what their scales are."""
 
     def __init__(self, motions: Sequence[MotionRun], unit: Unit) -> None:
-        results = [run.governing.result for run in motions]
+        self.followed = [
+            None if math.isnan(run.governing.result.prd_m) else run.history() for run in motions
+        ]
         self.unit = unit
         self.columns = 2 if len(motions) <= 4 else 3
         self.rows = math.ceil(len(motions) / self.columns)
         self.last = len(motions) - self.columns  # panels from here on have none below them
-        high = np.nanmax([0.0, *(r.down_m for r in results)]) / unit.si
-        low = -np.nanmax([0.0, *(r.up_m for r in results)]) / unit.si
+        drawn = [line for one in self.followed if one for line in (one.u_m, one.across_m)]
+        high = max([0.0, *(float(line.max()) for line in drawn if line.size)]) / unit.si
+        low = min([0.0, *(float(line.min()) for line in drawn if line.size)]) / unit.si
         self.ticks = [float(t) for t in MaxNLocator(4).tick_values(low, high or 1.0)]
         self.low, self.high = self.ticks[0], self.ticks[-1]
-        longest = max(float(run.history.t_s[-1]) for run in motions)
-        self.seconds = longest
+        self.seconds = max(run.seconds for run in motions)
 
     def x(self, index: int, t_s: Any) -> Any:
         """Return where times lie, as given: one or an array."""
@@ -105,20 +108,23 @@ def _times(axes: Axes, grid: _Grid, index: int, ticks: Broken) -> None:
             axes.text(at, level - 0.05, text, ha=side, va="top", fontsize=7)
 
 
-def _traces(axes: Axes, grid: _Grid, motions: Sequence[MotionRun]) -> None:
-    """Draw all histories as one broken line, and all peaks."""
-    line, peaks = Broken(), Broken()
-    for index, run in enumerate(motions):
-        history, result = run.history, run.governing.result
-        if math.isnan(result.prd_m):
+def _traces(axes: Axes, grid: _Grid) -> None:
+    """Draw all histories down the slope, all across it, and all peaks, each as a broken line."""
+    down, across, peaks = Broken(), Broken(), Broken()
+    for index, found in enumerate(grid.followed):
+        if found is None:
             middle = grid.y(index, (grid.low + grid.high) / 2)
             axes.text(grid.x(index, grid.seconds / 2), middle, "no value", ha="center", va="center")
             continue
-        t, u = envelope(history.t_s, history.u_m / grid.unit.si)
-        line.add(grid.x(index, t), grid.y(index, u))
-        peak = (result.down_m if result.down_m >= result.up_m else -result.up_m) / grid.unit.si
-        peaks.add([grid.x(index, result.t_prd_s)], [grid.y(index, peak)])
-    axes.plot(line.x, line.y, color=ACCENT, linewidth=0.9, clip_on=False)
+        for line, values in ((across, found.across_m), (down, found.u_m)):
+            if values.size:
+                t, u = envelope(found.t_s, values / grid.unit.si)
+                line.add(grid.x(index, t), grid.y(index, u))
+        at = found.result.t_prd_s
+        peak = np.interp(at, found.t_s, found.u_m / grid.unit.si)
+        peaks.add([grid.x(index, at)], [grid.y(index, peak)])
+    axes.plot(across.x, across.y, color=ACROSS, linewidth=0.7, clip_on=False)
+    axes.plot(down.x, down.y, color=ACCENT, linewidth=0.9, clip_on=False)
     axes.plot(peaks.x, peaks.y, linestyle="", marker="o", markersize=3.2, color=INK, clip_on=False)
 
 

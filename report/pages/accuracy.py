@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from report.accuracy import SHIFT, Accuracy, MethodRun
+from report.accuracy import SHIFT, Accuracy, MethodRun, Rivals
 from report.assess import ArrayAssessment, Assessment
 from report.letters import lettered, power_of_ten
 from report.pages.parts import NO_VALUE, Column, Picture, Row, Scene, Table
 from report.units import number
+from solver.ladder import Rung
 from solver.model import Status
 
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
@@ -19,15 +20,16 @@ def page(scene: Scene, found: Accuracy) -> Mapping[str, object]:
     """Return the page without its chart."""
     return {
         "shift": _PERCENT,
-        "run": _run(scene, found),
-        "method": _method(found),
-        "methods": _methods(scene, found) if found.runs else None,
+        "run": _run(scene, found.rivals),
+        "plane": _plane(scene, found.rivals),
+        "method": _method(found.rivals),
+        "methods": _methods(scene, found.rivals) if found.rivals.runs else None,
         "friction": _friction_table(scene, found),
         "sentences": [*_sentences(scene, found), *_clearances(found)],
     }
 
 
-def picture(found: Accuracy, us_first: bool) -> Picture:
+def picture(found: Rivals, us_first: bool) -> Picture:
     """Return the chart of the page."""
     from report.figures.accuracy import work_precision
 
@@ -35,33 +37,56 @@ def picture(found: Accuracy, us_first: bool) -> Picture:
     lost = f" {failed} failed run{'s are' if failed > 1 else ' is'} not drawn." if failed else ""
     return Picture(
         svg=work_precision(found, us_first),
-        caption="Work against precision on the governing run: error in PRD against the exact "
-        "value, each method from coarse to fine. Links grow stiffer from left to right and take "
-        f"the steps that they need.{lost}",
+        caption="Work against precision on the governing run along the slope alone: error in PRD "
+        "against the exact value, each method from coarse to fine. Links grow stiffer from left "
+        f"to right and take the steps that they need.{lost}",
         alt="Chart of the error in PRD against the steps of each method",
     )
 
 
-def _run(scene: Scene, found: Accuracy) -> str:
+def _run(scene: Scene, found: Rivals) -> str:
     run, array = found.motion.governing, found.array.array
     vertical = "with" if found.motion.motion.has_vertical else "without"
     return (
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
         f"μ = {number(array.mu, 3)}) under motion {found.motion.motion.id}, {run.heading.name}, "
-        f"{vertical} vertical shaking. PRD {scene.say.both(run.result.prd_m)}."
+        f"{vertical} vertical shaking. PRD {scene.say.both(run.result.prd_m)}, model "
+        f"{int(run.solution.rung)} of part 11, {run.solution.rung.title}."
     )
 
 
-def _method(found: Accuracy) -> str:
+def _plane(scene: Scene, found: Rivals) -> str:
+    """Return how sure a run in two axes is, and what the rest of the page is about; or nothing."""
+    run = found.motion.governing
+    if run.solution.rung < Rung.TWO_AXES or math.isnan(run.result.prd_m):
+        return ""
+    kind = "a bound" if run.scene.friction.is_monotone else "from two tolerances"
+    slow = "" if run.scene.friction.is_constant else ", and with friction as at a crawl"
+    return (
+        "Two axes have no closed form: their motion is followed to a tolerance, and the error of "
+        f"this PRD is below {below_mm(run.solution.error_m)} ({kind}). The methods that others "
+        "use know one axis only. They are compared here on the same run along the slope alone, "
+        f"without the component across it{slow}: a displacement of "
+        f"{scene.say.both(found.exact.prd_m)}, which is no result of this package."
+    )
+
+
+def below_mm(error_m: float) -> str:
+    """Return a power of ten above an error, in mm: the digits themselves are the machine's."""
+    if error_m == 0.0:
+        return "rounding"
+    return f"{power_of_ten(math.floor(math.log10(1e3 * error_m)) + 1)} mm"
+
+
+def _method(found: Rivals) -> str:
     """Return what is known of the exact method's error on this run."""
-    result = found.motion.governing.result
-    if result.status is Status.UPLIFT:
+    if found.motion.governing.result.status is Status.UPLIFT:
         return "The block leaves the roof: there is no displacement, and no error to speak of."
     if not found.runs:
-        return "Nothing slides in this run: every method that sticks agrees."
+        return "Nothing slides along the slope in this run: every method that sticks agrees."
     return (
-        "Method: exact, event by event, one step or fewer in each sampling interval. With a "
-        "sample added midway between each two, which is the same motion, its PRD "
+        "Along the slope: exact, event by event, one step or fewer in each sampling interval. With "
+        "a sample added midway between each two, which is the same motion, its PRD "
         f"{_doubled(found.doubled)}. A run took less than {_decade_ms(found.seconds)} ms here. "
         "The verification manual of this version (roofslip verify) "
         "holds the method to closed forms, and gives the time that each method takes."
@@ -80,8 +105,8 @@ def _doubled(change: float) -> str:
     return f"changes by less than {power_of_ten(math.floor(math.log10(change)) + 1)} of its value"
 
 
-def _methods(scene: Scene, found: Accuracy) -> Table:
-    say, exact = scene.say, found.motion.governing.result
+def _methods(scene: Scene, found: Rivals) -> Table:
+    say, exact = scene.say, found.exact
     top = Row(
         cells=(
             "Exact, event by event",
@@ -93,7 +118,7 @@ def _methods(scene: Scene, found: Accuracy) -> Table:
     )
     rows = (_method_row(scene, run) for run in found.runs if run.is_default)
     return Table(
-        caption="The governing run by every method with its default parameters",
+        caption="The governing run along the slope alone, by every method with its defaults",
         columns=(
             Column(head="Method", align="left", share=3.0),
             Column(head="Parameters", align="left", share=2.4),

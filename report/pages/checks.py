@@ -8,6 +8,7 @@ from markupsafe import Markup, escape
 
 from report.assess import ClearanceCheck
 from report.equations import symbol
+from report.pages.model import model_troubles
 from report.pages.parts import (
     NG,
     OK,
@@ -32,9 +33,9 @@ def clearance_table(scene: Scene, *, brief: bool) -> Table:
         if brief
         else (
             *say.columns("Displ.", share=0.75),
-            Column(head="Of", align="left", share=0.8),
+            Column(head="Of, going", align="left", share=1.55),
             Column(head="Factor" + factor, share=0.85),
-            Column(head="Clause", align="left", share=2.0),
+            Column(head="Clause", align="left", share=1.9),
         )
     )
     return Table(
@@ -43,7 +44,7 @@ def clearance_table(scene: Scene, *, brief: bool) -> Table:
             Column(head="No.", share=0.55),
             Column(head="From", align="left", share=1.0),
             Column(head="To", align="left", share=1.1),
-            Column(head="Condition", align="left", share=2.2 if brief else 2.3),
+            Column(head="Condition", align="left", share=2.2),
             *more,
             *say.columns("Required", share=0.85),
             *say.columns("Provided", share=0.85),
@@ -67,7 +68,7 @@ def _clearance_row(scene: Scene, count: int, gap: ClearanceCheck, brief: bool) -
         if brief
         else (
             *say.cells(gap.design_m),
-            gap.governing_array,
+            f"{gap.governing_array}, {gap.governing_direction.value}",
             number(gap.factor, 2) + scene.mark(key),
             scene.clause(key),
         )
@@ -118,7 +119,12 @@ def troubles(scene: Scene) -> Sequence[str]:
         for found in scene.assessment.arrays
         if found.analysis.basis is Basis.TOO_FEW
     ]
-    return [*scene.assessment.warnings, *few, *failed_limits(scene)]
+    return [
+        *scene.assessment.warnings,
+        *few,
+        *model_troubles(scene),
+        *failed_limits(scene),
+    ]
 
 
 def check_table(
@@ -159,7 +165,12 @@ def check_table(
 def clearances(scene: Scene) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
     parapets = [gap for gap in scene.assessment.clearances if "parapet" in gap.neighbour.value]
-    notes = []
+    notes = [
+        "Displ. is the design displacement of the array named behind it, in the direction named: "
+        "of its excursions down the slope, up, across (either way) or any, the largest of all "
+        "runs of each motion (part 6), never below the floor. Between two arrays the larger of "
+        "the two counts, each seen from its own side."
+    ]
     if parapets:
         notes.append(
             "A parapet qualifies when its top is at least "

@@ -180,14 +180,30 @@ def basis(scene: Scene) -> Mapping[str, object]:
     both = sum(len(motion.signs) == 2 for motion in motions)
     return {
         "title": scene.assessment.rules.title,
-        "vertical": f"{with_vertical} of {count} motions have a vertical component",
+        "vertical": f"{with_vertical} of {count} have a vertical component",
         "moves": "the records say, those of the ground through the building of part 4"
         if any(row.recorded_at is RecordedAt.GROUND for row in scene.data.motions)
         else "the records say",
-        "transverse": f"{with_transverse} of {count} motions have one",
+        "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
+        "friction": _friction(scene),
+        "asked": _asked(scene),
         "both": f"{both} of {count} motions are run in both polarities",
         "peer": "is stated to be peer reviewed"
         if scene.data.options.peer_reviewed
         else "is not stated to be peer reviewed",
         "failed": troubles(scene),
     }
+
+
+def _asked(scene: Scene) -> str:
+    """Return which arrays are run by a model that the workbook asks for."""
+    arrays = [item.array for item in scene.assessment.arrays if item.is_model_asked_for]
+    return "".join(f"; {one.id} is run in {one.model.value}, as asked for" for one in arrays)
+
+
+def _friction(scene: Scene) -> str:
+    single = "a single coefficient μ for each array, at rest and while sliding, at any speed"
+    tested = [one.id for one in scene.data.arrays if not one.friction.is_constant]
+    if not tested:
+        return single
+    return f"{single}; by speed, as tested, for {', '.join(tested)} (part 11)"

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from markupsafe import Markup
 
 from report.equations import symbol
+from report.pages.model import friction
 from report.pages.parts import Column, Row, Scene, Table
+from report.runs import RUNGS
 from report.sheet.schema import Site
 from report.units import Quantity, number
 
@@ -158,8 +160,20 @@ def _arrays(scene: Scene) -> Table:
             )
             for array in scene.data.arrays
         ),
-        notes=("Down-slope direction counter-clockwise from +x of the roof plan.",),
+        notes=(
+            "Down-slope direction counter-clockwise from +x of the roof plan.",
+            *_by_speed(scene),
+        ),
     )
+
+
+def _by_speed(scene: Scene) -> Iterator[str]:
+    """Yield which arrays have friction by speed, and which ask for a model."""
+    for array in scene.data.arrays:
+        if not array.friction.is_constant:
+            yield f"{array.id}:{friction(array)}"
+        if array.model in RUNGS:
+            yield f"{array.id}: the model asked for is {array.model.value} (part 11)."
 
 
 def _sizes(scene: Scene) -> Table:

@@ -10,17 +10,19 @@ from markupsafe import Markup
 from report.assess import ArrayAssessment, ClearanceCheck
 from report.equations import formula, fraction, symbol
 from report.pages.parts import Line, Scene, nan_is_worst, statistic
+from report.sheet.schema import Direction
 from report.units import Quantity, number
 from solver.provisions import SEPARATION_KEYS, Basis, Neighbour
 
 
 def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
     """Return the equations of motion and the yield accelerations of an array."""
-    theta, mu = found.array.slope_rad, found.array.mu
+    theta, mu = found.array.slope_rad, found.array.friction.mu_static
     phi = math.atan(mu)
     degrees, friction = number(math.degrees(theta), 3), number(math.degrees(phi), 3)
     down, up = math.tan(phi - theta), math.tan(phi + theta)
     return (
+        *_friction_lines(found),
         Line(
             formula=formula(r"N=m\left[(g+a_v)\cos\theta+a_h\sin\theta\right]"),
             reference=Markup("Eq. 6, with {} added").format(symbol("a_v")),
@@ -50,6 +52,16 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
             "u = s cos θ.",
         ),
         Line(
+            formula=formula(
+                r"m\dot{\mathbf{v}}=\mathbf{G}-\mu N\,\frac{\mathbf{v}}{\left|\mathbf{v}\right|},"
+                r"\quad\mathbf{G}=(G,\,-m\,a_y)"
+            ),
+            reference="the same in two axes",
+            note="With shaking across the slope the array slides along v, down the slope and "
+            "across it, and rests while |G| ≤ μN. PRD is the largest resultant of u and of the "
+            "displacement across. Part 11 says where this is used.",
+        ),
+        Line(
             formula=formula(r"\phi=\arctan\mu"),
             reference="friction angle",
             steps=((f"arctan {number(mu, 3)}", f"{friction}°"),),
@@ -72,6 +84,30 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
                 ),
             ),
             note="Above this horizontal roof acceleration sliding up the slope begins.",
+        ),
+    )
+
+
+def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
+    """Return the friction coefficient by speed, where a test gave it."""
+    law = found.array.friction
+    if law.mu_fast == law.mu_slow or law.rate_s_per_m == 0.0:
+        return ()
+    slow, fast, rate = law.mu_slow, law.mu_fast, law.rate_s_per_m
+    tenth = fast - (fast - slow) * math.exp(-0.1 * rate)
+    return (
+        Line(
+            formula=formula(r"\mu(v)=\mu_{fast}-(\mu_{fast}-\mu_{slow})\,e^{-r\left|v\right|}"),
+            reference="Constantinou, Mokha, Reinhorn 1990, Eq. 2",
+            steps=(
+                (
+                    f"At 0.1 m/s: {number(fast, 3)} − ({number(fast, 3)} − {number(slow, 3)}) × "
+                    f"exp(−{number(rate, 1)} × 0.1)",
+                    number(tenth, 3),
+                ),
+            ),
+            note="In the lines below that are of the roof at rest and of the begin of sliding, "
+            f"μ = {number(law.mu_static, 3)}.",
         ),
     )
 
@@ -169,7 +205,34 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
             ),
             note=f"Governed by: {found.governs}.",
         ),
+        _directions_line(scene, found),
     ]
+
+
+def _directions_line(scene: Scene, found: ArrayAssessment) -> Line:
+    """Return the design displacements down, up and across, from the peaks in each direction."""
+    say, factor = scene.say, number(found.analysis.factor, 2) + scene.mark("analysis_factor")
+    largest = found.analysis.basis is Basis.LARGEST_FACTORED
+    ways = (Direction.DOWN, Direction.UP, Direction.ACROSS)
+    return Line(
+        formula=formula(
+            r"\Delta_d=\mathrm{max}(k\,\Delta_{max,d},\,\Delta_{floor})"
+            if largest
+            else r"\Delta_d=\mathrm{max}(k\,\overline{\Delta}_d,\,\Delta_{floor})"
+        ),
+        reference="in each direction d",
+        steps=tuple(
+            (
+                f"{way.value.capitalize()}: max({factor} × "
+                f"{say.both(one.largest_m if largest else one.mean_m)}, {say.both(found.floor_m)})",
+                say.both(found.design_towards_m(way)) + scene.towards_mark(found, way),
+            )
+            for way in ways
+            for one in (found.directions[way],)
+        ),
+        note="From the farthest of all runs of each motion in that direction (part 6), by the same "
+        "statistic. A clearance takes the displacement in its own direction, any the largest.",
+    )
 
 
 def separation_line(scene: Scene) -> Line:
@@ -203,7 +266,8 @@ def _separation(scene: Scene, gap: ClearanceCheck) -> tuple[str, str]:
     )
     feet = "" if math.isnan(gap.required_m) else f" = {say.both(gap.required_m, Quantity.PLAN)}"
     return (
-        f"To {_ARTICLES[gap.neighbour]}: {number(rules[key], 2)}{scene.mark(key)}{inside} × "
+        f"To {_ARTICLES[gap.neighbour]} ({gap.governing_array}, "
+        f"{gap.governing_direction.value}): {number(rules[key], 2)}{scene.mark(key)}{inside} × "
         f"{say.both(gap.design_m)}{least}",
         say.both(gap.required_m) + feet,
     )

@@ -15,7 +15,7 @@ from markupsafe import Markup
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
 from report.equations import Formula
-from report.sheet.schema import ProjectInput
+from report.sheet.schema import Direction, ProjectInput
 from report.units import Quantity, Unit, measured, number, pair
 from solver.model import DefectError
 from solver.provisions import SEPARATION_KEYS, Basis, Check, Measure, Provision
@@ -273,6 +273,12 @@ class Scene:
         key = "analysis_floor" if found.governs == "floor" else "analysis_factor"
         return "" if math.isnan(found.design_m) else self.mark(key)
 
+    def towards_mark(self, found: ArrayAssessment, direction: Direction) -> str:
+        """Return the marks of a design displacement in a direction."""
+        value = found.directions[direction].value_m
+        key = "analysis_floor" if found.floor_m > value else "analysis_factor"
+        return "" if math.isnan(value) else self.mark(key)
+
     def separation_mark(self, gap: ClearanceCheck) -> str:
         """Return the marks of what a required separation is taken from."""
         key = SEPARATION_KEYS[gap.neighbour]
@@ -288,6 +294,7 @@ class Scene:
         near = self.gaps_of(found)
         return (
             not math.isnan(found.design_m)
+            and found.is_model_enough
             and all(check.ok for check in found.checks)
             and all(gap.ok for gap in near)
             and all(run.result.status == "ok" for m in found.motions for run in m.runs)

@@ -76,10 +76,12 @@ def _by_place(found: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectra]
 def _histories(found: ArrayAssessment, us_first: bool) -> Iterator[Picture]:
     from report.figures.charts import histories
 
+    two = any(m.governing.has_across for m in found.motions)
+    lines = ": blue down the slope, orange across it, to the left" if two else ", down the slope"
     for start in range(0, len(found.motions), PANELS):
         yield Picture(
             svg=histories(found.motions[start : start + PANELS], us_first),
-            caption=f"Array {found.array.id}: displacement u relative to the roof, positive down "
-            "the slope, in the run that counts. Dot: PRD.",
+            caption=f"Array {found.array.id}: displacement relative to the roof in the run that "
+            f"counts{lines}. Dot: when the PRD, the largest distance in plan, is reached.",
             alt=f"Relative displacement histories of array {found.array.id}",
         )

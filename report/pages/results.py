@@ -7,12 +7,15 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assess import ArrayAssessment, MotionRun
+from report.assess import ArrayAssessment
 from report.pages.checks import check_table
 from report.pages.parts import NO_VALUE, Column, Row, Scene, Table, Wide, statistic
+from report.runs import MotionRun
+from report.sheet.schema import Direction
 from report.units import number
 from solver.model import Heading, Status
 
+_WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
 _SHORT = {Status.OK: "", Status.SLIDING_AT_END: "sliding", Status.UPLIFT: "uplift"}
 
 
@@ -66,10 +69,9 @@ def _peaks(scene: Scene, found: ArrayAssessment) -> Table:
             Column(head="Motion", align="left", share=1.1),
             *(Column(head="PRD of each run", unit=_short(heading)) for heading in headings),
             *say.columns("PRD that counts"),
-            Column(head="PRD / mean", share=0.9),
-            *(Column(head=head, unit=first) for head in ("Residual", "Down", "Up")),
+            *(Column(head=f"Farthest of all runs, {first}", unit=d.value) for d in _WAYS),
+            *(Column(head=f"Ends at, {first}", unit=way) for way in ("down", "across")),
             Column(head="t PRD", unit="s", share=0.9),
-            Column(head="Stops", share=0.85),
             Column(head="N/(m g)", share=1.0),
             Column(head="Status", align="left", share=1.05),
         ),
@@ -78,12 +80,23 @@ def _peaks(scene: Scene, found: ArrayAssessment) -> Table:
             *_statistics(scene, found, len(headings)),
         ),
         notes=(
-            f"{_meaning(headings)}; bold what counts. The columns behind belong to the run that "
-            "counts: relative to the roof, positive down the slope; stops include reversals; "
-            "N/(m g) is the least. The file results.xlsx has every run in both systems of units.",
+            f"{_meaning(headings)}; bold what counts. PRD is the largest distance from the start "
+            "in plan, relative to the roof. Farthest: down the slope, up and across, the largest "
+            "of all runs; clearances follow from these. The columns behind belong to the run that "
+            "counts; N/(m g) is the least. The file results.xlsx has every run in both systems of "
+            "units.",
+            *_stand_in(found),
         ),
         kind="compact",
     )
+
+
+def _stand_in(found: ArrayAssessment) -> Sequence[str]:
+    """Return that the PRD stands for motion across, where it does."""
+    runs = [run for motion in found.motions for run in motion.runs]
+    if all(run.has_across for run in runs):
+        return ()
+    return ("Where a run has one axis alone (part 11), its PRD stands for the motion across.",)
 
 
 def _headings(found: ArrayAssessment) -> tuple[Heading, ...]:
@@ -111,10 +124,9 @@ def _motion_row(
             run.motion.id,
             *(_peak(scene, run, heading) for heading in headings),
             *say.cells(result.prd_m),
-            _over_mean(found, run),
-            *(say.cells(value)[0] for value in (result.residual_m, result.down_m, result.up_m)),
+            *(say.cells(run.peak_m(direction))[0] for direction in _WAYS),
+            *(say.cells(value)[0] for value in (result.residual_m, result.residual_across_m)),
             number(result.t_prd_s, 2),
-            NO_VALUE if math.isnan(result.prd_m) else str(result.n_stops),
             number(result.n_min_g, 2),
             _SHORT[result.status] or "at rest",
         )
@@ -134,19 +146,44 @@ def _statistics(scene: Scene, found: ArrayAssessment, runs: int) -> Sequence[Row
     analysis, rules = found.analysis, scene.assessment.rules
     factor = rules.values["analysis_factor"].clause + scene.mark("analysis_factor")
     floor = rules.values["analysis_floor"].clause + scene.mark("analysis_floor")
-    lines = (
-        ("Mean", analysis.mean_m, "", "over the motions, of the largest of their runs"),
-        ("Largest", analysis.largest_m, "", "over all motions"),
-        ("Analysis", analysis.value_m, "", f"{statistic(analysis.basis)}, {factor}"),
-        ("Floor", found.floor_m, scene.mark("analysis_floor"), _floor_words(scene, floor)),
-        ("Design", found.design_m, scene.design_mark(found), f"governed by: {found.governs}"),
+    ways = [found.directions[direction] for direction in _WAYS]
+    towards = [found.design_towards_m(direction) for direction in _WAYS]
+    lines: tuple[tuple[str, float, str, str, list[float]], ...] = (
+        ("Mean", analysis.mean_m, "", "over the motions", [way.mean_m for way in ways]),
+        ("Largest", analysis.largest_m, "", "over the motions", [way.largest_m for way in ways]),
+        (
+            f"Analysis: {statistic(analysis.basis)}, {factor}",
+            analysis.value_m,
+            "",
+            "",
+            [way.value_m for way in ways],
+        ),
+        (
+            f"Floor: {_floor_words(scene, floor)}",
+            found.floor_m,
+            scene.mark("analysis_floor"),
+            "",
+            [found.floor_m] * len(ways),
+        ),
+        (
+            "Design",
+            found.design_m,
+            scene.design_mark(found),
+            f"governed by: {found.governs}",
+            towards,
+        ),
     )
     return [
         Row(
-            cells=(Wide(label, 1 + runs), *scene.say.cells(value, mark=mark), Wide(words, 8)),
+            cells=(
+                Wide(label, 1 + runs),
+                *scene.say.cells(value, mark=mark),
+                *(scene.say.cells(one)[0] for one in excursions),
+                Wide(words, 5),
+            ),
             kind="total",
         )
-        for label, value, mark, words in lines
+        for label, value, mark, words, excursions in lines
     ]
 
 
@@ -228,4 +265,17 @@ def _sentence(scene: Scene, found: ArrayAssessment) -> str:
             f"{scene.mark('analysis_floor')} "
             f"{'governs' if found.governs == 'floor' else 'does not govern'}"
         )
-    return f"Array {found.array.id}: {floor}; {route}."
+    return f"Array {found.array.id}: {_exceeds(scene, found)}{floor}; {route}."
+
+
+def _exceeds(scene: Scene, found: ArrayAssessment) -> str:
+    """Return where the analysis is above the prescriptive value; it governs then all the same."""
+    over = found.analysis.value_m / found.prescriptive.value_m
+    peaks = sum(m.governing.result.prd_m > found.prescriptive.value_m for m in found.motions)
+    count = f"{peaks} of {len(found.motions)} PRDs"
+    if over > 1.0:
+        return (
+            f"the analysis gives more than the prescriptive displacement ({number(over, 2)} of "
+            f"it; {count} exceed it) and governs; "
+        )
+    return f"{count} exceed the prescriptive displacement, the analysis not; " if peaks else ""

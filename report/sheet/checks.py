@@ -15,6 +15,7 @@ from report.sheet.fields import Draft, Fault, Place, Row, Where
 from report.sheet.motion_checks import motion_faults, site_s_ds
 from report.sheet.schema import (
     PROVISION_KEYS,
+    Model,
     ObjectKind,
     Rectangle,
     RiskCategory,
@@ -164,6 +165,7 @@ def _sdc(row: Row) -> Iterator[Fault]:
 def _arrays(draft: Draft, where: Where) -> Iterator[Fault]:
     for index, row in enumerate(draft["arrays"]):
         yield from _slope(index, row)
+        yield from _friction(index, row)
         yield from _sides("arrays", index, row, _us_first(draft))
 
 
@@ -174,6 +176,28 @@ def _slope(index: int, row: Row) -> Iterator[Fault]:
     most = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
     text = f"slope is {value:g} {unit}; give 0 to less than {most} {unit}"
     yield Fault(Place("arrays", index, "slope_value"), text)
+
+
+def _friction(index: int, row: Row) -> Iterator[Fault]:
+    """Yield what contradicts itself in friction by speed, and models that leave it out."""
+    fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static", "model")
+    if any(field not in row for field in fields):
+        return
+    mu, fast, rate, static, model = (row[field] for field in fields)
+    for given, field, label in (
+        (rate, "mu_fast", "friction at speed"),
+        (fast, "mu_rate_s_per_m", "friction rate"),
+    ):
+        if given is not None and row[field] is None:
+            text = f"{label} is missing; give friction at speed with its rate, or neither"
+            yield Fault(Place("arrays", index, field), text)
+    if static is not None and static < mu:
+        text = f"static friction is {static:g}; give the friction coefficient, {mu:g}, or more"
+        yield Fault(Place("arrays", index, "mu_static"), text)
+    by_speed = [field for field in ("mu_fast", "mu_static") if row[field] not in (None, mu)]
+    if by_speed and model is not Model.CHOOSE:
+        text = f"model is '{model}', which leaves friction by speed out; leave it at choose, or"
+        yield Fault(Place("arrays", index, "model"), f"{text} blank friction at speed and static")
 
 
 def _sides(section: str, index: int, row: Row, us_first: bool) -> Iterator[Fault]:

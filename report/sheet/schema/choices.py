@@ -87,6 +87,15 @@ class ObjectKind(StrEnum):
     EDGE_WITHOUT_PARAPET = "edge without parapet"
 
 
+class Model(StrEnum):
+    """Model of an array's motion: the least that answers, or one that is asked for."""
+
+    CHOOSE = "choose"
+    ONE_AXIS = "one axis"
+    ONE_AXIS_VERTICAL = "one axis with vertical"
+    TWO_AXES = "two axes with vertical"
+
+
 class Direction(StrEnum):
     """Where a clearance lies, seen from the array."""
 

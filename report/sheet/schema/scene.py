@@ -15,6 +15,7 @@ from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import (
     Direction,
     Id,
+    Model,
     NotNegative,
     ObjectKind,
     Positive,
@@ -23,6 +24,9 @@ from report.sheet.schema.choices import (
     Text,
 )
 from report.units import Quantity
+from solver.model import Friction
+
+MuCell = Annotated[float, Field(ge=0.0, le=1.5)]
 
 
 def slope_rad(value: float, unit: SlopeUnit) -> float:
@@ -113,10 +117,63 @@ class Array(Frozen):
         ),
     ]
 
+    mu_fast: Annotated[
+        MuCell | None,
+        Cell(
+            "Friction at speed",
+            "Only where a test gives friction by speed: the coefficient at great speed. The "
+            "friction coefficient is then that at a crawl.",
+            0.5,
+        ),
+    ] = None
+    mu_rate_s_per_m: Annotated[
+        Positive | None,
+        Cell(
+            "Friction rate",
+            "How soon it turns from crawl to speed: fast - (fast - slow) exp(-rate x speed). "
+            "Goes with friction at speed.",
+            30.0,
+            "s/m",
+        ),
+    ] = None
+    mu_static: Annotated[
+        MuCell | None,
+        Cell(
+            "Static friction",
+            "Only where a test gives it: what must be overcome before it slips. Blank: the "
+            "friction coefficient.",
+            0.55,
+        ),
+    ] = None
+    model: Annotated[
+        Model,
+        Cell(
+            "Model",
+            "Choose: the least model that answers, for each motion. Another is run as asked for, "
+            "and the package says what the chosen one would give.",
+            "choose",
+        ),
+    ] = Model.CHOOSE
+
     @property
     def slope_rad(self) -> float:
         """The slope as an angle [rad]."""
         return slope_rad(self.slope_value, self.slope_unit)
+
+    @property
+    def friction(self) -> Friction:
+        """The friction coefficient by speed."""
+        return Friction(
+            mu_slow=self.mu,
+            mu_fast=self.mu if self.mu_fast is None else self.mu_fast,
+            rate_s_per_m=self.mu_rate_s_per_m or 0.0,
+            mu_static=self.mu if self.mu_static is None else self.mu_static,
+        )
+
+    @property
+    def least_mu(self) -> float:
+        """The least friction coefficient at any speed."""
+        return min(self.friction.mu_slow, self.friction.mu_fast)
 
     @property
     def rectangle(self) -> Rectangle:
