@@ -25,6 +25,7 @@ from report.sheet.schema import (
 from report.sheet.targets import Targets, ac156, targets
 from solver import ladder, provisions
 from solver.model import Motion, SlideResult, Status
+from solver.overturning import Supports, Tipping, tipping
 from solver.provisions import (
     AnalysisValue,
     Basis,
@@ -34,6 +35,7 @@ from solver.provisions import (
     RequiredSpectrum,
     RuleSet,
 )
+from solver.uplift import Uplift, uplift
 
 _BASES = {
     Statistic.RULE_SET: None,
@@ -69,6 +71,8 @@ class ArrayAssessment:
         The same by the models that the scenes need; differs where a model is asked for.
     needed : tuple of MotionRun
         The runs behind it, in the order of `motions`.
+    tipping, uplift : Tipping, Uplift
+        Of the run that comes nearest to tipping, and of the one with the least normal force.
     checks : tuple of Check
         Limits that the array must keep for the analysis route.
     prescriptive_checks : tuple of Check
@@ -84,6 +88,8 @@ class ArrayAssessment:
     prescriptive: Prescriptive
     floor_m: float
     design_m: float
+    tipping: Tipping
+    uplift: Uplift
     checks: tuple[Check, ...]
     prescriptive_checks: tuple[Check, ...]
     interconnection_n: float
@@ -208,8 +214,8 @@ class Assessment:
         checks = [*self.building_checks, *(check for a in self.arrays for check in a.checks)]
         limits_kept = all(check.ok for check in checks)
         has_values = not any(math.isnan(a.design_m) for a in self.arrays) and not self.warnings
-        modelled = all(item.is_model_enough for item in self.arrays)
-        return limits_kept and has_values and modelled and all(gap.ok for gap in self.clearances)
+        stands = all(item.is_model_enough and item.tipping.is_ok for item in self.arrays)
+        return limits_kept and has_values and stands and all(gap.ok for gap in self.clearances)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -326,6 +332,8 @@ def _assess_array(
     analysis = directions[Direction.ANY]
     floor = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
     no_value = math.isnan(analysis.value_m)
+    scenes = [run.scene for motion in runs for run in motion.runs]
+    supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
     return ArrayAssessment(
         array=array,
         motions=runs,
@@ -336,6 +344,8 @@ def _assess_array(
         prescriptive=prescriptive,
         floor_m=floor,
         design_m=math.nan if no_value else max(analysis.value_m, floor),
+        tipping=max((tipping(scene, supports) for scene in scenes), key=lambda t: t.ratio),
+        uplift=min(map(uplift, scenes), key=lambda u: u.n_min_g),
         checks=(
             *provisions.array_checks(
                 rules,

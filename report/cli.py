@@ -205,6 +205,9 @@ def _print_summary(book: InputBook, assessment: Assessment) -> None:
         click.echo("  ".join(cells).rstrip())
     for warning in assessment.warnings:
         click.echo(f"warning: {warning}")
+    for item in assessment.arrays:
+        if not item.tipping.is_ok:
+            click.echo(f"warning: array {item.array.id} begins to tip: part 11 of the package")
     checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]
     for failed in (c for c in checks if not c.ok):
         click.echo(f"warning: outside {failed.provision.clause}: {failed.title}")

@@ -120,6 +120,19 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
             for motion in item.motions
         ],
         "interconnection_n": item.interconnection_n,
+        "tipping": {
+            "demand": item.tipping.demand,
+            "capacity": item.tipping.capacity,
+            "held_ratio": item.tipping.held_ratio,
+            "sliding_ratio": item.tipping.sliding_ratio,
+            "ok": item.tipping.is_ok,
+        },
+        "uplift": {
+            "n_min_g": item.uplift.n_min_g,
+            "t_first_s": item.uplift.t_first_s,
+            "duration_s": item.uplift.duration_s,
+            "times": item.uplift.times,
+        },
         "checks": [_check(check) for check in item.checks],
         "prescriptive_checks": [_check(check) for check in item.prescriptive_checks],
         "runs": [

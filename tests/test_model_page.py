@@ -8,6 +8,7 @@ import pytest
 
 import stand_in
 from report.pages import model
+from report.pages.checks import troubles
 from report.pages.parts import Scene, Wide
 from report.sheet.schema import Direction
 from solver.ladder import Rung
@@ -139,3 +140,26 @@ def test_a_block_that_leaves_the_roof_has_no_error_and_no_limit_of_demand():
     assert any(row[4] == "no limit" and row[6] == "no value" for row in rows)
     assert "leaves the roof" in " ".join(page["sentences"])
     assert not re.search(r"\bnan\b", " ".join(map(str, rows)))
+
+
+def test_an_array_that_keeps_flat_says_so_with_its_ratios(usual):
+    rows = [texts(row) for row in model.page(usual)["stability"].rows]
+    for row, found in zip(rows[:2], usual.assessment.arrays[:2], strict=True):
+        capacity = 0.5 * found.array.support_spacing_m / found.array.cg_height_m
+        held = min(found.tipping.demand, found.array.mu) / capacity
+        assert found.tipping.held_ratio == pytest.approx(held, rel=1e-12)
+        assert row[4] == f"{capacity:.2f}"
+        assert row[2] == "none"
+        assert ">OK<" in row[7]
+
+
+def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
+    tall = stand_in.array("A1", 0.5, cg_height_m=0.9, support_spacing_m=0.5)
+    data = stand_in.project(arrays=[tall], clearances=[])
+    made = stand_in.book(data, stand_in.motions(3, seconds=6.0))
+    found = Scene(data=data, assessment=stand_in.assessed(made))
+    assert found.assessment.arrays[0].tipping.ratio > 1.0
+    assert not found.assessment.ok
+    assert not found.array_ok(found.assessment.arrays[0])
+    assert "begins to tip" in " ".join(troubles(found))
+    assert ">NG<" in texts(model.page(found)["stability"].rows[0])[7]

@@ -56,6 +56,7 @@ def test_every_number_in_json_says_its_unit_or_has_none(document):
         "f_v", "storeys", "slope_value", "found", "limit", "scale_value", "value",
         "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
         "left_out_share", "mu_slow", "mu_fast", "mu_static", "rung", "next_rung", "friction_demand",
+        "demand", "capacity", "held_ratio", "sliding_ratio", "times",
     }  # fmt: skip
 
     def walk(value, key=""):

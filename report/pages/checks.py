@@ -8,7 +8,7 @@ from markupsafe import Markup, escape
 
 from report.assess import ClearanceCheck
 from report.equations import symbol
-from report.pages.model import model_troubles
+from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
     NG,
     OK,
@@ -123,6 +123,7 @@ def troubles(scene: Scene) -> Sequence[str]:
         *scene.assessment.warnings,
         *few,
         *model_troubles(scene),
+        *tipping_troubles(scene),
         *failed_limits(scene),
     ]
 

@@ -11,10 +11,10 @@ from itertools import groupby
 
 from report.assess import ArrayAssessment
 from report.pages.accuracy import below_mm
-from report.pages.parts import NO_VALUE, Column, Row, Scene, Table, Wide, nan_is_worst
+from report.pages.parts import NO_VALUE, Column, Row, Scene, Table, Wide, nan_is_worst, verdict
 from report.runs import RUNGS, HeadingRun
 from report.sheet.schema import Array, Direction
-from report.units import number
+from report.units import number, ratio
 from solver.ladder import DEFAULT, Rung, Solution
 
 _LEFT_OUT = {
@@ -35,6 +35,7 @@ def page(scene: Scene) -> Mapping[str, object]:
         "combinations": _combinations(scene),
         "table": _table(scene),
         "left_out": _left_out_table(scene),
+        "stability": _stability_table(scene),
         "sentences": [text for found in arrays for text in _sentences(scene, found)],
         "troubles": tuple(model_troubles(scene)),
     }
@@ -51,6 +52,55 @@ def model_troubles(scene: Scene) -> Iterator[str]:
             f"{scene.say.both(found.design_towards_m(worst))} ({worst.value}), the one that its "
             f"motions need {scene.say.both(found.chosen_towards_m(worst))}."
         )
+
+
+def tipping_troubles(scene: Scene) -> Iterator[str]:
+    """Yield in words which arrays begin to turn about an edge of their supports."""
+    for found in scene.assessment.arrays:
+        if not found.tipping.is_ok:
+            yield (
+                f"Array {found.array.id}: begins to tip, {found.tipping.governs}: ratio "
+                f"{ratio(found.tipping.ratio)} of demand to b/(2h)."
+            )
+
+
+def _stability_table(scene: Scene) -> Table:
+    """Return what keeps each array flat on the roof: no uplift, no tipping."""
+    return Table(
+        caption="Beside every model: uplift and tipping",
+        columns=(
+            Column(head="Array", align="left", share=0.8),
+            Column(head="Least N", unit="m g", share=1.0),
+            Column(head="Time lifted", unit="s", share=1.1),
+            Column(head="Demand", unit="V/N", share=1.0),
+            Column(head="Capacity", unit="b/(2h)", share=1.1),
+            Column(head="Ratio, held", share=1.1),
+            Column(head="Ratio, sliding", share=1.2),
+            Column(head="Verdict", align="center", share=1.0),
+        ),
+        rows=tuple(Row(cells=_stability(found)) for found in scene.assessment.arrays),
+        notes=(
+            "The worst run of each. Tipping: an array begins to turn about an edge of its supports "
+            "where the shear that reaches it, never more than friction gives, is above b/(2h) of "
+            "the normal force; b least support spacing, h height of the centre of gravity, midway "
+            "between the supports (Housner, 1963; Ishiyama, 1982).",
+        ),
+        kind="compact",
+    )
+
+
+def _stability(found: ArrayAssessment) -> tuple[str, ...]:
+    tips, lifts = found.tipping, found.uplift
+    return (
+        found.array.id,
+        number(lifts.n_min_g, 2),
+        number(lifts.duration_s, 3) if lifts.lifts else "none",
+        number(tips.demand, 2) if math.isfinite(tips.demand) else "no limit",
+        number(tips.capacity, 2),
+        ratio(tips.held_ratio),
+        ratio(tips.sliding_ratio),
+        verdict(tips.is_ok and not lifts.lifts),
+    )
 
 
 def _runs(found: ArrayAssessment) -> Sequence[HeadingRun]:
@@ -152,7 +202,7 @@ def _left_out_table(scene: Scene) -> Table:
             for cells in _left_out_rows(scene, found)
         ),
         notes=(
-            "Not in any of these models: turning in plan, tipping, and the array's own "
+            "Not in any of these models: turning in plan, rocking, and the array's own "
             "flexibility (part 2).",
         ),
         kind="compact",

@@ -295,6 +295,7 @@ class Scene:
         return (
             not math.isnan(found.design_m)
             and found.is_model_enough
+            and found.tipping.is_ok
             and all(check.ok for check in found.checks)
             and all(gap.ok for gap in near)
             and all(run.result.status == "ok" for m in found.motions for run in m.runs)
