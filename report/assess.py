@@ -344,7 +344,9 @@ def _assess_array(
         prescriptive=prescriptive,
         floor_m=floor,
         design_m=math.nan if no_value else max(analysis.value_m, floor),
-        tipping=max((tipping(scene, supports) for scene in scenes), key=lambda t: t.ratio),
+        tipping=max(
+            (tipping(scene, supports) for scene in scenes), key=lambda t: (t.ratio, t.demand)
+        ),
         uplift=min(map(uplift, scenes), key=lambda u: u.n_min_g),
         checks=(
             *provisions.array_checks(
