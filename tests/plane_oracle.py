@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import DOP853
+from scipy.integrate import DOP853, solve_ivp
 from scipy.optimize import brentq
 
 RTOL = 1e-13
@@ -90,28 +90,26 @@ def _begin(span, t, state, law):
 
     So slow a block goes the way it is driven, behind it by the turn of the drive in w / |G|.
     """
+
+    def net(h, y):
+        x = span.at(t + h)
+        return [y[1], math.hypot(x[0], x[1]) - law(max(y[1], 0.0)) * x[2]]
+
+    def run(h):
+        return solve_ivp(net, (0.0, h), [0.0, 0.0], method="DOP853", rtol=RTOL, atol=1e-20).y[:, -1]
+
     longest = span.dt - t
-    while math.hypot(*span.at(t + longest)[:2]) < law(0.0) * span.at(t + longest)[2]:
+    while net(longest, [0.0, 0.0])[1] < 0.0:
         longest *= 0.5
-    scale = 2e-5 * _quasi_static(span, t, longest, law)
-    high = brentq(
-        lambda h: _quasi_static(span, t, h, law) - scale, 0.0, longest, rtol=1e-14, xtol=1e-25
-    )
+    target = 2e-5 * run(longest)[1]
+    high = brentq(lambda h: run(h)[1] - target, 1e-9 * longest, longest, rtol=1e-13)
+    way, speed = run(high)
     x, y = span.at(t + high)[:2]
-    speed, drive = _quasi_static(span, t, high, law), math.hypot(x, y)
+    drive = math.hypot(x, y)
     turn = (x * span.gain[1] - y * span.gain[0]) / drive**2
-    lag = speed * turn / (drive + (drive - law(0.0) * span.at(t + high)[2]))
-    angle = math.atan2(y, x) - lag
+    angle = math.atan2(y, x) - speed * turn / (drive + net(high, [0.0, speed])[1])
     e = np.array([math.cos(angle), math.sin(angle)])
-    net = [math.hypot(*x[:2]) - law(0.0) * x[2] for x in (span.at(t), span.at(t + high))]
-    way = high * high * (max(net[0], 0.0) / 3.0 + net[1] / 6.0)
     return t + high, np.array([*(state[:2] + way * e), *(speed * e)]), True
-
-
-def _quasi_static(span, t, h, law):
-    """Speed gained in h from rest, by Simpson's rule."""
-    net = [math.hypot(*x[:2]) - law(0.0) * x[2] for x in (span.at(t + f * h) for f in (0, 0.5, 1))]
-    return h * (max(net[0], 0.0) + 4.0 * net[1] + net[2]) / 6.0
 
 
 def _follow(span, t, state, law, seen, cs):
