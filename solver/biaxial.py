@@ -392,41 +392,38 @@ def _see(sx, sy, t, cs, top):
 
 
 @njit
-def _leaves(b, order, part, along, across):
-    """Whether a block goes away from the start all through a step that turns by less than 90 deg.
-
-    Then u . v grows by what it goes, and it is enough that u . v from the old place stays above 0.
-    """
+def _stays(b, order, part, along, across, extra):
+    """Whether (along, across) . v keeps its sign in a step, even if `extra` goes against it."""
     least, power = along * b[VX, 0] + across * b[VY, 0], 1.0
+    sign = 1.0 if least > 0.0 else -1.0
+    least = abs(least) - extra
     for k in range(1, order + 1):
         power *= part
-        least += min((along * b[VX, k] + across * b[VY, k]) * power, 0.0)
+        least += min(sign * (along * b[VX, k] + across * b[VY, k]) * power, 0.0)
     return least > 0.0
 
 
 @njit
 def _look(b, order, part, cs, sx, sy, far, w, moved, span, t, top):
-    """Look at the places inside a step where an extreme may be.
-
-    None is where a rate is larger than it changes in the step, `moved` for v, and none matters that
-    is out of reach.
-    """
-    scale, reach = cs * cs, span * part * (w + moved)
+    """Look at the places inside a step where an extreme may be: none matters out of reach."""
+    scale, fast = cs * cs, w + moved
+    reach = span * part * fast
     for kind in range(3):
+        extra = 0.0
         if kind == 0:
-            # u . v in plan, whose sign is that of the rate of the distance.
+            # u . v in plan, whose sign is that of the rate of the distance. What u gains in a step
+            # that turns by less than 90 deg cannot bring it back.
             along, across = scale * sx, sy
             matters = far + reach > top[0]
-            changes = far * moved + reach * (w + moved)
+            if moved >= w or along * b[VX, 0] + across * b[VY, 0] < 0.0:
+                extra = reach * fast
         elif kind == 1:
-            along, across, changes = 1.0, 0.0, moved
+            along, across = 1.0, 0.0
             matters = sx + reach > top[2] or sx - reach < top[3]
         else:
-            along, across, changes = 0.0, 1.0, moved
+            along, across = 0.0, 1.0
             matters = sy + reach > top[4] or sy - reach < top[5]
-        if not matters or abs(along * b[VX, 0] + across * b[VY, 0]) > changes:
-            continue
-        if kind == 0 and moved < w and _leaves(b, order, part, along, across):
+        if not matters or _stays(b, order, part, along, across, extra):
             continue
         # The place is a degree above v, so the product of both is of twice that and one.
         degree = 2 * order + 1 if kind == 0 else order

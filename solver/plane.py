@@ -21,7 +21,7 @@ TOLERANCES = (1e-10, 1e-2)
 
 # Tolerance of a step by that of the run: then the bound of the error is below the tolerance of the
 # run in all but long slips, and the error itself a hundredth of it or less.
-_SHARE = 1.5e-4
+_SHARE = 2e-4
 _ATTEMPTS = 5
 
 _NO_EVENTS, _NO_HISTORY = np.empty((0, 4)), np.empty((4, 0))
@@ -187,4 +187,4 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOut
 
 def _degree(step: float) -> int:
     """Largest degree of a series: what is cheapest for a tolerance, measured, near -log / 2."""
-    return min(biaxial.ORDER, 6 + math.ceil(-0.5 * math.log(step)))
+    return min(biaxial.ORDER, 4 + math.ceil(-0.5 * math.log(step)))
