@@ -12,6 +12,8 @@ from report.pages.checks import troubles
 from report.pages.parts import Scene, Wide
 from report.sheet.schema import Direction
 from solver.ladder import Rung
+from solver.overturning import Supports, tipping
+from solver.uplift import uplift
 
 
 def scene(found=None, **changes):
@@ -148,6 +150,13 @@ def test_an_array_that_keeps_flat_says_so_with_its_ratios(usual):
         capacity = 0.5 * found.array.support_spacing_m / found.array.cg_height_m
         held = min(found.tipping.demand, found.array.mu) / capacity
         assert found.tipping.held_ratio == pytest.approx(held, rel=1e-12)
+        runs = [run for motion in found.motions for run in motion.runs]
+        assert found.tipping.demand == max(run.solution.friction_demand for run in runs)
+        assert found.uplift.n_min_g == min(uplift(run.scene).n_min_g for run in runs)
+        supports = Supports(
+            height_m=found.array.cg_height_m, spacing_m=found.array.support_spacing_m
+        )
+        assert found.tipping.ratio == max(tipping(run.scene, supports).ratio for run in runs)
         assert row[4] == f"{capacity:.2f}"
         assert row[2] == "none"
         assert ">OK<" in row[7]
@@ -163,3 +172,10 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     assert not found.array_ok(found.assessment.arrays[0])
     assert "begins to tip" in " ".join(troubles(found))
     assert ">NG<" in texts(model.page(found)["stability"].rows[0])[7]
+
+
+def test_the_least_normal_force_is_that_of_the_whole_motion_where_the_vertical_is_left_out(usual):
+    asked, text = usual.assessment.arrays[0], model.page(usual)["sentences"][0]
+    modelled = min(run.result.n_min_g for m in asked.motions for run in m.runs)
+    assert asked.uplift.n_min_g < modelled
+    assert f"Least normal force {asked.uplift.n_min_g:.2f} m g" in text

@@ -270,7 +270,7 @@ def _asked_row(scene: Scene, found: ArrayAssessment) -> tuple[str | Wide, ...]:
 
 def _sentences(scene: Scene, found: ArrayAssessment) -> Iterator[str]:
     name, worst = found.array.id, found.worst
-    least = min(run.result.n_min_g for run in _runs(found))
+    least = found.uplift.n_min_g  # of the whole motion, also where the vertical is left out
     lifted = "it leaves the roof" if least < 0.0 else "it stays on the roof"
     yield (
         f"Array {name}: the worst run is {worst.motion.id}, {worst.governing.heading.name}, with "
