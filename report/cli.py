@@ -157,10 +157,16 @@ def _outputs(
     from report.aside import begin
     from report.package import render
 
-    tables = begin(lambda: _tables(book, assessment))
-    package = render(book, assessment, progress)
+    tables: list[Callable[[], dict[str, bytes]]] = []
+
+    def tell(stage: str) -> None:
+        progress(stage)
+        if stage == "pdf":  # from here on the second core has nothing else to do
+            tables.append(begin(lambda: _tables(book, assessment)))
+
+    package = render(book, assessment, tell)
     progress("writing the result tables")
-    return {"calc-package.pdf": package, **tables()}
+    return {"calc-package.pdf": package, **tables[0]()}
 
 
 def _tables(book: InputBook, assessment: Assessment) -> dict[str, bytes]:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from report.accuracy import Accuracy, Rivals, accuracy, rivals
+from report.accuracy import accuracy, rivals
 from report.aside import begin
 from report.assess import Assessment
 from report.beyond import beyond_corners
@@ -51,22 +51,26 @@ def _render(book: InputBook, assessment: Assessment, tell: Stage) -> bytes:
     tell("figures")
     found = spectra(assessment, book.motions, book.stories)
     beyond = beyond_corners(book.input.motions, book.stories, scene.governing)
-    compared = rivals(scene.governing)
-    pictures = begin(lambda: _draw(scene, found, compared))
+    aside = begin(lambda: _aside(book, scene, found))
     tell("pages")
-    sureness = accuracy(book.input, book.motions, assessment, compared)
     motion_page = motions.page(scene, book.motions, book.stories, book.records, found, beyond)
-    context = {**_context(book, scene, sureness), "motions": motion_page}
+    context = {**_context(book, scene), "motions": motion_page}
     load_renderer()
-    html = _html({**context, "pictures": pictures()})
+    pictures, accuracy_part = aside()
+    html = _html({**context, "accuracy": accuracy_part, "pictures": pictures})
     tell("pdf")
     return html_to_pdf(html)
 
 
-def _draw(scene: Scene, found: Sequence[Spectra], compared: Rivals) -> Pictures:
-    pictures = draw(scene, found)
+def _aside(
+    book: InputBook, scene: Scene, found: Sequence[Spectra]
+) -> tuple[Pictures, Mapping[str, object]]:
+    """Return every picture, and the part on accuracy, which runs all motions twice more."""
+    compared = rivals(scene.governing)
     charts = [accuracy_page.picture(compared, scene.say.us_first)] if compared.runs else []
-    return {**pictures, "accuracy": charts}
+    pictures = {**draw(scene, found), "accuracy": charts}
+    sureness = accuracy(book.input, book.motions, scene.assessment, compared)
+    return pictures, accuracy_page.page(scene, sureness)
 
 
 @contextmanager
@@ -94,7 +98,7 @@ def _html(context: Mapping[str, Any]) -> str:
     return environment.get_template("package.html").render(context)
 
 
-def _context(book: InputBook, scene: Scene, sureness: Accuracy) -> Mapping[str, Any]:
+def _context(book: InputBook, scene: Scene) -> Mapping[str, Any]:
     governing = scene.governing
     return {
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
@@ -119,7 +123,6 @@ def _context(book: InputBook, scene: Scene, sureness: Accuracy) -> Mapping[str, 
         "limits": checks.limits(scene),
         "provisions": checks.provisions(scene),
         "model": model.page(scene),
-        "accuracy": accuracy_page.page(scene, sureness),
         "appendix": {
             "echo": appendix.echo(book.echo),
             "records": appendix.records(book.records),
