@@ -66,11 +66,10 @@ def _aside(
     book: InputBook, scene: Scene, found: Sequence[Spectra]
 ) -> tuple[Pictures, Mapping[str, object]]:
     """Return every picture, and the part on accuracy, which runs all motions twice more."""
-    compared = rivals(scene.governing)
+    compared, pictures = rivals(scene.governing), draw(scene, found)  # loads the fonts
     charts = [accuracy_page.picture(compared, scene.say.us_first)] if compared.runs else []
-    pictures = {**draw(scene, found), "accuracy": charts}
     sureness = accuracy(book.input, book.motions, scene.assessment, compared)
-    return pictures, accuracy_page.page(scene, sureness)
+    return {**pictures, "accuracy": charts}, accuracy_page.page(scene, sureness)
 
 
 @contextmanager
