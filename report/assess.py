@@ -9,7 +9,9 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 
 from report.runs import RUNGS, MotionRun, nan_is_worst, run_motion
 from report.sheet.schema import (
@@ -44,6 +46,7 @@ _BASES = {
     Statistic.MEAN: Basis.MEAN,
 }
 _OPPOSITE = {Direction.DOWN: Direction.UP, Direction.UP: Direction.DOWN}
+THREADS = 2
 ALIKE_DEG = 1.0
 """Slopes that fall within so many degrees of each other fall in the same direction."""
 
@@ -275,7 +278,9 @@ def assess(
         {row.provision: (row.value, row.reason) for row in data.overrides}
     )
     started = time.perf_counter()
-    runs = [_runs(array, motions, hold_models) for array in data.arrays]
+    # Runs in two axes leave Python alone: two of them go on at once.
+    with ThreadPoolExecutor(THREADS) as pool:
+        runs = [_runs(pool, array, motions, hold_models) for array in data.arrays]
     seconds = time.perf_counter() - started
     arrays = tuple(
         _assess_array(data, rules, array, *found)
@@ -298,13 +303,13 @@ def assess(
 
 
 def _runs(
-    array: Array, motions: Sequence[Motion], hold_models: bool
+    pool: Executor, array: Array, motions: Sequence[Motion], hold_models: bool
 ) -> tuple[tuple[MotionRun, ...], ...]:
     """Return the runs of an array, and those by the models that its scenes need."""
-    runs = tuple(run_motion(array, motion) for motion in motions)
+    runs = tuple(pool.map(partial(run_motion, array), motions))
     if array.model is Model.CHOOSE or not hold_models:
         return runs, runs
-    return runs, tuple(run_motion(array, motion, Model.CHOOSE) for motion in motions)
+    return runs, tuple(pool.map(partial(run_motion, array, model=Model.CHOOSE), motions))
 
 
 def _towards(

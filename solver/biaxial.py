@@ -529,7 +529,7 @@ def _fill(history, i, end, sx, sy, vx, vy):
         history[0, k], history[1, k], history[2, k], history[3, k] = sx, sy, vx, vy
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def slide_plane(
     ax, ay, az, x, y, z, dt, sn, cs, mu, g, scale, tolerance, most, law, events, history, top, end
 ):
