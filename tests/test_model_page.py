@@ -131,6 +131,7 @@ def test_the_eight_combinations_and_the_worst_of_them_are_named(usual):
     assert "0.500 at a crawl, 0.600 at speed, rate 10.0 s/m, 0.550 at rest" in page["sentences"][2]
     single = model.page(scene(alone(stand_in.motions(3, seconds=4.0))))
     assert "No motion has a second horizontal component" in single["combinations"]
+    assert "with both components most displacements are larger" in single["combinations"]
 
 
 def test_a_block_that_leaves_the_roof_has_no_error_and_no_limit_of_demand():

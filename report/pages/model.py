@@ -119,7 +119,8 @@ def _combinations(scene: Scene) -> str:
     if not two:
         return (
             "No motion has a second horizontal component: each record is run along the slope, in "
-            "the senses that the workbook asks for."
+            "the senses that the workbook asks for. Shaking across the slope uses up friction too: "
+            "with both components most displacements are larger (verification manual, section 12)."
         )
     both = all(len(motion.signs) == 2 for motion in motions)
     of = "Each motion has" if two == len(motions) else f"{two} of {len(motions)} motions have"
