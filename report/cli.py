@@ -109,9 +109,9 @@ def report(source: Path, out: Path | None) -> None:
 @click.option("--out", type=_SCENE, default=Path("out"), show_default=True,
               help="Folder for the outputs.")  # fmt: skip
 @click.option("--quick", is_flag=True, help="Fewer records, scenes and settings: seconds.")
-@click.option("--records", type=_SCENE, help="Folder of real records: roof_575_market in it, "
-              "ground and floors of 575 Market Street, is held against the way from ground to "
-              "roof.")  # fmt: skip
+@click.option("--records", type=_SCENE, help="Folder of real records: files of three components "
+              "run in every model; roof_575_market in it, ground and floors of 575 Market Street, "
+              "is held against the way from ground to roof.")  # fmt: skip
 def verify(out: Path, quick: bool, records: Path | None) -> None:
     """Check the solver and every rival, and write verification.pdf with its table and charts.
 

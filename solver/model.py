@@ -284,10 +284,6 @@ class Motion:
         components = (False, True) if self.has_transverse else (False,)
         return tuple(Heading(swapped=s, sign=sign) for s in components for sign in self.signs)
 
-    def along_mps2(self, heading: Heading) -> Floats:
-        """Return the acceleration along the slope of a run, unscaled, shape (n,) [m/s2]."""
-        return (self.ay_mps2 if heading.swapped else self.ax_mps2) * heading.sign
-
     def scene(self, heading: Heading, *, slope_rad: float, friction: Friction) -> Scene:
         """Return a run of an array: a slope, its friction, and this motion with a heading."""
         along, across = self.ax_mps2, self.ay_mps2

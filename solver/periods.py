@@ -1,6 +1,6 @@
 """Approximate periods of buildings by ASCE 7, for who has no analysis and no measurement.
 
-Owns two equations and their limits. Read `approximate_period_s`; `solver.building` uses periods.
+Owns one equation and its table. Read `approximate_period_s`; `solver.building` uses periods.
 """
 
 from __future__ import annotations
@@ -21,8 +21,6 @@ APPROXIMATE_PERIODS = MappingProxyType(
 """C_t and x of T_a = C_t h_n^x, h_n in feet: ASCE 7-16 and 7-22, 12.8.2.1, Table 12.8-2."""
 
 FOOT_M = 0.3048
-
-_MOST_STOREYS_OF_TENTH, _LEAST_STOREY_M = 12, 10.0 * FOOT_M
 
 
 def approximate_period_s(system: str, height_m: float) -> float:
@@ -52,27 +50,3 @@ def approximate_period_s(system: str, height_m: float) -> float:
         raise InputError(problems)
     coefficient, exponent = APPROXIMATE_PERIODS[system]
     return float(coefficient * (height_m / FOOT_M) ** exponent)
-
-
-def tenth_period_s(storeys: int, height_m: float) -> float:
-    """Return T_a = 0.1 N of ASCE 7, 12.8.2.1 (Eq. 12.8-8), for moment frames up to 12 storeys.
-
-    Raises
-    ------
-    InputError
-        Over 12 storeys, or under 10 ft for a storey on average: the equation is not for those.
-    """
-    problems = []
-    if not 1 <= storeys <= _MOST_STOREYS_OF_TENTH:
-        problems.append(
-            f"storeys: found {storeys}; 0.1 N holds for 1 to {_MOST_STOREYS_OF_TENTH}, give a "
-            "period or use C_t h_n^x"
-        )
-    elif not height_m >= _LEAST_STOREY_M * storeys * (1.0 - 1e-9):
-        problems.append(
-            f"height: found {height_m} m for {storeys} storeys; 0.1 N holds from 10 ft (3.05 m) "
-            "for a storey, give a period or use C_t h_n^x"
-        )
-    if problems:
-        raise InputError(problems)
-    return 0.1 * storeys

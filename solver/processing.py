@@ -137,26 +137,6 @@ def process_together(records: Sequence[Record], processing: Processing) -> tuple
     return tuple(process(record, processing) for record in records)
 
 
-def beyond_corner(record: Record, corner_hz: float, order: int = 4) -> tuple[Record, Record]:
-    """Split a record at a corner: what a high-pass keeps, and what it removes.
-
-    Both have the filter's zeros before and after, and their sum is the record between such zeros.
-    How much of an answer comes from periods beyond the corner: the PRD under the record less the
-    PRD under the first part, over the PRD under the record. (A PRD is not linear in the motion,
-    so the PRD under the second part alone does not say it.)
-
-    Returns
-    -------
-    tuple of Record
-        With periods up to 1 / `corner_hz`, with those beyond; both named as the record.
-    """
-    short = process(record, Processing(highpass_hz=corner_hz, order=order))
-    pad = (len(short.a_mps2) - len(record.a_mps2)) // 2
-    rest = np.pad(record.a_mps2, pad) - short.a_mps2
-    rest.setflags(write=False)
-    return short, Record(name=record.name, dt_s=record.dt_s, a_mps2=rest)
-
-
 # The steps
 
 

@@ -30,9 +30,7 @@ from solver.model import (
     Event,
     EventKind,
     Floats,
-    Heading,
     InputError,
-    Motion,
     Scene,
     SlideHistory,
     SlideResult,
@@ -181,21 +179,6 @@ def in_plane(scene: Scene, tolerance: float = plane.DEFAULT_TOLERANCE) -> tuple[
 def along_history(scene: Scene) -> SlideHistory:
     """Return the history of what `along` runs."""
     return _history(METHODS["exact"], {}, scene)
-
-
-def slide_motion(motion: Motion, *, slope_rad: float, mu: float, heading: Heading) -> SlideResult:
-    """Slide under a `Motion`, with one of its horizontal components along the slope.
-
-    Reversing the motion is the same as reversing the slope (the paper runs both slope signs).
-    """
-    return along(motion.scene(heading, slope_rad=slope_rad, friction=coulomb(mu)))
-
-
-def slide_motion_history(
-    motion: Motion, *, slope_rad: float, mu: float, heading: Heading
-) -> SlideHistory:
-    """Return the history of what `slide_motion` runs."""
-    return along_history(motion.scene(heading, slope_rad=slope_rad, friction=coulomb(mu)))
 
 
 def in_plane_history(scene: Scene, tolerance: float = plane.DEFAULT_TOLERANCE) -> SlideHistory:

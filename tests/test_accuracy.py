@@ -48,7 +48,7 @@ def words(page):
 def direct(run, array, **method):
     motion = run.motion
     return slide(
-        motion.along_mps2(run.governing.heading),
+        run.governing.scene.ax_mps2,
         motion.dt_s,
         slope_rad=array.slope_rad,
         mu=array.mu,

@@ -1,11 +1,9 @@
 """Approximate periods of ASCE 7, worked by hand, and where they do not hold."""
 
-import math
-
 import pytest
 
 from solver.model import InputError
-from solver.periods import APPROXIMATE_PERIODS, FOOT_M, approximate_period_s, tenth_period_s
+from solver.periods import APPROXIMATE_PERIODS, FOOT_M, approximate_period_s
 
 
 @pytest.mark.parametrize(
@@ -36,20 +34,6 @@ def test_in_metres_the_coefficients_are_the_metric_ones_of_the_table(system, c_t
     assert approximate_period_s(system, 1.0) == pytest.approx(c_t, abs=6e-5)
     exponent = APPROXIMATE_PERIODS[system][1]
     assert approximate_period_s(system, 32.0) == pytest.approx(c_t * 32.0**exponent, rel=2e-3)
-
-
-def test_a_tenth_of_a_second_for_each_storey_up_to_twelve():
-    assert tenth_period_s(1, 3.048) == pytest.approx(0.1)
-    assert tenth_period_s(12, 12 * 10 * 0.3048) == pytest.approx(1.2)
-
-
-@pytest.mark.parametrize(
-    ("storeys", "height_m", "said"),
-    [(13, 60.0, "1 to 12"), (0, 5.0, "1 to 12"), (4, 12.0, "10 ft"), (4, math.nan, "10 ft")],
-)
-def test_the_tenth_is_refused_where_it_does_not_hold(storeys, height_m, said):
-    with pytest.raises(InputError, match=said):
-        tenth_period_s(storeys, height_m)
 
 
 def test_an_unknown_structure_and_a_height_of_nothing_are_both_named():

@@ -9,7 +9,7 @@ from scipy import signal
 from solver.measures import measures
 from solver.model import InputError
 from solver.motion import Record
-from solver.processing import Processing, beyond_corner, process, process_together
+from solver.processing import Processing, process, process_together
 from solver.sliding import slide
 
 G = 9.80665
@@ -229,22 +229,6 @@ class TestTogether:
             "z: 2000 samples of 0.02 s, but x has 2000 of 0.01 s; give components of one length "
             "and step",
         )
-
-
-class TestBeyondCorner:
-    def test_the_parts_sum_to_the_record_between_zeros(self, noise):
-        short, long = beyond_corner(record(noise), 0.5)
-        pad = (len(short.a_mps2) - len(noise)) // 2
-        assert pad == 1200
-        total = short.a_mps2 + long.a_mps2
-        assert total == pytest.approx(np.pad(noise, pad), abs=1e-13)
-
-    def test_each_part_has_its_periods(self):
-        slow, fast = burst(0.1), burst(2.0)
-        short, long = beyond_corner(record(slow + fast), 0.5, 8)
-        pad = (len(short.a_mps2) - len(slow)) // 2
-        assert np.abs(short.a_mps2 - np.pad(fast, pad)).max() < 1e-4
-        assert np.abs(long.a_mps2 - np.pad(slow, pad)).max() < 1e-4
 
 
 def test_words_say_everything_that_is_done():
