@@ -10,12 +10,13 @@ import pandas as pd
 import pytest
 
 from report.figures.base import load_fonts
+from report.manual.blocks import percent
 from report.manual.rungs import answers, rungs
 from report.manual.table import verification_csv
 from report.pdf import TEMPLATES
 from solver.verification import plane_scipy, rung_study
 from solver.verification.evidence import Verification
-from solver.verification.rung_evidence import SECOND
+from solver.verification.rung_evidence import HELD, SECOND
 from solver.verification.triples import own_triples
 
 pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
@@ -44,12 +45,20 @@ def words(section):
 
 def test_the_factor_of_the_second_axis_is_told(evidence):
     said = words(rungs(verification(evidence)))
-    second = next(one for one in evidence.study.changes if one.name == SECOND)
+    second = evidence.study.named(SECOND)
     assert f"PRD is {second.median:.2f} times that of one axis with the same heading" in said
     assert "One axis underestimates." in said
     assert "No records of three components were given" in said
     (answer,) = answers(verification(evidence))
     assert f"{second.median:.2f} times" in answer[1]
+
+
+def test_static_friction_is_told_beside_friction_by_speed(evidence):
+    said = words(rungs(verification(evidence)))
+    held, least = evidence.study.named(HELD), evidence.static.differences[-1]
+    assert f"{held.median:.2f} times ({held.at(10.0):.2f} to {held.at(90.0):.2f}) in two" in said
+    assert percent(100.0 * least.two_axes[-1]) in said
+    assert "the power 2.0 and 2.0 of the difference" in said
 
 
 def test_no_number_is_printed_raw(evidence):
@@ -68,7 +77,8 @@ def test_recorded_motions_and_lifted_runs_are_told(evidence):
 def test_where_nothing_slides_nothing_is_claimed(evidence):
     none = [replace(one, ratios=np.empty(0)) for one in evidence.study.changes]
     study = replace(evidence.study, changes=tuple(none))
-    found = verification(replace(evidence, study=study))
+    static = replace(evidence.static, n_scenes=0)
+    found = verification(replace(evidence, study=study, static=static))
     assert "No scene slides 5 mm or more" in words(rungs(found))
     assert answers(found) == ()
 

@@ -10,8 +10,10 @@ import pytest
 from solver.sliding import slide
 from solver.verification import rung_study
 from solver.verification.rung_evidence import (
+    HELD,
     LEAST_M,
     OVER_SLOW,
+    OVER_STATIC,
     SECOND,
     SOFT,
     STIFF,
@@ -28,13 +30,9 @@ def study():
     return rung_study.study(own_triples(True), quick=True)
 
 
-def named(study, name):
-    return next(one for one in study.changes if one.name == name)
-
-
 def test_every_run_is_counted(study):
     assert study.n_runs == 2 * 2 * 2 * 4
-    for one in study.changes[:5]:
+    for one in study.changes[:8]:
         count = study.n_runs // 4 if one.name == WORST else study.n_runs
         assert one.ratios.size + one.n_small + (study.n_uplift if one.name != WORST else 0) == count
         assert np.all(np.diff(one.ratios) >= 0.0)
@@ -47,18 +45,25 @@ def test_a_ratio_is_that_of_two_slides(study):
     two = slide(triple.x_mps2, triple.dt_s, ay_mps2=triple.y_mps2, az_mps2=triple.z_mps2, **scene)
     assert min(one.prd_m, two.prd_m) > LEAST_M
     ratio = two.prd_m / one.prd_m
-    assert np.abs(named(study, SECOND).ratios - ratio).min() == pytest.approx(0.0, abs=1e-9)
+    assert np.abs(study.named(SECOND).ratios - ratio).min() == pytest.approx(0.0, abs=1e-9)
 
 
 def test_one_axis_underestimates_and_friction_that_rises_with_speed_slides_less(study):
-    assert named(study, SECOND).median > 1.0
-    assert named(study, WORST).median > 1.0
-    assert named(study, OVER_SLOW).median < 1.0
+    assert study.named(SECOND).median > 1.0
+    assert study.named(WORST).median > 1.0
+    assert study.named(OVER_SLOW).median < 1.0
     assert study.largest_error <= 1e-6
 
 
+def test_friction_at_rest_changes_less_than_the_same_friction_throughout(study):
+    held, over_static = study.named(HELD), study.named(OVER_STATIC)
+    assert held.ratios.size + held.n_small == study.n_runs
+    assert abs(held.median - 1.0) < 0.1
+    assert over_static.median > 1.5
+
+
 def test_a_row_is_compared_with_a_rigid_array_of_its_mean_friction(study):
-    stiff, soft = named(study, STIFF), named(study, SOFT)
+    stiff, soft = study.named(STIFF), study.named(SOFT)
     assert stiff.ratios.size + stiff.n_small == study.n_runs // 8
     assert 1.0 < stiff.median < 1.1
     assert 1.0 < soft.median < 1.1

@@ -9,6 +9,7 @@ from report.figures import rungs as figures
 from report.figures.scales import power_of_ten
 from report.letters import lettered
 from report.manual.blocks import Block, Chart, Section, joined, percent, scientific, seconds
+from report.manual.static_friction import block, effect
 from report.pages.parts import Column, Picture, Row, Table
 from report.units import number
 from solver.verification.evidence import Verification
@@ -44,6 +45,7 @@ def _blocks(found: RungEvidence) -> tuple[Block, ...]:
                 _scenes(found.study),
                 _underestimates(found.study),
                 _friction(found.study),
+                effect(found.study),
                 _rows(found.study),
             ),
             top=(_changes_table(found.study),),
@@ -64,6 +66,7 @@ def _blocks(found: RungEvidence) -> tuple[Block, ...]:
             texts=(_stop_words(),),
             tables=(_stop_table(found.stops),),
         ),
+        block(found.static),
     )
 
 
@@ -98,20 +101,18 @@ def _scenes(study: RungStudy) -> str:
             "No records of three components were given to this run (option --records): what "
             "follows is made motions alone. "
         )
-    return words + f"Largest bound of the error in two axes: {scientific(study.largest_error)}."
+    return words + (
+        f"Largest bound of the error in two axes: {scientific(study.largest_error)} of the PRD."
+    )
 
 
 def _list(values: Sequence[float]) -> str:
     return joined([f"{value:g}" for value in values])
 
 
-def _named(study: RungStudy, name: str) -> RungChange:
-    return next(one for one in study.changes if one.name == name)
-
-
 def _underestimates(study: RungStudy) -> str:
     """Say plainly what one axis leaves out."""
-    one, worst = _named(study, SECOND), _named(study, WORST)
+    one, worst = study.named(SECOND), study.named(WORST)
     if not one.ratios.size or not worst.ratios.size:
         return f"No scene slides {1e3 * LEAST_M:g} mm or more in both models."
     verdict = "One axis underestimates." if one.median > 1.0 else "Here one axis is enough."
@@ -128,7 +129,7 @@ def _underestimates(study: RungStudy) -> str:
 
 
 def _friction(study: RungStudy) -> str:
-    slow, fast = _named(study, OVER_SLOW), _named(study, OVER_FAST)
+    slow, fast = study.named(OVER_SLOW), study.named(OVER_FAST)
     words = (
         f"Friction by speed: μ slow, the coefficient of the other rungs, is {study.slow_share:g} "
         f"of μ fast, and it rises with {study.rate_s_per_m:g} s/m. "
@@ -185,8 +186,9 @@ def _changes_table(study: RungStudy) -> Table:
             f"Not counted: the PRD of one of them is under {1e3 * LEAST_M:g} mm. Largest change: "
             "of all, these too. Vertical: rung 2 over rung 1. Second axis: rung 3 over rung 2. "
             "Worst heading: the largest of four headings in two axes over the largest in one. "
-            "Friction by speed: rung 4 over rung 3 with the one or the other coefficient. Row: "
-            "rung 5 over rung 2 with the mean coefficient.",
+            "Friction by speed: rung 4 over rung 3 with the one or the other coefficient. Static "
+            "friction: rung 4 over rung 2 or 3 with the kinetic coefficient, at last over rung 3 "
+            "with the static one. Row: rung 5 over rung 2 with the mean coefficient.",
         ),
         kind="compact",
     )
@@ -236,7 +238,7 @@ def _work_table(points: Sequence[PlaneWork]) -> Table:
     rows = []
     for name in dict.fromkeys(one.method for one in points):
         own = [one for one in points if one.method == name]
-        shown = own[::2] if len(own) > 4 else own
+        shown = own[::2] if len(own) > 3 else own
         rows += [
             Row(
                 cells=(
@@ -341,7 +343,7 @@ def answers(found: Verification) -> tuple[tuple[str, str], ...]:
     """Return what the summary says of two axes: questions and answers."""
     rows = []
     for one in found.rungs:
-        second, worst = _named(one.study, SECOND), _named(one.study, WORST)
+        second, worst = one.study.named(SECOND), one.study.named(WORST)
         if second.ratios.size and worst.ratios.size:
             text = (
                 f"{second.median:.2f} times, 10 to 90 % of the runs {second.at(10.0):.2f} to "

@@ -17,6 +17,8 @@ LEAST_M = 5e-3
 VERTICAL, SECOND, WORST = "Vertical", "Second axis", "Second axis, worst heading"
 STIFF, SOFT = "Row, links of 1 mm", "Row, links of 10 mm"
 OVER_SLOW, OVER_FAST = "Friction by speed, over μ slow", "Friction by speed, over μ fast"
+HELD_ONE, HELD = "Static friction, one axis", "Static friction, two axes"
+OVER_STATIC = "Static friction, over μ static"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,10 +70,12 @@ class RungStudy:
         The scenes: every one with every other.
     slow_share, rate_s_per_m : float
         Friction by speed: mu_slow, the coefficient of the other rungs, over mu_fast; its rate.
+        The same share is kinetic of static friction where they differ.
     n_runs, n_uplift : int
         Scenes times motions and headings, and those in which the normal force vanishes.
     changes : tuple of RungChange
-        `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW`, `OVER_FAST`, `STIFF` and `SOFT`.
+        `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW`, `OVER_FAST`, `HELD_ONE`, `HELD`,
+        `OVER_STATIC`, `STIFF` and `SOFT`.
     row_ppa_g : float
         Of the rows, which run in the first heading alone.
     row_shares : tuple of float
@@ -93,6 +97,89 @@ class RungStudy:
     row_ppa_g: float
     row_shares: tuple[float, ...]
     largest_error: float
+
+    def named(self, name: str) -> RungChange:
+        """Return the change of a name."""
+        return next(one for one in self.changes if one.name == name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StaticDifference:
+    """What is left of static above kinetic friction as their difference falls.
+
+    Attributes
+    ----------
+    excess : float
+        Static over kinetic friction, less 1.
+    one_axis, two_axes : array, shape (n,)
+        Change of the PRD of each scene, of that with kinetic friction alone, rising.
+    """
+
+    excess: float
+    one_axis: Floats
+    two_axes: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FadingAxis:
+    """How near two axes come to one as the second component fades.
+
+    Attributes
+    ----------
+    share : float
+        Factor of the second component.
+    one_coefficient, static_above : array, shape (n,)
+        Change of the PRD of each scene, of that in one axis with the same friction, rising:
+        with kinetic friction alone, and with more of it at rest.
+    """
+
+    share: float
+    one_coefficient: Floats
+    static_above: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PushedPoint:
+    """A block that is pushed back by more than kinetic and less than static friction.
+
+    Attributes
+    ----------
+    across_mps2 : float
+        What pushes it across as well [m/s2].
+    end_m : float
+        How far from the start it ends [m].
+    error_m : float
+        What the run says of its own error [m].
+    falling_end_m : float
+        Where friction falls from static to kinetic with speed, not at once [m].
+    """
+
+    across_mps2: float
+    end_m: float
+    error_m: float
+    falling_end_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StaticEvidence:
+    """What is found of static above kinetic friction.
+
+    Attributes
+    ----------
+    n_scenes : int
+        Of `differences` and `fading`: those whose PRD in one axis is `LEAST_M` or more.
+    ratio : float
+        Static over kinetic friction of `fading`.
+    differences : tuple of StaticDifference
+    fading : tuple of FadingAxis
+    pushed : tuple of PushedPoint
+    """
+
+    n_scenes: int
+    ratio: float
+    differences: tuple[StaticDifference, ...]
+    fading: tuple[FadingAxis, ...]
+    pushed: tuple[PushedPoint, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,6 +251,7 @@ class RungEvidence:
     Attributes
     ----------
     study : RungStudy
+    static : StaticEvidence
     work_scene : str
     work : tuple of PlaneWork
     stops : tuple of StopPoint
@@ -173,6 +261,7 @@ class RungEvidence:
     """
 
     study: RungStudy
+    static: StaticEvidence
     work_scene: str
     work: tuple[PlaneWork, ...]
     stops: tuple[StopPoint, ...]

@@ -20,9 +20,12 @@ from solver.model import Friction, Heading, Scene, coulomb
 from solver.row import Row, RowResult, slide_row
 from solver.verification import plane_work
 from solver.verification.rung_evidence import (
+    HELD,
+    HELD_ONE,
     LEAST_M,
     OVER_FAST,
     OVER_SLOW,
+    OVER_STATIC,
     SECOND,
     SOFT,
     STIFF,
@@ -32,8 +35,10 @@ from solver.verification.rung_evidence import (
     RungEvidence,
     RungStudy,
     RungTime,
+    StaticEvidence,
 )
 from solver.verification.scenes import Case
+from solver.verification.static_study import held, static_evidence
 from solver.verification.triples import Triple
 from solver.verification.workprecision import least_seconds
 
@@ -41,7 +46,7 @@ SLOPES_DEG, MUS, PPAS_G = (0.0, 2.0, 5.0), (0.3, 0.4, 0.5, 0.6), (0.5, 1.0, 1.5)
 """Scenes: every one with every other; if quick, the ends alone."""
 
 SLOW_SHARE, RATE_S_PER_M = 0.8, 30.0
-"""mu_slow over mu_fast, and the rate between them [s/m]."""
+"""mu_slow over mu_fast, and the rate between them [s/m]; the share is kinetic over static too."""
 
 ROW_SHARES = (0.8, 1.1, 0.9, 1.2, 1.0)
 """Friction of the blocks of a row, from the top of the slope down, over that of the scene."""
@@ -57,13 +62,18 @@ TIMED = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Runs:
-    """PRD of one motion, scene and heading by each model [m], and the error of two axes of it."""
+    """PRD of one motion, scene and heading by each model [m], and the error of two axes of it.
+
+    `higher_m` has for every speed what is friction at great speed, or at rest, in the others.
+    """
 
     one_axis_m: float
     vertical_m: float
     two_axes_m: float
     by_speed_m: float
-    fast_m: float
+    held_one_axis_m: float
+    held_m: float
+    higher_m: float
     error: float
 
 
@@ -74,6 +84,7 @@ def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
     length = (first.x_mps2.size - 1) * first.dt_s
     return RungEvidence(
         study=study(triples, quick=quick),
+        static=static(triples, quick=quick),
         work_scene=scene,
         work=work,
         stops=tuple(plane_work.stops()),
@@ -84,8 +95,8 @@ def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
 
 def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
     """Run every scene of every motion with every heading by every rung."""
-    slopes, mus, ppas = ((v[0], v[-1]) if quick else v for v in (SLOPES_DEG, MUS, PPAS_G))
-    cases = [Case(*case) for case in itertools.product(slopes, mus, ppas)]
+    slopes, mus, ppas = _axes(quick)
+    cases = _cases(quick)
     by_scene = [list(_by_heading(triple, case)) for triple in triples for case in cases]
     every = [run for runs in by_scene for run in runs]
     kept = [run for run in every if run is not None]
@@ -106,6 +117,21 @@ def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
     )
 
 
+def _axes(quick: bool) -> tuple[tuple[float, ...], ...]:
+    """Return the slopes, friction coefficients and PPAs of the scenes."""
+    every = SLOPES_DEG, MUS, PPAS_G
+    return tuple((one[0], one[-1]) for one in every) if quick else every
+
+
+def _cases(quick: bool) -> list[Case]:
+    return [Case(*case) for case in itertools.product(*_axes(quick))]
+
+
+def static(triples: Sequence[Triple], *, quick: bool) -> StaticEvidence:
+    """Run every scene of every motion with the first heading and more friction at rest."""
+    return static_evidence(_first_scenes(triples, _cases(quick)), 1.0 / SLOW_SHARE)
+
+
 def _changes(
     kept: Sequence[_Runs], by_scene: Sequence[Sequence[_Runs | None]]
 ) -> Iterator[RungChange]:
@@ -119,7 +145,10 @@ def _changes(
     ]
     yield _change(WORST, pairs)
     yield _change(OVER_SLOW, [(r.two_axes_m, r.by_speed_m) for r in kept])
-    yield _change(OVER_FAST, [(r.fast_m, r.by_speed_m) for r in kept])
+    yield _change(OVER_FAST, [(r.higher_m, r.by_speed_m) for r in kept])
+    yield _change(HELD_ONE, [(r.vertical_m, r.held_one_axis_m) for r in kept])
+    yield _change(HELD, [(r.two_axes_m, r.held_m) for r in kept])
+    yield _change(OVER_STATIC, [(r.higher_m, r.held_m) for r in kept])
 
 
 def _change(name: str, pairs: Sequence[tuple[float, float]]) -> RungChange:
@@ -153,30 +182,37 @@ def _runs(scene: Scene, mu: float) -> _Runs | None:
     if math.isnan(vertical.prd_m):
         return None
     both, error = sliding.in_plane(scene)
-    fast = coulomb(mu / SLOW_SHARE)
+    more_at_rest = replace(scene, friction=held(mu, 1.0 / SLOW_SHARE))
     return _Runs(
         one_axis_m=sliding.along(replace(scene, az_mps2=NO_RECORD)).prd_m,
         vertical_m=vertical.prd_m,
         two_axes_m=both.prd_m,
-        by_speed_m=sliding.in_plane(replace(scene, friction=by_speed(mu)))[0].prd_m,
-        fast_m=sliding.in_plane(replace(scene, friction=fast))[0].prd_m,
+        by_speed_m=_plane_prd(replace(scene, friction=by_speed(mu))),
+        held_one_axis_m=_plane_prd(replace(more_at_rest, ay_mps2=NO_RECORD)),
+        held_m=_plane_prd(more_at_rest),
+        higher_m=_plane_prd(replace(scene, friction=coulomb(mu / SLOW_SHARE))),
         error=error / both.prd_m if both.prd_m > 0.0 else 0.0,
     )
 
 
+def _plane_prd(scene: Scene) -> float:
+    return sliding.in_plane(scene)[0].prd_m
+
+
 def _rows(triples: Sequence[Triple], cases: Sequence[Case], ppa_g: float) -> Iterator[RungChange]:
     """Compare the block that goes farthest of a row with the row as one rigid array."""
-    first = Heading(swapped=False, sign=1)
-    scenes = [
-        (case.mu, _scene(triple, case, first))
-        for triple in triples
-        for case in cases
-        if case.ppa_g == ppa_g
-    ]
+    scenes = _first_scenes(triples, [case for case in cases if case.ppa_g == ppa_g])
     for name, stretch_m in STRETCHES_M.items():
-        found = [slide_row(scene, row_of(mu, stretch_m, scene.g_mps2)) for mu, scene in scenes]
+        rows = [row_of(one.friction.mu_slow, stretch_m, one.g_mps2) for one in scenes]
+        found = [slide_row(one, row) for one, row in zip(scenes, rows, strict=True)]
         pairs = [(one.rigid.prd_m, max(one.prd_m)) for one in found]
         yield _change(name, [pair for pair in pairs if not math.isnan(sum(pair))])
+
+
+def _first_scenes(triples: Sequence[Triple], cases: Sequence[Case]) -> list[Scene]:
+    """Return every case of every motion in the first of its headings."""
+    first = Heading(swapped=False, sign=1)
+    return [_scene(triple, case, first) for triple in triples for case in cases]
 
 
 def row_of(mu: float, stretch_m: float, g_mps2: float) -> Row:

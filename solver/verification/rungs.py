@@ -48,6 +48,7 @@ def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]
         yield from _turned(triple)
         yield _in_proportion(triple)
         yield from _friction_by_speed(triple)
+        yield from _static_friction(triple)
         yield from _one_block(triple)
         yield _estimates(triple, quick=quick)
     yield from _circle()
@@ -226,6 +227,29 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
             found.prd_m,
             50.0 * drop,
         )
+
+
+def _static_friction(triple: Triple) -> Iterator[CheckRow]:
+    """A slip that begins later by a difference lacks a speed of its square."""
+    case = CASES[1]
+    both = triple.scene(case, coulomb(case.mu))
+    alone = triple.scene(case, coulomb(case.mu), second=False)
+    for excess in (1e-2, 1e-3, 1e-4):
+        law = replace(both.friction, mu_static=(1.0 + excess) * case.mu)
+        for scene, kinetic, method in (
+            (alone, sliding.along(alone).prd_m, "the exact method of one axis with vertical"),
+            (both, sliding.in_plane(both, TIGHT)[0].prd_m, "two axes with one coefficient"),
+        ):
+            yield check(
+                SECTION,
+                f"Static friction {100.0 * excess:g} % above kinetic: {triple.name}, {case}",
+                f"Tends to {method}: within 50 times the square of the difference",
+                "PRD",
+                "m",
+                kinetic,
+                sliding.in_plane(replace(scene, friction=law), TIGHT)[0].prd_m,
+                50.0 * excess**2,
+            )
 
 
 def _one_block(triple: Triple) -> Iterator[CheckRow]:
