@@ -34,6 +34,8 @@ class MethodRun:
 
     Attributes
     ----------
+    name : str
+        Of the method.
     steps : float
         Its steps in each sampling interval.
     is_default : bool
@@ -42,12 +44,17 @@ class MethodRun:
         |PRD / exact PRD - 1|; NaN where the method failed.
     """
 
-    method: Method
+    name: str
     parameters: dict[str, float]
     steps: float
     is_default: bool
     result: SlideResult
     error: float
+
+    @property
+    def method(self) -> Method:
+        """The method itself: its functions cannot be handed to another process."""
+        return METHODS[self.name]
 
     @property
     def failed(self) -> bool:
@@ -195,7 +202,7 @@ def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
             result = slide(**scene, method=method.name, **parameters)
             has_value = result.status is not Status.DIVERGED
             yield MethodRun(
-                method=method,
+                name=method.name,
                 parameters=parameters,
                 steps=parameters.get("substeps", 1.0),
                 is_default=parameters == default,

@@ -7,19 +7,21 @@ import pickle
 import sys
 import threading
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from itertools import islice
 from typing import TypeVar
 
 T = TypeVar("T")
 
 
-def begin(work: Callable[[], T]) -> Callable[[], T]:
-    """Begin some work in a copy of this process; return what waits for its outcome.
+def begin(work: Callable[[], Iterable[T]]) -> Iterator[T]:
+    """Begin some work in a copy of this process; return an iterator over its outcomes.
 
-    Where a copy is not safe (other threads, other systems) or fails, the work is done here.
+    Each outcome can be had as soon as the work yields it. Where a copy is not safe (other threads,
+    other systems) the work is done here, and where one fails, what it did not give.
     """
     if sys.platform != "linux" or threading.active_count() > 1:
-        return work
+        return iter(work())
     reading, writing = os.pipe()
     with warnings.catch_warnings():
         # Later Pythons warn of threads that only wait inside numerical libraries.
@@ -30,24 +32,31 @@ def begin(work: Callable[[], T]) -> Callable[[], T]:
         os.close(reading)
         _work_and_exit(work, writing)
     os.close(writing)
-
-    def outcome() -> T:
-        with os.fdopen(reading, "rb") as pipe:
-            data = pipe.read()
-        _, status = os.waitpid(child, 0)
-        if status != 0:
-            return work()
-        found: T = pickle.loads(data)
-        return found
-
-    return outcome
+    return _outcomes(work, child, reading)
 
 
-def _work_and_exit(work: Callable[[], object], writing: int) -> None:
+def _outcomes(work: Callable[[], Iterable[T]], child: int, reading: int) -> Iterator[T]:
+    count = 0
+    with os.fdopen(reading, "rb") as pipe:
+        while pipe.peek(1):
+            try:
+                found: T = pickle.load(pipe)
+            except (EOFError, pickle.UnpicklingError):
+                break  # the copy ended in the middle of it
+            yield found
+            count += 1
+    _, status = os.waitpid(child, 0)
+    if status != 0:
+        yield from islice(work(), count, None)
+
+
+def _work_and_exit(work: Callable[[], Iterable[object]], writing: int) -> None:
     status = 1
     try:
         with os.fdopen(writing, "wb") as pipe:
-            pickle.dump(work(), pipe)
+            for outcome in work():
+                pickle.dump(outcome, pipe)
+                pipe.flush()
         status = 0
     finally:
         os._exit(status)  # without flushing or closing what belongs to the other process

@@ -11,30 +11,37 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from report.accuracy import accuracy, rivals
-from report.aside import begin
-from report.assess import Assessment
+from report.accuracy import accuracy
 from report.beyond import beyond_corners
+from report.findings import Findings
 from report.pages import accuracy as accuracy_page
 from report.pages import appendix, checks, demand, front, inputs, method, model, motions, results
 from report.pages.parts import Part, Scene
-from report.pages.pictures import Pictures, draw
+from report.pages.pictures import draw, load_charts
 from report.pdf import TEMPLATES, html_to_pdf, load_renderer
 from report.sheet.workbook import InputBook
-from report.spectra import Spectra, spectra
 
 Stage = Callable[[str], None]
+Words = Mapping[str, Any]
 
 
-def render(book: InputBook, assessment: Assessment, on_stage: Stage | None = None) -> bytes:
+def load() -> None:
+    """Load what draws and lays out, which takes its time: while something else is waited for."""
+    load_charts()
+    load_renderer()
+
+
+def render(scene: Scene, found: Findings, words: Callable[[], Words], tell: Stage) -> bytes:
     """Return the calculation package as a PDF.
 
     Parameters
     ----------
-    book : InputBook
-    assessment : Assessment
-        Of this very book.
-    on_stage : callable, optional
+    scene : Scene
+    found : Findings
+        Of this very scene.
+    words : callable
+        Gives what `words` gives; asked once the pictures are drawn.
+    tell : callable
         Called with "figures", "pages" and "pdf" as each of them begins.
 
     Raises
@@ -43,33 +50,12 @@ def render(book: InputBook, assessment: Assessment, on_stage: Stage | None = Non
         Where the renderer complains.
     """
     with _no_collections():
-        return _render(book, assessment, on_stage or (lambda stage: None))
-
-
-def _render(book: InputBook, assessment: Assessment, tell: Stage) -> bytes:
-    scene = Scene(data=book.input, assessment=assessment)
-    tell("figures")
-    found = spectra(assessment, book.motions, book.stories)
-    beyond = beyond_corners(book.input.motions, book.stories, scene.governing)
-    aside = begin(lambda: _aside(book, scene, found))
-    tell("pages")
-    motion_page = motions.page(scene, book.motions, book.stories, book.records, found, beyond)
-    context = {**_context(book, scene), "motions": motion_page}
-    load_renderer()
-    pictures, accuracy_part = aside()
-    html = _html({**context, "accuracy": accuracy_part, "pictures": pictures})
-    tell("pdf")
-    return html_to_pdf(html)
-
-
-def _aside(
-    book: InputBook, scene: Scene, found: Sequence[Spectra]
-) -> tuple[Pictures, Mapping[str, object]]:
-    """Return every picture, and the part on accuracy, which runs all motions twice more."""
-    compared, pictures = rivals(scene.governing), draw(scene, found)  # loads the fonts
-    charts = [accuracy_page.picture(compared, scene.say.us_first)] if compared.runs else []
-    sureness = accuracy(book.input, book.motions, scene.assessment, compared)
-    return {**pictures, "accuracy": charts}, accuracy_page.page(scene, sureness)
+        tell("figures")
+        pictures = draw(scene, found)
+        tell("pages")
+        html = _html({**words(), "pictures": pictures})
+        tell("pdf")
+        return html_to_pdf(html)
 
 
 @contextmanager
@@ -97,8 +83,11 @@ def _html(context: Mapping[str, Any]) -> str:
     return environment.get_template("package.html").render(context)
 
 
-def _context(book: InputBook, scene: Scene) -> Mapping[str, Any]:
+def words(book: InputBook, scene: Scene, found: Findings) -> Words:
+    """Return what the templates place, all but the pictures; runs all motions twice more."""
     governing = scene.governing
+    beyond = beyond_corners(book.input.motions, book.stories, governing)
+    sureness = accuracy(book.input, book.motions, scene.assessment, found.rivals)
     return {
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
         "sheet": front.sheet(scene),
@@ -107,6 +96,9 @@ def _context(book: InputBook, scene: Scene) -> Mapping[str, Any]:
         "summary": front.summary(scene),
         "basis": front.basis(scene),
         "inputs": inputs.inputs(scene),
+        "motions": motions.page(
+            scene, book.motions, book.stories, book.records, found.spectra, beyond
+        ),
         "method": {
             "array": governing.array.id,
             "demand": demand.demand_lines(scene),
@@ -122,6 +114,7 @@ def _context(book: InputBook, scene: Scene) -> Mapping[str, Any]:
         "limits": checks.limits(scene),
         "provisions": checks.provisions(scene),
         "model": model.page(scene),
+        "accuracy": accuracy_page.page(scene, sureness),
         "appendix": {
             "echo": appendix.echo(book.echo),
             "records": appendix.records(book.records),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -23,8 +24,11 @@ PER_DECADE = 100
 
 def corner_points(freq_hz: Floats, sa_g: Floats) -> Target:
     """Return the target through corners [Hz], [g]: log-log between them, flat beyond."""
-    logs = np.log(freq_hz), np.log(sa_g)
-    return lambda freq: np.asarray(np.exp(np.interp(np.log(freq), *logs)))
+    return partial(_between, log_freq=np.log(freq_hz), log_sa=np.log(sa_g))
+
+
+def _between(freq_hz: Floats, *, log_freq: Floats, log_sa: Floats) -> Floats:
+    return np.asarray(np.exp(np.interp(np.log(freq_hz), log_freq, log_sa)))
 
 
 def design_spectrum(*, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Target:
@@ -45,18 +49,17 @@ def design_spectrum(*, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Target:
     InputError
     """
     _check_design(s_ds_g, s_d1_g, t_l_s)
-    t_s = s_d1_g / s_ds_g
+    return partial(_design, s_ds_g=s_ds_g, s_d1_g=s_d1_g, t_l_s=t_l_s)
 
-    def at(freq_hz: Floats) -> Floats:
-        with np.errstate(divide="ignore"):
-            period = 1.0 / np.asarray(freq_hz, dtype=np.float64)
-        rising = s_ds_g * np.minimum(0.4 + 0.6 * period / (0.2 * t_s), 1.0)
-        # At period 0 and at frequency 0 the other branch is the least.
-        with np.errstate(divide="ignore", invalid="ignore"):
-            falling = s_d1_g / period * np.minimum(1.0, t_l_s / period)
-        return np.asarray(np.fmin(rising, falling))
 
-    return at
+def _design(freq_hz: Floats, *, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Floats:
+    with np.errstate(divide="ignore"):
+        period = 1.0 / np.asarray(freq_hz, dtype=np.float64)
+    rising = s_ds_g * np.minimum(0.4 + 0.6 * period / (0.2 * (s_d1_g / s_ds_g)), 1.0)
+    # At period 0 and at frequency 0 the other branch is the least.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        falling = s_d1_g / period * np.minimum(1.0, t_l_s / period)
+    return np.asarray(np.fmin(rising, falling))
 
 
 def factor_to_target(

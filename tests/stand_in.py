@@ -8,6 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from report.assess import Assessment, assess
+from report.findings import find
+from report.package import render, words
+from report.pages.parts import Scene
 from report.sheet.records import RecordFile
 from report.sheet.schema import ProjectInput, RecordedAt
 from report.sheet.workbook import EchoRow, InputBook, Story
@@ -230,3 +233,10 @@ def _echo(data):
 def assessed(made) -> Assessment:
     """Run the book."""
     return assess(made.input, made.motions)
+
+
+def package(made, tell=lambda stage: None) -> bytes:
+    """Run the book and return its calculation package."""
+    scene = Scene(data=made.input, assessment=assessed(made))
+    found = find(made, scene.assessment, scene.governing)
+    return render(scene, found, lambda: words(made, scene, found), tell)

@@ -9,7 +9,6 @@ import pytest
 import stand_in
 from report.accuracy import accuracy, rivals
 from report.figures.base import load_fonts
-from report.package import render
 from report.pages import accuracy as accuracy_page
 from report.pages.parts import Scene
 from report.pdf import TEMPLATES
@@ -233,7 +232,7 @@ def test_two_charts_are_the_same_bytes_and_name_every_method(usual):
 def test_the_page_is_in_the_package(monkeypatch):
     monkeypatch.setattr("report.package.html_to_pdf", str.encode)
     book = stand_in.book(found=stand_in.motions(3, seconds=8.0))
-    html = unescape(render(book, stand_in.assessed(book)).decode())
+    html = unescape(stand_in.package(book).decode())
     section = html[html.index('<h1 id="accuracy">') : html.index('<h1 id="echo">')]
     assert "Governing run: array A" in section
     assert "The governing run along the slope alone, by every method" in section

@@ -1,6 +1,7 @@
 """The commands as a person or a script calls them."""
 
 import json
+import pickle
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 import report.package
-from report.cli import main
+from report.cli import _steps, main
 from solver.model import Friction
 from solver.sliding import checked, in_plane, slide
 
@@ -34,6 +35,15 @@ def test_help_names_the_commands_and_imports_nothing_heavy():
     assert done.stdout.splitlines()[-1] == "[]"
     for command in ("new", "check", "motion", "report", "slide", "verify"):
         assert f"\n  {command} " in done.stdout
+
+
+def test_a_command_ends_without_a_look_for_garbage():
+    code = (
+        "import atexit, gc; atexit.register(lambda: print(gc.get_freeze_count() > 0)); "
+        f"from report.cli import main; main(['check', {str(EXAMPLE)!r}])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "True"
 
 
 def test_new_writes_a_workbook_and_never_over_one(tmp_path):
@@ -89,6 +99,12 @@ def test_a_failed_run_leaves_the_older_package(tmp_path):
     assert done.exit_code == 2
     assert "RM3-x.csv" in done.output
     assert [p.read_bytes() for p in out.iterdir()] == [b"older"]
+
+
+def test_every_step_of_a_report_can_be_handed_to_another_process():
+    found = [pickle.loads(pickle.dumps(step)) for step in _steps(EXAMPLE, lambda stage: None)]
+    assert len(found) == 3
+    assert set(found[-1]) == {"results.xlsx", "results.json"}
 
 
 @pytest.fixture(scope="module")

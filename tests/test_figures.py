@@ -1,15 +1,11 @@
-import os
 import re
-import threading
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 
 import stand_in
-from report.aside import begin
 from report.figures import charts as figures
-from report.pages.parts import Picture
 from report.pdf import TEMPLATES
 from report.spectra import spectra
 
@@ -35,10 +31,14 @@ def drawn(book, assessment):
     return [
         figures.roof_plan(book.input, True),
         figures.spectra(found),
-        figures.histories(assessment.arrays[0].motions, True),
+        histories(assessment.arrays[0]),
         figures.comparison(assessment.arrays, True),
         figures.clearances(assessment.clearances, True),
     ]
+
+
+def histories(array, us_first=True):
+    return figures.histories(array.motions, [run.history() for run in array.motions], us_first)
 
 
 def words(svg):
@@ -97,9 +97,9 @@ def test_a_dollar_sign_in_a_name_is_a_dollar_sign(book):
 
 
 def test_each_history_states_its_prd_in_both_systems(assessment):
-    found = words(figures.histories(assessment.arrays[1].motions, us_first=True))
+    found = words(histories(assessment.arrays[1]))
     assert sum(bool(re.fullmatch(r"PRD [\d.]+ in \(\d+ mm\)", text)) for text in found) == 3
-    found = words(figures.histories(assessment.arrays[1].motions, us_first=False))
+    found = words(histories(assessment.arrays[1], us_first=False))
     assert sum(bool(re.fullmatch(r"PRD \d+ mm \([\d.]+ in\)", text)) for text in found) == 3
 
 
@@ -109,7 +109,7 @@ def test_a_run_without_a_value_is_drawn_as_such():
     still = stand_in.motion("M1", np.zeros(400), up, signs=(1,))
     book = stand_in.book(found=(still,) * 3)
     assessment = stand_in.assessed(book)
-    found = words(figures.histories(assessment.arrays[0].motions, True))
+    found = words(histories(assessment.arrays[0]))
     assert found.count("no value") == 3
     assert found.count("PRD: no value") == 3
     assert "no value" in words(figures.comparison(assessment.arrays, True))
@@ -125,38 +125,3 @@ def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
     found = words(figures.comparison(assessment.arrays, us_first))
     assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in found
     assert f"[{'mm' if us_first else 'in'}]" in found
-
-
-def pictures_of(name):
-    return {name: [Picture(svg="<svg/>", caption=name, alt=name)]}
-
-
-def test_work_begun_elsewhere_comes_back_whole():
-    assert begin(lambda: pictures_of("plan"))() == pictures_of("plan")
-
-
-def test_work_that_fails_elsewhere_is_done_here_and_says_why():
-    here = os.getpid()
-
-    def only_here():
-        if os.getpid() != here:
-            raise RuntimeError("lost")
-        return pictures_of("plan")
-
-    def nowhere():
-        raise ValueError("a chart that cannot be drawn")
-
-    assert begin(only_here)() == pictures_of("plan")
-    with pytest.raises(ValueError, match="cannot be drawn"):
-        begin(nowhere)()
-
-
-def test_beside_other_threads_the_work_is_done_here():
-    done = threading.Event()
-    other = threading.Thread(target=done.wait)
-    other.start()
-    try:
-        assert begin(lambda: pictures_of(str(os.getpid())))() == pictures_of(str(os.getpid()))
-    finally:
-        done.set()
-        other.join()

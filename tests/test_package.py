@@ -11,7 +11,6 @@ import pytest
 from pypdf import PdfReader
 
 import stand_in
-from report.package import render
 from report.pages.motions import drifts
 from report.pdf import html_to_pdf
 from report.sheet.records import Prepared
@@ -34,8 +33,7 @@ GOLDEN_PARTS = (
 
 
 def made(data=None, found=None, **kwargs):
-    book = stand_in.book(data, found)
-    return render(book, stand_in.assessed(book), **kwargs)
+    return stand_in.package(stand_in.book(data, found), **kwargs)
 
 
 def pages(pdf):
@@ -70,7 +68,7 @@ def stages():
 
 @pytest.fixture(scope="module")
 def pdf(stages):
-    return made(on_stage=stages.append)
+    return made(tell=stages.append)
 
 
 @pytest.fixture(scope="module")
@@ -331,7 +329,7 @@ def ground(name="G1", **changes):
 def words_of(monkeypatch, data, motion, story):
     monkeypatch.setattr("report.package.html_to_pdf", str.encode)
     book = replace(stand_in.book(data, (motion,) * 3), stories=(story,) * 3)
-    html = render(book, stand_in.assessed(book)).decode()
+    html = stand_in.package(book).decode()
     return flat(unescape(re.sub(r"<style.*?</style>|<[^>]+>", " ", html)))
 
 
@@ -387,5 +385,5 @@ def test_notes_of_the_reading_are_printed_once_for_a_motion(monkeypatch):
     monkeypatch.setattr("report.package.html_to_pdf", str.encode)
     book = stand_in.book(found=few())
     noted = tuple(replace(row, notes=("uneven times resampled",)) for row in book.records)
-    html = render(replace(book, records=noted), stand_in.assessed(book)).decode()
+    html = stand_in.package(replace(book, records=noted)).decode()
     assert html.count("<li>Motion M1: uneven times resampled.</li>") == 1

@@ -1,6 +1,7 @@
 """Which spectrum a motion is held against, at the roof and on the ground."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -79,6 +80,15 @@ def test_on_the_ground_the_target_is_the_design_spectrum_of_asce_7():
     wanted = [1.566, s_d1 / 2.0, s_d1 * 8.0 / 10.0**2]
     assert ground.ordinates(np.array([0.3, 2.0, 10.0])) == pytest.approx(wanted)
     assert ground.name == "ASCE 7 design spectrum"
+
+
+@pytest.mark.parametrize("changes", [{}, {"target": {"t_l_s": 8.0}}, {"spectrum": own()}])
+def test_targets_can_be_handed_to_another_process(changes):
+    found = targets(stand_in.project(motions=[motion(recorded_at="ground")], **changes))
+    handed = pickle.loads(pickle.dumps(found))
+    for name in ("roof", "vertical", "ground"):
+        here, there = getattr(found, name), getattr(handed, name)
+        assert np.array_equal(here.ordinates(PERIODS), there.ordinates(PERIODS), equal_nan=True)
 
 
 def test_without_t_l_there_is_no_target_on_the_ground():

@@ -26,17 +26,22 @@ from report.figures.base import (
 )
 from report.runs import MotionRun
 from report.units import Quantity, Unit, number, pair
-from solver.model import Floats
+from solver.model import Floats, SlideHistory
 
 MAX_POINTS = 150  # in a history; a panel is 150 points of paper wide
 
 
-def histories(motions: Sequence[MotionRun], us_first: bool) -> str:
+def histories(
+    motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
+) -> str:
     """Return the relative displacement under each motion, its governing run, PRD marked.
+
+    `followed` are the histories of these runs.
 
     All panels share one pair of axes, moved apart: a pair for each would take ten times as long.
     """
-    grid = _Grid(motions, Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si)
+    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
+    grid = _Grid(motions, followed, unit)
     with style():
         figure = Figure(figsize=(WIDTH_IN, 0.92 * grid.rows + 0.3))
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -53,10 +58,10 @@ def histories(motions: Sequence[MotionRun], us_first: bool) -> str:
 class _Grid:
     """Where the panels of a figure lie, and what their scales are."""
 
-    def __init__(self, motions: Sequence[MotionRun], unit: Unit) -> None:
-        self.followed = [
-            None if math.isnan(run.governing.result.prd_m) else run.history() for run in motions
-        ]
+    def __init__(
+        self, motions: Sequence[MotionRun], followed: Sequence[SlideHistory], unit: Unit
+    ) -> None:
+        self.followed = [None if math.isnan(one.result.prd_m) else one for one in followed]
         self.unit = unit
         self.columns = 2 if len(motions) <= 4 else 3
         self.rows = math.ceil(len(motions) / self.columns)

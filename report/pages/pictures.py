@@ -8,20 +8,30 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assess import ArrayAssessment
+from report.findings import Findings
+from report.pages import accuracy
 from report.pages.motions import titles
 from report.pages.parts import Picture, Scene
 from report.pdf import TEMPLATES
 from report.spectra import Spectra
+from solver.model import SlideHistory
 
 PANELS, CHART_ROWS = 12, 16  # most that one figure holds: it must fit on a page
 Pictures = Mapping[str, Sequence[Picture]]
 
 
-def draw(scene: Scene, found: Sequence[Spectra]) -> Pictures:
+def load_charts() -> None:
+    """Load what draws, which takes its time, and the fonts."""
+    from report.figures.base import load_fonts
+
+    load_fonts(TEMPLATES / "fonts")
+
+
+def draw(scene: Scene, found: Findings) -> Pictures:
     """Return every picture of the package, by the id of the part that it belongs to."""
     from report.figures import charts as figures
 
-    figures.load_fonts(TEMPLATES / "fonts")
+    load_charts()
     us_first, assessment = scene.say.us_first, scene.assessment
     pictures = {
         "inputs-3": [
@@ -38,7 +48,7 @@ def draw(scene: Scene, found: Sequence[Spectra]) -> Pictures:
                 caption=f"Response spectra of the motions {where}, 5 % damping, and target.",
                 alt="Response spectra of all motions, their mean and the target",
             )
-            for where, parts in _by_place(found)
+            for where, parts in _by_place(found.spectra)
         ],
         "comparison": [
             Picture(
@@ -59,9 +69,11 @@ def draw(scene: Scene, found: Sequence[Spectra]) -> Pictures:
             )
             for at in range(0, len(assessment.clearances), CHART_ROWS)
         ],
+        "accuracy": [accuracy.picture(found.rivals, us_first)] if found.rivals.runs else [],
     }
-    for count, one in enumerate(assessment.arrays, start=1):
-        pictures[f"results-{count}"] = list(_histories(one, us_first))
+    runs = zip(assessment.arrays, found.histories, strict=True)
+    for count, (one, followed) in enumerate(runs, start=1):
+        pictures[f"results-{count}"] = list(_histories(one, followed, us_first))
     return pictures
 
 
@@ -73,14 +85,17 @@ def _by_place(found: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectra]
         yield "on the ground, scaled", below
 
 
-def _histories(found: ArrayAssessment, us_first: bool) -> Iterator[Picture]:
+def _histories(
+    found: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
+) -> Iterator[Picture]:
     from report.figures.charts import histories
 
     two = any(m.governing.has_across for m in found.motions)
     lines = ": blue down the slope, orange across it, to the left" if two else ", down the slope"
     for start in range(0, len(found.motions), PANELS):
+        here = slice(start, start + PANELS)
         yield Picture(
-            svg=histories(found.motions[start : start + PANELS], us_first),
+            svg=histories(found.motions[here], followed[here], us_first),
             caption=f"Array {found.array.id}: displacement relative to the roof in the run that "
             f"counts{lines}. Dot: when the PRD, the largest distance in plan, is reached.",
             alt=f"Relative displacement histories of array {found.array.id}",

@@ -29,7 +29,8 @@ class TargetSpectrum:
     name : str
         Empty where there is no target: ordinates are NaN then.
     at : callable
-        Spectral acceleration [g] at frequencies [Hz]; a target of points is flat beyond them.
+        Spectral acceleration [g] at frequencies [Hz]; a target of points is flat beyond them. It
+        can be handed to another process: no closure.
     from_s, to_s : float
         Periods over which it is given [s].
     """
@@ -58,9 +59,11 @@ class Targets:
         return self.ground if at is RecordedAt.GROUND else self.roof
 
 
-NO_TARGET = TargetSpectrum(
-    name="", at=lambda freq: np.full(freq.shape, math.nan), from_s=0.0, to_s=math.inf
-)
+def _nowhere(freq_hz: Floats) -> Floats:
+    return np.full(freq_hz.shape, math.nan)
+
+
+NO_TARGET = TargetSpectrum(name="", at=_nowhere, from_s=0.0, to_s=math.inf)
 
 
 def targets(data: ProjectInput) -> Targets:

@@ -35,12 +35,18 @@ def child(project: Path) -> None:
     from report.assess import assess
 
     assessment = assess(book.input, book.motions)
-    # Once more, now that all code is loaded: what the solver itself takes.
+    stage("(the same once more, now that all code is loaded)")
     solver_s = assess(book.input, book.motions).solver_seconds
-    stage("load the pages")
-    from report.package import render
+    stage("load what draws and lays out")
+    from report.findings import find
+    from report.package import load, render, words
+    from report.pages.parts import Scene
 
-    package = render(book, assessment, stage)
+    load()
+    stage("spectra, histories, the governing run by every method")
+    scene = Scene(data=book.input, assessment=assessment)
+    found = find(book, assessment, scene.governing)
+    package = render(scene, found, lambda: words(book, scene, found), stage)
     stage("result tables")
     from report.outputs import results_json
     from report.results_book import results_xlsx
@@ -70,8 +76,8 @@ def main() -> None:
         found.append(json.loads(done.stdout)["laps"])
     print(f"{platform.machine()}, Python {platform.python_version()}, median of {runs} runs")
     for name in found[-1]:
-        print(f"{name:42}{statistics.median(laps[name] for laps in found[1:]):8.4f} s")
-    print(f"{'whole process':42}{statistics.median(walls[1:]):8.4f} s")
+        print(f"{name:56}{statistics.median(laps[name] for laps in found[1:]):8.4f} s")
+    print(f"{'whole process':56}{statistics.median(walls[1:]):8.4f} s")
 
 
 if __name__ == "__main__":
