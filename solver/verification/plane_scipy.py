@@ -59,7 +59,8 @@ def is_installed() -> bool:
 def samples_of(scene: Scene) -> Floats:
     """Return G down the slope, G across it and mu N at the samples, shape (n, 3) [m/s2]."""
     sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
-    ax, ay = scene.scale * scene.ax_mps2, scene.scale * scene.ay_mps2
+    ax = scene.scale * scene.ax_mps2
+    ay = scene.scale * scene.ay_mps2 if scene.ay_mps2.size else 0.0 * ax
     weight = scene.g_mps2 + (scene.scale * scene.az_mps2 if scene.az_mps2.size else 0.0 * ax)
     cap = scene.friction.mu_slow * (cs * weight + sn * ax)
     return np.column_stack([sn * weight - cs * ax, -ay, cap])

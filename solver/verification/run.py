@@ -122,10 +122,7 @@ def verify(
     progress("The paper's design curves, its Figs. 10 to 12")
     curves = tuple(paper_studies.design_curves(record) for record in chosen)
     progress("Other programs, where they are installed")
-    judged = (
-        *peers.peer_points(chosen[:3], quick=quick),
-        *peers.plane_points(triples[:3], quick=quick),
-    )
+    judged = tuple(peers.peer_points(chosen[:3], triples, quick=quick))
     return Verification(
         checks=tuple(rows),
         work=work,

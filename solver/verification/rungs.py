@@ -42,7 +42,7 @@ def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]
 
     Left out are motions whose vertical lifts the block off the roof in one of `CASES`.
     """
-    kept = [triple for triple in triples if _stays(triple)]
+    kept = [triple for triple in triples if stays(triple)]
     for triple in kept:
         yield from _one_axis(triple)
         yield from _turned(triple)
@@ -59,7 +59,8 @@ def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]
             yield from _against_scipy(triple, REFERENCE_SAMPLES[not quick])
 
 
-def _stays(triple: Triple) -> bool:
+def stays(triple: Triple) -> bool:
+    """Whether the vertical of a motion lifts the block off the roof in none of `CASES`."""
     runs = (sliding.along(triple.scene(case, coulomb(case.mu))) for case in CASES)
     return all(run.status is not Status.UPLIFT for run in runs)
 
