@@ -12,8 +12,13 @@ _LETTERS = {
     "eta": "η",
     "gamma": "γ",
     "beta": "β",
+    "zeta": "ζ",
+    "sigma": "σ",
+    "pi": "π",
 }
 _NAMES = re.compile(rf"\b({'|'.join(_LETTERS)})\b")
+
+_SIGNS = {"^2": "²", "m/s2": "m/s²", "v0": "v₀", "sqrt(": "√(", ">=": "≥", " - ": " − "}
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -24,7 +29,8 @@ def power_of_ten(exponent: int) -> str:
 
 
 def lettered(text: str) -> str:
-    """Return a text with letters for their names, raised twos and a true minus before a number."""
+    """Return a text with letters for their names, roots, raised twos and true minus signs."""
     named = _NAMES.sub(lambda found: _LETTERS[found[1]], text)
-    named = named.replace("^2", "²").replace("m/s2", "m/s²").replace("v0", "v₀")
-    return re.sub(r"(?<![\w-])-(?=[\d.])", "−", named)
+    for plain, set_well in _SIGNS.items():
+        named = named.replace(plain, set_well)
+    return re.sub(r"(?<![\w-])-(?=[\w.])", "−", named)

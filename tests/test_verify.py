@@ -274,8 +274,8 @@ def test_other_programs_have_a_section_where_there_are_any(found):
     lost = replace(peer, seconds=math.nan, prd_error_percent=math.nan, note="did not converge")
     words = said(replace(found, peers=(peer, lost)))
     assert "13 Other programs" in words
-    assert "Other 1.2 motion-01-x, flat 500 ms 1.25 % as its example" in words
-    assert "Other 1.2 motion-01-x, flat — failed did not converge" in words
+    assert "Other 1.2: as its example motion-01-x flat 500 ms 1.25 %" in words
+    assert "Other 1.2: did not converge motion-01-x flat — failed" in words
 
 
 def test_without_other_programs_there_is_no_such_section(words):
@@ -358,4 +358,11 @@ def test_times_print_in_a_unit_that_suits(value, text):
 def test_names_of_letters_are_set_as_letters():
     assert lettered("mu = tan(theta), -0.3 m/s2, multi-axial v0 a-1") == (
         "μ = tan(θ), −0.3 m/s², multi-axial v₀ a-1"
+    )
+    assert lettered("-g sqrt(a - b) >= pi") == "−g √(a − b) ≥ π"
+
+
+def test_a_value_stays_with_its_name_and_unit():
+    assert blocks.unbroken("2°, μ = 0.4, PPA = 1.5 g, flat") == (
+        "2°, μ\xa0=\xa00.4, PPA\xa0=\xa01.5\xa0g, flat"
     )

@@ -103,6 +103,11 @@ def digits(value: float) -> str:
     return f"{value:.10g}".replace("-", "−")
 
 
+def unbroken(text: str) -> str:
+    """Return a text whose `μ = 0.4` and `1 g` are not parted by the end of a line."""
+    return re.sub(r" (?=[=/])|(?<=[=/]) | (?=g\b)", "\u00a0", text)
+
+
 def slug(text: str) -> str:
     """Return a text as part of a file name."""
     return re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-")

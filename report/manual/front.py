@@ -47,9 +47,13 @@ def summary(found: Verification) -> Section:
 
 def verdict_line(found: Verification) -> str:
     """Return PASS or FAIL with the count."""
-    count, passed = len(found.checks), sum(row.passed for row in found.checks)
-    words = verdict(passed == count and count > 0, (PASS, FAIL))
-    return words + f" {passed} of {count} checks passed."
+    words = verdict(found.passed and len(found.checks) > 0, (PASS, FAIL))
+    return words + f" {passed(found.checks)} checks passed."
+
+
+def passed(checks: Sequence[CheckRow]) -> str:
+    """Return how many of how many checks passed."""
+    return f"{sum(row.passed for row in checks)} of {len(checks)}"
 
 
 def _key_figures(found: Verification) -> Table:
@@ -197,15 +201,42 @@ def scope(found: Verification) -> Section:
             ),
             Block(
                 title="Records",
-                texts=(
-                    f"{_count(found.records, 'record')}: {joined(found.records)}. The project "
-                    "makes its own records from a fixed seed: motions that follow the AC156 "
-                    "spectrum at the roof, and a near-fault pulse.",
-                ),
+                texts=tuple(_records(found)),
             ),
         ),
     )
 
 
-def _count(items: Sequence[object], name: str) -> str:
-    return f"{len(items)} {name}{'s' if len(items) != 1 else ''}"
+def _records(found: Verification) -> Iterator[str]:
+    yield (
+        f"{_count(len(found.records), 'record')} of one component: {joined(found.records)}. The "
+        "project makes its own from a fixed seed: motions that follow the AC156 spectrum at the "
+        "roof, and a near-fault pulse."
+    )
+    for one in found.rungs:
+        study = one.study
+        made = len(study.motions) - study.n_recorded
+        words = (
+            f"{_count(len(study.motions), 'motion')} of three components, for sections 12 and on: "
+            f"{joined(study.motions[:made])}, made likewise"
+        )
+        if study.n_recorded:
+            words += f"; {joined(study.motions[made:])}, recorded in earthquakes"
+        yield words + "."
+    if buildings := [one.title for one in found.roofs[1:]]:
+        yield f"Recorded buildings, for section 11: {joined(buildings)}."
+
+
+def extent(found: Verification) -> str:
+    """Return how much was run, in a line."""
+    motions = [name for one in found.rungs for name in one.study.motions]
+    counts = [
+        f"{_count(len(found.records), 'record')} of one component",
+        _count(len(motions), "motion") + " of three",
+        _count(len(found.roofs[1:]), "recorded building"),
+    ]
+    return f"{'quick' if found.quick else 'full'}: {joined(counts)}"
+
+
+def _count(number: int, name: str) -> str:
+    return f"{number} {name}{'s' if number != 1 else ''}"

@@ -158,9 +158,8 @@ def _work_row(name: str, points: Sequence[WorkPoint], *, is_first: bool) -> Row:
 
 
 def _setting(name: str, value: float) -> str:
-    form = {
-        "substeps": "P = {:g}",
-        "stiffness_per_m": "k = {:g} /m",
-        "tolerance": "tol. {:g}",
-    }
-    return form.get(METHODS[name].knob, "none").format(value)
+    knob = METHODS[name].knob
+    if knob == "substeps":
+        return f"P = {value:g}"
+    form = {"stiffness_per_m": "k = {} /m", "tolerance": "tol. {}"}
+    return form[knob].format(power_of_ten(value)) if knob in form else "none"

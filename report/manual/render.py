@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from report.figures.base import load_fonts
 from report.manual.blocks import Section, numbered
-from report.manual.front import verdict_line
+from report.manual.front import extent, passed, verdict_line
 from report.manual.machine import Machine, this_machine
 from report.manual.sections import sections
 from report.manual.table import verification_csv
@@ -62,13 +62,14 @@ def manual_html(
         css=Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
         version=dict(machine.rows)["Roofslip"],
         date=date.isoformat(),
-        extent="quick" if found.quick else "full",
+        kind="quick" if found.quick else "full",
+        extent=extent(found),
         verdict=verdict_line(found),
+        checks=passed(found.checks),
         machine=machine.line,
         libraries=", ".join(
             f"{name} {version}" for name, version in machine.rows[1:] if name in _ON_COVER
         ),
-        records=len(found.records),
         sections=list(zip(numbered(parts), parts, strict=True)),
         pictures={},
     )

@@ -77,7 +77,7 @@ def _ladder() -> tuple[str, ...]:
         "of linked blocks (5) shows whether one rigid array is enough. One axis is followed to "
         "rounding. Two axes have no closed form: they are followed by power series from event to "
         "event, with a bound of the error, to a tolerance of 10⁻⁶ of the PRD unless another is "
-        "set; the checks of section 3 hold every tolerance against SciPy.",
+        "set; where SciPy is installed, the checks of section 3 hold every tolerance against it.",
     )
 
 
@@ -210,14 +210,14 @@ def _change_row(one: RungChange) -> Row:
 def _work_words(found: RungEvidence) -> str:
     words = (
         f"Scene: {found.work_scene}. Errors are against the power series with the tightest "
-        "tolerance, 10⁻¹⁰, which SciPy's DOP853 confirms in section 3; that of the power series is "
-        "the largest at any sample, of the others that of the PRD. Fixed steps are compiled like "
-        "the power series. "
+        "tolerance, 10⁻¹⁰; that of the power series is the largest at any sample, of the others "
+        "that of the PRD. Fixed steps are compiled like the power series. "
     )
     if any("SciPy" in one.method for one in found.work):
         return words + (
-            "SciPy's solvers call a right-hand side in plain Python, so hold their evaluations "
-            "against steps rather than their times; friction is μN tanh(v/v₀) for them."
+            "SciPy's DOP853 is held against that tolerance in section 3. Its solvers call a "
+            "right-hand side in plain Python, so hold their evaluations against steps rather than "
+            "their times; friction is μN tanh(v/v₀) for them."
         )
     return words + "SciPy is not installed here; its solvers are left out."
 

@@ -9,6 +9,7 @@ from itertools import groupby
 import numpy as np
 
 from report.figures import paper
+from report.letters import lettered
 from report.manual.blocks import (
     Block,
     Chart,
@@ -83,7 +84,7 @@ def _convergence_table(one: Convergence) -> Table:
                     percent(float(one.largest_error_p256_percent[index] or math.nan)),
                     percent(float(one.largest_error_of_prd_percent[index])),
                     seconds(float(one.longest_seconds[index])),
-                    one.worst_cases[index],
+                    lettered(one.worst_cases[index]),
                 )
             )
             for index, substeps in enumerate(one.substeps)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from report.letters import lettered
 from report.manual.blocks import (
@@ -15,6 +15,7 @@ from report.manual.blocks import (
     percent,
     scientific,
     seconds,
+    unbroken,
 )
 from report.manual.machine import Machine
 from report.pages.parts import Column, Row, Table, Wide, verdict
@@ -50,13 +51,13 @@ def _check_table(checks: Sequence[CheckRow]) -> Table:
     return Table(
         caption="",
         columns=(
-            Column(head="Problem", align="left", share=3.3),
-            Column(head="Quantity", align="left", share=2.0),
-            Column(head="Expected", share=1.35),
-            Column(head="Found", share=1.35),
-            Column(head="Error", share=1.15),
-            Column(head="Tolerance", share=1.15),
-            Column(head="Result", align="center", share=0.75),
+            Column(head="Problem", align="left", share=3.15),
+            Column(head="Quantity", align="left", share=1.95),
+            Column(head="Expected", share=1.55),
+            Column(head="Found", share=1.55),
+            Column(head="Error", share=1.1),
+            Column(head="Tolerance", share=1.1),
+            Column(head="Result", align="center", share=0.7),
         ),
         rows=tuple(rows),
         kind="compact",
@@ -66,7 +67,7 @@ def _check_table(checks: Sequence[CheckRow]) -> Table:
 def _check_row(row: CheckRow) -> Row:
     return Row(
         cells=(
-            lettered(row.problem),
+            unbroken(lettered(row.problem)),
             f"{row.quantity} [{lettered(row.unit)}]" if row.unit != "1" else row.quantity,
             digits(row.expected),
             digits(row.found),
@@ -147,32 +148,36 @@ def peers(peers: Sequence[PeerPoint]) -> Section:
                     Table(
                         caption="",
                         columns=(
-                            Column(head="Program", align="left", share=1.6),
-                            Column(head="Record, scene", align="left", share=2.6),
+                            Column(head="Record", align="left", share=2.0),
+                            Column(head="Scene", align="left", share=2.0),
                             Column(head="Time per run", share=1.0),
-                            Column(head="Error in PRD", share=1.1),
-                            Column(head="Note", align="left", share=2.6),
+                            Column(head="Error in PRD", share=1.0),
                         ),
-                        rows=tuple(
-                            Row(
-                                cells=(
-                                    f"{one.peer} {one.version}",
-                                    f"{one.record}, {one.scene}",
-                                    seconds(one.seconds),
-                                    "failed"
-                                    if math.isnan(one.prd_error_percent)
-                                    else percent(one.prd_error_percent),
-                                    one.note,
-                                )
-                            )
-                            for one in peers
-                        ),
+                        rows=tuple(_peer_rows(peers)),
                         kind="compact",
                     ),
                 ),
             ),
         ),
     )
+
+
+def _peer_rows(peers: Sequence[PeerPoint]) -> Iterator[Row]:
+    """Give the runs of each program in each of its ways below a line that names them."""
+    named = [(f"{one.peer} {one.version}: {one.note}", one) for one in peers]
+    for name in dict.fromkeys(name for name, _ in named):
+        yield Row(cells=(Wide(name, 4),), kind="total")
+        for one in (one for other, one in named if other == name):
+            failed = math.isnan(one.prd_error_percent)
+            error = "failed" if failed else percent(one.prd_error_percent)
+            yield Row(cells=(one.record, lettered(one.scene), seconds(one.seconds), error))
+
+
+def _command(found: Verification) -> str:
+    words = "roofslip verify --quick" if found.quick else "roofslip verify"
+    if len(found.roofs) > 1 or any(one.study.n_recorded for one in found.rungs):
+        words += " --records, with the folder of the recorded motions of section 2"
+    return words
 
 
 def software(found: Verification, machine: Machine) -> Section:
@@ -183,10 +188,10 @@ def software(found: Verification, machine: Machine) -> Section:
         blocks=(
             Block(
                 texts=(
-                    "Times hold for this machine while it did nothing else; errors do not depend "
-                    "on it. To repeat: roofslip verify"
-                    f"{' --quick' if found.quick else ''}. All checks and all runs of methods "
-                    "with their numbers are in verification.csv, the charts as files in charts/.",
+                    "Times are those of this machine with whatever else it did; errors do not "
+                    f"depend on it. To repeat: {_command(found)}. All checks and all runs of "
+                    "methods with their numbers are in verification.csv, the charts as files in "
+                    "charts/.",
                 ),
                 tables=(
                     Table(

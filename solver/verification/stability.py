@@ -190,9 +190,9 @@ def conditioning(record: Record, *, quick: bool) -> Iterator[Conditioning]:
     shaken += "where a slip only just happens."
     design = "What 5 % more or less friction does to the answer."
     for title, note, ppa_g, change, mu in (
-        ("PRD for 1e-9 of μ, still roof", still, 0.0, 1e-9, both),
-        ("PRD for 1e-9 of μ, shaken near μ = tan θ", shaken, PPA_G, 1e-9, both),
-        ("PRD for 1e-9 of μ, shaken", shaken, 1.0, 1e-9, wide),
+        ("PRD for 10⁻⁹ of μ, still roof", still, 0.0, 1e-9, both),
+        ("PRD for 10⁻⁹ of μ, shaken near μ = tan θ", shaken, PPA_G, 1e-9, both),
+        ("PRD for 10⁻⁹ of μ, shaken", shaken, 1.0, 1e-9, wide),
         ("PRD for 5 % of μ, shaken", design, 1.0, 0.05, wide),
     ):
         yield _conditioning(record, ppa_g, change, mu, title, note)
