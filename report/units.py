@@ -27,6 +27,15 @@ WEIGHTS = {
 }
 """Weights in N; a mass counts with standard gravity."""
 
+STIFFNESSES = {
+    "lb/in": NEWTONS_PER_POUND / 0.0254,
+    "kip/in": 1e3 * NEWTONS_PER_POUND / 0.0254,
+    "N/m": 1.0,
+    "N/mm": 1e3,
+    "kN/m": 1e3,
+}
+"""Stiffnesses in N/m."""
+
 
 @dataclass(frozen=True, slots=True)
 class Unit:
@@ -48,11 +57,13 @@ class Quantity(Enum):
     SIZE = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
     PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
     WEIGHT = (Unit("lb", NEWTONS_PER_POUND, 0), Unit("kN", 1e3, 2))
+    STIFFNESS = (Unit("lb/in", NEWTONS_PER_POUND / 0.0254, 0), Unit("kN/m", 1e3, 1))
 
     @property
     def accepted(self) -> Mapping[str, float]:
         """Symbols that an input may use, each with its size in SI."""
-        return WEIGHTS if self is Quantity.WEIGHT else LENGTHS
+        others = {Quantity.WEIGHT: WEIGHTS, Quantity.STIFFNESS: STIFFNESSES}
+        return others.get(self, LENGTHS)
 
     @property
     def us(self) -> Unit:

@@ -246,10 +246,17 @@ def _share_faults(shares: Sequence[float], count: int) -> list[str]:
     return []
 
 
-def _too_stiff(scene: Scene, row: Row) -> list[str]:
+def least_steps(row: Row, seconds: float) -> float:
+    """Return how many steps a row needs at least to follow a motion of some length [s]."""
+    if len(row.mus) == 1:
+        return 0.0
     least = min(row.weights) * len(row.mus)
     rate = 2.0 * math.sqrt(row.stiffness_per_s2 / least) + 4.0 * row.damping_per_s / least
-    if len(row.mus) == 1 or rate * scene.dt_s * scene.ax_mps2.size <= MOST_STEPS:
+    return rate * seconds
+
+
+def _too_stiff(scene: Scene, row: Row) -> list[str]:
+    if least_steps(row, scene.dt_s * scene.ax_mps2.size) <= MOST_STEPS:
         return []
     return [
         f"stiffness_per_s2 {row.stiffness_per_s2:g} with damping_per_s {row.damping_per_s:g} takes "

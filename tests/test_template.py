@@ -11,7 +11,7 @@ from sheets import make, project
 
 SHEETS = [
     "README", "Project", "Site", "Arrays", "Objects", "Clearances", "Motions", "Building",
-    "Spectrum", "Options",
+    "Spectrum", "Links", "Options",
 ]  # fmt: skip
 
 
@@ -113,6 +113,17 @@ def test_clearances_offer_the_arrays_and_objects_but_take_others(blank):
     assert validation(sheet, "B8").formula1 == "Arrays!$B$8:$B$500"
     assert validation(sheet, "C8").formula1 == "Objects!$B$8:$B$500"
     assert not validation(sheet, "C8").showErrorMessage
+
+
+def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank):
+    units, book = blank
+    sheet, table = tables(book)["links_table"]
+    headings = [cell.value for cell in sheet[table.ref][0]]
+    unit = "lb/in" if units is UnitsFirst.US else "kN/m"
+    assert headings == ["Array", "Friction of blocks", f"Link stiffness [{unit}]", "Link damping"]
+    assert validation(sheet, "B8").formula1 == "Arrays!$B$8:$B$500"
+    assert [sheet[f"{c}6"].value for c in "CE"] == ["0.40, 0.45, 0.50", "0.02"]
+    assert float(sheet["D6"].value) == (5000 if units is UnitsFirst.US else 876)
 
 
 def test_overrides_offer_the_provisions(blank):

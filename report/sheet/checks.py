@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from report.sheet.fields import Draft, Fault, Place, Row, Where
@@ -22,6 +22,7 @@ from report.sheet.schema import (
     Sdc,
     SlopeUnit,
     UnitsFirst,
+    coefficients,
     s_ds,
     slope_rad,
 )
@@ -51,7 +52,17 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
     where : callable
         Gives the address of a place, for faults that point to a second cell.
     """
-    checks = (_tables, _ids, _site, _arrays, _objects, _clearances, motion_faults, _overrides)
+    checks = (
+        _tables,
+        _ids,
+        _site,
+        _arrays,
+        _objects,
+        _clearances,
+        motion_faults,
+        _links,
+        _overrides,
+    )
     return [fault for check in checks for fault in check(draft, where)]
 
 
@@ -194,10 +205,15 @@ def _friction(index: int, row: Row) -> Iterator[Fault]:
     if static is not None and static < mu:
         text = f"static friction is {static:g}; give the friction coefficient, {mu:g}, or more"
         yield Fault(Place("arrays", index, "mu_static"), text)
-    by_speed = [field for field in ("mu_fast", "mu_static") if row[field] not in (None, mu)]
-    if by_speed and model is not Model.CHOOSE:
+    if _by_speed(row) and model is not Model.CHOOSE:
         text = f"model is '{model}', which leaves friction by speed out; leave it at choose, or"
         yield Fault(Place("arrays", index, "model"), f"{text} blank friction at speed and static")
+
+
+def _by_speed(array: Row) -> list[str]:
+    """Return the fields that make the friction of an array more than one coefficient."""
+    one = (None, array["mu"])
+    return [name for name in ("mu_fast", "mu_static") if array.get(name) not in one]
 
 
 def _sides(section: str, index: int, row: Row, us_first: bool) -> Iterator[Fault]:
@@ -232,21 +248,23 @@ def _whole_rectangle(index: int, row: Row) -> Iterator[Fault]:
 def _clearances(draft: Draft, where: Where) -> Iterator[Fault]:
     arrays = {row["id"]: row for row in draft["arrays"] if "id" in row}
     objects = {row["id"]: row for row in draft["objects"] if "id" in row}
-    yield from _known(draft, "array", arrays, "Arrays")
-    yield from _known(draft, "object", objects | arrays, "Objects or Arrays")
+    yield from _known(draft, "clearances", "array", arrays, "Arrays")
+    yield from _known(draft, "clearances", "object", objects | arrays, "Objects or Arrays")
     yield from _repeated(draft, where)
     for index, row in enumerate(draft["clearances"]):
         yield from _room(index, row, objects | arrays, _us_first(draft))
 
 
-def _known(draft: Draft, field: str, ids: Mapping[str, Row], sheets: str) -> Iterator[Fault]:
-    for place, value in _column(draft, ("clearances",), field):
+def _known(
+    draft: Draft, section: str, field: str, ids: Collection[str], sheets: str
+) -> Iterator[Fault]:
+    for place, value in _column(draft, (section,), field):
         if value not in ids:
             text = f"{field} is '{value}', which is not in {sheets}; {_suggestion(value, ids)}"
             yield Fault(place, text)
 
 
-def _suggestion(value: str, ids: Mapping[str, Row]) -> str:
+def _suggestion(value: str, ids: Collection[str]) -> str:
     folded = {name.casefold(): name for name in ids}
     close = difflib.get_close_matches(value.casefold(), folded, n=1)
     if close:
@@ -286,6 +304,43 @@ def _room(index: int, row: Row, scene: Mapping[str, Row], us_first: bool) -> Ite
         most = pair(max(gap, 0.0), Quantity.SIZE, us_first)
         text = f"provided is {found}, but the plan leaves {most} between {array} and {other}"
         yield Fault(place, f"{text}; give no more, or correct the rectangles")
+
+
+def _links(draft: Draft, where: Where) -> Iterator[Fault]:
+    arrays = {name: place for place, name in _column(draft, ("arrays",), "id")}
+    yield from _known(draft, "links", "array", arrays, "Arrays")
+    seen: dict[str, Place] = {}
+    for place, name in _column(draft, ("links",), "array"):
+        first = seen.setdefault(name, place)
+        if first is not place:
+            yield Fault(place, f"array is '{name}', as at {where(first)}; keep one")
+        if name in arrays:
+            yield from _one_coefficient(place, name, draft["arrays"][arrays[name].row])
+    for place, text in _column(draft, ("links",), "friction"):
+        home = arrays.get(draft["links"][place.row].get("array", ""))
+        yield from _blocks(place, text, draft, where, home)
+
+
+def _one_coefficient(place: Place, name: str, array: Row) -> Iterator[Fault]:
+    if "mu" in array and _by_speed(array):
+        text = f"array is '{name}', whose friction is not one coefficient; blank its friction at"
+        yield Fault(place, f"{text} speed and static friction, or take this row out")
+
+
+def _blocks(
+    place: Place, text: str, draft: Draft, where: Where, home: Place | None
+) -> Iterator[Fault]:
+    """Yield what is wrong with the coefficients of a row, by themselves and beside their array."""
+    mus = coefficients(text)
+    if not mus:
+        wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points"
+        yield Fault(place, f"friction of blocks is '{text}'; {wanted}, such as 0.40, 0.45, 0.50")
+        return
+    mu = draft["arrays"][home.row].get("mu") if home else None
+    if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
+        found = f"friction of blocks is '{text}', all {'above' if mu < min(mus) else 'below'} the"
+        at = where(home._replace(field="mu"))
+        yield Fault(place, f"{found} {mu:g} at {at}; give coefficients that reach it, or change it")
 
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:

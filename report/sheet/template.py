@@ -21,7 +21,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet import style
 from report.sheet.fields import Entry, Frozen, Section, entries
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput, UnitsFirst
-from report.units import LENGTHS, WEIGHTS, Unit
+from report.units import LENGTHS, STIFFNESSES, WEIGHTS, Unit
 
 BLANK_ROWS = 20
 SPARE_ROWS = 5
@@ -47,7 +47,8 @@ COMMANDS = (
 NOTES = (
     "FOLDER is the folder that holds this workbook under the name input.xlsx.",
     "Units stand in brackets in the headings of tables, elsewhere in the column Unit. Both may be"
-    f" changed: lengths to {', '.join(LENGTHS)}; weights to {', '.join(WEIGHTS)}.",
+    f" changed: lengths to {', '.join(LENGTHS)}; weights to {', '.join(WEIGHTS)}; stiffnesses to"
+    f" {', '.join(STIFFNESSES)}.",
     "Sheets are protected against slips, without a password (Review, Unprotect Sheet). Sheets may"
     " be renamed, rows inserted, columns reordered or added.",
     "Formulas are welcome. Macros are not: .xlsm is refused.",
@@ -250,7 +251,7 @@ def _source(book: Workbook, section: Section, entry: Entry) -> str:
     if section.key == "overrides" and entry.name == "provision":
         first = book[PROVISIONS].max_row - len(PROVISION_KEYS) + 1
         return f"{PROVISIONS}!$A${first}:$A${book[PROVISIONS].max_row}"
-    if section.key == "clearances" and entry.name in ("array", "object"):
+    if section.key in ("clearances", "links") and entry.name in ("array", "object"):
         sheet = book["Arrays" if entry.name == "array" else "Objects"]
         first = next(iter(sheet.tables.values())).ref.split(":")[0].lstrip("B")
         return f"{sheet.title}!$B${int(first) + 1}:$B${LAST_ROW}"

@@ -15,6 +15,7 @@ from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import CellError, Found, plain, read_cell, wish
 from report.sheet.checks import faults
 from report.sheet.fields import Entry, Fault, Place, Section, YesNo, entries
+from report.sheet.link_checks import stiff_links
 from report.sheet.locate import (
     Column,
     Spot,
@@ -34,7 +35,12 @@ from solver.model import InputError, Motion
 
 __all__ = ["EchoRow", "InputBook", "RecordFile", "Story", "read_workbook"]
 
-SI_SYMBOLS = {Quantity.SIZE: "m", Quantity.PLAN: "m", Quantity.WEIGHT: "N"}
+SI_SYMBOLS = {
+    Quantity.SIZE: "m",
+    Quantity.PLAN: "m",
+    Quantity.WEIGHT: "N",
+    Quantity.STIFFNESS: "N/m",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,6 +109,9 @@ def read_workbook(path: Path) -> InputBook:
         raise InputError(gathered.finished())
     data = _project_input(gathered)
     shaken = shake(data, prepared)
+    gathered.take(stiff_links(data, [motion for motion, _ in shaken]))
+    if gathered.problems:
+        raise InputError(gathered.finished())
     return InputBook(
         path=book.path,
         sha256=book.sha256,
@@ -136,7 +145,8 @@ class _Gathered:
     def take(self, found: Iterable[Fault]) -> None:
         """Take in faults, apart from those that only follow from a table that is not there."""
         for place, text in found:
-            follows = place.section == "clearances" and self.unfound & {"arrays", "objects"}
+            sources = {"clearances": {"arrays", "objects"}, "links": {"arrays"}}
+            follows = sources.get(place.section, set()) & self.unfound
             if place.section not in self.unfound and not follows:
                 self.add(place, [f"{self.where(place)}: {text}"])
 

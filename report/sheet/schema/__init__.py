@@ -32,6 +32,7 @@ from report.sheet.schema.choices import (
     TailRule,
     UnitsFirst,
 )
+from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Revision, Site, s_ds
 from report.sheet.schema.scene import Array, Clearance, Rectangle, RoofObject, slope_rad
@@ -47,6 +48,7 @@ __all__ = [
     "BuildingInput",
     "Clearance",
     "Direction",
+    "Links",
     "Model",
     "MotionInput",
     "ObjectKind",
@@ -73,6 +75,7 @@ __all__ = [
     "TargetInput",
     "UnitsFirst",
     "YesNo",
+    "coefficients",
     "s_ds",
     "slope_rad",
 ]
@@ -124,6 +127,7 @@ class ProjectInput(Frozen):
     motions: tuple[MotionInput, ...]
     building: BuildingInput = BuildingInput()
     spectrum: tuple[SpectrumPoint, ...] = ()
+    links: tuple[Links, ...] = ()
     options: Options = Options()
     target: TargetInput = TargetInput()
     overrides: tuple[Override, ...] = ()
@@ -199,6 +203,15 @@ SECTIONS = (
         "Optional; it replaces AC156's at the roof, or the design spectrum on the ground. 5 %"
         " damping, at least two rows.",
         SpectrumPoint,
+        may_be_absent=True,
+    ),
+    _table(
+        "links",
+        "Links",
+        "Rows of linked blocks",
+        "Optional: one row for each array of which the package is to say whether one rigid block"
+        " is enough for it. Blocks of equal weight, in a row down the slope.",
+        Links,
         may_be_absent=True,
     ),
     _block("options", "Options", "Options", "The defaults suit most projects.", Options),
