@@ -119,6 +119,11 @@ def same_id(one: str, other: str) -> bool:
     return one.casefold() == other.casefold()
 
 
+def by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
+    """Return the array of an id."""
+    return next(item for item in arrays if same_id(item.array.id, wanted))
+
+
 def assess_array(
     data: ProjectInput,
     rules: RuleSet,

@@ -1,7 +1,7 @@
 """Runs every array under every motion and holds the result against the rule set.
 
 Orders the work and keeps what came out; computes no physics (`solver.sliding`) and reads no code
-rule itself (`solver.provisions`). Read `report.arrays` and `report.clearances` first.
+rule itself (`solver.provisions`). Read `report.arrays`, `report.clearances`, `report.linked` first.
 """
 
 from __future__ import annotations
@@ -14,10 +14,12 @@ from dataclasses import dataclass
 from functools import partial
 
 from report.arrays import ArrayAssessment as ArrayAssessment
-from report.arrays import assess_array
+from report.arrays import assess_array, by_id
 from report.arrays import same_id as same_id
 from report.clearances import ClearanceCheck as ClearanceCheck
 from report.clearances import check_clearance
+from report.linked import LinkedArray as LinkedArray
+from report.linked import assess_linked
 from report.runs import MotionRun, nan_is_worst, run_motion
 from report.sheet.schema import Array, Model, ProjectInput
 from report.sheet.targets import Targets, ac156, targets
@@ -38,6 +40,8 @@ class Assessment:
         AC156 at the roof.
     targets : Targets
         What the motions are held against: AC156 or the project's own.
+    linked : tuple of LinkedArray
+        The arrays of which the workbook asks whether one rigid block is enough.
     """
 
     rules: RuleSet
@@ -47,6 +51,7 @@ class Assessment:
     building_checks: tuple[Check, ...]
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
+    linked: tuple[LinkedArray, ...]
     solver_seconds: float
 
     @property
@@ -56,6 +61,7 @@ class Assessment:
         limits_kept = all(check.ok for check in checks)
         has_values = not any(math.isnan(a.design_m) for a in self.arrays) and not self.warnings
         stands = all(item.is_model_enough and item.tipping.is_ok for item in self.arrays)
+        stands = stands and all(item.is_rigid_enough for item in self.linked)
         return limits_kept and has_values and stands and all(gap.ok for gap in self.clearances)
 
     @property
@@ -99,7 +105,8 @@ def assess(
     Parameters
     ----------
     hold_models : bool
-        Whether models that are asked for are held against those that the scenes need.
+        Whether models that are asked for are held against those that the scenes need, and one
+        rigid block against a row of them.
 
     Raises
     ------
@@ -111,14 +118,16 @@ def assess(
         {row.provision: (row.value, row.reason) for row in data.overrides}
     )
     started = time.perf_counter()
-    # Runs in two axes leave Python alone: two of them go on at once.
+    # Runs in two axes, and of rows, leave Python alone: two of them go on at once.
     with ThreadPoolExecutor(THREADS) as pool:
         runs = [_runs(pool, array, motions, hold_models) for array in data.arrays]
-    seconds = time.perf_counter() - started
-    arrays = tuple(
-        assess_array(data, rules, array, *found)
-        for array, found in zip(data.arrays, runs, strict=True)
-    )
+        seconds = time.perf_counter() - started
+        arrays = tuple(
+            assess_array(data, rules, array, *found)
+            for array, found in zip(data.arrays, runs, strict=True)
+        )
+        asked = data.links if hold_models else ()
+        linked = tuple(assess_linked(pool, rules, one, by_id(arrays, one.array)) for one in asked)
     return Assessment(
         rules=rules,
         horizontal_target=ac156(data)[0],
@@ -131,6 +140,7 @@ def assess(
         ),
         arrays=arrays,
         clearances=tuple(check_clearance(data, rules, arrays, row) for row in data.clearances),
+        linked=linked,
         solver_seconds=seconds,
     )
 

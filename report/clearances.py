@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from report.arrays import ArrayAssessment, same_id
+from report.arrays import ArrayAssessment, by_id, same_id
 from report.runs import nan_is_worst
 from report.sheet.schema import (
     Array,
@@ -84,7 +84,7 @@ def check_clearance(
     row: Clearance,
 ) -> ClearanceCheck:
     """Return a clearance with what it requires, the larger of the two sides between arrays."""
-    near = _by_id(arrays, row.array)
+    near = by_id(arrays, row.array)
     others = [a for a in arrays if same_id(a.array.id, row.object)]
     facing = [(near, row.direction)]
     facing += [
@@ -125,10 +125,6 @@ def facing_direction(near: Array, other: Array, direction: Direction) -> Directi
     if min(turn, 360.0 - turn) > ALIKE_DEG:
         return Direction.ANY
     return _OPPOSITE.get(direction, direction)
-
-
-def _by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
-    return next(item for item in arrays if same_id(item.array.id, wanted))
 
 
 def _neighbour(rules: RuleSet, found: RoofObject, array: Array) -> Neighbour:

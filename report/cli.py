@@ -231,6 +231,12 @@ def _print_summary(book: InputBook, assessment: Assessment) -> None:
     for item in assessment.arrays:
         if not item.tipping.is_ok:
             click.echo(f"warning: array {item.array.id} begins to tip: part 11 of the package")
+    for linked in assessment.linked:
+        if not linked.is_rigid_enough:
+            name = linked.found.array.id
+            click.echo(
+                f"warning: one rigid block is not enough for array {name}: part 11 of the package"
+            )
     checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]
     for failed in (c for c in checks if not c.ok):
         click.echo(f"warning: outside {failed.provision.clause}: {failed.title}")

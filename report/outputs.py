@@ -16,7 +16,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from report.assess import ArrayAssessment, Assessment, ClearanceCheck
+from report.assess import ArrayAssessment, Assessment, ClearanceCheck, LinkedArray
 from report.sheet.schema import Direction
 from report.sheet.shaking import Story
 from report.sheet.workbook import InputBook, RecordFile
@@ -40,6 +40,7 @@ def results_json(book: InputBook, assessment: Assessment) -> bytes:
         "building_checks": [_check(check) for check in assessment.building_checks],
         "arrays": [_array(item) for item in assessment.arrays],
         "clearances": [_clearance(item) for item in assessment.clearances],
+        "linked": [_linked(item) for item in assessment.linked],
     }
     return json.dumps(_nan_to_none(document), indent=1, ensure_ascii=False).encode() + b"\n"
 
@@ -171,6 +172,40 @@ def _clearance(item: ClearanceCheck) -> dict[str, Any]:
         "provided_m": item.clearance.provided_m,
         "demand_capacity": item.demand_capacity,
         "ok": item.ok,
+    }
+
+
+def _linked(item: LinkedArray) -> dict[str, Any]:
+    return {
+        "array": item.found.array.id,
+        "mus": item.row.mus,
+        "stiffness_n_per_m": item.links.stiffness_n_per_m,
+        "damping_ratio": item.links.damping_ratio,
+        "rigid_one_axis_m": item.rigid.value_m,
+        "linked_one_axis_m": item.linked.value_m,
+        "ratio": item.ratio,
+        "design_m": item.found.design_m,
+        "estimated_m": item.estimated_m,
+        "link_force_n": item.link_force_n,
+        "rigid_is_enough": item.is_rigid_enough,
+        "runs": [
+            {
+                "motion": motion.motion.id,
+                "along": run.heading.component,
+                "polarity": run.heading.sign,
+                "status": run.row.status,
+                "rigid_status": run.rigid.status,
+                "rigid_prd_m": run.rigid.prd_m,
+                "prd_m": run.row.prd_m,
+                "residual_m": run.row.residual_m,
+                "stretch_m": run.row.stretch_m,
+                "link_force_n": run.row.link_force * item.block_n,
+                "error_m": run.row.error_m,
+                "n_stops": run.row.n_stops,
+            }
+            for motion in item.motions
+            for run in motion.runs
+        ],
     }
 
 

@@ -17,6 +17,7 @@ from xlsxwriter.worksheet import Worksheet
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck
 from report.book_directions import DirectionCells, PeakRanges, write_directions, write_peaks
+from report.book_links import link_runs_table, write_links
 from report.book_sheets import METRES_PER_INCH, Pages, write_headings
 from report.sheet.schema import Direction
 from report.sheet.workbook import InputBook
@@ -34,7 +35,8 @@ def results_xlsx(book: InputBook, assessment: Assessment) -> bytes:
         workbook: Workbook = writer.book
         pages = Pages(workbook)
         runs = _runs_table(assessment)
-        for name in ("Design", "Directions", "Clearances", "Peaks"):
+        linked = ("Links",) if assessment.linked else ()
+        for name in ("Design", "Directions", "Clearances", "Peaks", *linked):
             workbook.add_worksheet(name)
         _write_table(writer, runs, "Runs", pages)
         _write_table(writer, _motions_table(book), "Motions", pages)
@@ -42,6 +44,10 @@ def results_xlsx(book: InputBook, assessment: Assessment) -> bytes:
         _write_table(writer, _spectra_table(book, assessment), "Spectra", pages)
         peaks = write_peaks(pages, assessment, runs)
         _write_design(pages, book, assessment, peaks)
+        if assessment.linked:
+            link_runs = link_runs_table(assessment)
+            _write_table(writer, link_runs, "LinkRuns", pages)
+            write_links(pages, assessment, link_runs)
         _write_clearances(pages, book, assessment, write_directions(pages, assessment, peaks))
         workbook.set_calc_mode("auto")
         # Two runs give the same bytes: the date is the project's, not the clock's.

@@ -253,7 +253,7 @@ def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
     return n_stops, lost
 
 
-@njit(cache=True)
+@njit(cache=True, nogil=True)
 def slide_row(drive, normal, dt, mus, m, k, c, most, peaks, links, energy, samples):
     """Follow a row of blocks from rest, links unstretched, event by event.
 

@@ -160,6 +160,12 @@ def clearance(near, far, provided_m, direction="any"):
     return {"array": near, "object": far, "direction": direction, "provided_m": provided_m}
 
 
+def links(name, friction, lb_per_in, **changes):
+    """One array that is to be held against a row of linked blocks."""
+    stiffness = lb_per_in * 4.4482216152605 / INCH
+    return {"array": name, "friction": friction, "stiffness_n_per_m": stiffness} | changes
+
+
 def book(data=None, found=None):
     """What the workbook reader gives."""
     data = data or project()

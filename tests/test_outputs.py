@@ -49,14 +49,37 @@ def test_json_holds_the_model_of_each_run_and_the_peaks_in_each_direction(docume
     assert gap["design_m"] == item.design_towards_m(Direction.UP)
 
 
+def test_json_holds_rows_of_linked_blocks_with_their_runs():
+    data = stand_in.project(links=[stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)])
+    book = stand_in.book(data, stand_in.motions(3, seconds=8.0))
+    found, document = (
+        stand_in.assessed(book),
+        json.loads(results_json(book, stand_in.assessed(book))),
+    )
+    (item,), (row,) = found.linked, document["linked"]
+    assert (row["array"], row["mus"], row["damping_ratio"]) == ("A2", [0.4, 0.5], 0.05)
+    assert (row["ratio"], row["estimated_m"]) == (item.ratio, item.estimated_m)
+    assert row["design_m"] == document["arrays"][1]["design_m"]
+    assert row["rigid_is_enough"] is item.is_rigid_enough
+    assert len(row["runs"]) == 12
+    assert tuple(row["runs"][5]["prd_m"]) == item.motions[1].runs[1].row.prd_m
+    assert max(run["link_force_n"] for run in row["runs"]) == row["link_force_n"]
+    check_units(document)
+
+
 def test_every_number_in_json_says_its_unit_or_has_none(document):
+    check_units(document)
+
+
+def check_units(document):
     units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2", "_hz", "_percent")
     plain = {
         "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
         "f_v", "storeys", "slope_value", "found", "limit", "scale_value", "value",
         "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
         "left_out_share", "mu_slow", "mu_fast", "mu_static", "rung", "next_rung", "friction_demand",
-        "demand", "capacity", "held_ratio", "sliding_ratio", "times",
+        "demand", "capacity", "held_ratio", "sliding_ratio", "times", "mus", "ratio",
+        "damping_ratio",
     }  # fmt: skip
 
     def walk(value, key=""):

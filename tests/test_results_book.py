@@ -53,6 +53,10 @@ CASES = {
     "PV1, low category": {"site": SITE | {"sdc": "C", "s_ds_g": 0.45}},
     "ASCE 7-16": {"site": SITE | {"rule_set": "ASCE 7-16", "risk_category": "III", "i_e": 1.25}},
     "peer reviewed": {"options": {"peer_reviewed": True, "statistic": "1.1 x largest"}},
+    "a row of linked blocks": {
+        "links": [stand_in.links("A1", "0.40, 0.50", 50), stand_in.links("A3", "0.55, 0.55", 50)],
+        "options": {"peer_reviewed": True},
+    },
 }
 
 
@@ -71,6 +75,35 @@ def test_every_formula_gives_the_value_written_with_it(case):
                     assert found == cached, cell
                     checked += 1
     assert checked > 50
+
+
+def test_what_links_change_follows_from_their_runs():
+    data = stand_in.project(**CASES["a row of linked blocks"])
+    formulas, values = made(stand_in.book(data))
+    first, second = stand_in.assessed(stand_in.book(data)).linked
+    rows = list(values["LinkRuns"].iter_rows(min_row=2, values_only=True))
+    assert len(rows) == 2 * 28
+    assert rows[0][5] == pytest.approx(first.motions[0].runs[0].prd_m / 0.0254)
+    assert rows[0][7].split(", ")[0] == f"{first.motions[0].runs[0].row.prd_m[0] / 0.0254:.2f}"
+    sheet = values["Links"]
+    assert [sheet[f"{c}5"].value for c in "ALO"] == [
+        "A1", pytest.approx(first.estimated_m / 0.0254), "NG",
+    ]  # fmt: skip
+    assert [sheet[f"{c}6"].value for c in "AO"] == ["A3", "OK"]
+    assert formulas["Links"]["I6"].value == "=H6/G6"
+    assert formulas["Links"]["M6"].value == "=Design!N7"
+    assert sheet["L6"].value == pytest.approx(second.found.design_m / 0.0254)
+
+
+def test_without_rows_of_linked_blocks_the_book_has_no_sheet_of_them():
+    formulas, _ = made(stand_in.book())
+    assert not {"Links", "LinkRuns"} & set(formulas.sheetnames)
+
+
+def test_a_row_without_a_value_is_ng_in_the_book():
+    data = stand_in.project(links=[stand_in.links("A1", "0.40, 0.50", 50)])
+    _, values = made(stand_in.book(data, stand_in.motions(2, seconds=8.0)))
+    assert [values["Links"][f"{c}5"].value for c in "ALO"] == ["A1", "no value", "NG"]
 
 
 def test_the_prescriptive_value_is_a_live_formula():

@@ -8,6 +8,7 @@ from markupsafe import Markup, escape
 
 from report.assess import ClearanceCheck
 from report.equations import symbol
+from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
     NG,
@@ -124,6 +125,7 @@ def troubles(scene: Scene) -> Sequence[str]:
         *few,
         *model_troubles(scene),
         *tipping_troubles(scene),
+        *link_troubles(scene),
         *failed_limits(scene),
     ]
 

@@ -187,6 +187,7 @@ def basis(scene: Scene) -> Mapping[str, object]:
         "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
         "friction": _friction(scene),
         "asked": _asked(scene),
+        "linked": _linked(scene),
         "both": f"{both} of {count} motions are run in both polarities",
         "peer": "is stated to be peer reviewed"
         if scene.data.options.peer_reviewed
@@ -199,6 +200,12 @@ def _asked(scene: Scene) -> str:
     """Return which arrays are run by a model that the workbook asks for."""
     arrays = [item.array for item in scene.assessment.arrays if item.is_model_asked_for]
     return "".join(f"; {one.id} is run in {one.model.value}, as asked for" for one in arrays)
+
+
+def _linked(scene: Scene) -> str:
+    """Return which arrays are held against a row of linked blocks."""
+    names = ", ".join(found.found.array.id for found in scene.assessment.linked)
+    return f" (but part 11 holds {names} against a row of linked blocks)" if names else ""
 
 
 def _friction(scene: Scene) -> str:

@@ -23,6 +23,7 @@ def inputs(scene: Scene) -> Mapping[str, object]:
         "site": _site(scene),
         "arrays": _arrays(scene),
         "sizes": _sizes(scene),
+        "links": _links(scene),
         "objects": _objects(scene),
         "note": _s_ds_note(scene.data.site),
     }
@@ -202,6 +203,33 @@ def _sizes(scene: Scene) -> Table:
             for array in scene.data.arrays
         ),
         notes=("Centre of gravity above the roof surface; plan x and y: the array's own size.",),
+    )
+
+
+def _links(scene: Scene) -> Table:
+    say = scene.say
+    return Table(
+        caption="Arrays to be held against a row of linked blocks",
+        columns=(
+            Column(head="Array", align="left", share=0.9),
+            Column(head="Blocks", share=0.8),
+            Column(head="μ of the blocks, from the highest down", align="left", share=4.2),
+            *say.columns("Link stiffness", Quantity.STIFFNESS, share=1.1),
+            Column(head="Link damping", unit="of critical", share=1.3),
+        ),
+        rows=tuple(
+            Row(
+                cells=(
+                    one.array,
+                    str(len(one.mus)),
+                    ", ".join(number(mu, 3) for mu in one.mus),
+                    *say.cells(one.stiffness_n_per_m, Quantity.STIFFNESS),
+                    number(one.damping_ratio, 3),
+                )
+            )
+            for one in scene.data.links
+        ),
+        notes=("Blocks of equal weight in a row down the slope (part 11).",),
     )
 
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
 from report.assess import ArrayAssessment
+from report.pages import links
 from report.pages.accuracy import below_mm
 from report.pages.parts import NO_VALUE, Column, Row, Scene, Table, Wide, nan_is_worst, verdict
 from report.runs import RUNGS, HeadingRun
@@ -27,17 +28,20 @@ _LEFT_OUT = {
 def page(scene: Scene) -> Mapping[str, object]:
     """Return the page on the models."""
     arrays = scene.assessment.arrays
+    matters = (
+        f"{number(1e3 * DEFAULT.matters_m, 0)} mm ({number(DEFAULT.matters_m / 0.0254, 2)} in) or "
+        f"{number(100.0 * DEFAULT.matters_share, 1)} %"
+    )
     return {
         "rungs": tuple(f"{int(rung)}: {rung.title}" for rung in Rung if rung is not Rung.ROW),
-        "matters": f"{number(1e3 * DEFAULT.matters_m, 0)} mm "
-        f"({number(DEFAULT.matters_m / 0.0254, 2)} in) or "
-        f"{number(100.0 * DEFAULT.matters_share, 1)} %",
+        "matters": matters,
         "combinations": _combinations(scene),
         "table": _table(scene),
         "left_out": _left_out_table(scene),
         "stability": _stability_table(scene),
         "sentences": [text for found in arrays for text in _sentences(scene, found)],
         "troubles": tuple(model_troubles(scene)),
+        "links": links.part(scene, matters),
     }
 
 
@@ -204,7 +208,7 @@ def _left_out_table(scene: Scene) -> Table:
         ),
         notes=(
             "Not in any of these models: turning in plan, rocking, and the array's own "
-            "flexibility (part 2).",
+            f"flexibility ({'part 2' if not scene.assessment.linked else 'see the rows below'}).",
         ),
         kind="compact",
     )

@@ -13,7 +13,7 @@ from itertools import groupby
 
 from markupsafe import Markup
 
-from report.assess import ArrayAssessment, Assessment, ClearanceCheck
+from report.assess import ArrayAssessment, Assessment, ClearanceCheck, LinkedArray
 from report.equations import Formula
 from report.sheet.schema import Direction, ProjectInput
 from report.units import Quantity, Unit, measured, number, pair
@@ -296,10 +296,15 @@ class Scene:
             not math.isnan(found.design_m)
             and found.is_model_enough
             and found.tipping.is_ok
+            and all(one.is_rigid_enough for one in self.linked_of(found))
             and all(check.ok for check in found.checks)
             and all(gap.ok for gap in near)
             and all(run.result.status == "ok" for m in found.motions for run in m.runs)
         )
+
+    def linked_of(self, found: ArrayAssessment) -> Sequence[LinkedArray]:
+        """Return an array as a row of linked blocks, where the workbook asks for it."""
+        return [one for one in self.assessment.linked if one.found is found]
 
     def gaps_of(self, found: ArrayAssessment) -> Sequence[ClearanceCheck]:
         """Return the clearances that name an array, on either side."""

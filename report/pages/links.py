@@ -1,0 +1,211 @@
+"""Arrays held against a row of linked blocks: what it is, what came of it, what would do.
+
+Runs nothing: `report.linked` did. Read `report.pages.parts` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from report.assess import LinkedArray
+from report.equations import formula
+from report.pages.parts import NO_VALUE, Column, Line, Row, Scene, Table, statistic, verdict
+from report.sheet.schema import Direction
+from report.units import Quantity, number
+from solver.model import Status
+
+
+def part(scene: Scene, matters: str) -> Mapping[str, object]:
+    """Return what the page on the models says of rows; tables without rows where none is asked.
+
+    Parameters
+    ----------
+    matters : str
+        Up to where a change of a displacement is none, in words.
+    """
+    return {
+        "text": _text(scene),
+        "lines": _lines(scene) if scene.assessment.linked else (),
+        "rows": _row_table(scene),
+        "design": _design_table(scene, matters),
+        "troubles": tuple(link_troubles(scene)),
+    }
+
+
+def link_troubles(scene: Scene) -> Iterator[str]:
+    """Yield in words for which arrays one rigid block is not enough, and what would do."""
+    for found in scene.assessment.linked:
+        yield from _unfinished(found)
+        if found.is_final and not found.is_rigid_enough and not math.isnan(found.estimated_m):
+            yield f"{_too_far(scene, found)} {_what_would_do(found)}"
+
+
+def _unfinished(found: LinkedArray) -> Iterator[str]:
+    """Yield the outcomes of rows that give no final displacement, each with its runs."""
+    for status in Status:
+        runs = [
+            f"{motion.motion.id} {run.heading.name}"
+            for motion in found.motions
+            for run in motion.runs
+            if run.row.status is status
+        ]
+        if runs and status is not Status.OK:
+            name = found.found.array.id
+            yield f"Array {name} as a row of linked blocks, {', '.join(runs)}: {status.sentence}."
+
+
+def _too_far(scene: Scene, found: LinkedArray) -> str:
+    name, say, used = found.found.array.id, scene.say, found.found.design_m
+    if math.isinf(found.estimated_m):
+        return (
+            f"Array {name}: one rigid block does not slide in one axis, a row of linked blocks by "
+            f"{say.both(found.linked.value_m)}."
+        )
+    return (
+        f"Array {name}: a row of linked blocks goes {_ratio(found.ratio)} times as far as one "
+        f"rigid block, estimated design displacement {say.both(found.estimated_m)}, used "
+        f"{say.both(used)}."
+    )
+
+
+def _what_would_do(found: LinkedArray) -> str:
+    least = min(found.row.mus)
+    if found.found.array.mu > least:
+        return (
+            f"Enter {number(least, 3)}, the least of its blocks, as its friction coefficient, or "
+            "give it stiffer links."
+        )
+    return "Give it stiffer links."
+
+
+def _ratio(value: float) -> str:
+    """Return a ratio, rounded up, so that it never reads less than it is."""
+    if math.isnan(value):
+        return NO_VALUE
+    return "∞" if math.isinf(value) else number(math.ceil(value * 1e3 - 1e-6) / 1e3, 3)
+
+
+def _text(scene: Scene) -> str:
+    names = [found.found.array.id for found in scene.assessment.linked]
+    are = "is" if len(names) == 1 else "are"
+    return (
+        f"The workbook asks it of {', '.join(names)}, which {are} run once more as a row of blocks "
+        "of equal weight down the slope, each with its own friction and stick-slip state, with a "
+        "spring and a dashpot between neighbours. All feel the same roof motion, in one axis, with "
+        "the vertical where there is one. Beside it stands one rigid block with the array's own "
+        "friction coefficient in that same axis, so that their ratio is the effect of links and of "
+        "uneven friction alone; the ratio is taken to hold for the model that the design uses too."
+    )
+
+
+def _lines(scene: Scene) -> Sequence[Line]:
+    return (
+        Line(
+            formula=formula(
+                r"m\ddot{s}_i=G-\mu_i N\,\mathrm{sign}(\dot{s}_i)+F_i-F_{i-1},"
+                r"\quad F_i=k\,e_i+c\,\dot{e}_i,\quad e_i=s_{i+1}-s_i"
+            ),
+            reference="block i, link i below it",
+            note="m, N and G are those of one block (part 5), c = 2ζ√(km). A block rests while "
+            "what pushes it, F included, is not above its friction.",
+        ),
+        Line(
+            formula=formula(
+                r"\Delta_{links}=\mathrm{max}(\mathrm{max}(1,\,r)\,\Delta_{RHA},\,\Delta_{floor}),"
+                r"\quad r=\Delta_{row}/\Delta_{rigid}"
+            ),
+            reference="estimated with links",
+            steps=tuple(_step(scene, found) for found in scene.assessment.linked),
+        ),
+    )
+
+
+def _step(scene: Scene, found: LinkedArray) -> tuple[str, str]:
+    say, design = scene.say, found.found
+    return (
+        f"{design.array.id}: max(max(1, {_ratio(found.ratio)}) × "
+        f"{say.both(design.analysis.value_m)}, {say.both(design.floor_m)})",
+        _estimated(scene, found),
+    )
+
+
+def _estimated(scene: Scene, found: LinkedArray) -> str:
+    return "no limit" if math.isinf(found.estimated_m) else scene.say.both(found.estimated_m)
+
+
+def _row_table(scene: Scene) -> Table:
+    say = scene.say
+    return Table(
+        caption="Rows of linked blocks and one rigid block: the largest of all runs",
+        columns=(
+            Column(head="Array", align="left", share=0.9),
+            Column(head="Blocks", share=0.9),
+            Column(head="μ", share=1.5),
+            *say.columns("Link stiffness", Quantity.STIFFNESS, share=1.0),
+            Column(head="Damping", unit="of critical", share=1.2),
+            *say.columns("PRD, rigid", share=0.8),
+            *say.columns("PRD, row", share=0.8),
+            Column(head="Block", share=0.8),
+            *say.columns("Link force", Quantity.WEIGHT, share=0.9),
+        ),
+        rows=tuple(Row(cells=_row(scene, found)) for found in scene.assessment.linked),
+        notes=(
+            "Block: the one that goes farthest, counted from the highest. Link force: the largest "
+            "in any link; it stands beside the strength that part 9 asks for.",
+        ),
+        kind="compact",
+    )
+
+
+def _row(scene: Scene, found: LinkedArray) -> tuple[str, ...]:
+    say, mus, farthest = scene.say, found.row.mus, found.farthest
+    return (
+        found.found.array.id,
+        str(len(mus)),
+        " to ".join(number(mu, 3) for mu in sorted({min(mus), max(mus)})),
+        *say.cells(found.links.stiffness_n_per_m, Quantity.STIFFNESS),
+        number(found.links.damping_ratio, 3),
+        *say.cells(found.rigid_prd_m),
+        *say.cells(farthest.prd_m),
+        NO_VALUE if math.isnan(farthest.prd_m) else str(farthest.block),
+        *say.cells(found.link_force_n, Quantity.WEIGHT),
+    )
+
+
+def _design_table(scene: Scene, matters: str) -> Table:
+    say = scene.say
+    linked = scene.assessment.linked
+    ways = sorted({statistic(found.found.analysis.basis) for found in linked})
+    return Table(
+        caption="Whether one rigid block is enough",
+        columns=(
+            Column(head="Array", align="left", share=0.9),
+            *say.columns("Rigid, one axis"),
+            *say.columns("Row, one axis"),
+            Column(head="Ratio r", share=0.9),
+            *say.columns("Design, used"),
+            *say.columns("Design, with links"),
+            Column(head="Verdict", align="center", share=1.0),
+        ),
+        rows=tuple(Row(cells=_design(scene, found)) for found in linked),
+        notes=(
+            f"Rigid and row: {', '.join(ways)} of the motions' PRDs, of the row those of the block "
+            "that goes farthest. OK where the design with links is above the one used by no more "
+            f"than {matters}, whichever is larger, and every run ends at rest.",
+        ),
+        kind="compact",
+    )
+
+
+def _design(scene: Scene, found: LinkedArray) -> tuple[str, ...]:
+    say, estimated = scene.say, found.estimated_m
+    return (
+        found.found.array.id,
+        *say.cells(found.rigid.value_m),
+        *say.cells(found.linked.value_m),
+        _ratio(found.ratio),
+        *say.cells(found.found.design_towards_m(Direction.ANY)),
+        *(("∞", "∞") if math.isinf(estimated) else say.cells(estimated)),
+        verdict(found.is_rigid_enough),
+    )
