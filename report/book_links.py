@@ -129,7 +129,7 @@ def _write_row(
         (6, f"=F{r}*{'C' if is_largest else 'B'}{r}", rigid.value_m / inch),
         (7, f"=F{r}*{'E' if is_largest else 'D'}{r}", linked.value_m / inch),
         (8, ratio, found.ratio),
-        (9, f"=Design!K{d}", design.analysis.value_m / inch),
+        (9, _computed(found, d), found.value_m / inch),
         (10, f"=Design!M{d}", design.floor_m / inch),
         (11, f"=MAX(MAX(1,I{r})*J{r},K{r})", estimated / inch),
         (12, f"=Design!N{d}", design.design_m / inch),
@@ -143,6 +143,12 @@ def _write_row(
         sheet.write_formula(row, 14, f'=IF(L{r}<=M{r}+N{r},"OK","NG")', pages.plain, verdict)
     else:
         sheet.write_string(row, 14, "NG")
+
+
+def _computed(found: LinkedArray, design_row: int) -> str:
+    """Return the value from analysis: a number where it is not that of the design."""
+    is_used = found.value_m == found.found.analysis.value_m
+    return f"=Design!K{design_row}" if is_used else f"={found.value_m / METRES_PER_INCH!r}"
 
 
 def _write(

@@ -13,7 +13,7 @@ from functools import partial
 
 from report.arrays import ArrayAssessment
 from report.runs import nan_is_worst
-from report.sheet.schema import Array, Links
+from report.sheet.schema import Array, Direction, Links
 from solver import ladder, provisions, sliding
 from solver.model import Heading, Motion, SlideResult, Status
 from solver.provisions import AnalysisValue, RuleSet
@@ -107,18 +107,26 @@ class LinkedArray:
         return linked / rigid if rigid != 0.0 else math.nan
 
     @property
+    def value_m(self) -> float:
+        """The value from analysis that links raise [m].
+
+        Where a model is asked for and the one that the motions need gives more, that is it: a floor
+        may hide what the model leaves out, and need not hide it together with links.
+        """
+        return max(self.found.analysis.value_m, self.found.chosen[Direction.ANY].value_m)
+
+    @property
     def estimated_m(self) -> float:
         """Design displacement with links [m], an estimate; NaN without a value.
 
-        The value that the design uses grows by the ratio, where that is above 1; not below the
-        floor.
+        The value from analysis grows by the ratio, where that is above 1; not below the floor.
         """
         ratio, design = self.ratio, self.found
         if math.isnan(ratio) or math.isnan(design.design_m):
             return math.nan
         if math.isinf(ratio):  # also where the design uses 0
             return ratio
-        return max(max(1.0, ratio) * design.analysis.value_m, design.floor_m)
+        return max(max(1.0, ratio) * self.value_m, design.floor_m)
 
     @property
     def is_rigid_enough(self) -> bool:

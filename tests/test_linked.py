@@ -127,6 +127,20 @@ def test_where_the_floor_governs_links_may_change_what_stays_below_it():
     assert done.ok
 
 
+def test_links_raise_the_value_of_the_model_that_the_motions_need():
+    data = stand_in.project(
+        arrays=[stand_in.array("A1", 2.0, mu=0.45, model="one axis")],
+        objects=[],
+        clearances=[],
+        links=[stand_in.links("A1", "0.40, 0.50", 50)],
+        options={"peer_reviewed": True},
+    )
+    (item,) = assess(data, MOTIONS).linked
+    fuller = item.found.chosen["any"].value_m
+    assert fuller > item.found.analysis.value_m
+    assert item.estimated_m == pytest.approx(item.ratio * fuller)
+
+
 def test_what_every_model_minds_is_allowed():
     _, item = assessed("0.40, 0.45, 0.50", 50)
     design = item.found.design_m

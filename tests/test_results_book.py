@@ -57,6 +57,11 @@ CASES = {
         "links": [stand_in.links("A1", "0.40, 0.50", 50), stand_in.links("A3", "0.55, 0.55", 50)],
         "options": {"peer_reviewed": True},
     },
+    "a row beside a model that is asked for": {
+        "arrays": [stand_in.array("A1", 0.5, model="one axis")],
+        "clearances": [],
+        "links": [stand_in.links("A1", "0.40, 0.50", 50)],
+    },
 }
 
 

@@ -117,6 +117,10 @@ def _lines(scene: Scene) -> Sequence[Line]:
             ),
             reference="estimated with links",
             steps=tuple(_step(scene, found) for found in scene.assessment.linked),
+            note="Where a model is asked for, the value from analysis is the larger of its own and "
+            "that of the model that the motions need."
+            if any(found.found.is_model_asked_for for found in scene.assessment.linked)
+            else "",
         ),
     )
 
@@ -125,7 +129,7 @@ def _step(scene: Scene, found: LinkedArray) -> tuple[str, str]:
     say, design = scene.say, found.found
     return (
         f"{design.array.id}: max(max(1, {_ratio(found.ratio)}) × "
-        f"{say.both(design.analysis.value_m)}, {say.both(design.floor_m)})",
+        f"{say.both(found.value_m)}, {say.both(design.floor_m)})",
         _estimated(scene, found),
     )
 
