@@ -24,7 +24,7 @@ LIBRARIES = (
     "jinja2",
     "weasyprint",
 )
-METHOD = "exact, event by event, on straight lines between samples"
+METHOD = "exact in one axis, to a tolerance in two; straight lines between samples"
 _WIDTHS = (8, 27, 33, 8, 40)
 _RECORD_WIDTHS = (10, 12, 9, 10, 10, 64)
 _SECOND_WIDTHS = (10, sum(_RECORD_WIDTHS[1:-1]), 64)

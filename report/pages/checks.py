@@ -36,21 +36,21 @@ def clearance_table(scene: Scene, *, brief: bool) -> Table:
             *say.columns("Displ.", share=0.75),
             Column(head="Of, going", align="left", share=1.55),
             Column(head="Factor" + factor, share=0.85),
-            Column(head="Clause", align="left", share=1.9),
+            Column(head="Clause", align="left", share=2.15),
         )
     )
     return Table(
         caption="Clearances: required and provided separation",
         columns=(
-            Column(head="No.", share=0.55),
-            Column(head="From", align="left", share=1.0),
+            Column(head="No.", share=0.45),
+            Column(head="From", align="left", share=0.9),
             Column(head="To", align="left", share=1.1),
             Column(head="Condition", align="left", share=2.2),
             *more,
             *say.columns("Required", share=0.85),
             *say.columns("Provided", share=0.85),
-            Column(head="D/C", share=0.7),
-            Column(head="Verdict", align="center", share=1.0),
+            Column(head="D/C", share=0.65),
+            Column(head="Verdict", align="center", share=0.95),
         ),
         rows=tuple(
             _clearance_row(scene, count, gap, brief)

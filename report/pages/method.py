@@ -106,7 +106,7 @@ def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
                     number(tenth, 3),
                 ),
             ),
-            note="In the lines below that are of the roof at rest and of the begin of sliding, "
+            note="Below, for the roof at rest and where sliding begins, "
             f"μ = {number(law.mu_static, 3)}.",
         ),
     )
