@@ -231,12 +231,9 @@ def _print_summary(book: InputBook, assessment: Assessment) -> None:
     for item in assessment.arrays:
         if not item.tipping.is_ok:
             click.echo(f"warning: array {item.array.id} begins to tip: part 11 of the package")
-    for linked in assessment.linked:
-        if not linked.is_rigid_enough:
-            name = linked.found.array.id
-            click.echo(
-                f"warning: one rigid block is not enough for array {name}: part 11 of the package"
-            )
+    for name in (one.found.array.id for one in assessment.linked if not one.is_rigid_enough):
+        text = f"one rigid block is not shown to be enough for array {name}"
+        click.echo(f"warning: {text}: part 11 of the package")
     checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]
     for failed in (c for c in checks if not c.ok):
         click.echo(f"warning: outside {failed.provision.clause}: {failed.title}")

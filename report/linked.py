@@ -131,8 +131,13 @@ class LinkedArray:
     @property
     def is_rigid_enough(self) -> bool:
         """Whether links ask for no more room than the design has, by runs that are all final."""
+        return self.is_final and self.is_within
+
+    @property
+    def is_within(self) -> bool:
+        """Whether the estimate is above the design by no more than any model minds."""
         design = self.found.design_m
-        return self.is_final and self.estimated_m <= design + ladder.DEFAULT.bound_m(design)
+        return self.estimated_m <= design + ladder.DEFAULT.bound_m(design)
 
     @property
     def is_final(self) -> bool:

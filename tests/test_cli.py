@@ -11,9 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from pypdf import PdfReader
 
 import report.package
 from report.cli import _steps, main
+from sheets import make
 from solver.model import Friction
 from solver.sliding import checked, in_plane, slide
 
@@ -99,6 +101,21 @@ def test_a_failed_run_leaves_the_older_package(tmp_path):
     assert done.exit_code == 2
     assert "RM3-x.csv" in done.output
     assert [p.read_bytes() for p in out.iterdir()] == [b"older"]
+
+
+def test_an_array_for_which_one_rigid_block_is_not_enough_is_warned_of(tmp_path):
+    row = {"array": "A2", "friction": "0.30, 0.45, 0.60", "stiffness_n_per_m": 1e3}
+    options = {"statistic": "rule set", "peer_reviewed": True}
+    done = run("report", make(tmp_path, links=[row], options=options))
+    assert done.exit_code == 0
+    assert "warning: one rigid block is not shown to be enough for array A2: part 11" in done.output
+    found = json.loads((tmp_path / "out" / "results.json").read_text())
+    assert found["ok"] is found["linked"][0]["rigid_is_enough"] is False
+    assert found["linked"][0]["estimated_m"] > found["linked"][0]["design_m"] > 0.0
+    pdf = PdfReader(tmp_path / "out" / "calc-package.pdf")
+    text = " ".join(" ".join(page.extract_text() for page in pdf.pages).split())
+    assert "Array A2: a row of linked blocks goes" in text
+    assert "Is one rigid block enough?" in text
 
 
 def test_every_step_of_a_report_can_be_handed_to_another_process():

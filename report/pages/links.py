@@ -37,7 +37,7 @@ def link_troubles(scene: Scene) -> Iterator[str]:
     """Yield in words for which arrays one rigid block is not enough, and what would do."""
     for found in scene.assessment.linked:
         yield from _unfinished(found)
-        if found.is_final and not found.is_rigid_enough and not math.isnan(found.estimated_m):
+        if not found.is_within and not math.isnan(found.estimated_m):
             yield f"{_too_far(scene, found)} {_what_would_do(found)}"
 
 

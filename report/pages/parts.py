@@ -304,7 +304,7 @@ class Scene:
 
     def linked_of(self, found: ArrayAssessment) -> Sequence[LinkedArray]:
         """Return an array as a row of linked blocks, where the workbook asks for it."""
-        return [one for one in self.assessment.linked if one.found is found]
+        return [one for one in self.assessment.linked if one.found.array.id == found.array.id]
 
     def gaps_of(self, found: ArrayAssessment) -> Sequence[ClearanceCheck]:
         """Return the clearances that name an array, on either side."""
