@@ -19,6 +19,9 @@ MAX_DEGREE = 8
 MAX_ORDER = 12
 MAX_SAMPLES = 4_000_000
 
+AS_RECORDED = "as recorded"
+"""What is done to a record that nothing is done to, in words."""
+
 # Of the new Nyquist frequency: where the anti-alias low-pass begins.
 _PASSED = 0.8
 # Zeros on either side in which it rings, in new steps; they are taken off again.
@@ -68,7 +71,7 @@ class Processing:
             said.append(f"resampled to {self.dt_s:g} s")
         if self.pad_s > 0.0:
             said.append(f"{self.pad_s:g} s of zeros added at the end")
-        return "; ".join(part for part in said if part) or "as recorded"
+        return "; ".join(part for part in said if part) or AS_RECORDED
 
     def problems(self) -> tuple[str, ...]:
         """What is wrong with it whatever the record, a sentence each."""

@@ -372,6 +372,28 @@ def test_drift_is_marked_from_ten_millimetres_on():
         assert drifts(story) is is_marked
 
 
+def still(given):
+    """The story of a motion that ends where it began, at rest."""
+    found = stand_in.story(given)
+    level = {
+        name: replace(one, final_displacement_m=0.0, final_velocity_mps=0.0)
+        for name, one in found.measures.items()
+    }
+    return replace(found, measures=level)
+
+
+@pytest.mark.parametrize("done", ["as recorded", "high-pass 0.1 Hz"])
+def test_what_was_done_is_one_sentence_where_nothing_was_done_and_a_table_else(monkeypatch, done):
+    monkeypatch.setattr("report.package.html_to_pdf", str.encode)
+    book = stand_in.book(found=few())
+    first, *others = map(still, book.motions)
+    stories = (replace(first, done=done), *others)
+    html = stand_in.package(replace(book, stories=stories)).decode()
+    is_said = "At the end no component moves faster than 0.00 in/s or lies farther than 0.00 in"
+    assert (is_said in html) == (done == "as recorded")
+    assert ("Processing, and what is left" in html) == (done != "as recorded")
+
+
 def test_the_projects_own_spectrum_takes_the_place_of_ac156(said):
     rows = [{"period_s": t, "horizontal_g": a, "vertical_g": a} for t, a in ((0.03, 2), (10, 1))]
     whole = said(stand_in.project(spectrum=rows), few())

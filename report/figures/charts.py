@@ -54,7 +54,7 @@ def spectra(found: Sequence[Spectra]) -> str:
         height = 0.62 + _PANEL_IN[min(len(found), 3)] * len(found)
         figure = Figure(figsize=(WIDTH_IN, height))
         figure.subplots_adjust(
-            left=0.065, right=0.99, top=1 - 0.22 / height, bottom=0.4 / height, hspace=0.2
+            left=0.07, right=0.99, top=1 - 0.22 / height, bottom=0.4 / height, hspace=0.2
         )
         panels = np.atleast_1d(figure.subplots(len(found), 1, sharex=True))
         for axes, part in zip(panels, found, strict=True):
@@ -95,7 +95,7 @@ def _spectrum_axes(axes: Axes, part: Spectra) -> None:
     bare(axes)
 
 
-_PANEL_IN = {1: 2.0, 2: 1.9, 3: 1.32}  # a panel of so many: all stay on the page of the text
+_PANEL_IN = {1: 2.0, 2: 1.9, 3: 1.25}  # a panel of so many: all stay on the page of the text
 _PERIOD_TICKS = (0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 
 

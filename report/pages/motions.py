@@ -19,6 +19,7 @@ from report.sheet.targets import OWN
 from report.spectra import PRINTED_S, Spectra
 from report.units import G_MPS2, number
 from solver.model import Floats, Motion
+from solver.processing import AS_RECORDED
 from solver.provisions import Tail
 
 DRIFT_M = 0.010
@@ -112,6 +113,22 @@ def drift_table(scene: Scene, stories: Sequence[Story]) -> Table:
             "began is marked.",
         ),
         kind="compact",
+    )
+
+
+def drift_sentence(scene: Scene, stories: Sequence[Story]) -> str:
+    """Return the same in words, where every motion is as recorded and none drifts; else nothing."""
+    if any(drifts(story) or story.done != AS_RECORDED for story in stories):
+        return ""
+    unit = scene.say.units()[0]
+    found = [m for story in stories for m in story.measures.values()]
+    speed = max(abs(m.final_velocity_mps) for m in found) / unit.si
+    place = max(abs(m.final_displacement_m) for m in found) / unit.si
+    return (
+        "All motions are run as recorded: nothing is cut, filtered or taken off. At the end no "
+        f"component moves faster than {number(speed, 2)} {unit.symbol}/s or lies farther than "
+        f"{number(place, 2)} {unit.symbol} from where it began: none drifts. Drift in the input "
+        f"would become slip, and is marked from {scene.say.both(DRIFT_M)} on."
     )
 
 
@@ -294,6 +311,7 @@ def page(
     return {
         "table": motion_table(motions, stories),
         "notes": _notes(records),
+        "undisturbed": drift_sentence(scene, stories),
         "drift": drift_table(scene, stories),
         "beyond": [beyond_table(scene, beyond)] if beyond else [],
         "building": building_part(scene, motions, stories) if has_ground(scene) else None,
