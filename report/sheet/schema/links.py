@@ -44,8 +44,8 @@ class Links(Frozen):
         Field(min_length=1, max_length=200),
         Cell(
             "Friction of blocks",
-            "From the highest block down, 2 to 20 coefficients with commas between them. That of "
-            "the array itself lies among them.",
+            "From the highest block down, 2 to 20 coefficients with commas between them, the "
+            "array's own within their range.",
             "0.40, 0.45, 0.50",
         ),
     ]
