@@ -10,7 +10,8 @@ The model, for each unit of mass, in roof axes (down the slope, across it):
 G and N are linear between samples. So is everything on the right but the direction e = v / |v|, and
 v, e and w = |v| follow from each other, coefficient by coefficient:
     v' = G - q e     w' = G . e - q     w e = v                   q = mu N
-The series of v converges up to about w / |v'|, the time that a stop would take.
+The series of v converges up to about w / |v'|, the time that a stop would take. It has axes of its
+own: along the motion or the drive, and across, a quarter turn to the left.
 
 Letters:
     ax, ay, az  acceleration of the plane: horizontal (right), across, vertical (up)      [m/s2]
@@ -20,19 +21,25 @@ Letters:
     vx, vy, w   their rates and the speed                                                 [m/s]
     gx, gy, c   G, and mu N (or N, where a law gives mu)                                  [m/s2]
     hx, hy, d   the same at the end of an interval                                        [m/s2]
-    rx, ry, rc  what they gain in a step                                                  [m/s2]
+    rx, ry, rc  what they gain in a second, or in the unit of a series         [m/s3] or [m/s2]
+    ux, uy      direction of the axis along, a unit vector; ga, gs, ra, rs: G and its gain along and
+                across
     p, q        weights of 1, az and ax in gx and in c; p[3] is that of ay in gy
     span, part  length of the series' unit of time [s]; how much of it a step takes
-    b           series: rows VX, VY, EX, EY, W, Q and E of coefficients of (time / span)^k, and
-                SHARE of 1 / (k + 1)
+    b           series: rows VA and VS of v, EA and ES of e, along and across, W, Q and E (of a law,
+                or of what turns) of coefficients of (time / span)^k; SHARE of 1 / (k + 1)
     law         None, or mu_fast, mu_fast - mu_slow, rate [s/m] and mu_rest (`slide_plane`)
     top         largest distance in plan, its time; largest and least sx; largest and least sy
 """
 
 import math
+from functools import partial
 
 import numpy as np
 from numba import njit
+
+# A number divided by zero is infinite, as in all arithmetic of the processor: no test, no raising.
+jit = partial(njit, error_model="numpy")
 
 # Kinds of event.
 SLIP = 1.0
@@ -40,7 +47,7 @@ STOP = 0.0
 
 ORDER = 20
 CREEP_ORDER = 12
-VX, VY, EX, EY, W, Q, E, SHARE = range(8)
+VA, VS, EA, ES, W, Q, E, SHARE = range(8)
 
 # Samples in a block of `kernels.bounds`.
 SHIFT = 4
@@ -63,7 +70,7 @@ STIFF = 100.0
 """Times that the direction would settle in a step, from which on `_creeping` is worth a try."""
 
 
-@njit
+@jit()
 def _friction(k, b, c, rc, law):
     """Coefficient k of q. With a law mu = mu_fast - drop exp(-rate w), by E' = -rate w' E."""
     if law is None:
@@ -79,102 +86,103 @@ def _friction(k, b, c, rc, law):
         b[Q, k] = -c * b[E, k] + rc * ((law[0] if k == 1 else 0.0) - b[E, k - 1])
 
 
-@njit
-def _advance(k, b, gx, gy, rx, ry, span, law):
+@jit()
+def _advance(k, b, ga, gs, ra, rs, span, law):
     """Coefficient k + 1 of v and w from those of e and q up to k; returns the size of that of v."""
-    fx = fy = push = 0.0
+    along = across = push = 0.0
     for j in range(min(k, 1) + 1 if law is None else k + 1):
-        fx -= b[Q, j] * b[EX, k - j]
-        fy -= b[Q, j] * b[EY, k - j]
+        each, m = b[Q, np.uintp(j)], np.uintp(k - j)
+        along -= each * b[EA, m]
+        across -= each * b[ES, m]
     if k == 0:
-        fx += gx
-        fy += gy
+        along += ga
+        across += gs
     else:
-        push = rx * b[EX, k - 1] + ry * b[EY, k - 1]
+        push = ra * b[EA, k - 1] + rs * b[ES, k - 1]
         if k == 1:
-            fx += rx
-            fy += ry
+            along += ra
+            across += rs
     share = span * b[SHARE, k]
-    b[VX, k + 1] = share * fx
-    b[VY, k + 1] = share * fy
-    b[W, k + 1] = share * (gx * b[EX, k] + gy * b[EY, k] + push - b[Q, k])
-    return abs(b[VX, k + 1]) + abs(b[VY, k + 1])
+    b[VA, k + 1] = share * along
+    b[VS, k + 1] = share * across
+    b[W, k + 1] = share * (ga * b[EA, k] + gs * b[ES, k] + push - b[Q, k])
+    return abs(b[VA, k + 1]) + abs(b[VS, k + 1])
 
 
-@njit
+@jit()
 def _part(order, before, last, tol):
     """How much of the span a series may take for its last two terms to be below tol."""
-    part = 1.0
-    if last > tol:
-        part = (tol / last) ** (1.0 / order)
-    if before > tol:
-        part = min(part, (tol / before) ** (1.0 / (order - 1)))
-    return part
+    size = max(before, last)
+    return 1.0 if size <= tol else math.exp(math.log(tol / size) / (order - 1))
 
 
-@njit
-def _left_out(order, part, last, ratio):
-    """Six times the size of the terms that a series leaves out, each `ratio` of the one before."""
+@jit()
+def _left_out(part, before, last, ratio, tol):
+    """Six times the size of the terms that a series leaves out, each `ratio` of the one before.
+
+    A series that was cut for it has its last two terms at tol.
+    """
     ratio = min(ratio, 0.9)
-    size = 6.0 * last * ratio / (1.0 - ratio)
-    for _ in range(order if part < 1.0 else 0):
-        size *= part
-    return size
+    size = tol if part < 1.0 else max(before * ratio, last)
+    return 6.0 * size * ratio / (1.0 - ratio)
 
 
-@njit
-def _sliding(w, vx, vy, gx, gy, rx, ry, c, rc, span, tol, most, law, b):
-    """Series of a sliding block, v != 0; without friction, e = 0 serves.
+@jit()
+def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, law, b):
+    """Series of a sliding block, along and across its motion; without friction, w = 0 serves.
 
-    The sums are written for the processor not to wait: what is older comes first.
+    Without a law a coefficient of e needs but one product of the one before: the processor does
+    not wait for the rest of the sums.
     Returns the degree, how much of the span it is good for, and its error in v there.
     """
     inverse = 1.0 / w if c > 0.0 or rc > 0.0 else 0.0
-    ex, ey, x, y = vx * inverse, vy * inverse, 0.0, 0.0
-    b[VX, 0], b[VY, 0], b[W, 0], b[EX, 0], b[EY, 0] = vx, vy, w, ex, ey
-    kx, ky, q, first, ux, uy = gx, gy, c, 0.0, 0.0, 0.0
-    before = last = np.inf
+    b[VA, 0], b[VS, 0], b[W, 0], b[EA, 0], b[ES, 0] = w, 0.0, w, 1.0, 0.0
+    _friction(0, b, c, rc, law)
+    _advance(0, b, ga, gs, ra, rs, span, law)
+    slows = inverse * b[W, 1]
+    ea, es, ea_before, es_before = 0.0, inverse * b[VS, 1], 0.0, 0.0
+    b[EA, 1], b[ES, 1] = ea, es
+    # What e = (1, 0) adds along is in here, so that it is no part of ea_before.
+    kick, turn = ra - rc, rs
+    before, last = np.inf, abs(b[VA, 1]) + abs(b[VS, 1])
     order = most
-    for k in range(most):
-        share = span * b[SHARE, k]
+    for k in range(1, most):
+        n, share = np.uintp(k + 1), span * b[SHARE, np.uintp(k)]
+        older = side = 0.0
+        for j in range(2, k + 1):
+            each, m = b[W, np.uintp(j)], np.uintp(k + 1 - j)
+            older += each * b[EA, m]
+            side += each * b[ES, m]
         if law is None:
-            vx = share * (kx - rc * x) - share * c * ex
-            vy = share * (ky - rc * y) - share * c * ey
+            along = share * (kick - (c * ea + rc * ea_before))
+            across = share * (turn - (c * es + rc * es_before))
+            w = share * (ga * ea + gs * es) + share * (kick + (ra * ea_before + rs * es_before))
+            b[VA, n], b[VS, n], b[W, n] = along, across, w
+            part = share * inverse
+            older = inverse * older + part * ((rc + ra) * ea_before + rs * es_before)
+            side = inverse * side + part * (rc * es_before - turn)
+            ea_before, es_before = ea, es
+            ea = -(ea * (part * (c + ga) + slows) + (part * gs * es + older))
+            es = -(es * (part * c + slows) + side)
+            kick = turn = 0.0
+            before, last = last, abs(along) + abs(across)
         else:
             _friction(k, b, c, rc, law)
-            q, vx, vy = b[Q, k], kx, ky
-            for j in range(k + 1):
-                vx -= b[Q, j] * b[EX, k - j]
-                vy -= b[Q, j] * b[EY, k - j]
-            vx, vy = share * vx, share * vy
-        w = share * (rx * x + ry * y - q) + (share * gx * ex + share * gy * ey)
-        b[VX, k + 1], b[VY, k + 1], b[W, k + 1] = vx, vy, w
-        before, last = last, abs(vx) + abs(vy)
+            before, last = last, _advance(k, b, ga, gs, ra, rs, span, law)
+            ea = inverse * (b[VA, n] - b[W, n] - older) - slows * ea
+            es = inverse * (b[VS, n] - side) - slows * es
+        b[EA, n], b[ES, n] = ea, es
         if last <= tol and before <= tol and k > 1:
             order = k + 1
             break
-        older = side = 0.0
-        for j in range(2, k + 1):
-            older += b[W, j] * b[EX, k + 1 - j]
-            side += b[W, j] * b[EY, k + 1 - j]
-        x, y = ex, ey
-        if k == 0:
-            first, ux, uy = w, ex * inverse, ey * inverse
-            ex, ey = (vx - w * x) * inverse, (vy - w * y) * inverse
-            kx, ky, q = rx, ry, rc
-        else:
-            ex = (vx - older - first * x) * inverse - w * ux
-            ey = (vy - side - first * y) * inverse - w * uy
-            kx = ky = q = 0.0
-        b[EX, k + 1], b[EY, k + 1] = ex, ey
     part = _part(order, before, last, tol)
-    ratio = part * (abs(b[VX, 1]) + abs(b[VY, 1])) * inverse
-    return order, part, _left_out(order, part, max(last, part * before), ratio)
+    ratio = part * (abs(b[VA, 1]) + abs(b[VS, 1])) * inverse
+    return order, part, _left_out(part, before, last, ratio, tol)
 
 
-@njit
-def _creeping(w, gx, gy, rx, ry, c, rc, span, tol, most, law, b):
-    """Series of a slow slip, w >= 0, whose direction has settled near that of G.
+@jit()
+def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, law, b):
+    """Series, along and across G, of a slow slip, w >= 0, whose direction has settled near G's.
 
     A slow block turns into the direction of G within about w / G, far less than a step. What is
     left is the series that solves (w e)' + q e = G across G0 for the coefficient of q e instead of
@@ -182,156 +190,180 @@ def _creeping(w, gx, gy, rx, ry, c, rc, span, tol, most, law, b):
     converges after a jump of G and is asymptotic (its terms fall at first) at an onset. For w > 0
     the next coefficient of e comes in, small; it is taken from the sweep before.
 
-    Returns as `_sliding`; 0 of the span where the sweeps do not settle.
+    Returns as `_sliding`; 0 of the span where the sweeps do not settle, or vs is not yet the
+    series' by more than tol.
     """
-    g = math.sqrt(gx * gx + gy * gy)
-    ux, uy = gx / g, gy / g
-    rp, rn = rx * ux + ry * uy, ry * ux - rx * uy
     for k in range(most + 2):
-        b[EY, k] = b[W, k] = 0.0
-    b[EX, 0], b[W, 0] = 1.0, w
+        b[ES, k] = b[W, k] = 0.0
+    b[EA, 0], b[W, 0] = 1.0, w
     before = last = change = np.inf
-    order, part, left_out, top = most, 0.0, 0.0, 1 if law is None else most
+    order, top = most, 1 if law is None else most
     for _ in range(SWEEPS):
         change_before, change, first = change, 0.0, 0.0
         for k in range(order):
             _friction(k, b, c, rc, law)
             if k == 0:
-                first = span * (g * b[EX, 0] - b[Q, 0])
+                first = span * (g * b[EA, 0] - b[Q, 0])
                 if w == 0.0:
                     first = max(first, 0.0)  # at an onset: what is left is rounding
-            side = span * rn if k == 1 else 0.0
+            side = span * rs if k == 1 else 0.0
             for j in range(1, min(k, top) + 1):
-                side -= span * b[Q, j] * b[EY, k - j]
-            turned = w * b[EY, k + 1]
+                side -= span * b[Q, j] * b[ES, k - j]
+            turned = w * b[ES, k + 1]
             for j in range(2, k + 2):
-                turned += b[W, j] * b[EY, k + 1 - j]
+                turned += b[W, np.uintp(j)] * b[ES, np.uintp(k + 1 - j)]
             settles = (k + 1) * first + span * b[Q, 0]
             if not settles > 0.0:
                 return order, 0.0, 0.0
-            ey = (side - (k + 1) * turned) / settles
-            change = max(change, abs(ey - b[EY, k]))
-            b[EY, k] = ey
+            es = (side - (k + 1) * turned) / settles
+            change = max(change, abs(es - b[ES, k]))
+            b[ES, k] = es
             if k == 0:
-                b[EX, 0] = math.sqrt(max(1.0 - ey * ey, 0.25))
+                b[EA, 0] = math.sqrt(max(1.0 - es * es, 0.25))
             else:
-                total = ey * b[EY, 0]
+                total = es * b[ES, 0]
                 for j in range(1, k):
-                    total += 0.5 * (b[EX, j] * b[EX, k - j] + b[EY, j] * b[EY, k - j])
-                b[EX, k] = -total / b[EX, 0]
+                    m, n = np.uintp(j), np.uintp(k - j)
+                    total += 0.5 * (b[EA, m] * b[EA, n] + b[ES, m] * b[ES, n])
+                b[EA, k] = -total / b[EA, 0]
             before = last
-            last = _advance(k, b, g, 0.0, rp, rn, span, law)
+            last = _advance(k, b, g, 0.0, ra, rs, span, law)
             if k == 0 and w == 0.0:
-                b[W, 1] = b[VX, 1] = first
+                b[W, 1] = b[VA, 1] = first
             if order == most and last <= tol and before <= tol and k > 1:
                 order = k + 1
                 break
+        b[VA, 0], b[VS, 0], off = w * b[EA, 0], w * b[ES, 0], 0.0
+        if w > 0.0:
+            # Until it turns, within w / q, the block goes astray by the difference.
+            off = abs(vs - b[VS, 0])
+            off *= w / (b[Q, 0] * span) + off / w
         if w == 0.0 or change * (w + abs(b[W, 1])) <= 0.1 * tol:
             part = _part(order, before, last, tol)
             ratio = part * last / before if before > 0.0 else 0.0
-            left_out = _left_out(order, part, max(last, part * before), ratio)
+            off /= part
+            miss = _left_out(part, before, last, ratio, tol) + off
+            return order, part if off <= tol else 0.0, miss
+        if change > 0.5 * change_before or off > 10.0 * tol + 4.0 * w * change:
             break
-        if change > 0.5 * change_before:
-            break
-    b[VX, 0], b[VY, 0] = w * b[EX, 0], w * b[EY, 0]
-    for k in range(order + 1):
-        along = b[VX, k]
-        b[VX, k] = along * ux - b[VY, k] * uy
-        b[VY, k] = along * uy + b[VY, k] * ux
-    return order, part, left_out
+    return order, 0.0, 0.0
 
 
-@njit
+@jit()
 def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
     """The series of a step and its unit of time: a creeping one where that serves; rates in 1/s.
 
-    Returns its degree, how much of its unit it is good for, that unit, and its error in v.
+    Returns its degree, how much of its unit it is good for, that unit, its error in v, and the
+    direction of its axis along.
     """
-    hard = slow * c
+    hard, g = slow * c, math.sqrt(gx * gx + gy * gy)
     if (w == 0.0 and (c > 0.0 or rc > 0.0)) or (
-        w > 0.0
-        and hard * left > STIFF * w
-        and gx * vx + gy * vy > 0.9 * w * math.sqrt(gx * gx + gy * gy)
+        w > 0.0 and hard * left > STIFF * w and gx * vx + gy * vy > 0.9 * w * g
     ):
+        ux, uy = gx / g, gy / g
+        ra, rs = left * (rx * ux + ry * uy), left * (ry * ux - rx * uy)
         few = min(most, CREEP_ORDER)
         order, part, miss = _creeping(
-            w, gx, gy, rx * left, ry * left, c, rc * left, left, tol, few, law, b
+            w, vy * ux - vx * uy, g, ra, rs, c, rc * left, left, tol, few, law, b
         )
-        if w > 0.0 and part > 0.0:
-            # Until it turns, within w / (mu N), the block goes astray by the difference.
-            off = math.sqrt((vx - b[VX, 0]) ** 2 + (vy - b[VY, 0]) ** 2)
-            off *= w / (hard * part * left) + off / w
-            part, miss = part if off <= tol else 0.0, miss + off
         if part > 0.0:
-            return order, part, left, miss
-    span = left
-    if w > 0.0 and hard > 0.0:
-        ax, ay = gx - hard * vx / w, gy - hard * vy / w
-        square = max(ax * ax + ay * ay, 0.04 * hard * hard)
-        if square * left * left > 4.0 * w * w:
-            span = 2.0 * w / math.sqrt(square)
-    order, part, miss = _sliding(
-        w, vx, vy, gx, gy, rx * span, ry * span, c, rc * span, span, tol, most, law, b
-    )
-    return order, part, span, miss
+            return order, part, left, miss, ux, uy
+    ux, uy = (vx / w, vy / w) if w > 0.0 else (1.0, 0.0)
+    ga, gs = gx * ux + gy * uy, gy * ux - gx * uy
+    span, square = left, max((ga - hard) * (ga - hard) + gs * gs, 0.04 * hard * hard)
+    if hard > 0.0 and square * left * left > 4.0 * w * w:
+        span = 2.0 * w / math.sqrt(square)
+    ra, rs = span * (rx * ux + ry * uy), span * (ry * ux - rx * uy)
+    order, part, miss = _sliding(w, ga, gs, ra, rs, c, rc * span, span, tol, most, law, b)
+    return order, part, span, miss, ux, uy
 
 
-@njit
-def _value(b, first, order, part):
-    """The sum of b[E, k] part^(k - first) from `first` on, and its slope."""
-    total, slope = b[E, order], 0.0
+@jit()
+def _scale(b, order, part):
+    """Make the part of its unit that a series takes its unit.
+
+    Returns what v gains until then, along and across, its mean gain, and how far it may stray.
+    """
+    power = 1.0
+    along = across = way = aside = moved = 0.0
+    for k in range(1, order + 1):
+        n = np.uintp(k)
+        power *= part
+        va, vs, share = power * b[VA, n], power * b[VS, n], b[SHARE, n]
+        b[VA, n], b[VS, n], b[W, n] = va, vs, power * b[W, n]
+        along, across = along + va, across + vs
+        way, aside = way + share * va, aside + share * vs
+        moved += abs(va) + abs(vs)
+    return along, across, way, aside, moved
+
+
+@jit()
+def _place(b, order, at):
+    """What v gains until a time, along and across, and its mean gain."""
+    along = across = way = aside = 0.0
+    for k in range(order, 0, -1):
+        n = np.uintp(k)
+        along, across = (along + b[VA, n]) * at, (across + b[VS, n]) * at
+        way = (way + b[VA, n] * b[SHARE, n]) * at
+        aside = (aside + b[VS, n] * b[SHARE, n]) * at
+    return along, across, way, aside
+
+
+@jit()
+def _value(b, row, first, order, at):
+    """The sum of b[row, k] at^(k - first) from `first` on, and its slope."""
+    total, slope = b[row, order], 0.0
     for k in range(order - 1, first - 1, -1):
-        slope = slope * part + total
-        total = total * part + b[E, k]
+        slope = slope * at + total
+        total = total * at + b[row, np.uintp(k)]
     return total, slope
 
 
-@njit
-def _place(b, order, part, span):
-    """The way in a part of a step, and v there."""
-    way = aside = vx = vy = 0.0
-    for k in range(order, -1, -1):
-        vx, vy = vx * part + b[VX, k], vy * part + b[VY, k]
-        way = way * part + b[VX, k] * b[SHARE, k]
-        aside = aside * part + b[VY, k] * b[SHARE, k]
-    return way * part * span, aside * part * span, vx, vy
-
-
-@njit
-def _keeps_sign(b, first, order, part):
-    """Whether no terms of a series together could outweigh its first."""
-    sign, least, power = (1.0 if b[E, first] > 0.0 else -1.0), abs(b[E, first]), 1.0
+@jit()
+def _zeros(b, row, first, order):
+    """How often a series may change sign up to 1: 0, 1 or, for all that is known, 2 times."""
+    lead, rise = b[row, first], b[row, first + 1]
+    sign, way = (1.0 if lead > 0.0 else -1.0), (1.0 if rise > 0.0 else -1.0)
+    least, steady, end = abs(lead), abs(rise), lead
     for k in range(first + 1, order + 1):
-        power *= part
-        least += min(sign * b[E, k] * power, 0.0)
-    return least > 0.0
+        each = b[row, np.uintp(k)]
+        end += each
+        least += min(sign * each, 0.0)
+        if k > first + 1:
+            steady += (k - first) * min(way * each, 0.0)
+    if least > 0.0 or (steady > 0.0 and (end > 0.0) == (lead > 0.0)):
+        return 0
+    return 1 if steady > 0.0 else 2
 
 
-@njit
-def _zero(b, order, begin, part):
-    """Where the series in row E changes sign after `begin` for the first time, or -1: up to `part`.
+@jit()
+def _zero(b, row, order, begin):
+    """Where the series in a row changes sign after `begin` for the first time, or -1: up to 1.
 
-    It is looked at in some places, close together at both ends; between two from which it falls to
-    both sides towards zero, at its least. The root is found by the Illinois method.
+    Unless its terms show that it does once at most, it is looked at in some places, close together
+    at both ends; between two from which it falls to both sides towards zero, at its least. The
+    root is found by the Illinois method.
     """
     first, side = 0, 0
-    while first < 2 and b[E, first] == 0.0:
+    while first < 2 and b[row, first] == 0.0:
         first += 1
-    if begin == 0.0 and _keeps_sign(b, first, order, part):
+    most = _zeros(b, row, first, order)
+    if most == 0 or (most == 1 and begin > 0.0):
         return -1.0
     low = high = begin
-    at_high, slope = _value(b, first, order, begin)
+    at_high, slope = _value(b, row, first, order, begin)
     at_low, up = at_high, at_high > 0.0
-    for m in range(1, SCAN + 1):
-        x = m / SCAN
+    places = SCAN if most > 1 else 1
+    for m in range(1, places + 1):
+        x = m / places
         low, at_low, falls = high, at_high, (slope < 0.0) == up
-        high = begin + (part - begin) * (x * x * (3.0 - 2.0 * x))
-        at_high, slope = _value(b, first, order, high)
+        high = begin + (1.0 - begin) * (x * x * (3.0 - 2.0 * x))
+        at_high, slope = _value(b, row, first, order, high)
         if (at_high > 0.0) == up and falls and (slope > 0.0) == up:
             left, right, there = low, high, at_high
-            while (there > 0.0) == up and right - left > 1e-12 * part:
+            while (there > 0.0) == up and right - left > 1e-12:
                 at = 0.5 * (left + right)
-                there, tilt = _value(b, first, order, at)
+                there, tilt = _value(b, row, first, order, at)
                 if (tilt > 0.0) == up:
                     right = at
                 else:
@@ -343,12 +375,12 @@ def _zero(b, order, begin, part):
     if (at_high > 0.0) == up:
         return -1.0
     for _ in range(60):
-        if not (high - low > 1e-13 * high and at_low != at_high):
+        if not (high - low > 1e-13 * high) or at_high == 0.0:
             break
         at = (low * at_high - high * at_low) / (at_high - at_low)
-        found, _ = _value(b, first, order, at)
+        found, _ = _value(b, row, first, order, at)
         # The end that stays counts half from its second time on.
-        if (found > 0.0) == (at_high > 0.0):
+        if found * at_high >= 0.0:
             at_low *= 0.5 if side == 1 else 1.0
             high, at_high, side = at, found, 1
         else:
@@ -357,7 +389,7 @@ def _zero(b, order, begin, part):
     return high
 
 
-@njit
+@jit()
 def _close(vx, vy, gx, gy, rx, ry, c, rc):
     """The rest of the way to a stop if G and q stayed as they are; rates for each second.
 
@@ -381,7 +413,7 @@ def _close(vx, vy, gx, gy, rx, ry, c, rc):
     return time, lag * vx + pull * gx, lag * vy + pull * gy, change * w * time
 
 
-@njit
+@jit()
 def _see(sx, sy, t, cs, top):
     """Look at one place of the block."""
     square = cs * cs * sx * sx + sy * sy
@@ -391,55 +423,89 @@ def _see(sx, sy, t, cs, top):
     top[4], top[5] = max(top[4], sy), min(top[5], sy)
 
 
-@njit
-def _stays(b, order, part, along, across, extra):
-    """Whether (along, across) . v keeps its sign in a step, even if `extra` goes against it."""
-    least, power = along * b[VX, 0] + across * b[VY, 0], 1.0
-    sign = 1.0 if least > 0.0 else -1.0
-    least = abs(least) - extra
-    for k in range(1, order + 1):
-        power *= part
-        least += min(sign * (along * b[VX, k] + across * b[VY, k]) * power, 0.0)
-    return least > 0.0
+@jit()
+def _look(b, order, ux, uy, cs, sx, sy, way, aside, vx, vy, w, moved, h, t, top):
+    """Look at the places inside a step where an extreme may be; (vx, vy) is v at its end."""
+    reach = h * (w + moved)
+    for side in range(2):
+        place = sx if side == 0 else sy
+        along, across = (ux, -uy) if side == 0 else (uy, ux)
+        far, near = place + reach > top[2 + 2 * side], place - reach < top[3 + 2 * side]
+        if (far or near) and abs(along * b[VA, 0] + across * b[VS, 0]) <= moved:
+            for k in range(order + 1):
+                b[E, k] = along * b[VA, k] + across * b[VS, k]
+            _see_zeros(b, order, order, ux, uy, cs, sx, sy, h, t, top)
+    # The rate of the distance is u . v with u = (cs^2 sx, sy), which gains up to `reach`.
+    away = math.sqrt(cs * cs * sx * sx + sy * sy)
+    if away + reach > top[0]:
+        along, across = cs * cs * sx * ux + sy * uy, sy * ux - cs * cs * sx * uy
+        end = cs * cs * (sx + way) * vx + (sy + aside) * vy
+        if _returns(b, order, along, across, end, away, w, moved, reach, h):
+            _rate(b, order, along, across, ux, uy, cs, h)
+            _see_zeros(b, order, order + 1, ux, uy, cs, sx, sy, h, t, top)
 
 
-@njit
-def _look(b, order, part, cs, sx, sy, far, w, moved, span, t, top):
-    """Look at the places inside a step where an extreme may be: none matters out of reach."""
-    scale, fast = cs * cs, w + moved
-    reach = span * part * fast
-    for kind in range(3):
-        extra = 0.0
-        if kind == 0:
-            # u . v in plan, whose sign is that of the rate of the distance. What u gains in a step
-            # that turns by less than 90 deg cannot bring it back.
-            along, across = scale * sx, sy
-            matters = far + reach > top[0]
-            if moved >= w or along * b[VX, 0] + across * b[VY, 0] < 0.0:
-                extra = reach * fast
-        elif kind == 1:
-            along, across = 1.0, 0.0
-            matters = sx + reach > top[2] or sx - reach < top[3]
-        else:
-            along, across = 0.0, 1.0
-            matters = sy + reach > top[4] or sy - reach < top[5]
-        if not matters or _stays(b, order, part, along, across, extra):
-            continue
-        # The place is a degree above v, so the product of both is of twice that and one.
-        degree = 2 * order + 1 if kind == 0 else order
-        for k in range(degree + 1):
-            b[E, k] = along * b[VX, k] + across * b[VY, k] if k <= order else 0.0
-            for j in range(max(k - 1 - order, 0), min(order + 1, k) if kind == 0 else 0):
-                each = scale * b[VX, j] * b[VX, k - 1 - j] + b[VY, j] * b[VY, k - 1 - j]
-                b[E, k] += span * b[SHARE, j] * each
-        at = _zero(b, degree, 0.0, part)
-        while at > 0.0:
-            way, aside, _, _ = _place(b, order, at, span)
-            _see(sx + way, sy + aside, t + span * at, cs, top)
-            at = _zero(b, degree, at, part)
+@jit()
+def _returns(b, order, along, across, end, away, w, moved, reach, h):
+    """Whether the block may be farther from its start inside a step than at both ends."""
+    # What u gains in a step that turns by less than 90 deg cannot bring the block back.
+    first = 0 if w > 0.0 else 1
+    lead = along * b[VA, first] + across * b[VS, first]
+    turns = moved > 0.7 * w if w > 0.0 else moved > 1.5 * (abs(b[VA, 1]) + abs(b[VS, 1]))
+    extra = reach * (w + moved) if turns or lead < 0.0 else 0.0
+    if w > 0.0 and abs(lead) > away * moved + extra:
+        return False
+    rise = along * b[VA, 1] + across * b[VS, 1]
+    sign, way = (1.0 if lead > 0.0 else -1.0), (1.0 if rise > 0.0 else -1.0)
+    least, steady, swing = abs(lead), abs(rise), abs(b[VA, 1]) + abs(b[VS, 1])
+    for k in range(first + 1, order + 1):
+        va, vs = b[VA, np.uintp(k)], b[VS, np.uintp(k)]
+        each = along * va + across * vs
+        least += min(sign * each, 0.0)
+        if k > 1:
+            steady += k * min(way * each, 0.0)
+            swing += k * (abs(va) + abs(vs))
+    if least >= extra:
+        return False
+    # A rate that only grows has no largest distance; one that only falls has, if it changes sign.
+    if rise > 0.0:
+        return steady <= reach * swing
+    falls = steady > reach * swing + h * (w + moved) * (w + moved)
+    return not falls or lead > 0.0 > end
 
 
-@njit
+@jit()
+def _rate(b, order, along, across, ux, uy, cs, h):
+    """Write u . v into row E, up to a degree above v as u is: what is left out is as small there.
+
+    Rows EA and ES are used up.
+    """
+    one, two = cs * cs * ux * ux + uy * uy, cs * cs * uy * uy + ux * ux
+    both = (1.0 - cs * cs) * ux * uy
+    for k in range(order + 1):
+        b[EA, k] = h * (one * b[VA, k] + both * b[VS, k])
+        b[ES, k] = h * (both * b[VA, k] + two * b[VS, k])
+        b[E, k] = along * b[VA, k] + across * b[VS, k]
+    b[E, order + 1] = 0.0
+    for k in range(1, order + 2):
+        total = 0.0
+        for j in range(k):
+            total += b[SHARE, j] * (b[VA, j] * b[EA, k - 1 - j] + b[VS, j] * b[ES, k - 1 - j])
+        b[E, k] += total
+
+
+@jit()
+def _see_zeros(b, order, degree, ux, uy, cs, sx, sy, h, t, top):
+    """Look at the places where the series in row E changes sign."""
+    before, at = 0.0, _zero(b, E, degree, 0.0)
+    while at > before:
+        _, _, way, aside = _place(b, order, at)
+        way, aside = h * at * (b[VA, 0] + way), h * at * (b[VS, 0] + aside)
+        _see(sx + way * ux - aside * uy, sy + way * uy + aside * ux, t + h * at, cs, top)
+        before, at = at, _zero(b, E, degree, at)
+
+
+@jit()
 def _hides(sx, sy, vx, vy, gx, gy, cs, reach, top):
     """Whether an extreme may be on the way to a stop, while v turns into the direction of G."""
     scale = cs * cs
@@ -451,7 +517,7 @@ def _hides(sx, sy, vx, vy, gx, gy, cs, reach, top):
     )
 
 
-@njit
+@jit()
 def _sample(ax, ay, az, i, p, q):
     """G and c at sample i."""
     if az is None:
@@ -459,7 +525,7 @@ def _sample(ax, ay, az, i, p, q):
     return p[0] + p[1] * az[i] - p[2] * ax[i], p[3] * ay[i], q[0] + q[1] * az[i] + q[2] * ax[i]
 
 
-@njit
+@jit()
 def _is_quiet(x, y, z, block, p, q, hold):
     """Whether no sample of a block of them can push a resting block over.
 
@@ -478,7 +544,7 @@ def _is_quiet(x, y, z, block, p, q, hold):
     return least >= 0.0 and ahead * ahead + aside * aside <= least * least
 
 
-@njit
+@jit()
 def _next_push(ax, ay, az, x, y, z, i, p, q, hold):
     """First sample from i on that pushes a resting block over, or n."""
     n = ax.size
@@ -495,7 +561,7 @@ def _next_push(ax, ay, az, x, y, z, i, p, q, hold):
     return n
 
 
-@njit
+@jit()
 def _onset(gx, gy, c, hx, hy, d):
     """When, of an interval from 0 to 1, |G| first exceeds c; 0 at once, 2 for never.
 
@@ -514,7 +580,7 @@ def _onset(gx, gy, c, hx, hy, d):
     return min(-push / (half + root) if half > 0.0 else (root - half) / square, 1.0)
 
 
-@njit
+@jit()
 def _note(events, n, t, kind, sx, sy):
     """Write event n, where there is room, and return how many there are."""
     if n < events.shape[0]:
@@ -522,14 +588,14 @@ def _note(events, n, t, kind, sx, sy):
     return n + 1
 
 
-@njit
+@jit()
 def _fill(history, i, end, sx, sy, vx, vy):
     """Write samples i to end - 1."""
     for k in range(i, min(end, history.shape[1])):
         history[0, k], history[1, k], history[2, k], history[3, k] = sx, sy, vx, vy
 
 
-@njit(cache=True, nogil=True)
+@jit(cache=True, nogil=True)
 def slide_plane(
     ax, ay, az, x, y, z, dt, sn, cs, mu, g, scale, tolerance, most, law, events, history, top, end
 ):
@@ -576,7 +642,7 @@ def slide_plane(
     slow = 1.0 if law is None else law[0] - law[1]
     grows = 0.0 if law is None else max(-law[1] * law[2], 0.0)
     tolerance = max(tolerance, LEAST_TOLERANCE)
-    b = np.empty((8, 2 * ORDER + 2))
+    b = np.empty((8, ORDER + 2))
     for k in range(ORDER + 2):
         b[SHARE, k] = 1.0 / (k + 1)
     for k in range(6):
@@ -626,46 +692,43 @@ def slide_plane(
                 )
                 fastest = max(fastest, 0.5 * left * h)
             fastest = max(fastest, w)
-            away = math.sqrt(cs * cs * sx * sx + sy * sy)
-            far = max(top[0], away)
+            far = max(top[0], math.sqrt(cs * cs * sx * sx + sy * sy))
             # What is wrong with v counts as long as the slip lasts: about as long as it has so far.
             late = (t - since) * fastest
             tol = tolerance * fastest * (far / (far + late) if far + late > 0.0 else 1.0)
-            order, part, span, miss = _series(
+            order, part, span, miss, ux, uy = _series(
                 w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b
             )
-            moved = 0.0
-            for k in range(1, order + 1):
-                moved += abs(b[VX, k]) + abs(b[VY, k])
-            moved *= part
-            stop = -1.0
-            if moved >= w and not free:
-                for k in range(order + 1):
-                    b[E, k] = b[W, k]
-                stop = _zero(b, order, 0.0, part)
+            along, across, way, aside, moved = _scale(b, order, part)
+            stop = _zero(b, W, order, 0.0) if moved >= w and not free else -1.0
             if part < 1.0 and stop < 0.0 and w > 0.0:
-                rest, way, aside, astray = _close(vx, vy, gx, gy, rx, ry, slow * c, slow * rc)
+                rest, back, sides, astray = _close(vx, vy, gx, gy, rx, ry, slow * c, slow * rc)
                 slack = CLOSE * tolerance * far
                 if (
                     rest < left
                     and astray <= slack
                     and (w * rest <= slack or not _hides(sx, sy, vx, vy, gx, gy, cs, w * rest, top))
                 ):
-                    tau, sx, sy = tau + rest, sx + way, sy + aside
+                    tau, sx, sy = tau + rest, sx + back, sy + sides
                     error += astray + off * rest
                     vx, vy, moving = 0.0, 0.0, False
                     n_stops += 1
                     n_events = _note(events, n_events, i * dt + tau, STOP, sx, sy)
                     _see(sx, sy, i * dt + tau, cs, top)
                     continue
-            part = stop if stop >= 0.0 else part
+            if stop >= 0.0:
+                along, across, way, aside, moved = _scale(b, order, stop)
+                part *= stop
             h = span * part
-            off += miss + ROUNDING * (abs(gx) + abs(gy) + hold * c) * h
+            off += miss + ROUNDING * ((abs(gx) + abs(gy) + hold * c) * h + w)
             if grows > 0.0:
                 off *= math.exp(grows * c * h)
             error += off * h
-            way, aside, vx, vy = _place(b, order, part, span)
-            _look(b, order, part, cs, sx, sy, away, w, moved, span, t, top)
+            way, aside = h * (b[VA, 0] + way), h * (b[VS, 0] + aside)
+            along, across = b[VA, 0] + along, b[VS, 0] + across
+            vx, vy = along * ux - across * uy, along * uy + across * ux
+            way, aside = way * ux - aside * uy, way * uy + aside * ux
+            _look(b, order, ux, uy, cs, sx, sy, way, aside, vx, vy, w, moved, h, t, top)
             sx, sy = sx + way, sy + aside
             _see(sx, sy, t + h, cs, top)
             # Where the step is lost in rounding, time must pass all the same.
