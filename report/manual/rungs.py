@@ -86,7 +86,7 @@ def _scenes(study: RungStudy) -> str:
     kinds = [f"{made} made motion{'s' if made > 1 else ''}"] if made else []
     kinds += [f"{study.n_recorded} recorded in earthquakes"] if study.n_recorded else []
     words = (
-        f"{study.n_runs} runs: {joined(kinds)} ({joined(study.motions)}), each on slopes of "
+        f"{study.n_runs} runs: {joined(kinds)} (named in section 2), each on slopes of "
         f"{_list(study.slopes_deg)}° with μ = {_list(study.mus)} at a PPA of "
         f"{_list(study.ppas_g)} g, the larger horizontal component having that peak and all "
         "components one factor; each horizontal component along the slope in both senses. "

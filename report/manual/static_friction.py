@@ -33,8 +33,9 @@ _TELLING = 1e-3
 def effect(study: RungStudy) -> str:
     """Say what it does to the PRD, beside the other rungs."""
     words = (
-        f"Static above kinetic friction: μ is that in motion, {1.0 / study.slow_share:.4g} times "
-        "it holds the block until it slips and whenever it has stopped. "
+        "Static above kinetic friction: μ is that in motion, and "
+        f"{1.0 / study.slow_share:.4g} μ holds the block until it slips and whenever it has "
+        "stopped. "
     )
     one, two, static = (study.named(name) for name in (HELD_ONE, HELD, OVER_STATIC))
     if not (one.ratios.size and two.ratios.size and static.ratios.size):
