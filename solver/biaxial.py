@@ -66,7 +66,7 @@ SWEEPS = 12
 SCAN = 8
 """Places of a series at which its sign is looked at."""
 
-STIFF = 100.0
+STIFF = 300.0
 """Times that the direction would settle in a step, from which on `_creeping` is worth a try."""
 
 
