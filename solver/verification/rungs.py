@@ -237,13 +237,13 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
     alone = triple.scene(case, coulomb(case.mu), second=False)
     for excess in (1e-2, 1e-3, 1e-4):
         law = replace(both.friction, mu_static=(1.0 + excess) * case.mu)
-        for scene, kinetic, method in (
-            (alone, sliding.along(alone).prd_m, "the exact method of one axis with vertical"),
-            (both, sliding.in_plane(both, TIGHT)[0].prd_m, "two axes with one coefficient"),
+        for scene, axes, kinetic, method in (
+            (alone, "one axis", sliding.along(alone).prd_m, "the exact method with vertical"),
+            (both, "two axes", sliding.in_plane(both, TIGHT)[0].prd_m, "one coefficient"),
         ):
             yield check(
                 SECTION,
-                f"Static friction {100.0 * excess:g} % above kinetic: {triple.name}, {case}",
+                f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.name}, {case}",
                 f"Tends to {method}: within 50 times the square of the difference",
                 "PRD",
                 "m",
