@@ -243,7 +243,7 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
         ):
             yield check(
                 SECTION,
-                f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.name}, {case}",
+                f"Static friction {100.0 * excess:g} % above, {axes}: {triple.name}, {case}",
                 f"Tends to {method}: within 50 times the square of the difference",
                 "PRD",
                 "m",
