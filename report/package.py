@@ -13,6 +13,7 @@ from typing import Any
 
 from report.accuracy import accuracy
 from report.beyond import beyond_corners
+from report.equations import formula
 from report.findings import Findings
 from report.pages import accuracy as accuracy_page
 from report.pages import appendix, checks, demand, front, inputs, method, model, motions, results
@@ -29,6 +30,7 @@ def load() -> None:
     """Load what draws and lays out, which takes its time: while something else is waited for."""
     load_charts()
     load_renderer()
+    formula("N")  # loads the typesetter and its font
 
 
 def render(scene: Scene, found: Findings, words: Callable[[], Words], tell: Stage) -> bytes:

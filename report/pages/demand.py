@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from markupsafe import Markup
 
-from report.equations import formula, fraction, symbol
+from report.equations import fraction, symbol
 from report.pages.parts import Line, Scene
 from report.sheet.schema import RecordedAt
 from report.sheet.targets import OWN
@@ -22,7 +22,7 @@ def _s_ds(scene: Scene) -> Iterator[Line]:
     site = scene.data.site
     if site.s_ds_g is None and site.s_s_g is not None and site.f_a is not None:
         yield Line(
-            formula=formula(r"S_{DS}=\frac{2}{3}F_a S_S"),
+            latex=r"S_{DS}=\frac{2}{3}F_a S_S",
             reference="ASCE 7 Eqs. 11.4-1, 11.4-3",
             steps=(
                 (
@@ -54,7 +54,7 @@ def _ac156(scene: Scene) -> Iterator[Line]:
     amplified = f"(1 + 2.5 × {height}) / 1.3" if newer else f"(1 + 2 × {height})"
     if goals.roof.name != OWN:
         yield Line(
-            formula=formula(flexible),
+            latex=flexible,
             reference="AC156",
             steps=(
                 (
@@ -64,13 +64,13 @@ def _ac156(scene: Scene) -> Iterator[Line]:
             ),
         )
         yield Line(
-            formula=formula(rigid),
+            latex=rigid,
             reference="AC156",
             steps=((f"0.4 × {s_ds} g × {amplified}", f"{number(float(found.sa_g[3]), 3)} g"),),
         )
     if goals.vertical.name != OWN:
         yield Line(
-            formula=formula(r"A_{FLX,v}=0.67\,S_{DS},\quad A_{RIG,v}=0.27\,S_{DS}"),
+            latex=r"A_{FLX,v}=0.67\,S_{DS},\quad A_{RIG,v}=0.27\,S_{DS}",
             reference="AC156, vertical",
             steps=(
                 (
@@ -91,7 +91,7 @@ def _design_spectrum(scene: Scene) -> Iterator[Line]:
         return
     s_d1_g = 2.0 / 3.0 * site.f_v * site.s_1_g
     yield Line(
-        formula=formula(
+        latex=(
             r"S_a=\mathrm{min}\left(S_{DS},\ \frac{S_{D1}}{T},\ \frac{S_{D1}T_L}{T^2}\right),"
             r"\quad S_{D1}=\frac{2}{3}F_v S_1"
         ),

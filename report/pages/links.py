@@ -9,7 +9,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assess import LinkedArray
-from report.equations import formula
 from report.pages.parts import NO_VALUE, Column, Line, Row, Scene, Table, statistic, verdict
 from report.sheet.schema import Direction
 from report.units import Quantity, number
@@ -102,7 +101,7 @@ def _text(scene: Scene) -> str:
 def _lines(scene: Scene) -> Sequence[Line]:
     return (
         Line(
-            formula=formula(
+            latex=(
                 r"m\ddot{s}_i=G-\mu_i N\,\mathrm{sign}(\dot{s}_i)+F_i-F_{i-1},"
                 r"\quad F_i=k\,e_i+c\,\dot{e}_i,\quad e_i=s_{i+1}-s_i"
             ),
@@ -111,7 +110,7 @@ def _lines(scene: Scene) -> Sequence[Line]:
             "what pushes it, F included, is not above its friction.",
         ),
         Line(
-            formula=formula(
+            latex=(
                 r"\Delta_{links}=\mathrm{max}(\mathrm{max}(1,\,r)\,\Delta_{RHA},\,\Delta_{floor}),"
                 r"\quad r=\Delta_{row}/\Delta_{rigid}"
             ),

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from report.assess import ArrayAssessment, ClearanceCheck
-from report.equations import formula, fraction, symbol
+from report.equations import fraction, symbol
 from report.pages.parts import Line, Scene, nan_is_worst, statistic
 from report.sheet.schema import Direction
 from report.units import Quantity, number
@@ -24,17 +24,17 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
     return (
         *_friction_lines(found),
         Line(
-            formula=formula(r"N=m\left[(g+a_v)\cos\theta+a_h\sin\theta\right]"),
+            latex=r"N=m\left[(g+a_v)\cos\theta+a_h\sin\theta\right]",
             reference=Markup("Eq. 6, with {} added").format(symbol("a_v")),
             steps=((f"Roof at rest: N/(m g) = cos {degrees}°", number(math.cos(theta), 4)),),
         ),
         Line(
-            formula=formula(r"G=m\left[(g+a_v)\sin\theta-a_h\cos\theta\right]"),
+            latex=r"G=m\left[(g+a_v)\sin\theta-a_h\cos\theta\right]",
             reference=Markup("Eq. 7, with {} added").format(symbol("a_v")),
             steps=((f"Roof at rest: G/(m g) = sin {degrees}°", number(math.sin(theta), 4)),),
         ),
         Line(
-            formula=formula(r"\left|G\right|\leq\mu N\;\Rightarrow\;\mathrm{rests}"),
+            latex=r"\left|G\right|\leq\mu N\;\Rightarrow\;\mathrm{rests}",
             reference="Eqs. 8, 9",
             steps=(
                 (
@@ -46,13 +46,13 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
             ),
         ),
         Line(
-            formula=formula(r"m\ddot{s}=G-\mu N\,\mathrm{sign}(\dot{s})"),
+            latex=r"m\ddot{s}=G-\mu N\,\mathrm{sign}(\dot{s})",
             reference="Eqs. 11–18, along the slope",
             note="s is the distance slid down the slope; the horizontal relative displacement is "
             "u = s cos θ.",
         ),
         Line(
-            formula=formula(
+            latex=(
                 r"m\dot{\mathbf{v}}=\mathbf{G}-\mu N\,\frac{\mathbf{v}}{\left|\mathbf{v}\right|},"
                 r"\quad\mathbf{G}=(G,\,-m\,a_y)"
             ),
@@ -62,18 +62,18 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
             "displacement across. Part 11 says where this is used.",
         ),
         Line(
-            formula=formula(r"\phi=\arctan\mu"),
+            latex=r"\phi=\arctan\mu",
             reference="friction angle",
             steps=((f"arctan {number(mu, 3)}", f"{friction}°"),),
         ),
         Line(
-            formula=formula(r"a_{down}=-g\tan(\phi-\theta)"),
+            latex=r"a_{down}=-g\tan(\phi-\theta)",
             reference=Markup("Eqs. 6–9, {} = 0").format(symbol("a_v")),
             steps=((f"−g tan({friction}° − {degrees}°)", f"{number(-down, 3)} g"),),
             note="Below this horizontal roof acceleration sliding down the slope begins.",
         ),
         Line(
-            formula=formula(r"a_{up}=g\tan(\phi+\theta)"),
+            latex=r"a_{up}=g\tan(\phi+\theta)",
             reference=Markup("Eqs. 6–9, {} = 0").format(symbol("a_v")),
             steps=(
                 (
@@ -97,7 +97,7 @@ def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
     tenth = fast - (fast - slow) * math.exp(-0.1 * rate)
     return (
         Line(
-            formula=formula(r"\mu(v)=\mu_{fast}-(\mu_{fast}-\mu_{slow})\,e^{-r\left|v\right|}"),
+            latex=r"\mu(v)=\mu_{fast}-(\mu_{fast}-\mu_{slow})\,e^{-r\left|v\right|}",
             reference="Constantinou, Mokha, Reinhorn 1990, Eq. 2",
             steps=(
                 (
@@ -119,7 +119,7 @@ def prescriptive_line(scene: Scene, found: ArrayAssessment) -> Line:
     value, minimum = found.prescriptive.value_m, found.prescriptive.minimum_m
     if found.prescriptive.governs == "SDC A, B, C":
         return Line(
-            formula=formula(r"\Delta_{MPV}=\Delta_{A,B,C}"),
+            latex=r"\Delta_{MPV}=\Delta_{A,B,C}",
             reference=scene.clause(key),
             steps=((f"SDC {site.sdc.value}", say.both(value) + scene.mark(key)),),
         )
@@ -133,7 +133,7 @@ def prescriptive_line(scene: Scene, found: ArrayAssessment) -> Line:
     )
     bracket = Markup("({} − 0.4)<sup>2</sup>").format(number(max(site.s_ds, 0.4), 3))
     return Line(
-        formula=formula(latex),
+        latex=latex,
         reference=scene.clause("prescriptive_factor_in"),
         steps=(
             (
@@ -160,7 +160,7 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
     floor = number(rules["analysis_floor"], 2) + scene.mark("analysis_floor")
     return [
         Line(
-            formula=formula(r"\overline{\Delta}=\frac{1}{n}\sum_{i=1}^{n}\mathrm{PRD}_i"),
+            latex=r"\overline{\Delta}=\frac{1}{n}\sum_{i=1}^{n}\mathrm{PRD}_i",
             reference="mean of the motions",
             steps=(
                 (
@@ -170,12 +170,12 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
             ),
         ),
         Line(
-            formula=formula(r"\Delta_{max}=\mathrm{max}_i\,\mathrm{PRD}_i"),
+            latex=r"\Delta_{max}=\mathrm{max}_i\,\mathrm{PRD}_i",
             reference=f"motion {found.worst.motion.id}",
             steps=(("largest of the motions", say.both(analysis.largest_m)),),
         ),
         Line(
-            formula=formula(
+            latex=(
                 r"\Delta_{RHA}=k\,\Delta_{max}" if largest else r"\Delta_{RHA}=k\,\overline{\Delta}"
             ),
             reference=scene.clause("analysis_factor"),
@@ -183,7 +183,7 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
             note=f"Statistic: {statistic(analysis.basis)}.",
         ),
         Line(
-            formula=formula(r"\Delta_{floor}=f\,\Delta_{MPV}"),
+            latex=r"\Delta_{floor}=f\,\Delta_{MPV}",
             reference=scene.clause("analysis_floor"),
             steps=(
                 (
@@ -195,7 +195,7 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
             ),
         ),
         Line(
-            formula=formula(r"\Delta=\mathrm{max}(\Delta_{RHA},\,\Delta_{floor})"),
+            latex=r"\Delta=\mathrm{max}(\Delta_{RHA},\,\Delta_{floor})",
             reference="design displacement",
             steps=(
                 (
@@ -215,7 +215,7 @@ def _directions_line(scene: Scene, found: ArrayAssessment) -> Line:
     largest = found.analysis.basis is Basis.LARGEST_FACTORED
     ways = (Direction.DOWN, Direction.UP, Direction.ACROSS)
     return Line(
-        formula=formula(
+        latex=(
             r"\Delta_d=\mathrm{max}(k\,\Delta_{max,d},\,\Delta_{floor})"
             if largest
             else r"\Delta_d=\mathrm{max}(k\,\overline{\Delta}_d,\,\Delta_{floor})"
@@ -244,7 +244,7 @@ def separation_line(scene: Scene) -> Line:
     )
     clauses = {scene.assessment.rules.values[key].clause for key in SEPARATION_KEYS.values()}
     return Line(
-        formula=formula(latex),
+        latex=latex,
         reference=", ".join(sorted(clauses)),
         steps=tuple(
             _separation(scene, max(gaps, key=lambda gap: nan_is_worst(gap.required_m)))
@@ -279,7 +279,7 @@ def interconnection_line(scene: Scene, found: ArrayAssessment) -> Line:
     first = f"{rules['interconnection_sds']:g}{scene.mark('interconnection_sds')}"
     second = f"{rules['interconnection_min']:g}{scene.mark('interconnection_min')}"
     return Line(
-        formula=formula(r"F=\mathrm{max}(c_1 S_{DS},\,c_2)\,W_1,\quad W_1=W/2"),
+        latex=r"F=\mathrm{max}(c_1 S_{DS},\,c_2)\,W_1,\quad W_1=W/2",
         reference=scene.clause("interconnection_sds"),
         steps=(
             (

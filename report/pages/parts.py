@@ -14,7 +14,7 @@ from itertools import groupby
 from markupsafe import Markup
 
 from report.assess import ArrayAssessment, Assessment, ClearanceCheck, LinkedArray
-from report.equations import Formula
+from report.equations import formula
 from report.sheet.schema import Direction, ProjectInput
 from report.units import Quantity, Unit, measured, number, pair
 from solver.model import DefectError
@@ -131,9 +131,12 @@ class Picture:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """A step of the calculation: formula, where it comes from, numbers put in with results."""
+    """A step of the calculation: formula, where it comes from, numbers put in with results.
 
-    formula: Formula
+    The formula is drawn where the line is placed, by the process that draws.
+    """
+
+    latex: str
     reference: str
     steps: tuple[tuple[str, str], ...] = ()
     note: str = ""
@@ -141,12 +144,13 @@ class Line:
     @property
     def src(self) -> str:
         """Address of the formula."""
-        return data_uri(self.formula.svg)
+        return data_uri(formula(self.latex).svg)
 
     @property
     def size(self) -> str:
         """Its size on the page, as a style."""
-        return f"width: {self.formula.width_pt:.2f}pt; height: {self.formula.height_pt:.2f}pt"
+        found = formula(self.latex)
+        return f"width: {found.width_pt:.2f}pt; height: {found.height_pt:.2f}pt"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
