@@ -161,16 +161,16 @@ def _outputs(
     # One process computes and finds the words, this one draws and lays out.
     steps = begin(lambda: _steps(source, progress))
     load()
-    book, assessment, found = next(steps)
+    book, assessment = next(steps)
     scene = Scene(data=book.input, assessment=assessment)
-    package = render(scene, found, lambda: next(steps), progress)
+    package = render(scene, lambda: next(steps), lambda: next(steps), progress)
     progress("writing the result tables")
     (tables,) = steps
     return book, assessment, {"calc-package.pdf": package, **tables}
 
 
 def _steps(source: Path, progress: Callable[[str], None]) -> Iterator[Any]:
-    """Yield input, assessment and findings; then the words of the package; then the tables."""
+    """Yield input and assessment, then findings, then the words of the package, then the tables."""
     from report.findings import find
     from report.package import words
     from report.pages.parts import Scene
@@ -180,8 +180,9 @@ def _steps(source: Path, progress: Callable[[str], None]) -> Iterator[Any]:
     progress("running the motions (the first run compiles the solver)")
     assessment = _assess(book)
     scene = Scene(data=book.input, assessment=assessment)
+    yield book, assessment
     found = find(book, assessment, scene.governing)
-    yield book, assessment, found
+    yield found
     yield words(book, scene, found)
     yield _tables(book, assessment)
 

@@ -18,7 +18,7 @@ from report.findings import Findings
 from report.pages import accuracy as accuracy_page
 from report.pages import appendix, checks, demand, front, inputs, method, model, motions, results
 from report.pages.parts import Part, Scene
-from report.pages.pictures import draw, load_charts
+from report.pages.pictures import draw_assessment, draw_findings, load_charts
 from report.pdf import TEMPLATES, html_to_pdf, load_renderer
 from report.sheet.workbook import InputBook
 
@@ -33,16 +33,16 @@ def load() -> None:
     formula("N")  # loads the typesetter and its font
 
 
-def render(scene: Scene, found: Findings, words: Callable[[], Words], tell: Stage) -> bytes:
+def render(
+    scene: Scene, find: Callable[[], Findings], words: Callable[[], Words], tell: Stage
+) -> bytes:
     """Return the calculation package as a PDF.
 
     Parameters
     ----------
     scene : Scene
-    found : Findings
-        Of this very scene.
-    words : callable
-        Gives what `words` gives; asked once the pictures are drawn.
+    find, words : callable
+        Give what `report.findings.find` and then `words` give, asked when they are needed.
     tell : callable
         Called with "figures", "pages" and "pdf" as each of them begins.
 
@@ -53,7 +53,7 @@ def render(scene: Scene, found: Findings, words: Callable[[], Words], tell: Stag
     """
     with _no_collections():
         tell("figures")
-        pictures = draw(scene, found)
+        pictures = {**draw_assessment(scene), **draw_findings(scene, find())}
         tell("pages")
         html = _html({**words(), "pictures": pictures})
         tell("pdf")

@@ -245,4 +245,4 @@ def package(made, tell=lambda stage: None) -> bytes:
     """Run the book and return its calculation package."""
     scene = Scene(data=made.input, assessment=assessed(made))
     found = find(made, scene.assessment, scene.governing)
-    return render(scene, found, lambda: words(made, scene, found), tell)
+    return render(scene, lambda: found, lambda: words(made, scene, found), tell)

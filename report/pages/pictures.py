@@ -27,13 +27,13 @@ def load_charts() -> None:
     load_fonts(TEMPLATES / "fonts")
 
 
-def draw(scene: Scene, found: Findings) -> Pictures:
-    """Return every picture of the package, by the id of the part that it belongs to."""
+def draw_assessment(scene: Scene) -> Pictures:
+    """Return the pictures that need no findings, by the id of the part that they belong to."""
     from report.figures import charts as figures
 
     load_charts()
     us_first, assessment = scene.say.us_first, scene.assessment
-    pictures = {
+    return {
         "inputs-3": [
             Picture(
                 svg=figures.roof_plan(scene.data, us_first),
@@ -41,14 +41,6 @@ def draw(scene: Scene, found: Findings) -> Pictures:
                 "edges, and the clearances by their numbers in part 8.",
                 alt="Roof plan with arrays, objects, edges and clearances",
             )
-        ],
-        f"motions-{len(titles(scene))}": [
-            Picture(
-                svg=figures.spectra(parts),
-                caption=f"Response spectra of the motions {where}, 5 % damping, and target.",
-                alt="Response spectra of all motions, their mean and the target",
-            )
-            for where, parts in _by_place(found.spectra)
         ],
         "comparison": [
             Picture(
@@ -69,9 +61,26 @@ def draw(scene: Scene, found: Findings) -> Pictures:
             )
             for at in range(0, len(assessment.clearances), CHART_ROWS)
         ],
+    }
+
+
+def draw_findings(scene: Scene, found: Findings) -> Pictures:
+    """Return the other pictures, by the id of the part that they belong to."""
+    from report.figures import charts as figures
+
+    us_first = scene.say.us_first
+    pictures = {
+        f"motions-{len(titles(scene))}": [
+            Picture(
+                svg=figures.spectra(parts),
+                caption=f"Response spectra of the motions {where}, 5 % damping, and target.",
+                alt="Response spectra of all motions, their mean and the target",
+            )
+            for where, parts in _by_place(found.spectra)
+        ],
         "accuracy": [accuracy.picture(found.rivals, us_first)] if found.rivals.runs else [],
     }
-    runs = zip(assessment.arrays, found.histories, strict=True)
+    runs = zip(scene.assessment.arrays, found.histories, strict=True)
     for count, (one, followed) in enumerate(runs, start=1):
         pictures[f"results-{count}"] = list(_histories(one, followed, us_first))
     return pictures

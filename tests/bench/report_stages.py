@@ -46,7 +46,7 @@ def child(project: Path) -> None:
     stage("spectra, histories, the governing run by every method")
     scene = Scene(data=book.input, assessment=assessment)
     found = find(book, assessment, scene.governing)
-    package = render(scene, found, lambda: words(book, scene, found), stage)
+    package = render(scene, lambda: found, lambda: words(book, scene, found), stage)
     stage("result tables")
     from report.outputs import results_json
     from report.results_book import results_xlsx
