@@ -6,15 +6,14 @@ Computes no physics and reads no code rule. The pages are made in `report.pages`
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from report.accuracy import accuracy
 from report.beyond import beyond_corners
 from report.equations import formula
 from report.findings import Findings
+from report.garbage import no_collections
 from report.pages import accuracy as accuracy_page
 from report.pages import appendix, checks, demand, front, inputs, method, model, motions, results
 from report.pages.parts import Part, Scene
@@ -51,25 +50,13 @@ def render(
     DefectError
         Where the renderer complains.
     """
-    with _no_collections():
+    with no_collections():
         tell("figures")
         pictures = {**draw_assessment(scene), **draw_findings(scene, find())}
         tell("pages")
         html = _html({**words(), "pictures": pictures})
         tell("pdf")
         return html_to_pdf(html)
-
-
-@contextmanager
-def _no_collections() -> Iterator[None]:
-    """Look for no garbage: among a million live boxes the search takes a third of the time."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
 
 
 def _html(context: Mapping[str, Any]) -> str:
