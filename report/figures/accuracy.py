@@ -25,7 +25,7 @@ def work_precision(found: Rivals, us_first: bool) -> str:
     """Return the error in PRD against steps for each sampling interval, a line a method."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     with style():
-        figure, axes = framed(2.35, 0.55, 2.5, 0.1, 0.42)
+        figure, axes = framed(1.85, 0.55, 2.5, 0.1, 0.42)
         for name in dict.fromkeys(run.method.name for run in found.runs):
             _draw(axes, [run for run in found.runs if run.method.name == name and not run.failed])
         floor = max(found.doubled, FLOOR)

@@ -65,9 +65,9 @@ def _plane(scene: Scene, found: Rivals) -> str:
     return (
         "Two axes have no closed form: their motion is followed to a tolerance, and the error of "
         f"this PRD is below {below_mm(run.solution.error_m)} ({kind}). The methods that others "
-        "use know one axis only. They are compared here on the same run along the slope alone, "
+        "use know one axis only, and are compared on this run along the slope alone, "
         f"without the component across it{slow}: a displacement of "
-        f"{scene.say.both(found.exact.prd_m)}, which is no result of this package."
+        f"{scene.say.both(found.exact.prd_m)}, no result of this package."
     )
 
 
@@ -89,7 +89,7 @@ def _method(found: Rivals) -> str:
         "a sample added midway between each two, which is the same motion, its PRD "
         f"{_doubled(found.doubled)}. A run took less than {_decade_ms(found.seconds)} ms here. "
         "The verification manual of this version (roofslip verify) "
-        "holds the method to closed forms, and gives the time that each method takes."
+        "holds the method to closed forms and times each one."
     )
 
 
