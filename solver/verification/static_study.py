@@ -24,13 +24,13 @@ from solver.verification.rung_evidence import (
 from solver.verification.rungs import TIGHT
 from solver.verification.triples import readonly
 
-EXCESSES = (0.3, 0.1, 0.03, 1e-2, 1e-3, 1e-4)
+EXCESSES = (0.3, 0.1, 1e-2, 1e-3, 1e-4)
 """Static over kinetic friction, less 1."""
 
-FADING = (1e-1, 1e-2, 1e-3, 1e-4)
+FADING = (1e-1, 1e-2, 1e-4)
 """Factors of the second component."""
 
-ACROSS_MPS2 = (0.0, 1e-9, 1e-6, 1e-3, 0.1)
+ACROSS_MPS2 = (0.0, 1e-9, 1e-6, 0.1)
 """Pushes across the way of the block that is pushed back [m/s2]."""
 
 PUSHED_BACK_G = 0.45
