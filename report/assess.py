@@ -57,12 +57,33 @@ class Assessment:
     @property
     def ok(self) -> bool:
         """Whether all limits and clearances are kept and each array has a final design value."""
-        checks = [*self.building_checks, *(check for a in self.arrays for check in a.checks)]
-        limits_kept = all(check.ok for check in checks)
-        has_values = not any(math.isnan(a.design_m) for a in self.arrays) and not self.warnings
-        stands = all(item.is_model_enough and item.tipping.is_ok for item in self.arrays)
-        stands = stands and all(item.is_rigid_enough for item in self.linked)
-        return limits_kept and has_values and stands and all(gap.ok for gap in self.clearances)
+        limits_kept = all(check.ok for check in self.building_checks)
+        arrays_stand = all(map(self.array_ok, self.arrays))
+        return limits_kept and arrays_stand and all(gap.ok for gap in self.clearances)
+
+    def array_ok(self, found: ArrayAssessment) -> bool:
+        """Whether an array keeps its limits, has final values, and all its room."""
+        return (
+            not math.isnan(found.design_m)
+            and found.is_model_enough
+            and found.tipping.is_ok
+            and all(one.is_rigid_enough for one in self.linked_of(found))
+            and all(check.ok for check in found.checks)
+            and all(gap.ok for gap in self.gaps_of(found.array.id))
+            and all(run.result.status is Status.OK for m in found.motions for run in m.runs)
+        )
+
+    def linked_of(self, found: ArrayAssessment) -> Sequence[LinkedArray]:
+        """Return an array as a row of linked blocks, where the workbook asks for it."""
+        return [one for one in self.linked if one.found.array.id == found.array.id]
+
+    def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
+        """Return the clearances that name an array, on either side."""
+        return [
+            gap
+            for gap in self.clearances
+            if same_id(gap.clearance.array, array_id) or same_id(gap.clearance.object, array_id)
+        ]
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -80,11 +101,7 @@ class Assessment:
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
         """Return the clearance of an array, from either side, with the largest D/C, if any."""
-        of_array = [
-            item
-            for item in self.clearances
-            if same_id(item.clearance.array, array_id) or same_id(item.clearance.object, array_id)
-        ]
+        of_array = self.gaps_of(array_id)
         return max(of_array, key=lambda c: nan_is_worst(c.demand_capacity), default=None)
 
 

@@ -247,21 +247,14 @@ def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) 
         return pair(value_m, Quantity.DISPLACEMENT, us_first)
 
     gap = assessment.governing_clearance(item.array.id)
-    clearance = (
-        (
-            f"to {gap.across_from(item.array.id)}",
-            ratio(gap.demand_capacity),
-            "OK" if gap.ok else "NG",
-        )
-        if gap
-        else ("none given", "", "")
-    )
+    clearance = (f"to {gap.across_from(item.array.id)}", ratio(gap.demand_capacity)) if gap else ()
     return (
         item.array.id,
         shown(item.analysis.value_m),
         shown(item.prescriptive.value_m),
         shown(item.design_m),
-        *clearance,
+        *(clearance or ("none given", "")),
+        "OK" if assessment.array_ok(item) else "NG",
     )
 
 

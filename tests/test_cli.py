@@ -109,6 +109,8 @@ def test_an_array_for_which_one_rigid_block_is_not_enough_is_warned_of(tmp_path)
     done = run("report", make(tmp_path, links=[row], options=options))
     assert done.exit_code == 0
     assert "warning: one rigid block is not shown to be enough for array A2: part 11" in done.output
+    (line,) = (text for text in done.output.splitlines() if text.startswith("A2 "))
+    assert line.endswith("NG")
     found = json.loads((tmp_path / "out" / "results.json").read_text())
     assert found["ok"] is found["linked"][0]["rigid_is_enough"] is False
     assert found["linked"][0]["estimated_m"] > found["linked"][0]["design_m"] > 0.0

@@ -74,8 +74,8 @@ def test_the_equation_has_its_numbers(both):
 
 def test_an_array_for_which_one_block_is_not_enough_is_ng_everywhere(both):
     first, second = both.assessment.arrays
-    assert not both.ok
-    assert (both.array_ok(first), both.array_ok(second)) == (False, True)
+    assert not both.assessment.ok
+    assert (both.assessment.array_ok(first), both.assessment.array_ok(second)) == (False, True)
     (text,) = links.link_troubles(both)
     assert text in troubles(both)
     assert text.startswith("Array A1: a row of linked blocks goes 1.")

@@ -92,8 +92,8 @@ def test_a_model_that_is_not_enough_is_ng():
     assert item.chosen_towards_m(Direction.ANY) > 1.1 * item.design_m
     (text,) = model.page(found)["troubles"]
     assert text.startswith("Array A1: the model asked for, one axis, gives")
-    assert not found.ok
-    assert not found.array_ok(item)
+    assert not found.assessment.ok
+    assert not found.assessment.array_ok(item)
 
 
 def test_a_vertical_that_was_left_out_has_its_exact_effect():
@@ -170,7 +170,7 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     found = Scene(data=data, assessment=stand_in.assessed(made))
     assert found.assessment.arrays[0].tipping.ratio > 1.0
     assert not found.assessment.ok
-    assert not found.array_ok(found.assessment.arrays[0])
+    assert not found.assessment.array_ok(found.assessment.arrays[0])
     assert "begins to tip" in " ".join(troubles(found))
     assert ">NG<" in texts(model.page(found)["stability"].rows[0])[7]
 

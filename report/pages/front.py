@@ -67,7 +67,7 @@ def cover(scene: Scene) -> Mapping[str, object]:
 def summary(scene: Scene) -> Mapping[str, object]:
     """Return the summary page: governing numbers and a verdict for everything."""
     return {
-        "verdict": verdict(scene.ok),
+        "verdict": verdict(scene.assessment.ok),
         "sentence": _sentence(scene),
         "numbers": _numbers(scene),
         "arrays": _array_table(scene),
@@ -77,10 +77,10 @@ def summary(scene: Scene) -> Mapping[str, object]:
 
 
 def _sentence(scene: Scene) -> str:
-    if scene.ok:
+    if scene.assessment.ok:
         return "Every limit and every clearance is kept, and every run gave a final value."
     counts = (
-        ("array", [scene.array_ok(found) for found in scene.assessment.arrays]),
+        ("array", [scene.assessment.array_ok(found) for found in scene.assessment.arrays]),
         ("clearance", [gap.ok for gap in scene.assessment.clearances]),
         ("limit", [check.ok for _, check in all_checks(scene)]),
     )
@@ -153,7 +153,7 @@ def _array_table(scene: Scene) -> Table:
 
 def _array_row(scene: Scene, found: ArrayAssessment) -> Row:
     prescriptive = scene.mark(scene.prescriptive_key(found))
-    demands = [gap.demand_capacity for gap in scene.gaps_of(found)]
+    demands = [gap.demand_capacity for gap in scene.assessment.gaps_of(found.array.id)]
     largest = math.nan if any(map(math.isnan, demands)) else max(demands, default=math.nan)
     return Row(
         cells=(
@@ -166,7 +166,7 @@ def _array_row(scene: Scene, found: ArrayAssessment) -> Row:
             found.governs,
             verdict(all(check.ok for check in found.checks)),
             ratio(largest) if demands else "none given",
-            verdict(scene.array_ok(found)),
+            verdict(scene.assessment.array_ok(found)),
         )
     )
 

@@ -13,7 +13,7 @@ from itertools import groupby
 
 from markupsafe import Markup
 
-from report.assess import ArrayAssessment, Assessment, ClearanceCheck, LinkedArray
+from report.assess import ArrayAssessment, Assessment, ClearanceCheck
 from report.equations import formula
 from report.sheet.schema import Direction, ProjectInput
 from report.units import Quantity, Unit, measured, number, pair
@@ -287,37 +287,6 @@ class Scene:
         """Return the marks of what a required separation is taken from."""
         key = SEPARATION_KEYS[gap.neighbour]
         return self.mark("separation_edge_min_in" if gap.is_least_value else key)
-
-    @property
-    def ok(self) -> bool:
-        """Whether everything is in order, a design value for every array included."""
-        return self.assessment.ok and all(map(self.array_ok, self.assessment.arrays))
-
-    def array_ok(self, found: ArrayAssessment) -> bool:
-        """Whether an array keeps its limits, has final values, and all its room."""
-        near = self.gaps_of(found)
-        return (
-            not math.isnan(found.design_m)
-            and found.is_model_enough
-            and found.tipping.is_ok
-            and all(one.is_rigid_enough for one in self.linked_of(found))
-            and all(check.ok for check in found.checks)
-            and all(gap.ok for gap in near)
-            and all(run.result.status == "ok" for m in found.motions for run in m.runs)
-        )
-
-    def linked_of(self, found: ArrayAssessment) -> Sequence[LinkedArray]:
-        """Return an array as a row of linked blocks, where the workbook asks for it."""
-        return [one for one in self.assessment.linked if one.found.array.id == found.array.id]
-
-    def gaps_of(self, found: ArrayAssessment) -> Sequence[ClearanceCheck]:
-        """Return the clearances that name an array, on either side."""
-        name = found.array.id.casefold()
-        return [
-            gap
-            for gap in self.assessment.clearances
-            if name in (gap.clearance.array.casefold(), gap.clearance.object.casefold())
-        ]
 
 
 def shortened(text: str, most: int) -> str:
