@@ -247,7 +247,7 @@ def test_failed_cells_are_hatched_and_counted(made, found, words):
     assert count > 0
     assert f"Failed: {count} of {found.maps[0].failed.size} cells." in words
     svg = made["charts/stability-1.svg"].decode()
-    assert svg.count('fill="url(#') >= count
+    assert svg.count("fill: url(#") >= count
     for text in ("failed", "1 % contour", "10 % contour", "theoretical limit"):
         assert f">{text}<" in svg
 

@@ -11,10 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from report.accuracy import MethodRun, Rivals
-from report.figures.base import bare, framed, style
+from report.figures.base import bare, framed, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades
-from report.figures.svg import svg_text
 from report.units import Quantity
 
 FLOOR = 1e-16  # an error of no digit at all is drawn here: a double carries no more

@@ -1,10 +1,11 @@
-"""What all charts share: fonts, style and sizes.
+"""What all charts share: fonts, style, sizes, and the way to the text of an SVG.
 
 Two runs give the same bytes, whatever the machine's fonts and settings. Read `report.figures` next.
 """
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -43,6 +44,8 @@ _STYLE: Any = {
     "legend.frameon": False,
     "legend.fontsize": 7.5,
     "hatch.linewidth": 0.5,
+    "svg.fonttype": "none",  # text stays text: the pages load the same fonts
+    "svg.hashsalt": "roofslip",
     "path.simplify": True,
     "text.parse_math": False,  # a dollar sign in a name is a dollar sign
 }
@@ -63,6 +66,14 @@ def style() -> Iterator[None]:
         mpl.rcdefaults()
         mpl.rcParams.update(_STYLE)
         yield
+
+
+def svg_text(figure: Figure) -> str:
+    """Return a figure as the text of an SVG, without date or maker."""
+    out = io.StringIO()
+    figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    text = out.getvalue()
+    return text[text.index("<svg") :]
 
 
 def framed(height: float, left: float, right: float, top: float, bottom: float) -> Any:

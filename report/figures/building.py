@@ -9,9 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style
+from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.scales import plain
-from report.figures.svg import svg_text
 from report.units import G_MPS2
 from solver.verification.evidence import RoofComparison, RoofPrediction
 

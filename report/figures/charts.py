@@ -27,11 +27,11 @@ from report.figures.base import (
     framed,
     load_fonts,
     style,
+    svg_text,
     tick_text,
 )
 from report.figures.history import MAX_POINTS, envelope, histories
 from report.figures.plan import roof_plan
-from report.figures.svg import svg_text
 from report.spectra import Spectra
 from report.units import Quantity, Unit
 

@@ -21,9 +21,9 @@ from report.figures.base import (
     WIDTH_IN,
     Broken,
     style,
+    svg_text,
     tick_text,
 )
-from report.figures.svg import svg_text
 from report.runs import MotionRun
 from report.units import Quantity, Unit, number, pair
 from solver.model import Floats, SlideHistory

@@ -14,9 +14,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, INK, WIDTH_IN, bare, style
+from report.figures.base import ACCENT, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.scales import decades, plain
-from report.figures.svg import svg_text
 from report.letters import lettered
 from solver.model import Floats
 from solver.verification.evidence import Conditioning, StabilityMap

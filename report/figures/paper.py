@@ -11,10 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style
+from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.history import envelope
 from report.figures.scales import decades
-from report.figures.svg import svg_text
 from solver.model import Floats
 from solver.verification.evidence import Convergence, DesignCurves, LinkComparison
 

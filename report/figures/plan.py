@@ -20,9 +20,9 @@ from report.figures.base import (
     bare,
     framed,
     style,
+    svg_text,
     tick_text,
 )
-from report.figures.svg import svg_text
 from report.sheet.schema import ObjectKind, ProjectInput, Rectangle
 from report.units import Quantity, Unit, number
 

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style
+from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.history import envelope
 from report.units import G_MPS2
 from solver.model import Floats
@@ -47,13 +47,8 @@ def records_svg(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> s
         Their ordinates [g], a row a record.
     """
     with style():
-        # A file of its own: outlines need no font. The salt makes two runs the same.
-        mpl.rcParams.update({"svg.fonttype": "path", "svg.hashsalt": "roofslip"})
-        out = io.StringIO()
-        figure = _figure(records, periods_s, sa_g)
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-        text = out.getvalue()
-        return text[text.index("<svg") :]
+        mpl.rcParams["svg.fonttype"] = "path"
+        return svg_text(_figure(records, periods_s, sa_g))
 
 
 def records_png(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> bytes:

@@ -11,9 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, framed, style
+from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
 from report.figures.scales import decades
-from report.figures.svg import svg_text
 from report.letters import lettered
 from solver.verification.rung_evidence import PlaneWork, RungChange
 

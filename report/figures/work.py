@@ -10,10 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from report.figures.base import GREY, INK, PALE, WIDTH_IN, Broken, bare, style
+from report.figures.base import GREY, INK, PALE, WIDTH_IN, Broken, bare, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades
-from report.figures.svg import svg_text
 from solver.model import Floats
 from solver.verification.evidence import WorkPoint
 
