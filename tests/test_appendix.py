@@ -28,6 +28,14 @@ def test_cells_left_blank_side_by_side_share_a_line_with_their_defaults():
     ]
 
 
+def test_columns_never_run_together():
+    label = "Friction at speed to Model"
+    ((_, text),) = appendix.echo((row("AA10:AB10", label, "x" * 80, "y" * 80),))
+    first = text.splitlines()[1]
+    assert first.startswith("AA10:AB10  Friction at speed to  ")
+    assert "x  " in first
+
+
 def test_two_blank_cells_keep_their_lines():
     assert len(lines(row("C8", "a"), row("D8", "b"))) == 2
 

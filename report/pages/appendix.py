@@ -25,7 +25,8 @@ LIBRARIES = (
     "weasyprint",
 )
 METHOD = "exact in one axis, to a tolerance in two; straight lines between samples"
-_WIDTHS = (8, 27, 33, 8, 40)
+_WIDTHS = (11, 27, 33, 7, 38)
+_GAP = 2  # blanks between columns, at least
 _RECORD_WIDTHS = (10, 12, 9, 10, 10, 64)
 _SECOND_WIDTHS = (10, sum(_RECORD_WIDTHS[1:-1]), 64)
 LEAST_BLANK = 3
@@ -47,7 +48,7 @@ def _lines(rows: Sequence[EchoRow]) -> Iterator[str]:
     for row in _condensed(rows):
         asked = (row.cell, row.label, row.typed, row.unit, row.value)
         wrapped = [
-            textwrap.wrap(str(text), width - 1) or [""]
+            textwrap.wrap(str(text), width - _GAP) or [""]
             for text, width in zip(asked, _WIDTHS, strict=True)
         ]
         for index in range(max(map(len, wrapped))):
