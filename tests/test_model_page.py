@@ -125,10 +125,13 @@ def test_the_eight_combinations_and_the_worst_of_them_are_named(usual):
     page = model.page(usual)
     assert "eight combinations" in page["combinations"]
     assert "four are run" in page["combinations"]
-    for found, text in zip(usual.assessment.arrays, page["sentences"], strict=True):
+    for found, text in zip(usual.assessment.arrays, page["sentences"][:3], strict=True):
         worst = found.worst
         assert f"{worst.motion.id}, {worst.governing.heading.name}, with PRD" in text
     assert "0.500 at a crawl, 0.600 at speed, rate 10.0 s/m, 0.550 at rest" in page["sentences"][2]
+    assert "no bound" in page["sentences"][3]
+    assert page["sentences"][3].startswith("Array A3: its friction falls as it begins to move")
+    assert sum("no bound" in text for text in page["sentences"]) == 1
     single = model.page(scene(alone(stand_in.motions(3, seconds=4.0))))
     assert "No motion has a second horizontal component" in single["combinations"]
     assert "with both components most displacements are larger" in single["combinations"]

@@ -282,6 +282,13 @@ def _sentences(scene: Scene, found: ArrayAssessment) -> Iterator[str]:
         f"PRD {scene.say.both(worst.governing.result.prd_m)}. Least normal force "
         f"{number(least, 2)} m g: {lifted}.{friction(found.array)}"
     )
+    is_bounded = found.array.friction.is_monotone
+    if worst.governing.solution.rung is Rung.SPEED_FRICTION and not is_bounded:
+        yield (
+            f"Array {name}: its friction falls as it begins to move or gets faster. Next to "
+            "nothing may then decide whether it stops, and the error of its PRD is the difference "
+            "of two tolerances, no bound. With one coefficient, the least, the error has a bound."
+        )
 
 
 def friction(array: Array) -> str:
