@@ -28,6 +28,7 @@ Letters:
     span, part  length of the series' unit of time [s]; how much of it a step takes
     b           series: rows VA and VS of v, EA and ES of e, along and across, W, Q and E (of a law,
                 or of what turns) of coefficients of (time / span)^k; SHARE of 1 / (k + 1)
+    swell       exponent that a law may gain in a step, or in the speed that is left
     law         None, or mu_fast, mu_fast - mu_slow, rate [s/m] and mu_rest (`slide_plane`)
     top         largest distance in plan, its time; largest and least sx; largest and least sy
 """
@@ -65,6 +66,12 @@ SWEEPS = 12
 
 SCAN = 8
 """Places of a series at which its sign is looked at."""
+
+SWELL = 5.0
+"""Exponent that a law of friction may gain in a step: its terms fall from there on."""
+
+FADED = 40.0
+"""Exponent from which on a law of friction has come to its fast coefficient, but for rounding."""
 
 STIFF = 300.0
 """Times that the direction would settle in a step, from which on `_creeping` is worth a try."""
@@ -128,7 +135,7 @@ def _left_out(part, before, last, ratio, tol):
 
 
 @jit()
-def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, law, b):
+def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
     """Series of a sliding block, along and across its motion; without friction, w = 0 serves.
 
     Without a law a coefficient of e needs but one product of the one before: the processor does
@@ -172,16 +179,16 @@ def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, law, b):
             ea = inverse * (b[VA, n] - b[W, n] - older) - slows * ea
             es = inverse * (b[VS, n] - side) - slows * es
         b[EA, n], b[ES, n] = ea, es
-        if last <= tol and before <= tol and k > 1:
+        if last <= tol and before <= tol and k > 1 and k > swell:
             order = k + 1
             break
     part = _part(order, before, last, tol)
-    ratio = part * (abs(b[VA, 1]) + abs(b[VS, 1])) * inverse
+    ratio = part * max((abs(b[VA, 1]) + abs(b[VS, 1])) * inverse, swell / order)
     return order, part, _left_out(part, before, last, ratio, tol)
 
 
 @jit()
-def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, law, b):
+def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
     """Series, along and across G, of a slow slip, w >= 0, whose direction has settled near G's.
 
     A slow block turns into the direction of G within about w / G, far less than a step. What is
@@ -230,7 +237,7 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, law, b):
             last = _advance(k, b, g, 0.0, ra, rs, span, law)
             if k == 0 and w == 0.0:
                 b[W, 1] = b[VA, 1] = first
-            if order == most and last <= tol and before <= tol and k > 1:
+            if order == most and last <= tol and before <= tol and k > 1 and k > swell:
                 order = k + 1
                 break
         b[VA, 0], b[VS, 0], off = w * b[EA, 0], w * b[ES, 0], 0.0
@@ -257,14 +264,18 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
     direction of its axis along.
     """
     hard, g = slow * c, math.sqrt(gx * gx + gy * gy)
+    rate = 0.0 if law is None else law[2]
     if (w == 0.0 and (c > 0.0 or rc > 0.0)) or (
-        w > 0.0 and hard * left > STIFF * w and gx * vx + gy * vy > 0.9 * w * g
+        w > 0.0
+        and hard * left > STIFF * w
+        and rate * w <= SWELL
+        and gx * vx + gy * vy > 0.9 * w * g
     ):
         ux, uy = gx / g, gy / g
         ra, rs = left * (rx * ux + ry * uy), left * (ry * ux - rx * uy)
         few = min(most, CREEP_ORDER)
         order, part, miss = _creeping(
-            w, vy * ux - vx * uy, g, ra, rs, c, rc * left, left, tol, few, law, b
+            w, vy * ux - vx * uy, g, ra, rs, c, rc * left, left, tol, few, rate * w, law, b
         )
         if part > 0.0:
             return order, part, left, miss, ux, uy
@@ -273,8 +284,16 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
     span, square = left, max((ga - hard) * (ga - hard) + gs * gs, 0.04 * hard * hard)
     if hard > 0.0 and square * left * left > 4.0 * w * w:
         span = 2.0 * w / math.sqrt(square)
+    swell = 0.0
+    if law is not None:
+        # A law's exponential may be nothing now and all of it soon: no term would tell.
+        mu = max(slow, law[0])
+        most_push = g + mu * c + left * (abs(rx) + abs(ry) + mu * abs(rc))
+        unseen = (w - FADED / rate) / most_push
+        span = min(span, max(unseen, SWELL / (rate * most_push)))
+        swell = rate * most_push * span if span > unseen else 0.0
     ra, rs = span * (rx * ux + ry * uy), span * (ry * ux - rx * uy)
-    order, part, miss = _sliding(w, ga, gs, ra, rs, c, rc * span, span, tol, most, law, b)
+    order, part, miss = _sliding(w, ga, gs, ra, rs, c, rc * span, span, tol, most, swell, law, b)
     return order, part, span, miss, ux, uy
 
 

@@ -289,7 +289,7 @@ def test_the_largest_distance_is_found_between_samples():
 
 @given(
     seed=st.integers(0, 1000),
-    mu=st.floats(0.05, 0.9),
+    mu=st.sampled_from([0.0]) | st.floats(0.05, 0.9),
     degrees=st.floats(-8.0, 8.0),
     factor=st.sampled_from([2, 5]),
 )

@@ -91,6 +91,20 @@ def test_it_is_as_scipy_follows_it(friction):
         assert found.n_stops == exact.n_stops
 
 
+@pytest.mark.parametrize("rate", [30.0, 1e3, 1e5])
+@pytest.mark.parametrize("seed", range(6))
+def test_friction_that_turns_within_a_step_is_seen(rate, seed):
+    # Far above its turn the exponential is nothing, and no term of a series tells that it comes.
+    friction = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=rate, mu_static=0.2)
+    waves = [np.sign(wave) * 3.0 for wave in shaking(seed, n=50, dt=0.1)[:2]]
+    fine = np.arange(49 * 16 + 1) / 16
+    more = [np.interp(fine, np.arange(50), wave) for wave in waves]
+    one = follow(scene(*waves, 0.1, friction=friction), 1e-8)
+    two = follow(scene(*more, 0.1 / 16, friction=friction), 1e-8)
+    assert one.prd_m > 0.03
+    assert np.abs(places(one) - places(two)).max() <= one.error_m + two.error_m
+
+
 def test_friction_between_two_constants_slides_between_their_ways():
     ax, ay, _ = shaking(11)
     found = [
