@@ -409,8 +409,10 @@ def _zero(b, row, order, begin):
 
 
 @jit()
-def _close(vx, vy, gx, gy, rx, ry, c, rc):
+def _close(vx, vy, gx, gy, rx, ry, c, rc, bend):
     """The rest of the way to a stop if G and q stayed as they are; rates for each second.
+
+    `bend` is how far a law has q off from its value at a crawl.
 
     With psi the angle from G to v: (w (q + G cos psi))' = G^2 - q^2 gives the time; the ways along
     and across G follow from the derivatives of w^2 (G + 2 q cos psi + G cos^2 psi) and of
@@ -425,7 +427,7 @@ def _close(vx, vy, gx, gy, rx, ry, c, rc):
     w, along = math.sqrt(vx * vx + vy * vy), gx * vx + gy * vy
     less, more = c * c - g * g, 4.0 * c * c - g * g
     time, lag = (c * w + along) / less, (2.0 * c * w + along) / more
-    change = (math.sqrt(rx * rx + ry * ry) + abs(rc)) * time / (c - g)
+    change = ((math.sqrt(rx * rx + ry * ry) + abs(rc)) * time + bend) / (c - g)
     if change > 0.3:
         return never
     pull = (w * w + 3.0 * along * lag) / (4.0 * less)
@@ -721,7 +723,10 @@ def slide_plane(
             along, across, way, aside, moved = _scale(b, order, part)
             stop = _zero(b, W, order, 0.0) if moved >= w and not free else -1.0
             if part < 1.0 and stop < 0.0 and w > 0.0:
-                rest, back, sides, astray = _close(vx, vy, gx, gy, rx, ry, slow * c, slow * rc)
+                bend = 0.0 if law is None else abs(law[1]) * (1.0 - math.exp(-law[2] * w)) * c
+                rest, back, sides, astray = _close(
+                    vx, vy, gx, gy, rx, ry, slow * c, slow * rc, bend
+                )
                 slack = CLOSE * tolerance * far
                 if (
                     rest < left

@@ -105,6 +105,19 @@ def test_friction_that_turns_within_a_step_is_seen(rate, seed):
     assert np.abs(places(one) - places(two)).max() <= one.error_m + two.error_m
 
 
+@pytest.mark.parametrize("rate", [1.0, 30.0, 200.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_stop_under_a_constant_push_counts_the_friction_of_its_speed(rate, seed):
+    friction = Friction(mu_slow=0.4, mu_fast=0.6, rate_s_per_m=rate, mu_static=0.4)
+    waves = [np.where(np.abs(w) > 4.0, 8.0 * np.sign(w), 0.0) for w in shaking(seed, 50, 0.1)[:2]]
+    fine = np.arange(49 * 16 + 1) / 16
+    more = [np.interp(fine, np.arange(50), wave) for wave in waves]
+    one = follow(scene(*waves, 0.1, friction=friction), 1e-10)
+    two = follow(scene(*more, 0.1 / 16, friction=friction), 1e-10)
+    assert one.n_stops > 2
+    assert np.abs(places(one) - places(two)).max() <= one.error_m + two.error_m
+
+
 def test_friction_between_two_constants_slides_between_their_ways():
     ax, ay, _ = shaking(11)
     found = [
