@@ -110,6 +110,8 @@ def _trouble(results: Sequence[SlideResult]) -> str:
     status = results[0].status
     if status is Status.UPLIFT:
         return f"{status.sentence} (at {min(result.t_uplift_s for result in results):.3f} s)"
+    if status is not Status.SLIDING_AT_END:
+        return status.sentence
     fastest = max(abs(result.end_speed_mps) for result in results)
     return f"{status.sentence} (at {fastest:.3f} m/s)"
 

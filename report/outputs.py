@@ -149,7 +149,7 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
                 "reason": run.solution.reason,
                 "next_rung": int(run.solution.next_rung),
                 "next_effect_m": run.solution.next_effect_m,
-                "error_m": run.solution.error_m,
+                "error_m": run.result.error_m,
                 "friction_demand": run.solution.friction_demand,
             }
             for motion in item.motions

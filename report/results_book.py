@@ -85,7 +85,7 @@ def _runs_table(assessment: Assessment) -> pd.DataFrame:
             "Why": run.solution.reason,
             "Next model": f"{int(run.solution.next_rung)}, {run.solution.next_rung.title}",
             "It would change [in]": run.solution.next_effect_m / METRES_PER_INCH,
-            "Error below [in]": run.solution.error_m / METRES_PER_INCH,
+            "Error below [in]": run.result.error_m / METRES_PER_INCH,
             "Outcome": run.result.status.sentence,
         }
         for item in assessment.arrays

@@ -124,11 +124,11 @@ def _scale(record: Record | None, ppa_g: float | None, factor: float | None) -> 
 
 
 def _scene(records: list[Record | None], slope_deg: float, mu: float, scale: float) -> Scene:
-    from solver.sliding import checked
+    from solver import scene
 
     x, y, z = records
     assert x is not None  # the argument is required
-    return checked(
+    return scene(
         x.a_mps2,
         x.dt_s,
         slope_rad=math.radians(slope_deg),
@@ -150,6 +150,6 @@ def _solved(scene: Scene, model: str | None) -> dict[str, Any]:
         "reason": found.reason,
         "next_model": f"{int(found.next_rung)}, {found.next_rung.title}",
         "next_effect_m": found.next_effect_m,
-        "error_m": found.error_m,
+        "error_m": found.result.error_m,
         "friction_demand": found.friction_demand,
     }

@@ -17,7 +17,7 @@ from solver.model import (
     Status,
     coulomb,
 )
-from solver.sliding import slide, slide_history
+from solver.sliding import scene, slide, slide_history
 from solver.studies import Sweep, sweep
 
 __all__ = [
@@ -36,6 +36,7 @@ __all__ = [
     "Status",
     "Sweep",
     "coulomb",
+    "scene",
     "slide",
     "slide_history",
     "solve",

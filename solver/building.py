@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from solver import kernels
 from solver.model import Floats, InputError
+from solver.motion import refined
 from solver.structure import Building, building_of_modes, building_of_periods
 
 __all__ = [
@@ -133,7 +134,7 @@ def to_roof(
     """
     ground = _checked(ground_mps2, dt_s, share)
     cut = _cut(ground, dt_s, building, share)
-    return _carried(ground, dt_s, building, cut, _steps(cut, dt_s, building))
+    return _carried(ground, dt_s, building, cut, _steps(cut.n_modes, dt_s, building))
 
 
 def roof_motion(
@@ -170,13 +171,15 @@ def shaking_to_roof(
     grounds = [_checked(a, dt_s, share) for a in horizontal_mps2]
     pairs = list(zip(grounds, buildings, strict=True))
     cuts = [_cut(a, dt_s, building, share) for a, building in pairs]
-    steps = max((_steps(c, dt_s, b) for c, b in zip(cuts, buildings, strict=True)), default=1)
+    steps = max(
+        (_steps(c.n_modes, dt_s, b) for c, b in zip(cuts, buildings, strict=True)), default=1
+    )
     found = [_carried(a, dt_s, b, c, steps) for (a, b), c in zip(pairs, cuts, strict=True)]
     vertical = np.asarray(vertical_mps2, dtype=np.float64)
     count = max([(vertical.size - 1) * steps + 1, *(one.a_mps2.size for one in found)])
     if vertical.size:
         vertical = lengthened(vertical, math.ceil((count - 1) / steps) + 1)
-        vertical = _refined(vertical, steps)[:count]
+        vertical = refined(vertical, steps)[:count]
     return RoofShaking(
         dt_s=dt_s / steps,
         horizontal=tuple(_as_long(one, count) for one in found),
@@ -198,8 +201,10 @@ class _Cut(NamedTuple):
 
 
 def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
-    a = lengthened(ground, ground.size + _free_samples(building, dt_s))
-    parts = absolute_accelerations(a, dt_s, building.periods_s, building.damping)
+    # Between the samples as well: what is left out swings fastest.
+    steps = _steps(building.periods_s.size, dt_s, building)
+    a = refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
+    parts = absolute_accelerations(a, dt_s / steps, building.periods_s, building.damping)
     parts -= a[:, None]
     parts *= building.roof_factors
     peak = float(np.abs(a + parts.sum(axis=1)).max())
@@ -216,7 +221,7 @@ def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
 def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: int) -> RoofMotion:
     """Return the roof's motion in so many steps for each interval of the ground's."""
     dt, taken, n = dt_s / steps, slice(cut.n_modes), (ground.size - 1) * steps + 1
-    a = _refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
+    a = refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
     factors = building.roof_factors[taken]
     found = absolute_accelerations(a, dt, building.periods_s[taken], building.damping[taken])
     roof = a * (1.0 - factors.sum()) + found @ factors
@@ -258,20 +263,12 @@ def _free_samples(building: Building, dt_s: float) -> int:
     return math.ceil(-math.log(RESTING_SHARE) / slowest / dt_s)
 
 
-def _steps(cut: _Cut, dt_s: float, building: Building) -> int:
-    """Steps for each interval that the fastest mode taken needs."""
-    if cut.n_modes == 0:
+def _steps(n_modes: int, dt_s: float, building: Building) -> int:
+    """Steps for each interval that the fastest of the first modes needs."""
+    if n_modes == 0:
         return 1
-    fastest = float(building.periods_s[cut.n_modes - 1])
+    fastest = float(building.periods_s[n_modes - 1])
     return min(max(math.ceil(FINENESS * dt_s / fastest - 1e-9), 1), MOST_STEPS)
-
-
-def _refined(a: Floats, steps: int) -> Floats:
-    """Return a record with so many steps in each interval, on its straight lines."""
-    if steps == 1:
-        return a
-    at = np.arange((a.size - 1) * steps + 1)
-    return np.interp(at, np.arange(a.size) * steps, a)
 
 
 def _last_over(a: Floats, limit: float) -> int:

@@ -16,7 +16,7 @@ import numpy as np
 from solver import plane, sliding
 from solver.forces import forces
 from solver.methods import NO_RECORD
-from solver.model import Floats, InputError, Scene, SlideHistory, SlideResult, Status, coulomb
+from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.row import Row, slide_row
 
 
@@ -53,8 +53,8 @@ class Settings:
     Attributes
     ----------
     matters_m, matters_share : float
-        A component whose effect on the PRD is below the first [m] or the second, of the PRD, is
-        not modelled.
+        A component whose effect on the PRD and on every excursion is below the first [m] or the
+        second, of the PRD, is not modelled.
     tolerance : float
         Of two axes and of friction by speed, relative to the PRD (`plane.TOLERANCES`).
     forced : Rung or None
@@ -90,11 +90,9 @@ class Solution:
     next_rung : Rung
         The first one above that was left out; the rung itself where there is none.
     next_effect_m : float
-        What that would change in the PRD [m]: exact for the vertical, else an estimate; NaN where
-        the motion or the test report has nothing to tell it from.
-    error_m : float
-        Bound of the error of the PRD against the rung's exact solution [m]; 0 where the rung is
-        followed to rounding, NaN where there is no displacement.
+        What it and fuller models would change in the PRD, and in any excursion, at most [m], by
+        runs of them with their errors; inf where such a run gives no displacement, NaN where the
+        motion or the test report has nothing to tell it from.
     friction_demand : float
         Largest shear over normal force of a block that is held: it slips where this is above the
         friction coefficient; inf where the normal force vanishes.
@@ -107,7 +105,6 @@ class Solution:
     result: SlideResult
     next_rung: Rung
     next_effect_m: float
-    error_m: float
     friction_demand: float
     seconds: float = math.nan
 
@@ -115,11 +112,12 @@ class Solution:
 def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     """Answer a scene with the least model that does.
 
-    Climbs only while the next rung can matter. A block that is never pushed over is not run. The
-    vertical is left out where the exact runs with and without it agree to `Settings.bound_m`; the
-    second axis where its estimate (`second_axis_effect`) is below that; friction by speed is
-    modelled where the scene's friction depends on it. Where the normal force falls below zero no
-    rung gives a displacement, a forced one included.
+    A block that is never pushed over is not run. Else the least rung answers whose PRD and
+    excursions agree to `Settings.bound_m` with those of all fuller ones, bounds of their errors
+    included: they are run.
+    What pushes across the slope is carried along the whole path, so that no estimate from one axis
+    alone bounds it. Friction by speed is modelled where the scene's friction depends on it. Where
+    the normal force falls below zero no rung gives a displacement, a forced one included.
 
     Raises
     ------
@@ -153,33 +151,6 @@ def history(scene: Scene, found: Solution, settings: Settings = DEFAULT) -> Slid
     return sliding.along_history(run)
 
 
-def second_axis_effect(scene: Scene, found: SlideResult) -> float:
-    """Estimate what a second axis would change in the PRD of one axis [m].
-
-    Across the slope the block needs a share p = max |ay| / (mu N) of its friction at most, N the
-    least normal force: sqrt(1 - p^2) of it is left along the slope. Sliding, it is carried across
-    by about p times its way, which makes the resultant longer by sqrt(1 + p^2). inf where the
-    second component could move the block by itself.
-    """
-    mu, push = scene.friction.mu_slow, float(np.abs(_or_zero(scene.ay_mps2)).max())
-    least_normal = found.n_min_g * scene.g_mps2
-    if push == 0.0:
-        return 0.0
-    share = push * abs(scene.scale) / (mu * least_normal) if mu * least_normal > 0.0 else math.inf
-    if not share < 1.0:
-        return math.inf
-    weaker = sliding.along(replace(scene, friction=coulomb(mu * math.sqrt(1.0 - share**2))))
-    longer = (math.hypot(1.0, share) - 1.0) * max(weaker.prd_m, found.prd_m)
-    return abs(weaker.prd_m - found.prd_m) + longer
-
-
-def vertical_effect(scene: Scene, found: SlideResult) -> float:
-    """Return what the vertical changes in the PRD of one axis [m], exactly; 0 without one."""
-    if not scene.az_mps2.size:
-        return 0.0
-    return abs(sliding.along(_level(scene)).prd_m - found.prd_m)
-
-
 def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
     if demand <= scene.friction.mu_static:
         return _still(scene, demand)
@@ -187,18 +158,32 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
         why = "the friction coefficient is given by speed"
         return _in_plane(scene, settings, Rung.SPEED_FRICTION, why, demand)
     found = sliding.along(scene)
-    across, bound = second_axis_effect(scene, found), settings.bound_m(found.prd_m)
-    if across > bound:
-        why = "the second component could move the array by itself"
-        if math.isfinite(across):
-            why = f"the second component may change the PRD by {_mm(across)}, over {_mm(bound)}"
-        return _in_plane(scene, settings, Rung.TWO_AXES, why, demand)
-    lift = vertical_effect(scene, found)
-    if lift > bound:
-        why = f"the vertical changes the PRD by {_mm(lift)}, over {_mm(bound)}"
-        return _along(scene, Rung.ONE_AXIS_VERTICAL, found, why, demand)
-    why = f"nothing more changes the PRD by over {_mm(bound)}"
-    return _along(scene, Rung.ONE_AXIS, sliding.along(_level(scene)), why, demand)
+    bound = settings.bound_m(found.prd_m)
+    level = sliding.along(_level(scene)) if scene.az_mps2.size else found
+    both = sliding.in_plane(scene, settings.tolerance) if scene.ay_mps2.any() else found
+    less, lesser = _left_out(found, both), _left_out(level, found, both)
+    if lesser <= bound:
+        why = f"nothing more changes a displacement by over {_mm(bound)}"
+        return _along(scene, Rung.ONE_AXIS, level, lesser, why, demand)
+    if less <= bound:
+        why = f"without the vertical a displacement changes by {_mm(lesser)}, over {_mm(bound)}"
+        return _along(scene, Rung.ONE_AXIS_VERTICAL, found, less, why, demand)
+    why = f"without the second component a displacement changes by {_mm(less)}, over {_mm(bound)}"
+    return _followed(scene, Rung.TWO_AXES, both, why, demand)
+
+
+def _left_out(found: SlideResult, *fuller: SlideResult) -> float:
+    """Return what fuller models change in a PRD or an excursion at most [m]; inf for unknown.
+
+    Excursions as well: two models may come as far from the start by chance, on other ways.
+    """
+    effects = [
+        abs(getattr(one, name) - getattr(found, name)) + one.error_m
+        for one in fuller
+        if one is not found
+        for name in ("prd_m", "down_m", "up_m", "across_m")
+    ]
+    return math.inf if any(map(math.isnan, effects)) else max(effects, default=0.0)
 
 
 def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solution:
@@ -214,7 +199,12 @@ def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solu
         return _linked(scene, settings.row, demand)
     if rung >= Rung.TWO_AXES:
         return _in_plane(scene, settings, rung, why, demand)
-    return _along(scene, rung, sliding.along(_run_as(scene, rung)), why, demand)
+    found, fuller = sliding.along(_run_as(scene, rung)), []
+    if scene.ay_mps2.any():
+        fuller.append(sliding.in_plane(_run_as(scene, Rung.TWO_AXES), settings.tolerance))
+    if rung is Rung.ONE_AXIS and scene.az_mps2.size:
+        fuller.append(sliding.along(scene))
+    return _along(scene, rung, found, _left_out(found, *fuller), why, demand)
 
 
 def _lifted(scene: Scene) -> Solution:
@@ -225,7 +215,6 @@ def _lifted(scene: Scene) -> Solution:
         result=sliding.along(scene),
         next_rung=rung,
         next_effect_m=math.nan,
-        error_m=math.nan,
         friction_demand=math.inf,
     )
 
@@ -238,42 +227,47 @@ def _still(scene: Scene, demand: float) -> Solution:
         result=sliding.along(_run_as(scene, Rung.NO_SLIP)),
         next_rung=Rung.NO_SLIP,
         next_effect_m=0.0,
-        error_m=0.0,
         friction_demand=demand,
     )
 
 
-def _along(scene: Scene, rung: Rung, found: SlideResult, why: str, demand: float) -> Solution:
-    """Return what was found in one axis, with the effect of what was left out first."""
-    following, effect = rung, math.nan
+def _along(
+    scene: Scene, rung: Rung, found: SlideResult, effect: float, why: str, demand: float
+) -> Solution:
+    """Return what was found in one axis, with the effect of what was left out."""
+    following = rung
     if rung is Rung.ONE_AXIS and scene.az_mps2.size:
-        following, effect = Rung.ONE_AXIS_VERTICAL, vertical_effect(scene, sliding.along(scene))
+        following = Rung.ONE_AXIS_VERTICAL
     elif scene.ay_mps2.size:
-        following, effect = Rung.TWO_AXES, second_axis_effect(scene, found)
+        following = Rung.TWO_AXES
     return Solution(
         rung=rung,
         reason=why,
         result=found,
         next_rung=following,
-        next_effect_m=effect,
-        error_m=0.0,
+        next_effect_m=math.nan if following is rung else effect,
         friction_demand=demand,
     )
 
 
 def _in_plane(scene: Scene, settings: Settings, rung: Rung, why: str, demand: float) -> Solution:
-    found, error = sliding.in_plane(_run_as(scene, rung), settings.tolerance)
-    following, effect = rung, math.nan
-    if not scene.friction.is_constant and rung is Rung.TWO_AXES:
-        fuller, _ = sliding.in_plane(scene, settings.tolerance)
-        following, effect = Rung.SPEED_FRICTION, abs(fuller.prd_m - found.prd_m)
+    found = sliding.in_plane(_run_as(scene, rung), settings.tolerance)
+    if scene.friction.is_constant or rung is Rung.SPEED_FRICTION:
+        return _followed(scene, rung, found, why, demand)
+    fuller = sliding.in_plane(scene, settings.tolerance)
+    by_speed = _followed(scene, rung, found, why, demand)
+    effect = _left_out(found, fuller)
+    return replace(by_speed, next_rung=Rung.SPEED_FRICTION, next_effect_m=effect)
+
+
+def _followed(scene: Scene, rung: Rung, found: SlideResult, why: str, demand: float) -> Solution:
+    """Return what was found in two axes, with nothing left out that the scene has."""
     return Solution(
         rung=rung,
         reason=why,
         result=found,
-        next_rung=following,
-        next_effect_m=effect,
-        error_m=error,
+        next_rung=rung,
+        next_effect_m=math.nan,
         friction_demand=demand,
     )
 
@@ -294,6 +288,7 @@ def _linked(scene: Scene, row: Row | None, demand: float) -> Solution:
         t_prd_s=math.nan,
         n_stops=found.n_stops,
         end_speed_mps=math.nan,
+        error_m=found.error_m,
     )
     return Solution(
         rung=Rung.ROW,
@@ -301,7 +296,6 @@ def _linked(scene: Scene, row: Row | None, demand: float) -> Solution:
         result=result,
         next_rung=Rung.ROW,
         next_effect_m=math.nan,
-        error_m=found.error_m,
         friction_demand=demand,
     )
 
@@ -321,12 +315,5 @@ def _level(scene: Scene) -> Scene:
     return replace(scene, az_mps2=NO_RECORD)
 
 
-def _or_zero(values: Floats) -> Floats:
-    return values if values.size else _ZERO
-
-
 def _mm(value_m: float) -> str:
-    return f"{value_m * 1e3:.2g} mm"
-
-
-_ZERO = np.zeros(1)
+    return f"{float(f'{value_m * 1e3:.2g}'):g} mm"

@@ -25,13 +25,14 @@ NO_RECORD.setflags(write=False)
 class Prepared:
     """One block under one motion, checked, in the letters of the kernels.
 
-    `ax` and `az` are read-only; `az` has shape (0,) where there is no vertical shaking. `x` holds
-    the `kernels.bounds` of `ax`.
+    `ax` and `az` are read-only; `az` has shape (0,) where there is no vertical shaking. `x` and `z`
+    hold the `kernels.bounds` of `ax` and `az`.
     """
 
     ax: Floats
     x: Floats
     az: Floats
+    z: Floats
     dt: float
     sn: float
     cs: float
@@ -129,7 +130,7 @@ def exact_events(scene: Prepared, n_stops: int) -> Floats:
 
 def _vertical(scene: Prepared) -> tuple[Floats | None, Floats | None]:
     """Return the vertical record and its bounds as the exact kernels take them."""
-    return (scene.az, kernels.bounds(scene.az)) if scene.az.size else (None, None)
+    return (scene.az, scene.z) if scene.az.size else (None, None)
 
 
 def _run_exact(
@@ -163,7 +164,8 @@ def _frozen(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome
     a = -drive
     a.setflags(write=False)
     x = kernels.bounds(a)
-    flat = replace(scene, ax=a, x=x, az=NO_RECORD, sn=0.0, cs=1.0, g=scene.g * scene.cs, scale=1.0)
+    none = replace(scene, az=NO_RECORD, z=kernels.bounds(NO_RECORD))
+    flat = replace(none, ax=a, x=x, sn=0.0, cs=1.0, g=scene.g * scene.cs, scale=1.0)
     return _exact(flat, parameters, samples)
 
 

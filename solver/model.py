@@ -43,6 +43,7 @@ class Status(StrEnum):
     SLIDING_AT_END = "sliding_at_end"
     UPLIFT = "uplift"
     DIVERGED = "diverged"
+    STEP_LIMIT = "step_limit"
 
     @property
     def sentence(self) -> str:
@@ -55,6 +56,7 @@ _SENTENCES = {
     Status.SLIDING_AT_END: "still sliding when the record ends: the displacement is not final",
     Status.UPLIFT: "the normal force falls below zero: outside the model, no displacement given",
     Status.DIVERGED: "the method did not converge or blew up: no displacement given",
+    Status.STEP_LIMIT: "more steps are needed than a run may take: no displacement given",
 }
 
 
@@ -62,7 +64,8 @@ _SENTENCES = {
 class SlideResult:
     """One block under one motion. Displacements are horizontal, relative to the roof.
 
-    With `Status.UPLIFT` and `Status.DIVERGED` every displacement and time of displacement is NaN.
+    With `Status.UPLIFT`, `Status.DIVERGED` and `Status.STEP_LIMIT` every displacement, its time and
+    its error are NaN.
 
     Attributes
     ----------
@@ -86,6 +89,11 @@ class SlideResult:
         When the normal force first falls below zero [s]; NaN if it never does.
     end_speed_mps : float
         Horizontal relative velocity at the end of the record [m/s].
+    error_m : float
+        No displacement is more than this from the exact motion of the interpolated record [m]: the
+        method's own bound in two axes, an allowance for rounding by the method `exact` in one
+        (`sliding.rounding`); NaN for the other methods. Where friction falls with speed or at the
+        breakaway there is no bound: then it is twice the difference of two tolerances.
     """
 
     status: Status
@@ -100,6 +108,7 @@ class SlideResult:
     n_min_g: float
     t_uplift_s: float
     end_speed_mps: float
+    error_m: float
 
 
 class EventKind(StrEnum):

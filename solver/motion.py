@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from solver import kernels
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
@@ -108,15 +108,22 @@ def _off(values: Floats, decimals: int) -> float:
     return float(np.abs(values - np.round(values, decimals)).max())
 
 
+PEAK_FINENESS, PEAK_STEPS = 40, 16
+"""Places of a period at which an oscillator's peak is looked for; at most so many of an interval.
+"""
+
+
 def response_spectrum(
     a_mps2: ArrayLike, dt_s: float, periods_s: ArrayLike, damping: float = 0.05
 ) -> Floats:
     """Pseudo-spectral acceleration of a record, omega^2 times the largest |displacement|.
 
     The oscillators follow the linearly interpolated record exactly (Nigam and Jennings, Bull.
-    Seism. Soc. Am. 59 (1969) 909-922), from rest to the end of the record. Peaks are those at the
-    samples: a peak between two of them is missed by up to 1 - cos(pi dt / T). Free vibration after
-    the record's end is not looked at: pad a record with zeros to have it.
+    Seism. Soc. Am. 59 (1969) 909-922), from rest to the end of the record. Short periods are looked
+    at between the samples as well: at `PEAK_FINENESS` places of a period, which miss a peak by
+    0.3 % at most, 1 - cos(pi / PEAK_FINENESS); below 2.5 dt at `PEAK_STEPS` places of each
+    interval. Free vibration after the record's end is not looked at: pad a record with zeros to
+    have it.
 
     Parameters
     ----------
@@ -143,9 +150,29 @@ def response_spectrum(
     with np.errstate(divide="ignore", over="ignore"):
         omega = 2.0 * math.pi / periods
     rigid = ~np.isfinite(omega)
-    peak, at = np.empty_like(omega), np.empty(omega.shape, dtype=np.int64)
-    kernels.oscillator_peaks(a, float(dt_s), np.where(rigid, 0.0, omega), float(damping), peak, at)
-    return np.where(rigid, np.abs(a).max(), np.abs(peak))
+    found = np.full(omega.shape, np.abs(a).max())
+    steps = _peak_steps(float(dt_s), np.where(rigid, 0.0, omega))
+    for each in np.unique(steps[~rigid]).tolist():
+        some = ~rigid & (steps == each)
+        peak, at = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
+        fine = read_only(refined(a, each))
+        kernels.oscillator_peaks(fine, dt_s / each, omega[some], float(damping), peak, at)
+        found[some] = np.abs(peak)
+    return found
+
+
+def _peak_steps(dt_s: float, omega: Floats) -> NDArray[np.int64]:
+    """Steps for each interval at which the peak of an oscillator is looked for: powers of two."""
+    needed = np.clip(PEAK_FINENESS * dt_s * omega / (2.0 * math.pi), 1.0, PEAK_STEPS)
+    return (2.0 ** np.ceil(np.log2(needed))).astype(np.int64)
+
+
+def refined(a: Floats, steps: int) -> Floats:
+    """Return a record with so many steps in each interval, on its straight lines."""
+    if steps == 1:
+        return a
+    at = np.arange((a.size - 1) * steps + 1)
+    return np.interp(at, np.arange(a.size) * steps, a)
 
 
 def read_only(values: ArrayLike) -> Floats:

@@ -13,16 +13,26 @@ from typing import NamedTuple
 import numpy as np
 
 from solver import biaxial, kernels
-from solver.model import EventKind, Floats, Scene
+from solver.model import EventKind, Floats, Scene, Status
 
 DEFAULT_TOLERANCE = 1e-6
 TOLERANCES = (1e-10, 1e-2)
 """Least and largest tolerance that `follow` keeps to."""
 
 # Tolerance of a step by that of the run: then the bound of the error is below the tolerance of the
-# run in all but long slips, and the error itself a hundredth of it or less.
-_SHARE = 2e-4
+# run in all but long slips.
+_SHARE = 1.5e-3
 _ATTEMPTS = 5
+
+# Steps that a run may take: at most, and more for each sample. 30 s at 0.005 s take 5,000; friction
+# that comes to its value within a micrometer per second takes the most, half a second of time.
+_MOST_STEPS, _MOST_STEPS_OF_SAMPLE = 200_000, 20
+
+_STATUSES = {
+    biaxial.FOLLOWED: Status.OK,
+    biaxial.TOO_MANY_STEPS: Status.STEP_LIMIT,
+    biaxial.NOT_FINITE: Status.DIVERGED,
+}
 
 _NO_EVENTS, _NO_HISTORY = np.empty((0, 4)), np.empty((4, 0))
 
@@ -36,6 +46,8 @@ class PlaneOutcome:
 
     Attributes
     ----------
+    status : Status
+        `Status.OK`, or why there is no motion: then every other number means nothing.
     prd_m, t_prd_s : float
         Largest distance from the start [m], and when [s].
     down_m, up_m, left_m, right_m : float
@@ -51,6 +63,7 @@ class PlaneOutcome:
         What the last attempt ran with.
     """
 
+    status: Status
     prd_m: float
     t_prd_s: float
     down_m: float
@@ -83,11 +96,11 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> PlaneOutcome:
     Parameters
     ----------
     tolerance : float
-        Within `TOLERANCES`. The run is repeated with finer steps until `error_m` is below it or
-        rounding stands in the way.
+        Within `TOLERANCES`, relative to the PRD or to a micrometer, whichever is more. The run is
+        repeated with finer steps until `error_m` is below it or rounding stands in the way.
     """
     found = _bounded(scene, tolerance)
-    if scene.friction.is_monotone:
+    if scene.friction.is_monotone or found.status is not Status.OK:
         return found
     finer = _run(scene, _FINER * found.step_tolerance, _NO_EVENTS, _NO_HISTORY)
     changes = np.subtract(_places(finer), _places(found))
@@ -123,10 +136,9 @@ def _bounded(scene: Scene, tolerance: float) -> PlaneOutcome:
     for _ in range(_ATTEMPTS):
         found = _run(scene, share, _NO_EVENTS, _NO_HISTORY)
         steps += found.n_steps
-        wanted = tolerance * found.prd_m
-        if not scene.friction.is_monotone or found.error_m <= wanted:
-            break
-        if share <= biaxial.LEAST_TOLERANCE:
+        wanted = tolerance * max(found.prd_m, biaxial.SMALL)
+        settled = not scene.friction.is_monotone or found.error_m <= wanted
+        if settled or found.status is not Status.OK or share <= biaxial.LEAST_TOLERANCE:
             break
         share *= max(0.3 * wanted / found.error_m, 1e-3)
     return replace(found, n_steps=steps)
@@ -145,7 +157,7 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOut
         law = (friction.mu_fast, drop, friction.rate_s_per_m, friction.mu_static)
     vertical = scene.az_mps2 if len(scene.az_mps2) else None
     top, end = np.empty(6), np.empty(4)
-    error, n_stops, n_events, n_steps = biaxial.slide_plane(
+    outcome, error, n_stops, n_events, n_steps = biaxial.slide_plane(
         scene.ax_mps2,
         scene.ay_mps2,
         vertical,
@@ -160,6 +172,7 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOut
         scene.scale,
         step,
         _degree(step),
+        _MOST_STEPS + _MOST_STEPS_OF_SAMPLE * len(scene.ax_mps2),
         law,
         events,
         samples,
@@ -169,6 +182,7 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOut
     prd, t_prd, s_max, s_min, y_max, y_min = top.tolist()
     sx, sy, vx, vy = end.tolist()
     return PlaneOutcome(
+        status=_STATUSES[outcome],
         prd_m=prd,
         t_prd_s=t_prd,
         down_m=cs * s_max,

@@ -30,15 +30,13 @@ def _relative_acceleration(sign, a_h, a_v, theta, mu, g):
 
 def _first_zero(v, a0, a1, h):
     """Earliest root in (0, h] of v + a0 t + (a1 - a0) t^2 / (2 H), given as coefficients."""
-    roots = []
-    if a1 == 0:
-        if a0 != 0:
-            roots = [-v / a0]
-    else:
-        square = a0 * a0 - 2 * a1 * v
-        if square >= 0:
-            root = mp.sqrt(square)
-            roots = [(-a0 - root) / a1, (-a0 + root) / a1]
+    roots, square = [], a0 * a0 - 2 * a1 * v
+    if square >= 0:
+        # No difference of near numbers: a1 may be 1e-36 of a0, all digits of that difference.
+        far = -(a0 + (mp.sqrt(square) if a0 >= 0 else -mp.sqrt(square)))
+        roots = [2 * v / far] if far != 0 else [mpf(0)]
+        if a1 != 0:
+            roots.append(far / a1)
     roots = [t for t in roots if mpf("1e-36") < t <= h]
     return min(roots) if roots else None
 

@@ -86,7 +86,7 @@ def test_the_page_says_plainly_that_the_rivals_know_one_axis(usual):
     assert "know one axis only" in page["plane"]
     assert f"{found.rivals.exact.prd_m / 0.0254:.1f} in" in page["plane"]
     assert "no result of this package" in page["plane"]
-    assert found.rivals.motion.governing.solution.error_m < 1e-6
+    assert found.rivals.motion.governing.result.error_m < 1e-6
     assert "below 10" in page["plane"]
 
 

@@ -187,6 +187,18 @@ def test_uplift_withholds_the_displacement_and_fails_every_clearance():
     assert any("normal force falls below zero" in line and "(at " in line for line in done.warnings)
 
 
+def test_a_run_without_an_answer_withholds_the_displacement(monkeypatch):
+    monkeypatch.setattr("solver.plane._MOST_STEPS", 10)
+    monkeypatch.setattr("solver.plane._MOST_STEPS_OF_SAMPLE", 0)
+    done = assessed(stand_in.motions(3))
+    item = done.arrays[0]
+    assert item.worst.governing.result.status is Status.STEP_LIMIT
+    assert math.isnan(item.design_m)
+    assert not any(gap.ok for gap in done.clearances)
+    assert not done.ok
+    assert any("more steps are needed than a run may take" in line for line in done.warnings)
+
+
 def test_two_motions_are_too_few():
     done = assessed(stand_in.motions(2))
     assert done.arrays[0].analysis.basis is Basis.TOO_FEW

@@ -44,6 +44,8 @@ SCENES = [
     ([0.0, 0.0, -4.0], [0.0, 0.0, 3.0], [-10.0, -10.0, -9.0], 0.0, 0.2, None),
     # A stop and a slip within one step.
     ([-2.0, 5.0, 0.0, -1.0, 1.0, 5.0], [3.0, -4.0, 6.0, 2.0, 2.0, 0.0], [], 0.0, 0.2, None),
+    # A normal force that vanishes, and one so small that the series of w is soon not the speed.
+    ([0.0, 1.0, -1.0], [0.0, -0.3, 0.4], [0.0, -10.0, -10.0], 0.0, 0.2, None),
     # A slip that hardly begins, and one that does not begin at all.
     ([0.0, -2.0001, -2.0002, -1.9, 0.0], [0.0, 0.001, 0.0, 0.0, 0.0], [], 0.0, 0.2, None),
     ([0.0, -1.2, -1.6, 0.0], [0.0, -1.6, -1.2, 0.0], [], 0.0, 0.2, None),
@@ -64,10 +66,10 @@ def run_all(compiled):
         bounds = [None if a is None else kernels.bounds(a) for a in (ax, ay, az)]
         for step, most in ((1e-6, 12), (1e-13, 20)):
             top, end = np.empty(6), np.empty(4)
-            settings = (0.05, sn, math.sqrt(1.0 - sn * sn), mu, G, 1.0, step, most, law)
+            settings = (0.05, sn, math.sqrt(1.0 - sn * sn), mu, G, 1.0, step, most, 2000, law)
             nothing = np.empty((0, 4)), np.empty((4, 0))
             run = slide(ax, ay, az, *bounds, *settings, *nothing, top, end)
-            events, history = np.full((run[2], 4), np.nan), np.full((4, ax.size), np.nan)
+            events, history = np.full((run[3], 4), np.nan), np.full((4, ax.size), np.nan)
             again = slide(ax, ay, az, *bounds, *settings, events, history, top, end)
             assert again == run
             found += [*run, *top, *end, *events.ravel(), *history.ravel()]
@@ -78,6 +80,25 @@ def test_compiled_and_plain_kernels_give_the_same_bits():
     np.testing.assert_array_equal(run_all(compiled=True), run_all(compiled=False))
 
 
+def given_up(ax, most_steps, dt=0.05):
+    """Return how a run ends that has no answer."""
+    ax = readonly(ax)
+    x = kernels.bounds(ax)
+    settings = (dt, 0.0, 1.0, 0.2, G, 1.0, 1e-6, 12, most_steps, None)
+    nothing = np.empty((0, 4)), np.empty((4, 0))
+    with np.errstate(all="ignore"):
+        return biaxial.slide_plane(
+            ax, ax, None, x, x, None, *settings, *nothing, np.empty(6), np.empty(4)
+        )
+
+
+def test_a_run_without_an_answer_says_why():
+    assert given_up(wave(2, 30), 2000)[0] == biaxial.FOLLOWED
+    assert given_up(wave(2, 30), 5)[0] == biaxial.TOO_MANY_STEPS
+    assert given_up([0.0, 1e300, -1e300, 0.0], 2000)[0] == biaxial.NOT_FINITE
+    assert given_up(wave(2, 30), 2000, dt=1e200)[0] == biaxial.NOT_FINITE
+
+
 def test_the_blocks_passed_over_are_those_of_the_bounds():
     assert biaxial.SHIFT == kernels.SHIFT
 
@@ -85,12 +106,16 @@ def test_the_blocks_passed_over_are_those_of_the_bounds():
 def test_blocks_passed_over_change_nothing():
     ax, ay = readonly(QUIET), readonly(-QUIET[::-1])
     x, y = kernels.bounds(ax), kernels.bounds(ay)
-    everything = np.array([[-np.inf], [np.inf]]) * np.ones_like(x)
+    # All of a record but its peak, which rounding is told from.
+    least_and_greatest = np.array([[-99.0], [99.0]])
+    wide = [least_and_greatest * np.ones_like(bounds) for bounds in (x, y)]
+    for one, bounds in zip(wide, (x, y), strict=True):
+        one[:, -1] = bounds[:, -1]
     found = []
-    for bounds in ((x, y), (everything, everything)):
+    for bounds in ((x, y), wide):
         top, end = np.empty(6), np.empty(4)
         run = biaxial.slide_plane(
-            ax, ay, None, *bounds, None, 0.05, 0.1, 0.99, 0.3, G, 1.0, 1e-9, 16, None,
+            ax, ay, None, *bounds, None, 0.05, 0.1, 0.99, 0.3, G, 1.0, 1e-9, 16, 2000, None,
             np.empty((0, 4)), np.empty((4, 0)), top, end,
         )  # fmt: skip
         found.append([*run, *top, *end])

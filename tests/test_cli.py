@@ -17,7 +17,7 @@ import report.package
 from report.cli import _steps, main
 from sheets import make
 from solver.model import Friction
-from solver.sliding import checked, in_plane, slide
+from solver.sliding import in_plane, scene, slide
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLE = ROOT / "projects" / "example"
@@ -188,8 +188,8 @@ def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
             found = slide(ax, 0.005, ay_mps2=ay, **about)
         else:
             by_speed = Friction(mu_slow=0.4, mu_fast=0.5, rate_s_per_m=20.0, mu_static=0.4)
-            scene = checked(ax, 0.005, ay_mps2=ay, **about)
-            found, _ = in_plane(replace(scene, friction=by_speed))
+            run = scene(ax, 0.005, ay_mps2=ay, **about)
+            found = in_plane(replace(run, friction=by_speed))
         assert run_["prd_m"] == pytest.approx(found.prd_m, rel=1e-12)
         assert run_["residual_m"] == pytest.approx(found.residual_m, rel=1e-12, abs=1e-15)
         assert run_["status"] == found.status

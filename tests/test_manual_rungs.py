@@ -61,6 +61,17 @@ def test_static_friction_is_told_beside_friction_by_speed(evidence):
     assert "the power 2.0 and 2.0 of the difference" in said
 
 
+def test_the_distribution_of_error_over_bound_is_told(evidence):
+    said = words(rungs(verification(evidence)))
+    assert "Every pair keeps to its bound." in said
+    pairs = sum(one.n_pairs for one in evidence.bounds)
+    assert f"{pairs:,} pairs of runs" in said
+    one = evidence.bounds[0]
+    broken = replace(one, ratios=np.array([0.5, 3.0]), n_unanswered=2)
+    said = words(rungs(verification(replace(evidence, bounds=(broken, *evidence.bounds[1:])))))
+    assert "Pairs over their bounds: 1; without an answer: 2." in said
+
+
 def test_no_number_is_printed_raw(evidence):
     said = words(rungs(verification(evidence)))
     assert not re.search(r"\bnan\b|\d+e[-+]?\d|None|\{|\}", said)
@@ -94,7 +105,7 @@ def test_the_charts_are_the_same_every_time(evidence):
     one, other = (rungs(verification(evidence)) for _ in range(2))
     charts = [[c.picture.svg for b in part.blocks for c in b.charts] for part in (one, other)]
     assert charts[0] == charts[1]
-    assert len(charts[0]) == 2
+    assert len(charts[0]) == 3
 
 
 def test_the_runs_are_in_the_table_of_the_verification(evidence):

@@ -117,7 +117,11 @@ class TestSpectrum:
     def test_it_agrees_with_matrix_exponentials_to_rounding(self, damping: float) -> None:
         a = np.random.default_rng(3).normal(0.0, 2.0, 40)
         periods = [1e-3, 0.02, 0.0314159, 0.0628, 0.0629, 0.1, 0.5, 3.0, 50.0, 1e4, 1e8]
-        expected = [exact_psa(a.tolist(), 0.01, period, damping) for period in periods]
+        steps = [min(2 ** math.ceil(math.log2(max(0.4 / each, 1.0))), 16) for each in periods]
+        expected = [
+            exact_psa(motion.refined(a, n).tolist(), 0.01 / n, period, damping)
+            for n, period in zip(steps, periods, strict=True)
+        ]
         got = response_spectrum(a, 0.01, periods, damping)
         assert got == pytest.approx(expected, rel=2e-13)
 
@@ -154,13 +158,16 @@ class TestSpectrum:
         near, at = response_spectrum(a, 0.01, [1e-9, 0.0])
         assert at == np.abs(a).max()
         assert response_spectrum(a, 0.01, [5e-324])[0] == at
-        assert near == pytest.approx(np.abs(a[1:]).max(), rel=1e-5, abs=1e-6)
+        seen = motion.refined(a, motion.PEAK_STEPS)[1:]
+        assert near == pytest.approx(np.abs(seen).max(), rel=1e-5, abs=1e-6)
 
     @given(motions, st.floats(-50.0, 50.0))
     def test_it_scales_with_the_record_whatever_its_sign(self, a: Any, factor: float) -> None:
         periods = [0.0, 0.03, 0.4, 7.0]
         expected = abs(factor) * response_spectrum(a, 0.01, periods)
-        assert response_spectrum(factor * a, 0.01, periods) == pytest.approx(expected, abs=1e-12)
+        assert response_spectrum(factor * a, 0.01, periods) == pytest.approx(
+            expected, rel=1e-13, abs=1e-12
+        )
 
     @given(motions)
     def test_samples_put_between_the_samples_only_add_peaks(self, a: Any) -> None:
@@ -169,6 +176,15 @@ class TestSpectrum:
         periods = [0.03, 0.4, 7.0]
         coarse = response_spectrum(a, 0.01, periods)
         assert np.all(response_spectrum(finer, 0.005, periods) >= coarse * (1 - 1e-12) - 1e-12)
+
+    @pytest.mark.parametrize("period_s", [0.05, 0.1, 0.3])
+    def test_peaks_between_samples_are_seen(self, period_s: float) -> None:
+        rng = np.random.default_rng(8)
+        for _ in range(20):
+            a = rng.normal(0.0, 1.0, 300)
+            (found,) = response_spectrum(a, 0.02, [period_s])
+            (true,) = response_spectrum(motion.refined(a, 64), 0.02 / 64, [period_s])
+            assert 0.997 * true <= found <= true * (1.0 + 1e-12)
 
     def test_it_takes_time_and_period_in_proportion(self) -> None:
         a = np.random.default_rng(5).normal(0.0, 1.0, 100)

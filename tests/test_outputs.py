@@ -41,7 +41,7 @@ def test_json_holds_the_model_of_each_run_and_the_peaks_in_each_direction(docume
         assert found["mean_m"] == pytest.approx(sum(peaks) / len(peaks))
     run, solution = array["runs"][0], item.motions[0].runs[0].solution
     assert (run["rung"], run["model"]) == (3, "two axes with vertical")
-    assert (run["reason"], run["error_m"]) == (solution.reason, solution.error_m)
+    assert (run["reason"], run["error_m"]) == (solution.reason, solution.result.error_m)
     assert run["across_m"] == solution.result.across_m
     assert run["next_effect_m"] is None
     gap = document["clearances"][3]

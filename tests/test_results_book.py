@@ -143,7 +143,7 @@ def test_the_model_of_every_run_is_listed():
     _, values = made(stand_in.book())
     head, first, *_ = values["Runs"].iter_rows(values_only=True)
     assert first[head.index("Model")] == "3, two axes with vertical"
-    assert "move the array by itself" in first[head.index("Why")]
+    assert "without the second component" in first[head.index("Why")]
     assert first[head.index("Across [in]")] > 0.0
 
 

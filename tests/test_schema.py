@@ -79,6 +79,7 @@ def test_a_field_tells_its_kind_its_need_and_its_range():
     mu = entry(Array, "mu")
     assert (mu.kind, mu.is_required, mu.bounds.words()) == (float, True, "0 to 1.5")
     assert mu.spoken == "friction coefficient"
+    assert entry(Array, "mu_rate_s_per_m").bounds.words() == "more than 0 to 1000"
     client = entry(Project, "client")
     assert (client.kind, client.is_required, client.default, client.max_length) == (
         str,

@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
 from report.figures.scales import decades
 from report.letters import lettered
-from solver.verification.rung_evidence import PlaneWork, RungChange
+from solver.verification.rung_evidence import BoundRatios, PlaneWork, RungChange
 
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _DOT = "#9a9a9a"
@@ -113,3 +113,38 @@ def work(found: Sequence[PlaneWork]) -> str:
 
 LEAST_PERCENT = 1e-12
 """Error that is drawn as the least."""
+
+
+LEAST_RATIO = 1e-6
+"""Error over bound that is drawn as the least."""
+
+
+def bounds(found: Sequence[BoundRatios]) -> str:
+    """Return, for each kind, the share of the pairs whose error over bound is above a value."""
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 2.5))
+        axes = figure.add_axes((0.085, 0.165, 0.58, 0.8))
+        axes.axvline(1.0, color=INK, linewidth=0.8)
+        axes.text(1.15, 0.9, "bound", fontsize=7.5, color=INK)
+        for one, look in zip(found, _LOOKS, strict=False):
+            above = 1.0 - np.arange(one.ratios.size) / max(one.ratios.size, 1)
+            axes.plot(
+                np.maximum(one.ratios, LEAST_RATIO),
+                above,
+                color=look.color,
+                linestyle=look.linestyle,
+                linewidth=1.2,
+                label=one.kind,
+            )
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlim(LEAST_RATIO, 10.0)
+        decades(axes.xaxis, most=8)
+        decades(axes.yaxis)
+        axes.grid(True, color=PALE)
+        axes.set_axisbelow(True)
+        bare(axes)
+        axes.set_xlabel("Difference of the two runs of a pair over the sum of their bounds")
+        axes.set_ylabel("Share of the pairs above")
+        axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
+        return svg_text(figure)

@@ -64,7 +64,7 @@ def _plane(scene: Scene, found: Rivals) -> str:
     slow = "" if run.scene.friction.is_constant else ", and with friction as at a crawl"
     return (
         "Two axes have no closed form: their motion is followed to a tolerance, and the error of "
-        f"this PRD is below {below_mm(run.solution.error_m)} ({kind}). The methods that others "
+        f"this PRD is below {below_mm(run.result.error_m)} ({kind}). The methods that others "
         "use know one axis only, and are compared on this run along the slope alone, "
         f"without the component across it{slow}: a displacement of "
         f"{scene.say.both(found.exact.prd_m)}, no result of this package."
@@ -80,8 +80,11 @@ def below_mm(error_m: float) -> str:
 
 def _method(found: Rivals) -> str:
     """Return what is known of the exact method's error on this run."""
-    if found.motion.governing.result.status is Status.UPLIFT:
+    result = found.motion.governing.result
+    if result.status is Status.UPLIFT:
         return "The block leaves the roof: there is no displacement, and no error to speak of."
+    if math.isnan(result.prd_m):
+        return f"There is no displacement, and no error to speak of: {result.status.sentence}."
     if not found.runs:
         return "Nothing slides along the slope in this run: every method that sticks agrees."
     return (

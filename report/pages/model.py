@@ -183,7 +183,7 @@ def _why(found: ArrayAssessment, run: HeadingRun) -> str:
 
 
 def _error(runs: Sequence[HeadingRun]) -> str:
-    errors = [run.solution.error_m for run in runs]
+    errors = [run.result.error_m for run in runs]
     if any(map(math.isnan, errors)):
         return NO_VALUE
     worst = max(errors)
@@ -238,9 +238,9 @@ def _effect_row(
     scene: Scene, found: ArrayAssessment, rung: Rung, group: Sequence[Solution]
 ) -> tuple[str | Wide, ...]:
     effect = max((one.next_effect_m for one in group), key=nan_is_worst)
-    how = "estimated from one axis" if rung is Rung.TWO_AXES else "exact: run both ways"
+    how = "run both ways, with its error" if rung is Rung.TWO_AXES else "exact: run both ways"
     if not math.isfinite(effect):
-        return found.array.id, _LEFT_OUT[rung], Wide("not known", 4), "no estimate holds"
+        return found.array.id, _LEFT_OUT[rung], Wide("not known", 4), "the fuller run has no result"
     raised = max(found.analysis.value_m + found.analysis.factor * effect, found.floor_m)
     return (
         found.array.id,

@@ -16,7 +16,13 @@ from report.units import number
 from solver.model import Heading, Status
 
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
-_SHORT = {Status.OK: "", Status.SLIDING_AT_END: "sliding", Status.UPLIFT: "uplift"}
+_SHORT = {
+    Status.OK: "at rest",
+    Status.SLIDING_AT_END: "sliding",
+    Status.UPLIFT: "uplift",
+    Status.DIVERGED: "no result",
+    Status.STEP_LIMIT: "no result",
+}
 
 
 def array_results(scene: Scene, found: ArrayAssessment) -> Mapping[str, object]:
@@ -128,7 +134,7 @@ def _motion_row(
             *(say.cells(value)[0] for value in (result.residual_m, result.residual_across_m)),
             number(result.t_prd_s, 2),
             number(result.n_min_g, 2),
-            _SHORT[result.status] or "at rest",
+            _SHORT[result.status],
         )
     )
 

@@ -102,7 +102,7 @@ def _motion_scenes(triples: Sequence[Triple], quick: bool, *, second: bool) -> I
 
 def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> PeerPoint:
     has_two = scene.ay_mps2.size > 0
-    exact = sliding.in_plane(scene)[0] if has_two else sliding.along(scene)
+    exact = sliding.in_plane(scene) if has_two else sliding.along(scene)
     note, seconds = f"{model}; {peer.note}", math.nan
     try:
         importlib.import_module(peer.module)

@@ -46,7 +46,7 @@ def work(triple: Triple, *, quick: bool) -> tuple[str, tuple[PlaneWork, ...]]:
     """Return the scene in words, and every method over its settings on it."""
     part = triple.cut(SAMPLES[not quick])
     scene = part.scene(CASE, coulomb(CASE.mu))
-    exact, _ = sliding.in_plane(scene, TIGHT)
+    exact = sliding.in_plane(scene, TIGHT)
     found = (*_ours(scene), *_fixed(scene, exact.prd_m), *_scipy(scene, exact.prd_m, quick))
     return f"{part.name}, {CASE}", tuple(found)
 
@@ -109,7 +109,7 @@ def stops() -> Iterator[StopPoint]:
     Its place is known in closed form, see `rungs.stopped_scene` and its checks.
     """
     scene = stopped_scene()
-    truth, _ = sliding.in_plane(scene, TIGHT)
+    truth = sliding.in_plane(scene, TIGHT)
     place = truth.residual_m, truth.residual_across_m
     for tolerance in (1e-4, 1e-6):
         ours = plane.follow(scene, tolerance)

@@ -183,6 +183,33 @@ class StaticEvidence:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class BoundRatios:
+    """How far random pairs of runs come to the bound of their difference.
+
+    Attributes
+    ----------
+    kind : str
+        Of `random_pairs.KINDS`.
+    n_pairs : int
+        Of which some do not move: they have no ratio.
+    n_unanswered : int
+        Pairs in which a run has no answer.
+    ratios : array, shape (n,)
+        Difference of the two in place over the sum of their bounds, rising.
+    """
+
+    kind: str
+    n_pairs: int
+    n_unanswered: int
+    ratios: Floats
+
+    @property
+    def n_over(self) -> int:
+        """Pairs that differ by more than their bounds."""
+        return int((self.ratios > 1.0).sum())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PlaneWork:
     """One run of a method in two axes.
 
@@ -252,6 +279,7 @@ class RungEvidence:
     ----------
     study : RungStudy
     static : StaticEvidence
+    bounds : tuple of BoundRatios
     work_scene : str
     work : tuple of PlaneWork
     stops : tuple of StopPoint
@@ -262,6 +290,7 @@ class RungEvidence:
 
     study: RungStudy
     static: StaticEvidence
+    bounds: tuple[BoundRatios, ...]
     work_scene: str
     work: tuple[PlaneWork, ...]
     stops: tuple[StopPoint, ...]

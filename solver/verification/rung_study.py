@@ -19,6 +19,7 @@ from solver.methods import NO_RECORD
 from solver.model import Friction, Heading, Scene, coulomb
 from solver.row import Row, RowResult, slide_row
 from solver.verification import plane_work
+from solver.verification.bound_study import bound_ratios
 from solver.verification.rung_evidence import (
     HELD,
     HELD_ONE,
@@ -85,6 +86,7 @@ def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
     return RungEvidence(
         study=study(triples, quick=quick),
         static=static(triples, quick=quick),
+        bounds=bound_ratios(quick=quick),
         work_scene=scene,
         work=work,
         stops=tuple(plane_work.stops()),
@@ -181,7 +183,7 @@ def _runs(scene: Scene, mu: float) -> _Runs | None:
     vertical = sliding.along(scene)
     if math.isnan(vertical.prd_m):
         return None
-    both, error = sliding.in_plane(scene)
+    both = sliding.in_plane(scene)
     more_at_rest = replace(scene, friction=held(mu, 1.0 / SLOW_SHARE))
     return _Runs(
         one_axis_m=sliding.along(replace(scene, az_mps2=NO_RECORD)).prd_m,
@@ -191,12 +193,12 @@ def _runs(scene: Scene, mu: float) -> _Runs | None:
         held_one_axis_m=_plane_prd(replace(more_at_rest, ay_mps2=NO_RECORD)),
         held_m=_plane_prd(more_at_rest),
         higher_m=_plane_prd(replace(scene, friction=coulomb(mu / SLOW_SHARE))),
-        error=error / both.prd_m if both.prd_m > 0.0 else 0.0,
+        error=both.error_m / both.prd_m if both.prd_m > 0.0 else 0.0,
     )
 
 
 def _plane_prd(scene: Scene) -> float:
-    return sliding.in_plane(scene)[0].prd_m
+    return sliding.in_plane(scene).prd_m
 
 
 def _rows(triples: Sequence[Triple], cases: Sequence[Case], ppa_g: float) -> Iterator[RungChange]:

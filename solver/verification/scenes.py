@@ -86,6 +86,7 @@ def prepared(record: Record, case: Case) -> Prepared:
         ax=record.a_mps2,
         x=kernels.bounds(record.a_mps2),
         az=NO_RECORD,
+        z=kernels.bounds(NO_RECORD),
         dt=record.dt_s,
         sn=math.sin(case.slope_rad),
         cs=math.cos(case.slope_rad),

@@ -103,7 +103,7 @@ def _fading(slid: Sequence[tuple[Scene, float]], ratio: float) -> Iterator[Fadin
 
 def _prd(scene: Scene, law: Friction | None = None) -> float:
     run = scene if law is None else replace(scene, friction=law)
-    return sliding.in_plane(run, TIGHT)[0].prd_m
+    return sliding.in_plane(run, TIGHT).prd_m
 
 
 def _faded(scene: Scene, share: float) -> Scene:
@@ -133,11 +133,11 @@ def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
 
 def _pushed() -> Iterator[PushedPoint]:
     for across_mps2 in ACROSS_MPS2:
-        found, off_m = sliding.in_plane(pushed_scene(across_mps2, JUMPING), PUSHED_TOLERANCE)
-        fell, _ = sliding.in_plane(pushed_scene(across_mps2, FALLING), PUSHED_TOLERANCE)
+        found = sliding.in_plane(pushed_scene(across_mps2, JUMPING), PUSHED_TOLERANCE)
+        fell = sliding.in_plane(pushed_scene(across_mps2, FALLING), PUSHED_TOLERANCE)
         yield PushedPoint(
             across_mps2=across_mps2,
             end_m=math.hypot(found.residual_m, found.residual_across_m),
-            error_m=off_m,
+            error_m=found.error_m,
             falling_end_m=math.hypot(fell.residual_m, fell.residual_across_m),
         )

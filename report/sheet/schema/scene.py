@@ -28,6 +28,11 @@ from solver.model import Friction
 
 MuCell = Annotated[float, Field(ge=0.0, le=1.5)]
 
+MOST_RATE_S_PER_M = 1000.0
+"""Up to here the bounds of two axes were tried (`solver.verification.random_pairs`)."""
+
+RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
+
 
 def slope_rad(value: float, unit: SlopeUnit) -> float:
     """Return a slope as an angle [rad]."""
@@ -127,7 +132,7 @@ class Array(Frozen):
         ),
     ] = None
     mu_rate_s_per_m: Annotated[
-        Positive | None,
+        RateCell | None,
         Cell(
             "Friction rate",
             "How soon it turns from crawl to speed: fast - (fast - slow) exp(-rate x speed). "

@@ -1,0 +1,38 @@
+"""How far random pairs of runs in two axes come to the bound of their difference.
+
+Read `bound_ratios`; `random_pairs` makes the pairs.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from solver.verification.random_pairs import KINDS, UNBOUNDED, pair
+from solver.verification.rung_evidence import BoundRatios
+
+PAIRS = (40, 1000)
+"""Of each kind, quick and full."""
+
+
+@cache
+def bound_ratios(*, quick: bool) -> tuple[BoundRatios, ...]:
+    """Run the first pairs of every kind that has a bound."""
+    return tuple(_of_kind(kind, PAIRS[not quick]) for kind in KINDS if kind not in UNBOUNDED)
+
+
+def _of_kind(kind: str, count: int) -> BoundRatios:
+    found = []
+    for index in range(count):
+        try:
+            found.append(pair(kind, index).run())
+        except ArithmeticError:
+            continue
+    moved = [one.ratio for one in found if one.prd_m > 0.0]
+    return BoundRatios(
+        kind=kind,
+        n_pairs=count,
+        n_unanswered=count - len(found),
+        ratios=np.sort(np.array(moved)),
+    )

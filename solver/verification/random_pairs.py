@@ -1,0 +1,377 @@
+"""Random scenes in two axes, in pairs whose answers may differ by their stated bounds alone.
+
+Short records of every shape that a block may meet, most of them nothing like an earthquake: equal
+samples, jumps, pushes at the yield acceleration or in proportion, no friction, no normal force.
+Read `Pair`, then `KINDS`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solver.methods import NO_RECORD
+from solver.model import STANDARD_GRAVITY_MPS2 as G
+from solver.model import Floats, Friction, Scene, Status, coulomb
+from solver.plane import PlaneOutcome, follow
+from solver.verification.triples import readonly
+
+EPS = 2.0**-52
+TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
+STEPS_S = (0.0005, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5)
+SLOPES_DEG = (0.0, 0.0, 0.0, 0.5, -0.5, 2.0, -2.0, 5.0, 7.0, 12.0, -20.0)
+MUS = (0.001, 0.02, 0.1, 0.2, 0.4, 0.8)
+
+Random = np.random.Generator
+Compare = Callable[[PlaneOutcome, PlaneOutcome], Floats]
+Law = Callable[[float], Friction]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """What the two runs of a pair say of each other.
+
+    Attributes
+    ----------
+    prd_m : float
+        Of the first run [m].
+    off_m : float
+        Largest difference of a place between the two [m].
+    bound_m : float
+        What it may be: the sum of both bounds, and rounding of the second scene's input [m]; inf
+        where friction falls with speed.
+    """
+
+    prd_m: float
+    off_m: float
+    bound_m: float
+
+    @property
+    def ratio(self) -> float:
+        """Difference over bound: 1 at most."""
+        return self.off_m / self.bound_m if self.off_m > 0.0 else 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pair:
+    """Two scenes with one answer.
+
+    Attributes
+    ----------
+    one, two : Scene
+    tolerances : tuple of float
+        Of both runs.
+    rounding_m : float
+        What the rounding of the second scene's input may change [m] (`rounding`).
+    compare : callable
+        Returns the differences of places that should be none.
+    """
+
+    one: Scene
+    two: Scene
+    tolerances: tuple[float, float]
+    rounding_m: float
+    compare: Compare
+
+    def run(self) -> Outcome:
+        """Run both.
+
+        Raises
+        ------
+        ArithmeticError
+            Where one of them has no answer.
+        """
+        scenes = zip((self.one, self.two), self.tolerances, strict=True)
+        a, b = (follow(scene, tolerance) for scene, tolerance in scenes)
+        if a.status is not Status.OK or b.status is not Status.OK:
+            raise ArithmeticError(f"{a.status}, {b.status}")
+        bound = a.error_m + b.error_m + self.rounding_m
+        return Outcome(
+            prd_m=a.prd_m,
+            off_m=float(np.abs(self.compare(a, b)).max()),
+            bound_m=bound if self.one.friction.is_monotone else math.inf,
+        )
+
+
+def pair(kind: str, index: int) -> Pair:
+    """Return pair number `index` of a kind: always the same one."""
+    return KINDS[kind](np.random.default_rng([list(KINDS).index(kind), index]))
+
+
+def rounding(scene: Scene) -> float:
+    """Return what half a unit in the last place of every sample may change in a place [m].
+
+    Friction is monotone: a push that is off by d makes the speed off by d t, the place by
+    d t^2 / 2. As much again for the time step, whose quotient is rounded.
+    """
+    sn, cs = abs(math.sin(scene.slope_rad)), math.cos(scene.slope_rad)
+    mu = max(scene.friction.mu_slow, scene.friction.mu_fast)
+    ax, ay, az = (
+        float(np.abs(a).max(initial=0.0)) for a in (scene.ax_mps2, scene.ay_mps2, scene.az_mps2)
+    )
+    push = (sn + mu * cs) * (scene.g_mps2 + az) + (cs + mu * sn) * ax + ay
+    return EPS * push * ((scene.ax_mps2.size - 1) * scene.dt_s) ** 2
+
+
+# Scenes
+
+
+def _wave(rng: Random, n: int) -> Floats:
+    """Return a record of one of eight shapes, its peak about 1."""
+    t: Floats = np.arange(n, dtype=np.float64) / max(n - 1, 1)
+    found: Floats = np.zeros(n)
+    shape = rng.integers(8)
+    if shape == 0:
+        freq, phase = rng.uniform(0.3, 0.25 * n, (6, 1)), rng.uniform(0.0, 6.3, (6, 1))
+        found = np.sin(2.0 * np.pi * freq * t + phase).sum(axis=0) / 3.0
+    elif shape == 1:
+        found = rng.normal(size=n)
+    elif shape == 2:  # the same push for many samples
+        found = np.repeat(rng.choice((-1.0, -0.5, 0.0, 0.5, 1.0), n), rng.integers(1, 6))[:n]
+    elif shape == 3:  # mostly quiet
+        found[rng.random(n) < 0.25] = rng.normal()
+    elif shape == 4:  # one-sided
+        found = np.minimum(t * rng.uniform(1.0, 8.0), 1.0)
+    elif shape == 5:
+        found = np.sin(2.0 * np.pi * rng.uniform(0.5, 5.0) * t) * np.minimum(4.0 * t, 1.0)
+    elif shape == 6:
+        found[rng.integers(n) :] = 1.0
+    else:
+        found[rng.integers(n)] = 1.0
+    return found * float(rng.choice((-1.0, 1.0)))
+
+
+def _horizontal(rng: Random, n: int, peak: float) -> tuple[Floats, Floats]:
+    """Return two components, one of them at times faint, in proportion, or of equal values."""
+    ax, ay = _wave(rng, n) * peak * rng.lognormal(0.3, 0.7), _wave(rng, n)
+    how = rng.integers(7)
+    if how == 0:
+        ay = ax * rng.choice((1.0, -0.5, 1e-3, 1e-9, 1e-15, -2.0))
+    elif how == 1:
+        ay = ay * peak * 10.0 ** -rng.uniform(1.0, 16.0)
+    elif how == 2:
+        ay = np.where(ay > 0.3, np.abs(ax).max(), 0.0)
+    elif how == 3:
+        ay = 0.0 * ay
+    else:
+        ay = ay * peak * rng.lognormal(0.0, 0.8)
+    return (ay, ax) if rng.random() < 0.2 else (ax, ay)
+
+
+def _held_down(
+    rng: Random, ax: Floats, az: Floats, slope_rad: float, least: float | None
+) -> Floats:
+    """Return a vertical that leaves a least normal force, in g, or a twentieth where it was less.
+
+    The record is lowered or raised as a whole, or cut.
+    """
+    sn, cs = math.sin(slope_rad), math.cos(slope_rad)
+    lowest = ((G + (az if az.size else 0.0)) * cs + ax * sn).min()
+    if least is None and lowest >= 0.05 * G:
+        return az
+    az = az if az.size else np.zeros(ax.size)
+    floor = 0.05 * G if least is None else least * G
+    if rng.random() < 0.5:
+        az = az + (floor - lowest) / cs
+    else:
+        az = np.maximum(az, (floor - ax * sn) / cs - G)
+        az[rng.integers(az.size)] = (floor - ax * sn).max() / cs - G
+    for _ in range(60):
+        short = (G + az) * cs + ax * sn < 0.0
+        az = np.where(short, az + 4e-15 * G, az)
+    return az
+
+
+def _scene(
+    rng: Random,
+    *,
+    slope_deg: float | None = None,
+    mu: float | None = None,
+    law: Law = coulomb,
+    least_normal_g: float | None = None,
+) -> Scene:
+    n = int(rng.choice((2, 3, 4, 6, 10, 30)))
+    slope = math.radians(rng.choice(SLOPES_DEG) if slope_deg is None else slope_deg)
+    if mu is None:
+        mu = float(rng.choice((*MUS, rng.uniform(0.01, 1.0))))
+        if rng.random() < 0.1:
+            mu = abs(math.tan(slope)) * (1.0 + rng.choice((0.0, 1e-12, 1e-3, -1e-9)))
+    peak = max(mu, 0.01) * G
+    ax, ay = _horizontal(rng, n, peak)
+    if rng.random() < 0.15:  # at the yield acceleration of a flat roof, to the last bit
+        ax = np.where(np.abs(ax) > peak, np.sign(ax) * peak, ax)
+    has_vertical = rng.random() < 0.6
+    az = _wave(rng, n) * G * rng.choice((0.0, 0.05, 0.3, 0.6)) if has_vertical else NO_RECORD
+    return Scene(
+        ax_mps2=readonly(ax),
+        ay_mps2=readonly(ay),
+        az_mps2=readonly(_held_down(rng, ax, az, slope, least_normal_g)),
+        dt_s=float(rng.choice(STEPS_S)),
+        slope_rad=slope,
+        friction=law(float(mu)),
+        scale=1.0,
+        g_mps2=G,
+    )
+
+
+def _by_speed(rng: Random) -> Law:
+    """Return friction that grows with speed, by a little or by much, at once or slowly."""
+    rate = 0.0 if rng.random() < 0.05 else 10.0 ** rng.uniform(0.0, 3.0)
+    gain = float(rng.choice((1e-6, 1e-3, 0.05, 0.5, 3.0)))
+
+    def law(mu: float) -> Friction:
+        return Friction(mu_slow=mu, mu_fast=mu + gain * mu, rate_s_per_m=rate, mu_static=mu)
+
+    return law
+
+
+def _falling(rng: Random) -> Law:
+    """Return friction that is greatest at rest."""
+    static, fast = 1.0 + rng.choice((0.0, 1e-6, 0.3)), rng.choice((1.0, 0.999999, 0.5))
+    rate = 10.0 ** rng.uniform(0.0, 3.0)
+
+    def law(mu: float) -> Friction:
+        return Friction(
+            mu_slow=mu, mu_fast=fast * mu, rate_s_per_m=rate, mu_static=float(static * mu)
+        )
+
+    return law
+
+
+# Pairs
+
+
+def _places(found: PlaneOutcome) -> Floats:
+    sides = found.down_m, found.up_m, found.left_m, found.right_m
+    return np.array([found.prd_m, *sides, *found.end_m])
+
+
+def _same(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
+    return np.subtract(_places(a), _places(b))
+
+
+def _mirrored_across(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
+    x, y = b.end_m
+    return np.subtract(_places(a), [b.prd_m, b.down_m, b.up_m, b.right_m, b.left_m, x, -y])
+
+
+def _mirrored_along(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
+    x, y = b.end_m
+    return np.subtract(_places(a), [b.prd_m, b.up_m, b.down_m, b.left_m, b.right_m, -x, y])
+
+
+def finer(one: Scene, factor: int) -> Scene:
+    """Return a scene with samples put between, on the straight lines."""
+    coarse = np.arange(one.ax_mps2.size)
+    fine = np.arange((coarse.size - 1) * factor + 1) / factor
+    ax, ay, az = (
+        readonly(np.interp(fine, coarse, a)) if a.size else a
+        for a in (one.ax_mps2, one.ay_mps2, one.az_mps2)
+    )
+    return replace(one, ax_mps2=ax, ay_mps2=ay, az_mps2=az, dt_s=one.dt_s / factor)
+
+
+def _put_between(rng: Random, one: Scene) -> Pair:
+    tolerance = float(rng.choice(TOLERANCES))
+    return Pair(
+        one=one,
+        two=finer(one, int(rng.integers(2, 9))),
+        tolerances=(tolerance, tolerance),
+        rounding_m=rounding(one),
+        compare=_same,
+    )
+
+
+def _tolerances(rng: Random, one: Scene) -> Pair:
+    tolerances = float(rng.choice(TOLERANCES)), float(rng.choice(TOLERANCES))
+    return Pair(one=one, two=one, tolerances=tolerances, rounding_m=0.0, compare=_same)
+
+
+def _either(rng: Random, one: Scene) -> Pair:
+    return _put_between(rng, one) if rng.random() < 0.5 else _tolerances(rng, one)
+
+
+def _mirrored(rng: Random) -> Pair:
+    one, tolerance = _scene(rng), float(rng.choice(TOLERANCES))
+    across, compare = replace(one, ay_mps2=readonly(-one.ay_mps2)), _mirrored_across
+    if rng.random() < 0.5:
+        across = replace(one, ax_mps2=readonly(-one.ax_mps2), slope_rad=-one.slope_rad)
+        compare = _mirrored_along
+    return Pair(
+        one=one, two=across, tolerances=(tolerance, tolerance), rounding_m=0.0, compare=compare
+    )
+
+
+def _rotated(rng: Random) -> Pair:
+    one, tolerance = _scene(rng, slope_deg=0.0), float(rng.choice(TOLERANCES))
+    turn = float(rng.choice((math.pi / 2, rng.uniform(0.0, 6.3))))
+    sn, cs = math.sin(turn), math.cos(turn)
+    two = replace(
+        one,
+        ax_mps2=readonly(cs * one.ax_mps2 - sn * one.ay_mps2),
+        ay_mps2=readonly(sn * one.ax_mps2 + cs * one.ay_mps2),
+    )
+
+    def compare(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
+        x, y = a.end_m
+        x, y = cs * x - sn * y, sn * x + cs * y
+        return np.array([a.prd_m - b.prd_m, math.hypot(x - b.end_m[0], y - b.end_m[1])])
+
+    # Two products and a sum for each sample, and the place turned as well.
+    allowed = 4.0 * rounding(one)
+    return Pair(
+        one=one, two=two, tolerances=(tolerance, tolerance), rounding_m=allowed, compare=compare
+    )
+
+
+def _at_tan_slope(rng: Random) -> Pair:
+    degrees = float(rng.choice((0.5, 2.0, -7.0, 20.0, rng.uniform(0.1, 25.0))))
+    mu = abs(math.tan(math.radians(degrees)))
+    mu *= 1.0 + float(rng.choice((0.0, 0.0, EPS, -EPS, 1e-12, -1e-12, 1e-9)))
+    law = coulomb if rng.random() < 0.5 else _by_speed(rng)
+    return _either(rng, _scene(rng, slope_deg=degrees, mu=mu, law=law))
+
+
+def _light(rng: Random) -> Pair:
+    least = float(rng.choice((0.0, 0.0, 1e-15, 1e-9, 1e-6, 1e-3)))
+    law = _by_speed(rng) if rng.random() < 0.2 else coulomb
+    return _either(rng, _scene(rng, least_normal_g=least, law=law))
+
+
+KINDS: dict[str, Callable[[Random], Pair]] = {
+    "samples put between": lambda rng: _put_between(rng, _scene(rng)),
+    "mirrored": _mirrored,
+    "rotated on a flat roof": _rotated,
+    "two tolerances": lambda rng: _tolerances(rng, _scene(rng)),
+    "mu = tan(slope)": _at_tan_slope,
+    "mu = 0": lambda rng: _either(rng, _scene(rng, mu=0.0)),
+    "N to zero": _light,
+    "friction by speed": lambda rng: _either(rng, _scene(rng, law=_by_speed(rng))),
+    "friction that falls": lambda rng: _tolerances(rng, _scene(rng, law=_falling(rng))),
+}
+"""What a pair is made for, and how."""
+
+UNBOUNDED = ("friction that falls",)
+"""Kinds whose runs have no bound: they have to end."""
+
+
+def warm_up() -> None:
+    """Compile or load what pairs need: two axes with and without a vertical, and a law."""
+    push = readonly(np.array([0.0, 5.0, -5.0, 0.0]))
+    one = Scene(
+        ax_mps2=push,
+        ay_mps2=push,
+        az_mps2=NO_RECORD,
+        dt_s=0.01,
+        slope_rad=0.0,
+        friction=coulomb(0.2),
+        scale=1.0,
+        g_mps2=G,
+    )
+    law = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=1.0, mu_static=0.2)
+    for friction in (one.friction, law):
+        for az in (NO_RECORD, push):
+            follow(replace(one, friction=friction, az_mps2=az))
