@@ -386,7 +386,8 @@ def _changes(b, row, degree, most):
     """Fill row ROOTS with where the series in a row changes sign in (0, 1], the first `most`.
 
     Unless its terms show that it does once at most, it is looked at in some places, close together
-    at both ends; between two from which it falls to both sides towards zero, at its least.
+    at both ends, and from where its terms no longer show that it keeps its sign; between two from
+    which it falls to both sides towards zero, at its least.
     Returns how many there are.
     """
     first = 0
@@ -395,14 +396,19 @@ def _changes(b, row, degree, most):
     known = _zeros(b, row, first, degree) if first < degree else 0
     if known == 0:
         return 0
-    cells, n = (SCAN if known > 1 else 1), 0
+    cells, m, n = (SCAN if known > 1 else 1), 1, 0
+    near = _keeps(b, row, first, degree) if known > 1 else np.inf
     right, at_right, rise = 0.0, b[row, first], b[row, first + 1]
-    for m in range(1, cells + 1):
+    while m <= cells and n < most:
         left, at_left, x = right, at_right, m / cells
         # Where a place is a zero, the side is that of the slope there.
         up = at_left > 0.0 or (at_left == 0.0 and rise > 0.0)
         falls = (rise < 0.0) == up
         right = x * x * (3.0 - 2.0 * x)
+        if near < right:
+            right, near = near, 4.0 * near
+        else:
+            m, near = m + 1, np.inf
         at_right, rise = _value(b, row, first, degree, right)
         beyond = at_right <= 0.0 if up else at_right >= 0.0
         if not beyond and falls and (rise > 0.0) == up:
@@ -416,9 +422,23 @@ def _changes(b, row, degree, most):
         elif beyond:
             b[ROOTS, n] = _root(b, row, first, degree, left, at_left, right, at_right, up)
             n += 1
-        if n >= most:
-            break
     return n
+
+
+@jit()
+def _keeps(b, row, first, degree):
+    """Where the terms of a series show that it keeps its sign from 0 on; inf for the first cell."""
+    sign, at, least = (1.0 if b[row, first] > 0.0 else -1.0), 2.0 / SCAN, 0.0
+    at, far = at * at, np.inf
+    while at > 1e-12 and not least > 0.0:
+        least, power = abs(b[row, first]), 1.0
+        for k in range(first + 1, degree + 1):
+            power *= at
+            least += min(sign * power * b[row, np.uintp(k)], 0.0)
+        if not least > 0.0:
+            at *= 0.125
+            far = at
+    return far
 
 
 @jit()

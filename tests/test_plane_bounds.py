@@ -142,6 +142,11 @@ def test_the_tolerance_is_met_but_for_rounding(kind):
             assert found.error_m <= tolerance * max(found.prd_m, 1e-6) + 8.0 * rounding(one)
 
 
+def test_a_dip_of_the_speed_below_zero_near_the_begin_of_a_step_is_seen():
+    # The one of 900,000 pairs that was over its bound: w = 1e-13 m/s, its first term upwards.
+    assert pair("mu = tan(slope)", 56946).run().ratio < 1.0
+
+
 def test_the_second_axis_of_scenes_that_lost_it_is_modelled():
     for number in every("second_axis_left_out"):
         found = ladder.solve(scene("second_axis_left_out", number))

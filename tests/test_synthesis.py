@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -45,8 +46,22 @@ def rng(seed: int) -> np.random.Generator:
     return np.random.Generator(np.random.PCG64(seed))
 
 
+def finer(record: Record, steps: int) -> Record:
+    """Put samples between each two, on the straight lines."""
+    coarse = np.arange(len(record.a_mps2))
+    at = np.arange((coarse.size - 1) * steps + 1) / steps
+    fine = np.interp(at, coarse, record.a_mps2)
+    return Record(name=record.name, dt_s=record.dt_s / steps, a_mps2=fine)
+
+
 def modal_psa_g(record: Record, freq_hz: Floats) -> Floats:
-    """5 % damped spectrum by one complex mode: q' = s q - a, u = Im(q) / w_d, exact per step."""
+    """5 % damped spectrum by one complex mode: q' = s q - a, u = Im(q) / w_d, exact per step.
+
+    Peaks at 40 places of a period or more, by powers of two of the record's own steps.
+    """
+    steps = np.maximum(2.0 ** np.ceil(np.log2(40.0 * record.dt_s * freq_hz)), 1.0)
+    every = steps.max() // steps
+    record = finer(record, int(steps.max()))
     omega = 2.0 * np.pi * freq_hz
     damped = omega * np.sqrt(1.0 - 0.05**2)
     s = -0.05 * omega + 1j * damped
@@ -55,9 +70,9 @@ def modal_psa_g(record: Record, freq_hz: Floats) -> Floats:
     held = (turn - 1.0) / s
     ramped = (held - h) / (s * h)
     q, peak = np.zeros_like(s), np.zeros_like(omega)
-    for now, then in zip(record.a_mps2[:-1], record.a_mps2[1:], strict=True):
+    for i, (now, then) in enumerate(pairwise(record.a_mps2), start=1):
         q = turn * q - now * held - (then - now) * ramped
-        peak = np.maximum(peak, np.abs(q.imag))
+        peak = np.maximum(peak, np.where(i % every == 0, np.abs(q.imag), 0.0))
     return omega**2 * peak / damped / G
 
 
@@ -79,11 +94,12 @@ def components(suites: Any) -> list[tuple[Record, Target]]:
 
 class TestSuite:
     def test_every_component_of_ten_seeds_keeps_to_its_target(self, components: Any) -> None:
+        # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:
-            ratio = modal_psa_g(record, BAND) / target_sa_g(wanted, BAND)
-            assert ratio.min() >= 0.90
-            assert ratio.max() <= 1.30
-            assert 0.95 <= ratio.mean() <= 1.05
+            fit = spectrum_fit(record, wanted)
+            assert fit.least >= 0.90
+            assert fit.greatest <= 1.30
+            assert 0.95 <= fit.mean <= 1.05
 
     def test_long_periods_follow_the_target_roughly(self, components: Any) -> None:
         freq_hz = np.geomspace(0.1, 0.3, 15)
@@ -229,7 +245,8 @@ class TestFit:
         assert found == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-9)
 
     def test_scipy_finds_the_same_spectrum_by_a_state_space_model(self, suites: Any) -> None:
-        record, freq_hz = suites[4].y, np.array([0.1, 0.3, 0.9, 2.7, 8.1, 33.0])
+        # The step of these is a 40th of a period or less: peaks are looked for at samples alone.
+        record, freq_hz = suites[4].y, np.array([0.1, 0.3, 0.9, 2.7, 4.9])
         t = record.dt_s * np.arange(len(record.a_mps2))
         found = []
         for omega in 2.0 * np.pi * freq_hz:

@@ -1,14 +1,16 @@
 """What directions of shaking that a package does not run would change.
 
-Run from the top: .venv/bin/python tests/bench/angles.py [RECORD ...]
-Records of three components (GeoNet V2A); without arguments those of the tests, where they are, else
-the example's motions. Each is run in two axes as a package runs it, the components along the slope
-by turns and in both senses, and with its components turned by every 15 degrees, and with the
-vertical reversed. Medians and largest values of the worst PRD of each over that of the package.
+Run from the top: .venv/bin/python tests/bench/angles.py [FOLDER]
+Records of three components in a folder, and pairs of horizontal ones that its MANIFEST.csv lists;
+without one those of the tests, where they are, else the example's motions. Each is run in two axes
+as a package runs it, the components along the slope by turns and in both senses, then turned by
+every 15 degrees, and with the vertical reversed: the worst PRD of each over that of the package.
 """
 
 from __future__ import annotations
 
+import csv
+import itertools
 import math
 import sys
 from dataclasses import replace
@@ -17,30 +19,31 @@ from pathlib import Path
 import numpy as np
 
 from solver import ladder
-from solver.formats.reader import read_motion_file, read_record
+from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, coulomb
-from solver.verification.triples import readonly
+from solver.verification.triples import own_triples, readonly, recorded_triples
 
 ROOT = Path(__file__).resolve().parents[2]
 SHARED = ROOT.parent / "shared" / "records"
-CASES = [(0.0, 0.2, 0.8), (0.0, 0.4, 1.2), (2.0, 0.3, 1.0), (5.0, 0.5, 1.5)]
+SLOPES_DEG, MUS, PEAKS_G = (1.0, 3.0, 7.0), (0.2, 0.4, 0.6), (0.6, 0.9, 1.2)
 STEP_DEG = 15
-LEAST_M = 5e-3
+LEAST_M = 25e-3
 
 
-def motions() -> list[tuple[str, list[Floats], float]]:
-    """Return name, three components and time step of each motion."""
-    paths = [Path(name) for name in sys.argv[1:]] or sorted(SHARED.glob("*.V2A"))
-    found = []
-    for path in paths:
-        channels = read_motion_file(path).channels
-        found.append((path.stem, [one.a_mps2 for one in channels], channels[0].dt_s))
-    if not found:
-        for path in sorted((ROOT / "projects" / "example" / "records").glob("*-x.csv")):
-            names = [path.with_name(path.name.replace("-x", side)) for side in ("-x", "-y", "-z")]
-            records = [read_record(name) for name in names]
-            found.append((path.stem, [one.a_mps2 for one in records], records[0].dt_s))
+def motions() -> list[tuple[Floats, Floats, Floats, float]]:
+    """Return three components, the third at times empty, and the time step of each motion."""
+    folder = Path(sys.argv[1]) if sys.argv[1:] else SHARED
+    triples = [*recorded_triples(folder)] if folder.is_dir() else own_triples(quick=False)
+    found = [(one.x_mps2, one.y_mps2, one.z_mps2, one.dt_s) for one in triples]
+    manifest = folder / "MANIFEST.csv"
+    rows = list(csv.DictReader(manifest.open(encoding="utf-8"))) if manifest.is_file() else []
+    pairs = [row for row in rows if row["units"] == "g" and row["file"].endswith(".txt")]
+    for one, other in itertools.pairwise(pairs):
+        if one["station"] == other["station"] and one["event"] == other["event"]:
+            ax, ay = (np.loadtxt(folder / row["file"]) * G for row in (one, other))
+            n = min(ax.size, ay.size)
+            found.append((readonly(ax[:n]), readonly(ay[:n]), NO_RECORD, float(one["dt_s"])))
     return found
 
 
@@ -59,8 +62,8 @@ def worst(scene: Scene, angles: range) -> float:
 def main() -> None:
     """Print the ratios of each case, and of all."""
     rows: dict[str, list[float]] = {"every angle": [], "vertical reversed": []}
-    for _, (ax, ay, az), dt in motions():
-        for slope_deg, mu, peak_g in CASES:
+    for ax, ay, az, dt in motions():
+        for slope_deg, mu, peak_g in itertools.product(SLOPES_DEG, MUS, PEAKS_G):
             scene = Scene(
                 ax_mps2=readonly(ax),
                 ay_mps2=readonly(ay),
@@ -75,9 +78,10 @@ def main() -> None:
             if not package > LEAST_M:
                 continue
             every = worst(scene, range(0, 360, STEP_DEG))
-            other = worst(replace(scene, az_mps2=readonly(-az)), range(0, 360, 90))
             rows["every angle"].append(every / package)
-            rows["vertical reversed"].append(other / package)
+            if az.size:
+                other = worst(replace(scene, az_mps2=readonly(-az)), range(0, 360, 90))
+                rows["vertical reversed"].append(other / package)
     for name, ratios in rows.items():
         kept = np.array([one for one in ratios if math.isfinite(one)])
         print(f"{name:20}{kept.size:4} scenes  median {np.median(kept):.3f}  largest "
