@@ -134,7 +134,7 @@ def bounds(found: Sequence[BoundRatios]) -> str:
                 color=look.color,
                 linestyle=look.linestyle,
                 linewidth=1.2,
-                label=one.kind,
+                label=one.kind.replace("mu", "μ"),
             )
         axes.set_xscale("log")
         axes.set_yscale("log")

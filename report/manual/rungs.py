@@ -323,7 +323,7 @@ def _bound_table(found: Sequence[BoundRatios]) -> Table:
         rows=tuple(
             Row(
                 cells=(
-                    one.kind,
+                    one.kind.replace("mu", "μ"),
                     str(one.n_pairs),
                     str(one.ratios.size),
                     *(_small(float(value)) for value in np.percentile(one.ratios, (50, 99, 100))),
