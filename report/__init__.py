@@ -1,1 +1,30 @@
-"""From a filled workbook to a calculation package. Read `report.cli` first."""
+"""From a filled workbook to a calculation package. Read `report.cli.report` first."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from report.assessment.project import Assessment
+
+
+def assess_project(source: str | Path) -> Assessment:
+    """Run a project and return its assessment, without a package.
+
+    Parameters
+    ----------
+    source : str or Path
+        An input workbook, or a folder with `input.xlsx`.
+
+    Raises
+    ------
+    InputError
+        With every problem of the workbook and of its records.
+    """
+    from report.assessment.project import assess
+    from report.motions.prepare import prepare
+    from report.sheet.read import read
+
+    sheet = read(Path(source))
+    return assess(sheet, prepare(sheet))

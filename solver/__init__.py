@@ -3,8 +3,6 @@
 Public names are listed here; everything is SI. Imports no files, pages or pictures.
 """
 
-from solver.ladder import Rung, Settings, Solution, solve
-from solver.methods import METHODS
 from solver.model import (
     Event,
     EventKind,
@@ -17,8 +15,10 @@ from solver.model import (
     Status,
     coulomb,
 )
-from solver.sliding import scene, slide, slide_history
-from solver.studies import Sweep, sweep
+from solver.rivals.methods import METHODS
+from solver.sliding.checked import scene, slide, slide_history
+from solver.sliding.least_model import Rung, Settings, Solution, solve
+from solver.sliding.sweep import Sweep, sweep
 
 __all__ = [
     "METHODS",

@@ -1,7 +1,7 @@
 """What a plane hands to a block at the samples: driving acceleration and normal force.
 
-Follows no motion (`solver.kernels`, `solver.biaxial`, `solver.row_kernels` do) and checks no input.
-Read `forces`.
+Follows no motion (`solver.kernels.one_axis`, `solver.kernels.two_axes`, `solver.kernels.row` do)
+and checks no input. Read `forces`.
 """
 
 from __future__ import annotations

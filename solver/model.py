@@ -1,6 +1,6 @@
 """What the solver takes and gives: frozen records, outcomes, the two kinds of error.
 
-Owns no mathematics and no files. Read `solver.sliding` next.
+Owns no mathematics and no files. Read `solver.sliding.checked` next.
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@ from __future__ import annotations
 import datetime as dt
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -12,10 +13,38 @@ from tempfile import TemporaryDirectory
 import pytest
 from openpyxl import Workbook, load_workbook
 
+from report.motions.prepare import Shaking, prepare
+from report.sheet.read import Sheet, read
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.template import write_template
-from report.sheet.workbook import read_workbook
 from solver.model import InputError
+
+
+@dataclass(frozen=True)
+class Book:
+    """A workbook and its motions."""
+
+    sheet: Sheet
+    shaking: Shaking
+
+    @property
+    def input(self) -> ProjectInput:
+        """What is typed into it."""
+        return self.sheet.project
+
+    def having(self, **changes: object) -> Book:
+        """Return the book with other motions, records or preparations."""
+        return Book(self.sheet, replace(self.shaking, **changes))  # type: ignore[arg-type]
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self.shaking if hasattr(self.shaking, name) else self.sheet, name)
+
+
+def read_workbook(path: Path) -> Book:
+    """Read a workbook and the records that it names."""
+    sheet = read(path)
+    return Book(sheet, prepare(sheet))
+
 
 FT, INCH, LB = 0.3048, 0.0254, 4.4482216152605
 

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import datetime as dt
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from report.assess import Assessment, assess
-from report.findings import find
-from report.package import render, words
-from report.pages.parts import Scene
-from report.sheet.records import RecordFile
+from report.assessment.evidence import support
+from report.assessment.project import Assessment, assess
+from report.motions.components import RecordFile
+from report.motions.history import PreparedMotion
+from report.motions.prepare import Shaking
+from report.package.html import pages
+from report.sheet.read import EchoRow, Sheet
 from report.sheet.schema import ProjectInput, RecordedAt
-from report.sheet.workbook import EchoRow, InputBook, Story
-from solver.measures import measures
+from report.typeset.pdf import lay_out
+from sheets import Book
 from solver.model import Motion
-from solver.motion import Record
+from solver.records.measures import measures
+from solver.records.record import Record
 
 G = 9.80665
 FOOT = 0.3048
@@ -166,36 +170,61 @@ def links(name, friction, lb_per_in, **changes):
     return {"array": name, "friction": friction, "stiffness_n_per_m": stiffness} | changes
 
 
-def book(data=None, found=None):
-    """What the workbook reader gives."""
-    data = data or project()
-    found = found or motions()
-    return InputBook(
+def sheet(data):
+    """What the workbook reader gives for an input."""
+    return Made(
         path=Path("input.xlsx"),
         sha256="5f" * 32,
-        input=data,
+        book=None,
+        draft={},
         echo=tuple(_echo(data)),
-        motions=found,
-        stories=tuple(story(motion) for motion in found),
-        records=tuple(
-            RecordFile(
-                motion_id=motion.id,
-                component=component,
-                name=f"records/{motion.id.lower()}-{component[0]}.csv",
-                sha256="ab" * 32,
-                format="text",
-                npts=len(motion.ax_mps2),
-                dt_s=motion.dt_s,
-                notes=(),
-                peak_g=float(np.abs(values).max() / G),
-            )
-            for motion in found
-            for component, values in (
-                ("horizontal", motion.ax_mps2),
-                ("transverse", motion.ay_mps2),
-                ("vertical", motion.az_mps2),
-            )
-            if len(values)
+        problems=(),
+        addresses={},
+        unfound=frozenset(),
+        made=data,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Made(Sheet):
+    """A workbook of a given input."""
+
+    made: ProjectInput
+
+    @property
+    def project(self):
+        return self.made
+
+
+def book(data=None, found=None):
+    """What the reader and the preparation of motions give."""
+    data = data or project()
+    found = found or motions()
+    return Book(
+        sheet(data),
+        Shaking(
+            motions=found,
+            prepared=tuple(story(motion) for motion in found),
+            records=tuple(
+                RecordFile(
+                    motion_id=motion.id,
+                    component=component,
+                    name=f"records/{motion.id.lower()}-{component[0]}.csv",
+                    sha256="ab" * 32,
+                    format="text",
+                    npts=len(motion.ax_mps2),
+                    dt_s=motion.dt_s,
+                    notes=(),
+                    peak_g=float(np.abs(values).max() / G),
+                )
+                for motion in found
+                for component, values in (
+                    ("horizontal", motion.ax_mps2),
+                    ("transverse", motion.ay_mps2),
+                    ("vertical", motion.az_mps2),
+                )
+                if len(values)
+            ),
         ),
     )
 
@@ -221,7 +250,7 @@ def story(given, **changes):
         "roof": {},
         "unfiltered": (),
     }
-    return Story(**(usual | changes))
+    return PreparedMotion(**(usual | changes))
 
 
 def _echo(data):
@@ -236,13 +265,22 @@ def _echo(data):
                 )
 
 
+def assess_input(data, found) -> Assessment:
+    """Assess an input under motions."""
+    return assessed(book(data, tuple(found)))
+
+
 def assessed(made) -> Assessment:
     """Run the book."""
-    return assess(made.input, made.motions)
+    return assess(made.sheet, made.shaking)
 
 
-def package(made, tell=lambda stage: None) -> bytes:
+def html(made) -> str:
+    """Run the book and return the pages of its calculation package."""
+    assessment = assessed(made)
+    return pages(assessment, support(assessment))
+
+
+def package(made) -> bytes:
     """Run the book and return its calculation package."""
-    scene = Scene(data=made.input, assessment=assessed(made))
-    found = find(made, scene.assessment, scene.governing)
-    return render(scene, lambda: found, lambda: words(made, scene, found), tell)
+    return lay_out(html(made))

@@ -5,11 +5,11 @@ import shlex
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+from places import ROOT
+
 README = (ROOT / "README.md").read_text()
 COMMANDS = [
     line.split("#")[0].strip()
@@ -43,7 +43,7 @@ def test_every_command_of_the_readme_runs(folder):
         if words == ["test"]:
             continue  # it runs this
         done = subprocess.run(
-            [sys.executable, "-m", "report.cli", *words],
+            [sys.executable, "-m", "report.cli.main", *words],
             cwd=folder,
             capture_output=True,
             text=True,

@@ -10,8 +10,9 @@ from pathlib import Path
 
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.template import write_template
-from solver.motion import write_record
-from solver.provisions import RULE_SETS, ac156_horizontal, ac156_vertical
+from solver.records.record import write_record
+from solver.rules.provisions import RULE_SETS
+from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis import make_suite
 
 HERE = Path(__file__).resolve().parent

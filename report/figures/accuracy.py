@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.accuracy import MethodRun, Rivals
+from report.assessment.sensitivity import MethodRun, Rivals
 from report.figures.base import bare, framed, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades
-from report.units import Quantity
+from report.words.units import Quantity
 
 FLOOR = 1e-16  # an error of no digit at all is drawn here: a double carries no more
 _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)

@@ -11,7 +11,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.scales import plain
-from report.units import G_MPS2
+from report.words.units import G_MPS2
 from solver.verification.evidence import RoofComparison, RoofPrediction
 
 SHOWN_S = 16.0

@@ -15,7 +15,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.assess import ArrayAssessment, ClearanceCheck
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.spectra import Spectra
 from report.figures.base import (
     ACCENT,
     FAMILY,
@@ -32,8 +34,7 @@ from report.figures.base import (
 )
 from report.figures.history import MAX_POINTS, envelope, histories
 from report.figures.plan import roof_plan
-from report.spectra import Spectra
-from report.units import Quantity, Unit
+from report.words.units import Quantity, Unit
 
 __all__ = [
     "FAMILY",

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from report.assessment.runs import MotionRun
 from report.figures.base import (
     ACCENT,
     ACROSS,
@@ -24,8 +25,7 @@ from report.figures.base import (
     svg_text,
     tick_text,
 )
-from report.runs import MotionRun
-from report.units import Quantity, Unit, number, pair
+from report.words.units import Quantity, Unit, number, pair
 from solver.model import Floats, SlideHistory
 
 MAX_POINTS = 150  # in a history; a panel is 150 points of paper wide

@@ -16,7 +16,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from report.figures.base import ACCENT, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.scales import decades, plain
-from report.letters import lettered
+from report.words.letters import lettered
 from solver.model import Floats
 from solver.verification.evidence import Conditioning, StabilityMap
 

@@ -24,7 +24,7 @@ from report.figures.base import (
     tick_text,
 )
 from report.sheet.schema import ObjectKind, ProjectInput, Rectangle
-from report.units import Quantity, Unit, number
+from report.words.units import Quantity, Unit, number
 
 
 def roof_plan(data: ProjectInput, us_first: bool) -> str:

@@ -17,9 +17,9 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLoca
 
 from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.history import envelope
-from report.units import G_MPS2
+from report.words.units import G_MPS2
 from solver.model import Floats
-from solver.motion import Record
+from solver.records.record import Record
 
 MOST = 12
 """Channels that one picture holds."""

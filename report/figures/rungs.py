@@ -13,7 +13,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
 from report.figures.scales import decades
-from report.letters import lettered
+from report.words.letters import lettered
 from solver.verification.rung_evidence import BoundRatios, PlaneWork, RungChange
 
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)

@@ -7,7 +7,7 @@ import math
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from report import letters
+from report.words import letters
 
 
 def power_of_ten(value: float) -> str:

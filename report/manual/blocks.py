@@ -10,9 +10,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from report.letters import power_of_ten
 from report.pages.parts import Part, Picture, Table
-from report.units import number
+from report.words.letters import power_of_ten
+from report.words.units import number
 
 PASS, FAIL = "PASS", "FAIL"
 

@@ -7,8 +7,8 @@ import numpy as np
 from report.figures import building as figures
 from report.manual.blocks import Block, Chart, Section, slug
 from report.pages.parts import Column, Picture, Row, Table
-from report.units import G_MPS2, number
-from solver.building import FINENESS, RESTING_SHARE, SHARE
+from report.words.units import G_MPS2, number
+from solver.building.roof import FINENESS, RESTING_SHARE, SHARE
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import RoofComparison, RoofPrediction, Verification
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from report.figures import work as figures
 from report.figures.scales import power_of_ten
-from report.letters import lettered
 from report.manual.blocks import (
     Block,
     Chart,
@@ -21,7 +20,8 @@ from report.manual.blocks import (
     slug,
 )
 from report.pages.parts import Column, Picture, Row, Table
-from solver.methods import METHODS
+from report.words.letters import lettered
+from solver.rivals.methods import METHODS
 from solver.verification.evidence import (
     Verification,
     WorkPoint,

@@ -16,7 +16,7 @@ from report.manual.front import extent, passed, verdict_line
 from report.manual.machine import Machine, this_machine
 from report.manual.sections import sections
 from report.manual.table import verification_csv
-from report.pdf import TEMPLATES, html_to_pdf
+from report.typeset.pdf import TEMPLATES, lay_out
 from solver.verification.evidence import Verification
 
 
@@ -35,7 +35,7 @@ def files(
     on_stage("drawing the charts")
     parts = sections(found, machine)
     on_stage("laying out the manual")
-    pdf = html_to_pdf(manual_html(found, parts, machine, date))
+    pdf = lay_out(manual_html(found, parts, machine, date))
     charts = [chart for part in parts for block in part.blocks for chart in block.charts]
     return {
         "verification.pdf": pdf,

@@ -9,11 +9,11 @@ import numpy as np
 
 from report.figures import rungs as figures
 from report.figures.scales import power_of_ten
-from report.letters import lettered
 from report.manual.blocks import Block, Chart, Section, joined, percent, scientific, seconds
 from report.manual.static_friction import block, effect
 from report.pages.parts import Column, Picture, Row, Table
-from report.units import number
+from report.words.letters import lettered
+from report.words.units import number
 from solver.verification.evidence import Verification
 from solver.verification.rung_evidence import (
     LEAST_M,

@@ -8,7 +8,7 @@ import numpy as np
 
 from report.manual.blocks import Block, digits, percent, scientific
 from report.pages.parts import Column, Row, Table
-from report.units import number
+from report.words.units import number
 from solver.model import Floats
 from solver.verification.rung_evidence import (
     HELD,

@@ -9,7 +9,6 @@ from itertools import groupby
 import numpy as np
 
 from report.figures import paper
-from report.letters import lettered
 from report.manual.blocks import (
     Block,
     Chart,
@@ -19,6 +18,7 @@ from report.manual.blocks import (
     slug,
 )
 from report.pages.parts import Column, Picture, Row, Table
+from report.words.letters import lettered
 from solver.verification.evidence import (
     Convergence,
     LinkComparison,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from report.letters import lettered
 from report.manual.blocks import (
     FAIL,
     PASS,
@@ -19,8 +18,9 @@ from report.manual.blocks import (
 )
 from report.manual.machine import Machine
 from report.pages.parts import Column, Row, Table, Wide, verdict
-from report.units import number
-from solver.methods import METHODS
+from report.words.letters import lettered
+from report.words.units import number
+from solver.rivals.methods import METHODS
 from solver.verification.evidence import (
     CheckRow,
     PeerPoint,

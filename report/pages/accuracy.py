@@ -5,27 +5,28 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from report.accuracy import SHIFT, Accuracy, MethodRun, Rivals
-from report.assess import ArrayAssessment, Assessment
-from report.letters import lettered, power_of_ten
-from report.pages.parts import NO_VALUE, Column, Picture, Row, Scene, Table
-from report.units import number
-from solver.ladder import Rung
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.project import Assessment
+from report.assessment.sensitivity import SHIFT, Accuracy, MethodRun, Rivals
+from report.pages.parts import NO_VALUE, Column, PackageData, Picture, Row, Table
+from report.words.letters import lettered, power_of_ten
+from report.words.units import number
 from solver.model import Status
+from solver.sliding.least_model import Rung
 
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
 
 
-def page(scene: Scene, found: Accuracy) -> Mapping[str, object]:
+def page(package: PackageData, found: Accuracy) -> Mapping[str, object]:
     """Return the page without its chart."""
     return {
         "shift": _PERCENT,
-        "run": _run(scene, found.rivals),
-        "plane": _plane(scene, found.rivals),
+        "run": _run(package, found.rivals),
+        "plane": _plane(package, found.rivals),
         "method": _method(found.rivals),
-        "methods": _methods(scene, found.rivals) if found.rivals.runs else None,
-        "friction": _friction_table(scene, found),
-        "sentences": [*_sentences(scene, found), *_clearances(found)],
+        "methods": _methods(package, found.rivals) if found.rivals.runs else None,
+        "friction": _friction_table(package, found),
+        "sentences": [*_sentences(package, found), *_clearances(found)],
     }
 
 
@@ -44,18 +45,18 @@ def picture(found: Rivals, us_first: bool) -> Picture:
     )
 
 
-def _run(scene: Scene, found: Rivals) -> str:
+def _run(package: PackageData, found: Rivals) -> str:
     run, array = found.motion.governing, found.array.array
     vertical = "with" if found.motion.motion.has_vertical else "without"
     return (
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
         f"μ = {number(array.mu, 3)}) under motion {found.motion.motion.id}, {run.heading.name}, "
-        f"{vertical} vertical shaking. PRD {scene.say.both(run.result.prd_m)}, model "
+        f"{vertical} vertical shaking. PRD {package.say.both(run.result.prd_m)}, model "
         f"{int(run.solution.rung)} of part 11, {run.solution.rung.title}."
     )
 
 
-def _plane(scene: Scene, found: Rivals) -> str:
+def _plane(package: PackageData, found: Rivals) -> str:
     """Return how sure a run in two axes is, and what the rest of the page is about; or nothing."""
     run = found.motion.governing
     if run.solution.rung < Rung.TWO_AXES or math.isnan(run.result.prd_m):
@@ -67,7 +68,7 @@ def _plane(scene: Scene, found: Rivals) -> str:
         f"this PRD is below {below_mm(run.result.error_m)} ({kind}). The methods that others "
         "use know one axis only, and are compared on this run along the slope alone, "
         f"without the component across it{slow}: a displacement of "
-        f"{scene.say.both(found.exact.prd_m)}, no result of this package."
+        f"{package.say.both(found.exact.prd_m)}, no result of this package."
     )
 
 
@@ -108,8 +109,8 @@ def _doubled(change: float) -> str:
     return f"changes by less than {power_of_ten(math.floor(math.log10(change)) + 1)} of its value"
 
 
-def _methods(scene: Scene, found: Rivals) -> Table:
-    say, exact = scene.say, found.exact
+def _methods(package: PackageData, found: Rivals) -> Table:
+    say, exact = package.say, found.exact
     top = Row(
         cells=(
             "Exact, event by event",
@@ -119,7 +120,7 @@ def _methods(scene: Scene, found: Rivals) -> Table:
         ),
         kind="total",
     )
-    rows = (_method_row(scene, run) for run in found.runs if run.is_default)
+    rows = (_method_row(package, run) for run in found.runs if run.is_default)
     return Table(
         caption="The governing run along the slope alone, by every method with its defaults",
         columns=(
@@ -133,12 +134,12 @@ def _methods(scene: Scene, found: Rivals) -> Table:
     )
 
 
-def _method_row(scene: Scene, run: MethodRun) -> Row:
+def _method_row(package: PackageData, run: MethodRun) -> Row:
     return Row(
         cells=(
             lettered(run.method.title),
             parameters(run.parameters),
-            *scene.say.cells(run.result.prd_m),
+            *package.say.cells(run.result.prd_m),
             "failed" if run.failed else number(100.0 * run.error, 3),
         )
     )
@@ -161,8 +162,8 @@ def _by_array(
     yield from zip(found.given.arrays, found.less.arrays, found.more.arrays, strict=True)
 
 
-def _friction_table(scene: Scene, found: Accuracy) -> Table:
-    say = scene.say
+def _friction_table(package: PackageData, found: Accuracy) -> Table:
+    say = package.say
     return Table(
         caption="Design displacement at other friction, all motions run again",
         columns=(
@@ -179,9 +180,9 @@ def _friction_table(scene: Scene, found: Accuracy) -> Table:
                 cells=(
                     given.array.id,
                     number(given.array.mu, 3),
-                    *_design_cells(scene, less),
-                    *_design_cells(scene, given),
-                    *_design_cells(scene, more),
+                    *_design_cells(package, less),
+                    *_design_cells(package, given),
+                    *_design_cells(package, more),
                     _change(less.design_m, given.design_m),
                     _change(more.design_m, given.design_m),
                 )
@@ -192,12 +193,12 @@ def _friction_table(scene: Scene, found: Accuracy) -> Table:
     )
 
 
-def _design_cells(scene: Scene, found: ArrayAssessment) -> tuple[str, str]:
-    return scene.say.cells(found.design_m, mark=scene.design_mark(found))
+def _design_cells(package: PackageData, found: ArrayAssessment) -> tuple[str, str]:
+    return package.say.cells(found.design_m, mark=package.design_mark(found))
 
 
-def _design(scene: Scene, found: ArrayAssessment) -> str:
-    return scene.say.both(found.design_m) + scene.design_mark(found)
+def _design(package: PackageData, found: ArrayAssessment) -> str:
+    return package.say.both(found.design_m) + package.design_mark(found)
 
 
 def _change(value: float, given: float) -> str:
@@ -207,16 +208,16 @@ def _change(value: float, given: float) -> str:
     return f"{'+' if share > 0.05 else ''}{number(share, 1)} %"
 
 
-def _sentences(scene: Scene, found: Accuracy) -> Iterator[str]:
+def _sentences(package: PackageData, found: Accuracy) -> Iterator[str]:
     """Yield a sentence for each array; those that the floor governs throughout share one."""
     three = tuple(_by_array(found))
     held = [given for given, *others in three if _on_floor(given, *others)]
-    yield from (_sentence(scene, *one) for one in three if not _on_floor(*one))
+    yield from (_sentence(package, *one) for one in three if not _on_floor(*one))
     if held:
         names = ", ".join(given.array.id for given in held)
         yield (
             f"Array{'s' if len(held) > 1 else ''} {names}: {_PERCENT} less or more friction "
-            f"changes nothing, because the floor governs at {_design(scene, held[0])}."
+            f"changes nothing, because the floor governs at {_design(package, held[0])}."
         )
 
 
@@ -225,23 +226,23 @@ def _on_floor(*found: ArrayAssessment) -> bool:
 
 
 def _sentence(
-    scene: Scene, given: ArrayAssessment, less: ArrayAssessment, more: ArrayAssessment
+    package: PackageData, given: ArrayAssessment, less: ArrayAssessment, more: ArrayAssessment
 ) -> str:
     start = f"Array {given.array.id}: "
     if any(math.isnan(one.design_m) for one in (given, less, more)):
         return f"{start}no design displacement, so friction has nothing to change."
     ways = (
         f"with {_PERCENT} {word} friction the design displacement of "
-        f"{_design(scene, given)} {_becomes(scene, given, other)}"
+        f"{_design(package, given)} {_becomes(package, given, other)}"
         if index == 0
-        else f"with {_PERCENT} {word} {_becomes(scene, given, other, short=True)}"
+        else f"with {_PERCENT} {word} {_becomes(package, given, other, short=True)}"
         for index, (word, other) in enumerate((("less", less), ("more", more)))
     )
     return f"{start}{'; '.join(ways)}."
 
 
 def _becomes(
-    scene: Scene, given: ArrayAssessment, other: ArrayAssessment, *, short: bool = False
+    package: PackageData, given: ArrayAssessment, other: ArrayAssessment, *, short: bool = False
 ) -> str:
     change = other.design_m - given.design_m
     if abs(change) <= 1e-9 * given.design_m:
@@ -249,7 +250,7 @@ def _becomes(
     verb = "it grows" if change > 0.0 else "it falls"
     floor = ", the floor" if other.governs == "floor" else ""
     share = _change(other.design_m, given.design_m)
-    words = f"{verb} to {_design(scene, other)}, {share}{floor}"
+    words = f"{verb} to {_design(package, other)}, {share}{floor}"
     return words if short else words.removeprefix("it ")
 
 

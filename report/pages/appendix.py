@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from importlib import metadata
 from itertools import groupby
 
+from report.motions.components import RecordFile
 from report.pages.parts import shortened
-from report.sheet.records import RecordFile
-from report.sheet.workbook import EchoRow
-from report.units import number
+from report.sheet.read import EchoRow
+from report.words.units import number
 
 LIBRARIES = (
     "numpy",

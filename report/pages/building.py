@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.pages.parts import Column, Row, Scene, Table
-from report.sheet.shaking import Story, first_period_s
-from report.units import G_MPS2, Quantity, number
-from solver.building import Building, RoofMotion
+from report.motions.history import PreparedMotion, first_period_s
+from report.pages.parts import Column, PackageData, Row, Table
+from report.words.units import G_MPS2, Quantity, number
+from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M
+from solver.building.roof import Building, RoofMotion
 from solver.model import Motion
-from solver.periods import APPROXIMATE_PERIODS, FOOT_M
 
 SHOWN_MODES = 6
 NAMES = {"horizontal": "record", "transverse": "transverse"}
@@ -20,7 +20,7 @@ NAMES = {"horizontal": "record", "transverse": "transverse"}
 
 
 def building_part(
-    scene: Scene, motions: Sequence[Motion], stories: Sequence[Story]
+    package: PackageData, motions: Sequence[Motion], stories: Sequence[PreparedMotion]
 ) -> Mapping[str, object]:
     """Return sentences and tables on the way from ground to roof."""
     found = [
@@ -29,7 +29,7 @@ def building_part(
         for name, roof in story.roof.items()
     ]
     return {
-        "texts": tuple(_texts(scene, found)),
+        "texts": tuple(_texts(package, found)),
         "tables": (_modes(found), _peaks(found)),
     }
 
@@ -37,13 +37,13 @@ def building_part(
 _Carried = tuple[Motion, str, RoofMotion]
 
 
-def _texts(scene: Scene, found: Sequence[_Carried]) -> Iterator[str]:
+def _texts(package: PackageData, found: Sequence[_Carried]) -> Iterator[str]:
     yield Markup("{} {}").format(
         "Motions recorded on the ground go through an elastic building to the roof, each "
         f"horizontal component by itself: {_words(found)}.",
-        _period_words(scene),
+        _period_words(package),
     )
-    share = scene.data.building.left_out_percent
+    share = package.data.building.left_out_percent
     yield (
         "As few modes are taken as leave out together no more than "
         f"{number(share, 1)} % of the roof's peak; what is left out follows the ground as if it "
@@ -71,9 +71,9 @@ def _words(found: Sequence[_Carried]) -> str:
     return "; ".join(f"{' and '.join(same)}: {words}" for words, same in names.items())
 
 
-def _period_words(scene: Scene) -> Markup:
+def _period_words(package: PackageData) -> Markup:
     """Return where the first period comes from."""
-    asked, height = scene.data.building, scene.data.site.structure_height_m
+    asked, height = package.data.building, package.data.site.structure_height_m
     if asked.period_s is not None or asked.structure is None:
         return Markup("The period is as given in the workbook.")
     coefficient, exponent = APPROXIMATE_PERIODS[asked.structure]
@@ -86,8 +86,8 @@ def _period_words(scene: Scene) -> Markup:
         f"{coefficient:g}",
         number(height / FOOT_M, 1),
         f"{exponent:g}",
-        number(first_period_s(scene.data), 3),
-        scene.say.both(height, Quantity.PLAN),
+        number(first_period_s(package.data), 3),
+        package.say.both(height, Quantity.PLAN),
     )
 
 

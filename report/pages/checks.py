@@ -6,29 +6,29 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup, escape
 
-from report.assess import ClearanceCheck
-from report.equations import symbol
+from report.assessment.clearances import ClearanceCheck
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
     NG,
     OK,
     Column,
+    PackageData,
     Row,
-    Scene,
     Table,
     check_value,
     dagger,
     verdict,
 )
-from report.units import Quantity, number, ratio
-from solver.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
+from report.typeset.equations import symbol
+from report.words.units import Quantity, number, ratio
+from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
 
 
-def clearance_table(scene: Scene, *, brief: bool) -> Table:
+def clearance_table(package: PackageData, *, brief: bool) -> Table:
     """Return the clearances, required against provided."""
-    say = scene.say
-    factor = " × I" if scene.assessment.rules.importance_in_separation else ""
+    say = package.say
+    factor = " × I" if package.assessment.rules.importance_in_separation else ""
     more = (
         ()
         if brief
@@ -53,25 +53,25 @@ def clearance_table(scene: Scene, *, brief: bool) -> Table:
             Column(head="Verdict", align="center", share=0.95),
         ),
         rows=tuple(
-            _clearance_row(scene, count, gap, brief)
-            for count, gap in enumerate(scene.assessment.clearances, start=1)
+            _clearance_row(package, count, gap, brief)
+            for count, gap in enumerate(package.assessment.clearances, start=1)
         ),
         kind="" if brief else "compact",
     )
 
 
-def _clearance_row(scene: Scene, count: int, gap: ClearanceCheck, brief: bool) -> Row:
-    say, row = scene.say, gap.clearance
+def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief: bool) -> Row:
+    say, row = package.say, gap.clearance
     key = SEPARATION_KEYS[gap.neighbour]
-    least = scene.mark("separation_edge_min_in") if gap.is_least_value else ""
+    least = package.mark("separation_edge_min_in") if gap.is_least_value else ""
     more = (
         ()
         if brief
         else (
             *say.cells(gap.design_m),
             f"{gap.governing_array}, {gap.governing_direction.value}",
-            number(gap.factor, 2) + scene.mark(key),
-            scene.clause(key),
+            number(gap.factor, 2) + package.mark(key),
+            package.clause(key),
         )
     )
     where = "" if row.direction == "any" else f", {row.direction.value}"
@@ -90,49 +90,49 @@ def _clearance_row(scene: Scene, count: int, gap: ClearanceCheck, brief: bool) -
     )
 
 
-def all_checks(scene: Scene) -> Sequence[tuple[str, Check]]:
+def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
     """Return every limit with what it is on."""
-    building = [("Building", check) for check in scene.assessment.building_checks]
+    building = [("Building", check) for check in package.assessment.building_checks]
     arrays = [
         (f"Array {found.array.id}", check)
-        for found in scene.assessment.arrays
+        for found in package.assessment.arrays
         for check in found.checks
     ]
     return [*building, *arrays]
 
 
-def failed_limits(scene: Scene) -> Sequence[str]:
+def failed_limits(package: PackageData) -> Sequence[str]:
     """Return the limits that are not kept, in words."""
     return [
-        f"{place}: {check.title} is {check_value(check, check.found, scene.say)}, limit "
-        f"{check_value(check, check.limit, scene.say)} "
+        f"{place}: {check.title} is {check_value(check, check.found, package.say)}, limit "
+        f"{check_value(check, check.limit, package.say)} "
         f"({check.provision.clause}{dagger(check.provision)})."
-        for place, check in all_checks(scene)
+        for place, check in all_checks(package)
         if not check.ok
     ]
 
 
-def troubles(scene: Scene) -> Sequence[str]:
+def troubles(package: PackageData) -> Sequence[str]:
     """Return everything that stands in the way of an OK, clearances apart, in words."""
     few = [
         f"Array {found.array.id}: {found.analysis.n_motions} are too few motions for the design "
-        f"value asked for (statistic: {scene.data.options.statistic.value}); no design value."
-        for found in scene.assessment.arrays
+        f"value asked for (statistic: {package.data.options.statistic.value}); no design value."
+        for found in package.assessment.arrays
         if found.analysis.basis is Basis.TOO_FEW
     ]
     return [
-        *scene.assessment.warnings,
+        *package.assessment.warnings,
         *few,
-        *model_troubles(scene),
-        *tipping_troubles(scene),
-        *link_troubles(scene),
-        *failed_limits(scene),
+        *model_troubles(package),
+        *tipping_troubles(package),
+        *link_troubles(package),
+        *failed_limits(package),
     ]
 
 
 def check_table(
     caption: str,
-    scene: Scene,
+    package: PackageData,
     checks: Sequence[tuple[str, Check]],
     words: tuple[str, str] = (OK, NG),
 ) -> Table:
@@ -153,9 +153,9 @@ def check_table(
                 cells=(
                     place,
                     check.title,
-                    check_value(check, check.found, scene.say),
+                    check_value(check, check.found, package.say),
                     "≤" if check.at_most else "≥",
-                    check_value(check, check.limit, scene.say) + dagger(check.provision),
+                    check_value(check, check.limit, package.say) + dagger(check.provision),
                     check.provision.clause + dagger(check.provision),
                     verdict(check.ok, words),
                 )
@@ -165,9 +165,9 @@ def check_table(
     )
 
 
-def clearances(scene: Scene) -> Mapping[str, object]:
+def clearances(package: PackageData) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
-    parapets = [gap for gap in scene.assessment.clearances if "parapet" in gap.neighbour.value]
+    parapets = [gap for gap in package.assessment.clearances if "parapet" in gap.neighbour.value]
     notes = [
         "Displ. is the design displacement of the array named behind it, in the direction named: "
         "of its excursions down the slope, up, across (either way) or any, the largest of all "
@@ -177,35 +177,35 @@ def clearances(scene: Scene) -> Mapping[str, object]:
     if parapets:
         notes.append(
             "A parapet qualifies when its top is at least "
-            f"{scene.say.both(scene.assessment.rules.length_m('parapet_height_in'))}"
-            f"{scene.mark('parapet_height_in')} above the roof and at least "
-            f"{scene.say.both(scene.assessment.rules.length_m('parapet_over_cg_in'))}"
-            f"{scene.mark('parapet_over_cg_in')} above the array's centre of gravity. An edge "
+            f"{package.say.both(package.assessment.rules.length_m('parapet_height_in'))}"
+            f"{package.mark('parapet_height_in')} above the roof and at least "
+            f"{package.say.both(package.assessment.rules.length_m('parapet_over_cg_in'))}"
+            f"{package.mark('parapet_over_cg_in')} above the array's centre of gravity. An edge "
             "whose parapet does not qualify counts as one without. The strength of the parapet is "
             "not checked here."
         )
-    if any(gap.is_least_value for gap in scene.assessment.clearances):
+    if any(gap.is_least_value for gap in package.assessment.clearances):
         notes.append(
             "Least separation to an edge without a qualifying parapet governs where the required "
             "value exceeds factor × displacement: "
-            f"{scene.say.both(scene.assessment.rules.length_m('separation_edge_min_in'))}"
-            f"{scene.mark('separation_edge_min_in')}."
+            f"{package.say.both(package.assessment.rules.length_m('separation_edge_min_in'))}"
+            f"{package.mark('separation_edge_min_in')}."
         )
-    return {"table": clearance_table(scene, brief=False), "notes": tuple(notes)}
+    return {"table": clearance_table(package, brief=False), "notes": tuple(notes)}
 
 
-def limits(scene: Scene) -> Mapping[str, object]:
+def limits(package: PackageData) -> Mapping[str, object]:
     """Return the part on limits and interconnection strength."""
     return {
         "table": check_table(
-            "Limits of the analysis route and of the building", scene, all_checks(scene)
+            "Limits of the analysis route and of the building", package, all_checks(package)
         ),
-        "interconnection": _interconnection(scene),
+        "interconnection": _interconnection(package),
     }
 
 
-def _interconnection(scene: Scene) -> Table:
-    say = scene.say
+def _interconnection(package: PackageData) -> Table:
+    say = package.say
     return Table(
         caption="Interconnection strength required within each array",
         columns=(
@@ -224,20 +224,20 @@ def _interconnection(scene: Scene) -> Table:
                     *say.cells(
                         found.interconnection_n,
                         Quantity.WEIGHT,
-                        mark=scene.mark("interconnection_sds"),
+                        mark=package.mark("interconnection_sds"),
                     ),
-                    scene.clause("interconnection_sds"),
+                    package.clause("interconnection_sds"),
                 )
             )
-            for found in scene.assessment.arrays
+            for found in package.assessment.arrays
         ),
         notes=("The lighter side of any section through an array is at most half of it.",),
     )
 
 
-def provisions(scene: Scene) -> Mapping[str, object]:
+def provisions(package: PackageData) -> Mapping[str, object]:
     """Return every number of the rule set with its standing, and the overrides."""
-    rules = scene.assessment.rules
+    rules = package.assessment.rules
     return {
         "table": Table(
             caption=f"Numbers of {rules.name} used here",
@@ -275,7 +275,7 @@ def provisions(scene: Scene) -> Mapping[str, object]:
                         row.reason,
                     )
                 )
-                for row in scene.data.overrides
+                for row in package.data.overrides
             ),
         ),
     }

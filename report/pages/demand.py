@@ -6,20 +6,20 @@ from collections.abc import Iterator
 
 from markupsafe import Markup
 
-from report.equations import fraction, symbol
-from report.pages.parts import Line, Scene
+from report.motions.targets import OWN
+from report.pages.parts import Line, PackageData
 from report.sheet.schema import RecordedAt
-from report.sheet.targets import OWN
-from report.units import number
+from report.typeset.equations import fraction, symbol
+from report.words.units import number
 
 
-def demand_lines(scene: Scene) -> tuple[Line, ...]:
+def demand_lines(package: PackageData) -> tuple[Line, ...]:
     """Return S_DS, and the corners of the target spectra that count."""
-    return (*_s_ds(scene), *_ac156(scene), *_design_spectrum(scene))
+    return (*_s_ds(package), *_ac156(package), *_design_spectrum(package))
 
 
-def _s_ds(scene: Scene) -> Iterator[Line]:
-    site = scene.data.site
+def _s_ds(package: PackageData) -> Iterator[Line]:
+    site = package.data.site
     if site.s_ds_g is None and site.s_s_g is not None and site.f_a is not None:
         yield Line(
             latex=r"S_{DS}=\frac{2}{3}F_a S_S",
@@ -35,12 +35,12 @@ def _s_ds(scene: Scene) -> Iterator[Line]:
         )
 
 
-def _ac156(scene: Scene) -> Iterator[Line]:
+def _ac156(package: PackageData) -> Iterator[Line]:
     """Yield the corners at the roof, of components that have no spectrum of the project's own."""
-    site, goals = scene.data.site, scene.assessment.targets
-    found, vertical = scene.assessment.horizontal_target, scene.assessment.vertical_target
+    site, goals = package.data.site, package.assessment.targets
+    found, vertical = package.assessment.horizontal_target, package.assessment.vertical_target
     s_ds, height = number(site.s_ds, 3), number(site.roof_height_m / site.structure_height_m, 3)
-    newer = scene.assessment.rules.name == "ASCE 7-22"
+    newer = package.assessment.rules.name == "ASCE 7-22"
     flexible = (
         r"A_{FLX}=S_{DS}\frac{1+2.5\,z/h}{1.3}\leq 1.6\,S_{DS}"
         if newer
@@ -82,11 +82,11 @@ def _ac156(scene: Scene) -> Iterator[Line]:
         )
 
 
-def _design_spectrum(scene: Scene) -> Iterator[Line]:
+def _design_spectrum(package: PackageData) -> Iterator[Line]:
     """Yield the design spectrum where ground motions are held against it."""
-    site, t_l_s = scene.data.site, scene.data.target.t_l_s
-    on_ground = any(row.recorded_at is RecordedAt.GROUND for row in scene.data.motions)
-    has_own = scene.assessment.targets.ground.name == OWN
+    site, t_l_s = package.data.site, package.data.target.t_l_s
+    on_ground = any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
+    has_own = package.assessment.targets.ground.name == OWN
     if not on_ground or has_own or site.s_1_g is None or site.f_v is None or t_l_s is None:
         return
     s_d1_g = 2.0 / 3.0 * site.f_v * site.s_1_g

@@ -7,17 +7,17 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assess import ArrayAssessment
-from report.equations import symbol
+from report.assessment.arrays import ArrayAssessment
 from report.pages.checks import all_checks, clearance_table, troubles
-from report.pages.parts import Column, Row, Scene, Table, shortened, statistic, verdict
+from report.pages.parts import Column, PackageData, Row, Table, shortened, statistic, verdict
 from report.sheet.schema import RecordedAt
-from report.units import number, ratio
+from report.typeset.equations import symbol
+from report.words.units import number, ratio
 
 
-def sheet(scene: Scene) -> Mapping[str, str]:
+def sheet(package: PackageData) -> Mapping[str, str]:
     """Return what every page carries."""
-    project = scene.data.project
+    project = package.data.project
     return {
         "title": f"{project.number} {project.name}: seismic displacement of rooftop solar arrays",
         "author": project.prepared_by,
@@ -28,16 +28,16 @@ def sheet(scene: Scene) -> Mapping[str, str]:
         "by": shortened(project.prepared_by, 22),
         "checked": shortened(project.checked_by, 22) or "—",
         "revision": shortened(project.revision, 8),
-        "edition": scene.assessment.rules.name,
+        "edition": package.assessment.rules.name,
     }
 
 
-def cover(scene: Scene) -> Mapping[str, object]:
+def cover(package: PackageData) -> Mapping[str, object]:
     """Return the cover."""
-    project = scene.data.project
+    project = package.data.project
     rows = [
         (row.revision, row.date.isoformat(), row.description, row.by or "—")
-        for row in scene.data.revisions
+        for row in package.data.revisions
     ] or [(project.revision, project.date.isoformat(), "First issue", project.prepared_by)]
     return {
         "name": project.name,
@@ -45,7 +45,7 @@ def cover(scene: Scene) -> Mapping[str, object]:
             ("Project number", project.number),
             ("Client", project.client or "—"),
             ("Address", project.address or "—"),
-            ("Code edition", scene.assessment.rules.title),
+            ("Code edition", package.assessment.rules.title),
             ("Prepared by", project.prepared_by),
             ("Checked by", project.checked_by or "not yet checked"),
             ("Date", project.date.isoformat()),
@@ -64,25 +64,25 @@ def cover(scene: Scene) -> Mapping[str, object]:
     }
 
 
-def summary(scene: Scene) -> Mapping[str, object]:
+def summary(package: PackageData) -> Mapping[str, object]:
     """Return the summary page: governing numbers and a verdict for everything."""
     return {
-        "verdict": verdict(scene.assessment.ok),
-        "sentence": _sentence(scene),
-        "numbers": _numbers(scene),
-        "arrays": _array_table(scene),
-        "clearances": clearance_table(scene, brief=True),
-        "troubles": troubles(scene),
+        "verdict": verdict(package.assessment.ok),
+        "sentence": _sentence(package),
+        "numbers": _numbers(package),
+        "arrays": _array_table(package),
+        "clearances": clearance_table(package, brief=True),
+        "troubles": troubles(package),
     }
 
 
-def _sentence(scene: Scene) -> str:
-    if scene.assessment.ok:
+def _sentence(package: PackageData) -> str:
+    if package.assessment.ok:
         return "Every limit and every clearance is kept, and every run gave a final value."
     counts = (
-        ("array", [scene.assessment.array_ok(found) for found in scene.assessment.arrays]),
-        ("clearance", [gap.ok for gap in scene.assessment.clearances]),
-        ("limit", [check.ok for _, check in all_checks(scene)]),
+        ("array", [package.assessment.array_ok(found) for found in package.assessment.arrays]),
+        ("clearance", [gap.ok for gap in package.assessment.clearances]),
+        ("limit", [check.ok for _, check in all_checks(package)]),
     )
     failed = [
         f"{oks.count(False)} of {len(oks)} {name}{'s' if len(oks) != 1 else ''}"
@@ -92,9 +92,9 @@ def _sentence(scene: Scene) -> str:
     return f"Marked NG: {', '.join(failed)}."
 
 
-def _numbers(scene: Scene) -> Sequence[tuple[str, str, str]]:
-    site, rules, found = scene.data.site, scene.assessment.rules, scene.governing
-    key = scene.prescriptive_key(found)
+def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
+    site, rules, found = package.data.site, package.assessment.rules, package.governing
+    key = package.prescriptive_key(found)
     motions = f"{found.analysis.n_motions} motion{'s' if found.analysis.n_motions != 1 else ''}"
     return (
         (
@@ -111,24 +111,24 @@ def _numbers(scene: Scene) -> Sequence[tuple[str, str, str]]:
         ),
         (
             "Prescriptive displacement",
-            scene.say.both(found.prescriptive.value_m) + scene.mark(key),
+            package.say.both(found.prescriptive.value_m) + package.mark(key),
             rules.values[key].clause,
         ),
         (
             "Design value from the peaks",
-            f"{statistic(found.analysis.basis)} of {motions}{scene.mark('analysis_factor')}",
+            f"{statistic(found.analysis.basis)} of {motions}{package.mark('analysis_factor')}",
             rules.values["analysis_factor"].clause,
         ),
         (
             f"Largest design displacement (array {found.array.id})",
-            scene.say.both(found.design_m) + scene.design_mark(found),
+            package.say.both(found.design_m) + package.design_mark(found),
             f"governed by: {found.governs}",
         ),
     )
 
 
-def _array_table(scene: Scene) -> Table:
-    say = scene.say
+def _array_table(package: PackageData) -> Table:
+    say = package.say
     return Table(
         caption="Arrays: displacement by analysis, prescriptive and design",
         columns=(
@@ -143,7 +143,7 @@ def _array_table(scene: Scene) -> Table:
             Column(head="D/C", share=0.9),
             Column(head="Verdict", align="center", share=1.1),
         ),
-        rows=tuple(_array_row(scene, found) for found in scene.assessment.arrays),
+        rows=tuple(_array_row(package, found) for found in package.assessment.arrays),
         notes=(
             "D/C: required over provided separation, rounded up; the largest among the array's "
             "clearances, on either side of them.",
@@ -151,66 +151,66 @@ def _array_table(scene: Scene) -> Table:
     )
 
 
-def _array_row(scene: Scene, found: ArrayAssessment) -> Row:
-    prescriptive = scene.mark(scene.prescriptive_key(found))
-    demands = [gap.demand_capacity for gap in scene.assessment.gaps_of(found.array.id)]
+def _array_row(package: PackageData, found: ArrayAssessment) -> Row:
+    prescriptive = package.mark(package.prescriptive_key(found))
+    demands = [gap.demand_capacity for gap in package.assessment.gaps_of(found.array.id)]
     largest = math.nan if any(map(math.isnan, demands)) else max(demands, default=math.nan)
     return Row(
         cells=(
             found.array.id,
             number(math.degrees(found.array.slope_rad), 2),
             number(found.array.mu, 2),
-            *scene.say.cells(found.analysis.value_m),
-            *scene.say.cells(found.prescriptive.value_m, mark=prescriptive),
-            *scene.say.cells(found.design_m, mark=scene.design_mark(found)),
+            *package.say.cells(found.analysis.value_m),
+            *package.say.cells(found.prescriptive.value_m, mark=prescriptive),
+            *package.say.cells(found.design_m, mark=package.design_mark(found)),
             found.governs,
             verdict(all(check.ok for check in found.checks)),
             ratio(largest) if demands else "none given",
-            verdict(scene.assessment.array_ok(found)),
+            verdict(package.assessment.array_ok(found)),
         )
     )
 
 
-def basis(scene: Scene) -> Mapping[str, object]:
+def basis(package: PackageData) -> Mapping[str, object]:
     """Return what the page on basis and limits adds to its fixed text."""
-    motions = [run.motion for run in scene.governing.motions]
+    motions = [run.motion for run in package.governing.motions]
     count = len(motions)
     with_vertical = sum(motion.has_vertical for motion in motions)
     with_transverse = sum(motion.has_transverse for motion in motions)
     both = sum(len(motion.signs) == 2 for motion in motions)
     return {
-        "title": scene.assessment.rules.title,
+        "title": package.assessment.rules.title,
         "vertical": f"{with_vertical} of {count} have a vertical component",
         "moves": "the records say, those of the ground through the building of part 4"
-        if any(row.recorded_at is RecordedAt.GROUND for row in scene.data.motions)
+        if any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
         else "the records say",
         "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
-        "friction": _friction(scene),
-        "asked": _asked(scene),
-        "linked": _linked(scene),
+        "friction": _friction(package),
+        "asked": _asked(package),
+        "linked": _linked(package),
         "both": f"{both} of {count} motions are run in both polarities",
         "peer": "is stated to be peer reviewed"
-        if scene.data.options.peer_reviewed
+        if package.data.options.peer_reviewed
         else "is not stated to be peer reviewed",
-        "failed": troubles(scene),
+        "failed": troubles(package),
     }
 
 
-def _asked(scene: Scene) -> str:
+def _asked(package: PackageData) -> str:
     """Return which arrays are run by a model that the workbook asks for."""
-    arrays = [item.array for item in scene.assessment.arrays if item.is_model_asked_for]
+    arrays = [item.array for item in package.assessment.arrays if item.is_model_asked_for]
     return "".join(f"; {one.id} is run in {one.model.value}, as asked for" for one in arrays)
 
 
-def _linked(scene: Scene) -> str:
+def _linked(package: PackageData) -> str:
     """Return which arrays are held against a row of linked blocks."""
-    names = ", ".join(found.found.array.id for found in scene.assessment.linked)
+    names = ", ".join(found.found.array.id for found in package.assessment.linked)
     return f" (but part 11 holds {names} against a row of linked blocks)" if names else ""
 
 
-def _friction(scene: Scene) -> str:
+def _friction(package: PackageData) -> str:
     single = "a single coefficient μ for each array, at rest and while sliding, at any speed"
-    tested = [one.id for one in scene.data.arrays if not one.friction.is_constant]
+    tested = [one.id for one in package.data.arrays if not one.friction.is_constant]
     if not tested:
         return single
     return f"{single}; by speed, as tested, for {', '.join(tested)} (part 11)"

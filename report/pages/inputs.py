@@ -7,29 +7,29 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.equations import symbol
+from report.assessment.runs import RUNGS
 from report.pages.model import friction
-from report.pages.parts import Column, Row, Scene, Table
-from report.runs import RUNGS
+from report.pages.parts import Column, PackageData, Row, Table
 from report.sheet.schema import Site
-from report.units import Quantity, number
+from report.typeset.equations import symbol
+from report.words.units import Quantity, number
 
 NOT_GIVEN = "not given"
 
 
-def inputs(scene: Scene) -> Mapping[str, object]:
+def inputs(package: PackageData) -> Mapping[str, object]:
     """Return the part on inputs, without the roof plan."""
     return {
-        "site": _site(scene),
-        "arrays": _arrays(scene),
-        "sizes": _sizes(scene),
-        "links": _links(scene),
-        "objects": _objects(scene),
-        "note": _s_ds_note(scene.data.site),
+        "site": _site(package),
+        "arrays": _arrays(package),
+        "sizes": _sizes(package),
+        "links": _links(package),
+        "objects": _objects(package),
+        "note": _s_ds_note(package.data.site),
     }
 
 
-def _site(scene: Scene) -> Table:
+def _site(package: PackageData) -> Table:
     return Table(
         caption="Site and seismic parameters",
         columns=(
@@ -49,13 +49,13 @@ def _site(scene: Scene) -> Table:
                     "—" if value == NOT_GIVEN else origin,
                 )
             )
-            for words, name, value, reference, origin in _parameters(scene)
+            for words, name, value, reference, origin in _parameters(package)
         ),
     )
 
 
-def _parameters(scene: Scene) -> Sequence[tuple[str, str, str, str, str]]:
-    site, say = scene.data.site, scene.say
+def _parameters(package: PackageData) -> Sequence[tuple[str, str, str, str, str]]:
+    site, say = package.data.site, package.say
     s_ms = None if site.s_s_g is None or site.f_a is None else site.f_a * site.s_s_g
     s_m1 = None if site.s_1_g is None or site.f_v is None else site.f_v * site.s_1_g
     s_d1 = None if s_m1 is None else 2.0 / 3.0 * s_m1
@@ -64,7 +64,7 @@ def _parameters(scene: Scene) -> Sequence[tuple[str, str, str, str, str]]:
     s_ds_origin = made if site.s_ds_g is None else given
     site_class = NOT_GIVEN if site.site_class is None else site.site_class.value
     return (
-        ("Rule set", "", scene.assessment.rules.name, "adopted provisions", given),
+        ("Rule set", "", package.assessment.rules.name, "adopted provisions", given),
         ("Risk category", "", site.risk_category.value, "ASCE 7 Table 1.5-1", given),
         ("Importance factor", "I_e", number(site.i_e, 2), "ASCE 7 Table 1.5-2", given),
         ("Storeys above grade", "", str(site.storeys), "", given),
@@ -91,7 +91,13 @@ def _parameters(scene: Scene) -> Sequence[tuple[str, str, str, str, str]]:
         ),
         ("Mapped acceleration, 0.2 s", "S_S", _g(site.s_s_g), "ASCE 7 11.4", given),
         ("Mapped acceleration, 1 s", "S_1", _g(site.s_1_g), "ASCE 7 11.4", given),
-        ("Long-period transition", "T_L", _seconds(scene.data.target.t_l_s), "ASCE 7 11.4", given),
+        (
+            "Long-period transition",
+            "T_L",
+            _seconds(package.data.target.t_l_s),
+            "ASCE 7 11.4",
+            given,
+        ),
         ("Site class", "", site_class, "ASCE 7 Chapter 20", given),
         ("Site coefficient, 0.2 s", "F_a", _plain(site.f_a), "ASCE 7 11.4", given),
         ("Site coefficient, 1 s", "F_v", _plain(site.f_v), "ASCE 7 11.4", given),
@@ -135,7 +141,7 @@ def _s_ds_note(site: Site) -> str:
     ).format(symbol("S_DS"), symbol("S_S"), symbol("F_a"), number(other, 3))
 
 
-def _arrays(scene: Scene) -> Table:
+def _arrays(package: PackageData) -> Table:
     return Table(
         caption="Arrays: slope and friction",
         columns=(
@@ -159,26 +165,26 @@ def _arrays(scene: Scene) -> Table:
                     array.construction,
                 )
             )
-            for array in scene.data.arrays
+            for array in package.data.arrays
         ),
         notes=(
             "Down-slope direction counter-clockwise from +x of the roof plan.",
-            *_by_speed(scene),
+            *_by_speed(package),
         ),
     )
 
 
-def _by_speed(scene: Scene) -> Iterator[str]:
+def _by_speed(package: PackageData) -> Iterator[str]:
     """Yield which arrays have friction by speed, and which ask for a model."""
-    for array in scene.data.arrays:
+    for array in package.data.arrays:
         if not array.friction.is_constant:
             yield f"{array.id}:{friction(array)}"
         if array.model in RUNGS:
             yield f"{array.id}: the model asked for is {array.model.value} (part 11)."
 
 
-def _sizes(scene: Scene) -> Table:
-    say = scene.say
+def _sizes(package: PackageData) -> Table:
+    say = package.say
     return Table(
         caption="Arrays: weight and size",
         columns=(
@@ -200,14 +206,14 @@ def _sizes(scene: Scene) -> Table:
                     *say.cells(array.y_to_m - array.y_from_m, Quantity.PLAN),
                 )
             )
-            for array in scene.data.arrays
+            for array in package.data.arrays
         ),
         notes=("Centre of gravity above the roof surface; plan x and y: the array's own size.",),
     )
 
 
-def _links(scene: Scene) -> Table:
-    say = scene.say
+def _links(package: PackageData) -> Table:
+    say = package.say
     return Table(
         caption="Arrays to be held against a row of linked blocks",
         columns=(
@@ -227,14 +233,14 @@ def _links(scene: Scene) -> Table:
                     number(one.damping_ratio, 3),
                 )
             )
-            for one in scene.data.links
+            for one in package.data.links
         ),
         notes=("Blocks of equal weight in a row down the slope (part 11).",),
     )
 
 
-def _objects(scene: Scene) -> Table:
-    say = scene.say
+def _objects(package: PackageData) -> Table:
+    say = package.say
     return Table(
         caption="Objects and roof edges",
         columns=(
@@ -251,18 +257,18 @@ def _objects(scene: Scene) -> Table:
                 cells=(
                     item.id,
                     item.kind.value,
-                    *_optional(scene, item.height_m, Quantity.SIZE),
-                    *_optional(scene, item.x_from_m, Quantity.PLAN),
-                    *_optional(scene, item.x_to_m, Quantity.PLAN),
-                    *_optional(scene, item.y_from_m, Quantity.PLAN),
-                    *_optional(scene, item.y_to_m, Quantity.PLAN),
+                    *_optional(package, item.height_m, Quantity.SIZE),
+                    *_optional(package, item.x_from_m, Quantity.PLAN),
+                    *_optional(package, item.x_to_m, Quantity.PLAN),
+                    *_optional(package, item.y_from_m, Quantity.PLAN),
+                    *_optional(package, item.y_to_m, Quantity.PLAN),
                 )
             )
-            for item in scene.data.objects
+            for item in package.data.objects
         ),
         kind="compact",
     )
 
 
-def _optional(scene: Scene, value_m: float | None, quantity: Quantity) -> tuple[str, str]:
-    return ("—", "—") if value_m is None else scene.say.cells(value_m, quantity)
+def _optional(package: PackageData, value_m: float | None, quantity: Quantity) -> tuple[str, str]:
+    return ("—", "—") if value_m is None else package.say.cells(value_m, quantity)

@@ -1,6 +1,6 @@
 """Arrays held against a row of linked blocks: what it is, what came of it, what would do.
 
-Runs nothing: `report.linked` did. Read `report.pages.parts` first.
+Runs nothing: `report.assessment.links` did. Read `report.pages.parts` first.
 """
 
 from __future__ import annotations
@@ -8,14 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from report.assess import LinkedArray
-from report.pages.parts import NO_VALUE, Column, Line, Row, Scene, Table, statistic, verdict
+from report.assessment.links import LinkedArray
+from report.pages.parts import NO_VALUE, Column, Line, PackageData, Row, Table, statistic, verdict
 from report.sheet.schema import Direction
-from report.units import Quantity, number
+from report.words.units import Quantity, number
 from solver.model import Status
 
 
-def part(scene: Scene, matters: str) -> Mapping[str, object]:
+def part(package: PackageData, matters: str) -> Mapping[str, object]:
     """Return what the page on the models says of rows; tables without rows where none is asked.
 
     Parameters
@@ -24,20 +24,20 @@ def part(scene: Scene, matters: str) -> Mapping[str, object]:
         Up to where a change of a displacement is none, in words.
     """
     return {
-        "text": _text(scene),
-        "lines": _lines(scene) if scene.assessment.linked else (),
-        "rows": _row_table(scene),
-        "design": _design_table(scene, matters),
-        "troubles": tuple(link_troubles(scene)),
+        "text": _text(package),
+        "lines": _lines(package) if package.assessment.linked else (),
+        "rows": _row_table(package),
+        "design": _design_table(package, matters),
+        "troubles": tuple(link_troubles(package)),
     }
 
 
-def link_troubles(scene: Scene) -> Iterator[str]:
+def link_troubles(package: PackageData) -> Iterator[str]:
     """Yield in words for which arrays one rigid block is not enough, and what would do."""
-    for found in scene.assessment.linked:
+    for found in package.assessment.linked:
         yield from _unfinished(found)
         if not found.is_within and not math.isnan(found.estimated_m):
-            yield f"{_too_far(scene, found)} {_what_would_do(found)}"
+            yield f"{_too_far(package, found)} {_what_would_do(found)}"
 
 
 def _unfinished(found: LinkedArray) -> Iterator[str]:
@@ -54,8 +54,8 @@ def _unfinished(found: LinkedArray) -> Iterator[str]:
             yield f"Array {name} as a row of linked blocks, {', '.join(runs)}: {status.sentence}."
 
 
-def _too_far(scene: Scene, found: LinkedArray) -> str:
-    name, say, used = found.found.array.id, scene.say, found.found.design_m
+def _too_far(package: PackageData, found: LinkedArray) -> str:
+    name, say, used = found.found.array.id, package.say, found.found.design_m
     if math.isinf(found.estimated_m):
         return (
             f"Array {name}: one rigid block does not slide in one axis, a row of linked blocks by "
@@ -85,8 +85,8 @@ def _ratio(value: float) -> str:
     return "∞" if math.isinf(value) else number(math.ceil(value * 1e3 - 1e-6) / 1e3, 3)
 
 
-def _text(scene: Scene) -> str:
-    names = [found.found.array.id for found in scene.assessment.linked]
+def _text(package: PackageData) -> str:
+    names = [found.found.array.id for found in package.assessment.linked]
     are = "is" if len(names) == 1 else "are"
     return (
         f"The workbook asks it of {', '.join(names)}, which {are} run once more as a row of blocks "
@@ -98,7 +98,7 @@ def _text(scene: Scene) -> str:
     )
 
 
-def _lines(scene: Scene) -> Sequence[Line]:
+def _lines(package: PackageData) -> Sequence[Line]:
     return (
         Line(
             latex=(
@@ -115,30 +115,30 @@ def _lines(scene: Scene) -> Sequence[Line]:
                 r"\quad r=\Delta_{row}/\Delta_{rigid}"
             ),
             reference="estimated with links",
-            steps=tuple(_step(scene, found) for found in scene.assessment.linked),
+            steps=tuple(_step(package, found) for found in package.assessment.linked),
             note="Where a model is asked for, the value from analysis is the larger of its own and "
             "that of the model that the motions need."
-            if any(found.found.is_model_asked_for for found in scene.assessment.linked)
+            if any(found.found.is_model_asked_for for found in package.assessment.linked)
             else "",
         ),
     )
 
 
-def _step(scene: Scene, found: LinkedArray) -> tuple[str, str]:
-    say, design = scene.say, found.found
+def _step(package: PackageData, found: LinkedArray) -> tuple[str, str]:
+    say, design = package.say, found.found
     return (
         f"{design.array.id}: max(max(1, {_ratio(found.ratio)}) × "
         f"{say.both(found.value_m)}, {say.both(design.floor_m)})",
-        _estimated(scene, found),
+        _estimated(package, found),
     )
 
 
-def _estimated(scene: Scene, found: LinkedArray) -> str:
-    return "no limit" if math.isinf(found.estimated_m) else scene.say.both(found.estimated_m)
+def _estimated(package: PackageData, found: LinkedArray) -> str:
+    return "no limit" if math.isinf(found.estimated_m) else package.say.both(found.estimated_m)
 
 
-def _row_table(scene: Scene) -> Table:
-    say = scene.say
+def _row_table(package: PackageData) -> Table:
+    say = package.say
     return Table(
         caption="Rows of linked blocks and one rigid block: the largest of all runs",
         columns=(
@@ -152,7 +152,7 @@ def _row_table(scene: Scene) -> Table:
             Column(head="Block", share=0.8),
             *say.columns("Link force", Quantity.WEIGHT, share=0.9),
         ),
-        rows=tuple(Row(cells=_row(scene, found)) for found in scene.assessment.linked),
+        rows=tuple(Row(cells=_row(package, found)) for found in package.assessment.linked),
         notes=(
             "Block: the one that goes farthest, counted from the highest. Link force: the largest "
             "in any link; it stands beside the strength that part 9 asks for.",
@@ -161,8 +161,8 @@ def _row_table(scene: Scene) -> Table:
     )
 
 
-def _row(scene: Scene, found: LinkedArray) -> tuple[str, ...]:
-    say, mus, farthest = scene.say, found.row.mus, found.farthest
+def _row(package: PackageData, found: LinkedArray) -> tuple[str, ...]:
+    say, mus, farthest = package.say, found.row.mus, found.farthest
     return (
         found.found.array.id,
         str(len(mus)),
@@ -176,9 +176,9 @@ def _row(scene: Scene, found: LinkedArray) -> tuple[str, ...]:
     )
 
 
-def _design_table(scene: Scene, matters: str) -> Table:
-    say = scene.say
-    linked = scene.assessment.linked
+def _design_table(package: PackageData, matters: str) -> Table:
+    say = package.say
+    linked = package.assessment.linked
     ways = sorted({statistic(found.found.analysis.basis) for found in linked})
     return Table(
         caption="Whether one rigid block is enough",
@@ -191,7 +191,7 @@ def _design_table(scene: Scene, matters: str) -> Table:
             *say.columns("Design, with links"),
             Column(head="Verdict", align="center", share=1.0),
         ),
-        rows=tuple(Row(cells=_design(scene, found)) for found in linked),
+        rows=tuple(Row(cells=_design(package, found)) for found in linked),
         notes=(
             f"Rigid and row: {', '.join(ways)} of the motions' PRDs, of the row those of the block "
             "that goes farthest. OK where the design with links is above the one used by no more "
@@ -201,8 +201,8 @@ def _design_table(scene: Scene, matters: str) -> Table:
     )
 
 
-def _design(scene: Scene, found: LinkedArray) -> tuple[str, ...]:
-    say, estimated = scene.say, found.estimated_m
+def _design(package: PackageData, found: LinkedArray) -> tuple[str, ...]:
+    say, estimated = package.say, found.estimated_m
     return (
         found.found.array.id,
         *say.cells(found.rigid.value_m),

@@ -7,12 +7,13 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
-from report.assess import ArrayAssessment, ClearanceCheck
-from report.equations import fraction, symbol
-from report.pages.parts import Line, Scene, nan_is_worst, statistic
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import ClearanceCheck
+from report.pages.parts import Line, PackageData, nan_is_worst, statistic
 from report.sheet.schema import Direction
-from report.units import Quantity, number
-from solver.provisions import SEPARATION_KEYS, Basis, Neighbour
+from report.typeset.equations import fraction, symbol
+from report.words.units import Quantity, number
+from solver.rules.provisions import SEPARATION_KEYS, Basis, Neighbour
 
 
 def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
@@ -112,19 +113,19 @@ def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
     )
 
 
-def prescriptive_line(scene: Scene, found: ArrayAssessment) -> Line:
+def prescriptive_line(package: PackageData, found: ArrayAssessment) -> Line:
     """Return the prescriptive displacement."""
-    site, rules, say = scene.data.site, scene.assessment.rules, scene.say
-    key = scene.prescriptive_key(found)
+    site, rules, say = package.data.site, package.assessment.rules, package.say
+    key = package.prescriptive_key(found)
     value, minimum = found.prescriptive.value_m, found.prescriptive.minimum_m
     if found.prescriptive.governs == "SDC A, B, C":
         return Line(
             latex=r"\Delta_{MPV}=\Delta_{A,B,C}",
-            reference=scene.clause(key),
-            steps=((f"SDC {site.sdc.value}", say.both(value) + scene.mark(key)),),
+            reference=package.clause(key),
+            steps=((f"SDC {site.sdc.value}", say.both(value) + package.mark(key)),),
         )
-    least = say.both(minimum) + scene.mark("prescriptive_minimum_in")
-    factor = f"{rules['prescriptive_factor_in']:g} in" + scene.mark("prescriptive_factor_in")
+    least = say.both(minimum) + package.mark("prescriptive_minimum_in")
+    factor = f"{rules['prescriptive_factor_in']:g} in" + package.mark("prescriptive_factor_in")
     inside = "" if rules.importance_in_separation else f" × {number(site.i_e, 2)}"
     latex = (
         r"\Delta_{MPV}=c\,(S_{DS}-0.4)^2\geq\Delta_{min}"
@@ -134,30 +135,30 @@ def prescriptive_line(scene: Scene, found: ArrayAssessment) -> Line:
     bracket = Markup("({} − 0.4)<sup>2</sup>").format(number(max(site.s_ds, 0.4), 3))
     return Line(
         latex=latex,
-        reference=scene.clause("prescriptive_factor_in"),
+        reference=package.clause("prescriptive_factor_in"),
         steps=(
             (
                 Markup("{}{} × {}, not below {}").format(factor, inside, bracket, least),
-                say.both(value) + scene.mark(key),
+                say.both(value) + package.mark(key),
             ),
         ),
         note=f"{found.prescriptive.governs.capitalize()} governs. The same for every array.",
     )
 
 
-def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
+def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]:
     """Return the way from the peaks of an array to its design displacement."""
-    say, analysis, rules = scene.say, found.analysis, scene.assessment.rules
+    say, analysis, rules = package.say, found.analysis, package.assessment.rules
     unit = say.units()[0]
     peaks = [run.governing.result.prd_m for run in found.motions]
     shown = " + ".join(say.cells(peak)[0] for peak in peaks[:12]) + (
         " + …" if len(peaks) > 12 else ""
     )
     count = str(len(peaks))
-    factor = number(analysis.factor, 2) + scene.mark("analysis_factor")
+    factor = number(analysis.factor, 2) + package.mark("analysis_factor")
     largest = analysis.basis is Basis.LARGEST_FACTORED
     picked = analysis.largest_m if largest else analysis.mean_m
-    floor = number(rules["analysis_floor"], 2) + scene.mark("analysis_floor")
+    floor = number(rules["analysis_floor"], 2) + package.mark("analysis_floor")
     return [
         Line(
             latex=r"\overline{\Delta}=\frac{1}{n}\sum_{i=1}^{n}\mathrm{PRD}_i",
@@ -178,19 +179,19 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
             latex=(
                 r"\Delta_{RHA}=k\,\Delta_{max}" if largest else r"\Delta_{RHA}=k\,\overline{\Delta}"
             ),
-            reference=scene.clause("analysis_factor"),
+            reference=package.clause("analysis_factor"),
             steps=((f"{factor} × {say.both(picked)}", say.both(analysis.value_m)),),
             note=f"Statistic: {statistic(analysis.basis)}.",
         ),
         Line(
             latex=r"\Delta_{floor}=f\,\Delta_{MPV}",
-            reference=scene.clause("analysis_floor"),
+            reference=package.clause("analysis_floor"),
             steps=(
                 (
                     "peer reviewed, no floor"
-                    if scene.data.options.peer_reviewed
+                    if package.data.options.peer_reviewed
                     else f"{floor} × {say.both(found.prescriptive.value_m)}",
-                    say.both(found.floor_m) + scene.mark("analysis_floor"),
+                    say.both(found.floor_m) + package.mark("analysis_floor"),
                 ),
             ),
         ),
@@ -200,18 +201,18 @@ def design_lines(scene: Scene, found: ArrayAssessment) -> Sequence[Line]:
             steps=(
                 (
                     f"max({say.both(analysis.value_m)}, {say.both(found.floor_m)})",
-                    say.both(found.design_m) + scene.design_mark(found),
+                    say.both(found.design_m) + package.design_mark(found),
                 ),
             ),
             note=f"Governed by: {found.governs}.",
         ),
-        _directions_line(scene, found),
+        _directions_line(package, found),
     ]
 
 
-def _directions_line(scene: Scene, found: ArrayAssessment) -> Line:
+def _directions_line(package: PackageData, found: ArrayAssessment) -> Line:
     """Return the design displacements down, up and across, from the peaks in each direction."""
-    say, factor = scene.say, number(found.analysis.factor, 2) + scene.mark("analysis_factor")
+    say, factor = package.say, number(found.analysis.factor, 2) + package.mark("analysis_factor")
     largest = found.analysis.basis is Basis.LARGEST_FACTORED
     ways = (Direction.DOWN, Direction.UP, Direction.ACROSS)
     return Line(
@@ -225,7 +226,7 @@ def _directions_line(scene: Scene, found: ArrayAssessment) -> Line:
             (
                 f"{way.value.capitalize()}: max({factor} × "
                 f"{say.both(one.largest_m if largest else one.mean_m)}, {say.both(found.floor_m)})",
-                say.both(found.design_towards_m(way)) + scene.towards_mark(found, way),
+                say.both(found.design_towards_m(way)) + package.towards_mark(found, way),
             )
             for way in ways
             for one in (found.directions[way],)
@@ -235,55 +236,55 @@ def _directions_line(scene: Scene, found: ArrayAssessment) -> Line:
     )
 
 
-def separation_line(scene: Scene) -> Line:
+def separation_line(package: PackageData) -> Line:
     """Return the separations, each condition that occurs at its largest displacement."""
     latex = (
         r"s_{req}=k\,I_e\,\Delta"
-        if scene.assessment.rules.importance_in_separation
+        if package.assessment.rules.importance_in_separation
         else r"s_{req}=k\,\Delta"
     )
-    clauses = {scene.assessment.rules.values[key].clause for key in SEPARATION_KEYS.values()}
+    clauses = {package.assessment.rules.values[key].clause for key in SEPARATION_KEYS.values()}
     return Line(
         latex=latex,
         reference=", ".join(sorted(clauses)),
         steps=tuple(
-            _separation(scene, max(gaps, key=lambda gap: nan_is_worst(gap.required_m)))
+            _separation(package, max(gaps, key=lambda gap: nan_is_worst(gap.required_m)))
             for kind in Neighbour
-            if (gaps := [gap for gap in scene.assessment.clearances if gap.neighbour is kind])
+            if (gaps := [gap for gap in package.assessment.clearances if gap.neighbour is kind])
         ),
     )
 
 
-def _separation(scene: Scene, gap: ClearanceCheck) -> tuple[str, str]:
-    say, rules = scene.say, scene.assessment.rules
+def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
+    say, rules = package.say, package.assessment.rules
     key = SEPARATION_KEYS[gap.neighbour]
-    inside = f" × {number(scene.data.site.i_e, 2)}" if rules.importance_in_separation else ""
+    inside = f" × {number(package.data.site.i_e, 2)}" if rules.importance_in_separation else ""
     least = (
         f", not below {say.both(rules.length_m('separation_edge_min_in'))}"
-        f"{scene.mark('separation_edge_min_in')}"
+        f"{package.mark('separation_edge_min_in')}"
         if gap.is_least_value
         else ""
     )
     feet = "" if math.isnan(gap.required_m) else f" = {say.both(gap.required_m, Quantity.PLAN)}"
     return (
         f"To {_ARTICLES[gap.neighbour]} ({gap.governing_array}, "
-        f"{gap.governing_direction.value}): {number(rules[key], 2)}{scene.mark(key)}{inside} × "
+        f"{gap.governing_direction.value}): {number(rules[key], 2)}{package.mark(key)}{inside} × "
         f"{say.both(gap.design_m)}{least}",
         say.both(gap.required_m) + feet,
     )
 
 
-def interconnection_line(scene: Scene, found: ArrayAssessment) -> Line:
+def interconnection_line(package: PackageData, found: ArrayAssessment) -> Line:
     """Return the interconnection strength."""
-    rules, say = scene.assessment.rules, scene.say
-    first = f"{rules['interconnection_sds']:g}{scene.mark('interconnection_sds')}"
-    second = f"{rules['interconnection_min']:g}{scene.mark('interconnection_min')}"
+    rules, say = package.assessment.rules, package.say
+    first = f"{rules['interconnection_sds']:g}{package.mark('interconnection_sds')}"
+    second = f"{rules['interconnection_min']:g}{package.mark('interconnection_min')}"
     return Line(
         latex=r"F=\mathrm{max}(c_1 S_{DS},\,c_2)\,W_1,\quad W_1=W/2",
-        reference=scene.clause("interconnection_sds"),
+        reference=package.clause("interconnection_sds"),
         steps=(
             (
-                f"max({first} × {number(scene.data.site.s_ds, 3)}, {second}) × "
+                f"max({first} × {number(package.data.site.s_ds, 3)}, {second}) × "
                 f"{say.both(found.array.weight_n / 2.0, Quantity.WEIGHT)}",
                 say.both(found.interconnection_n, Quantity.WEIGHT),
             ),

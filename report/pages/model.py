@@ -1,6 +1,6 @@
 """Which model answered for each array, why it is enough, and what was left out.
 
-Chooses nothing: `solver.ladder` did. Read `report.pages.parts` first.
+Chooses nothing: `solver.sliding.least_model` did. Read `report.pages.parts` first.
 """
 
 from __future__ import annotations
@@ -9,14 +9,23 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
-from report.assess import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.runs import RUNGS, HeadingRun
 from report.pages import links
 from report.pages.accuracy import below_mm
-from report.pages.parts import NO_VALUE, Column, Row, Scene, Table, Wide, nan_is_worst, verdict
-from report.runs import RUNGS, HeadingRun
+from report.pages.parts import (
+    NO_VALUE,
+    Column,
+    PackageData,
+    Row,
+    Table,
+    Wide,
+    nan_is_worst,
+    verdict,
+)
 from report.sheet.schema import Array, Direction
-from report.units import number, ratio
-from solver.ladder import DEFAULT, Rung, Solution
+from report.words.units import number, ratio
+from solver.sliding.least_model import DEFAULT, Rung, Solution
 
 _LEFT_OUT = {
     Rung.ONE_AXIS_VERTICAL: "Vertical shaking",
@@ -25,9 +34,9 @@ _LEFT_OUT = {
 }
 
 
-def page(scene: Scene) -> Mapping[str, object]:
+def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
-    arrays = scene.assessment.arrays
+    arrays = package.assessment.arrays
     matters = (
         f"{number(1e3 * DEFAULT.matters_m, 0)} mm ({number(DEFAULT.matters_m / 0.0254, 2)} in) or "
         f"{number(100.0 * DEFAULT.matters_share, 1)} %"
@@ -35,32 +44,32 @@ def page(scene: Scene) -> Mapping[str, object]:
     return {
         "rungs": tuple(f"{int(rung)}: {rung.title}" for rung in Rung if rung is not Rung.ROW),
         "matters": matters,
-        "combinations": _combinations(scene),
-        "table": _table(scene),
-        "left_out": _left_out_table(scene),
-        "stability": _stability_table(scene),
-        "sentences": [text for found in arrays for text in _sentences(scene, found)],
-        "troubles": tuple(model_troubles(scene)),
-        "links": links.part(scene, matters),
+        "combinations": _combinations(package),
+        "table": _table(package),
+        "left_out": _left_out_table(package),
+        "stability": _stability_table(package),
+        "sentences": [text for found in arrays for text in _sentences(package, found)],
+        "troubles": tuple(model_troubles(package)),
+        "links": links.part(package, matters),
     }
 
 
-def model_troubles(scene: Scene) -> Iterator[str]:
+def model_troubles(package: PackageData) -> Iterator[str]:
     """Yield in words which models that were asked for give too little."""
-    for found in scene.assessment.arrays:
+    for found in package.assessment.arrays:
         if found.is_model_enough:
             continue
         worst = max(Direction, key=lambda d: found.chosen_towards_m(d) - found.design_towards_m(d))
         yield (
             f"Array {found.array.id}: the model asked for, {found.array.model.value}, gives "
-            f"{scene.say.both(found.design_towards_m(worst))} ({worst.value}), the one that its "
-            f"motions need {scene.say.both(found.chosen_towards_m(worst))}."
+            f"{package.say.both(found.design_towards_m(worst))} ({worst.value}), the one that its "
+            f"motions need {package.say.both(found.chosen_towards_m(worst))}."
         )
 
 
-def tipping_troubles(scene: Scene) -> Iterator[str]:
+def tipping_troubles(package: PackageData) -> Iterator[str]:
     """Yield in words which arrays begin to turn about an edge of their supports."""
-    for found in scene.assessment.arrays:
+    for found in package.assessment.arrays:
         if not found.tipping.is_ok:
             yield (
                 f"Array {found.array.id}: begins to tip, {found.tipping.governs}: ratio "
@@ -68,7 +77,7 @@ def tipping_troubles(scene: Scene) -> Iterator[str]:
             )
 
 
-def _stability_table(scene: Scene) -> Table:
+def _stability_table(package: PackageData) -> Table:
     """Return what keeps each array flat on the roof: no uplift, no tipping."""
     return Table(
         caption="Beside every model: uplift and tipping",
@@ -82,7 +91,7 @@ def _stability_table(scene: Scene) -> Table:
             Column(head="Ratio, sliding", share=1.2),
             Column(head="Verdict", align="center", share=1.0),
         ),
-        rows=tuple(Row(cells=_stability(found)) for found in scene.assessment.arrays),
+        rows=tuple(Row(cells=_stability(found)) for found in package.assessment.arrays),
         notes=(
             "The worst run of each. Tipping: an array begins to turn about an edge of its supports "
             "where the shear that reaches it, never more than friction gives, is above b/(2h) of "
@@ -117,8 +126,8 @@ def _by_rung(found: ArrayAssessment) -> Iterator[tuple[Rung, Sequence[HeadingRun
         yield rung, list(group)
 
 
-def _combinations(scene: Scene) -> str:
-    motions = [run.motion for run in scene.governing.motions]
+def _combinations(package: PackageData) -> str:
+    motions = [run.motion for run in package.governing.motions]
     two = sum(motion.has_transverse for motion in motions)
     if not two:
         return (
@@ -137,7 +146,7 @@ def _combinations(scene: Scene) -> str:
     )
 
 
-def _table(scene: Scene) -> Table:
+def _table(package: PackageData) -> Table:
     return Table(
         caption="Model used, by array",
         columns=(
@@ -150,7 +159,7 @@ def _table(scene: Scene) -> Table:
             Column(head="Error of PRD", align="left", share=1.6),
         ),
         rows=tuple(
-            Row(cells=cells) for found in scene.assessment.arrays for cells in _model_rows(found)
+            Row(cells=cells) for found in package.assessment.arrays for cells in _model_rows(found)
         ),
         notes=(
             "Demand: the largest shear over normal force of an array that is held; it slips where "
@@ -190,8 +199,8 @@ def _error(runs: Sequence[HeadingRun]) -> str:
     return below_mm(worst) if worst == 0.0 else f"below {below_mm(worst)}"
 
 
-def _left_out_table(scene: Scene) -> Table:
-    say = scene.say
+def _left_out_table(package: PackageData) -> Table:
+    say = package.say
     return Table(
         caption="What was left out, and what it could change in the design displacement",
         columns=(
@@ -203,25 +212,27 @@ def _left_out_table(scene: Scene) -> Table:
         ),
         rows=tuple(
             Row(cells=cells)
-            for found in scene.assessment.arrays
-            for cells in _left_out_rows(scene, found)
+            for found in package.assessment.arrays
+            for cells in _left_out_rows(package, found)
         ),
         notes=(
             "Not in any of these models: turning in plan, rocking, and the array's own "
-            f"flexibility ({'part 2' if not scene.assessment.linked else 'see the rows below'}).",
+            f"flexibility ({'part 2' if not package.assessment.linked else 'see the rows below'}).",
         ),
         kind="compact",
     )
 
 
-def _left_out_rows(scene: Scene, found: ArrayAssessment) -> Iterator[tuple[str | Wide, ...]]:
+def _left_out_rows(
+    package: PackageData, found: ArrayAssessment
+) -> Iterator[tuple[str | Wide, ...]]:
     if found.is_model_asked_for:
-        yield _asked_row(scene, found)
+        yield _asked_row(package, found)
         return
     solutions = [run.solution for run in _runs(found)]
     seen = sorted({one.next_rung for one in solutions if one.next_rung > one.rung})
     for rung in seen:
-        yield _effect_row(scene, found, rung, [one for one in solutions if one.next_rung is rung])
+        yield _effect_row(package, found, rung, [one for one in solutions if one.next_rung is rung])
     if seen:
         return
     blank = ("—",) * 4
@@ -235,7 +246,7 @@ def _left_out_rows(scene: Scene, found: ArrayAssessment) -> Iterator[tuple[str |
 
 
 def _effect_row(
-    scene: Scene, found: ArrayAssessment, rung: Rung, group: Sequence[Solution]
+    package: PackageData, found: ArrayAssessment, rung: Rung, group: Sequence[Solution]
 ) -> tuple[str | Wide, ...]:
     effect = max((one.next_effect_m for one in group), key=nan_is_worst)
     how = "run both ways, with its error" if rung is Rung.TWO_AXES else "exact: run both ways"
@@ -245,15 +256,15 @@ def _effect_row(
     return (
         found.array.id,
         _LEFT_OUT[rung],
-        *scene.say.cells(effect),
-        *scene.say.cells(raised - found.design_m),
+        *package.say.cells(effect),
+        *package.say.cells(raised - found.design_m),
         how,
     )
 
 
-def _asked_row(scene: Scene, found: ArrayAssessment) -> tuple[str | Wide, ...]:
+def _asked_row(package: PackageData, found: ArrayAssessment) -> tuple[str | Wide, ...]:
     """Return what the models would give that the scenes need, in place of the one asked for."""
-    say, other = scene.say, found.chosen[Direction.ANY]
+    say, other = package.say, found.chosen[Direction.ANY]
     rung = max(run.solution.rung for motion in found.needed for run in motion.runs)
     name = f"What {rung.title} add" if rung > RUNGS[found.array.model] else "Nothing needed"
     if math.isnan(found.design_m) or math.isnan(other.value_m):
@@ -273,13 +284,13 @@ def _asked_row(scene: Scene, found: ArrayAssessment) -> tuple[str | Wide, ...]:
     )
 
 
-def _sentences(scene: Scene, found: ArrayAssessment) -> Iterator[str]:
+def _sentences(package: PackageData, found: ArrayAssessment) -> Iterator[str]:
     name, worst = found.array.id, found.worst
     least = found.uplift.n_min_g  # of the whole motion, also where the vertical is left out
     lifted = "it leaves the roof" if least < 0.0 else "it stays on the roof"
     yield (
         f"Array {name}: the worst run is {worst.motion.id}, {worst.governing.heading.name}, with "
-        f"PRD {scene.say.both(worst.governing.result.prd_m)}. Least normal force "
+        f"PRD {package.say.both(worst.governing.result.prd_m)}. Least normal force "
         f"{number(least, 2)} m g: {lifted}.{friction(found.array)}"
     )
     is_bounded = found.array.friction.is_monotone

@@ -8,36 +8,36 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from markupsafe import Markup, escape
 
-from report.beyond import Beyond
-from report.equations import symbol
+from report.assessment.highpass import Beyond
+from report.assessment.spectra import PRINTED_S, Spectra
+from report.motions.components import RecordFile
+from report.motions.history import PreparedMotion
+from report.motions.targets import OWN
 from report.pages.building import building_part
-from report.pages.parts import Column, Row, Scene, Table
-from report.sheet.records import RecordFile
+from report.pages.parts import Column, PackageData, Row, Table
 from report.sheet.schema import RecordedAt
-from report.sheet.shaking import Story
-from report.sheet.targets import OWN
-from report.spectra import PRINTED_S, Spectra
-from report.units import G_MPS2, number
+from report.typeset.equations import symbol
+from report.words.units import G_MPS2, number
 from solver.model import Floats, Motion
-from solver.processing import AS_RECORDED
-from solver.provisions import Tail
+from solver.records.processing import AS_RECORDED
+from solver.rules.spectra import Tail
 
 DRIFT_M = 0.010
 """Displacement left at the end from which a component is marked."""
 
 
-def titles(scene: Scene) -> tuple[str, ...]:
+def titles(package: PackageData) -> tuple[str, ...]:
     """Return the parts of the part, in order; the spectra come last."""
-    below = ("From ground to roof",) if has_ground(scene) else ()
+    below = ("From ground to roof",) if has_ground(package) else ()
     return ("Motions", "Processing and drift", *below, "Response spectra")
 
 
-def has_ground(scene: Scene) -> bool:
+def has_ground(package: PackageData) -> bool:
     """Whether any motion was recorded on the ground."""
-    return any(row.recorded_at is RecordedAt.GROUND for row in scene.data.motions)
+    return any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
 
 
-def motion_table(motions: Sequence[Motion], stories: Sequence[Story]) -> Table:
+def motion_table(motions: Sequence[Motion], stories: Sequence[PreparedMotion]) -> Table:
     """Return what each motion is, as run."""
     grounds = [story.recorded_at is RecordedAt.GROUND for story in stories]
     where = [Column(head="From", align="left", share=0.9)] if any(grounds) else []
@@ -64,7 +64,7 @@ def motion_table(motions: Sequence[Motion], stories: Sequence[Story]) -> Table:
     )
 
 
-def _motion_row(motion: Motion, story: Story, *, with_place: bool) -> Row:
+def _motion_row(motion: Motion, story: PreparedMotion, *, with_place: bool) -> Row:
     peaks = (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
     return Row(
         cells=(
@@ -85,12 +85,12 @@ def _peak(values: Floats, scale: float) -> str:
     return number(float(np.abs(values).max() * abs(scale) / G_MPS2), 3) if len(values) else "none"
 
 
-def drift_table(scene: Scene, stories: Sequence[Story]) -> Table:
+def drift_table(package: PackageData, stories: Sequence[PreparedMotion]) -> Table:
     """Return what was done to each motion, and the drift that is left in it."""
-    unit = scene.say.units()[0]
+    unit = package.say.units()[0]
     names = ("horizontal", "transverse", "vertical")
     short = {"horizontal": "record", "transverse": "transv.", "vertical": "vertical"}
-    limit = scene.say.both(DRIFT_M)
+    limit = package.say.both(DRIFT_M)
     return Table(
         caption="Processing, and what is left at the end of each component",
         columns=(
@@ -116,11 +116,11 @@ def drift_table(scene: Scene, stories: Sequence[Story]) -> Table:
     )
 
 
-def drift_sentence(scene: Scene, stories: Sequence[Story]) -> str:
+def drift_sentence(package: PackageData, stories: Sequence[PreparedMotion]) -> str:
     """Return the same in words, where every motion is as recorded and none drifts; else nothing."""
     if any(drifts(story) or story.done != AS_RECORDED for story in stories):
         return ""
-    unit = scene.say.units()[0]
+    unit = package.say.units()[0]
     found = [m for story in stories for m in story.measures.values()]
     speed = max(abs(m.final_velocity_mps) for m in found) / unit.si
     place = max(abs(m.final_displacement_m) for m in found) / unit.si
@@ -128,11 +128,11 @@ def drift_sentence(scene: Scene, stories: Sequence[Story]) -> str:
         "All motions are run as recorded: nothing is cut, filtered or taken off. At the end no "
         f"component moves faster than {number(speed, 2)} {unit.symbol}/s or lies farther than "
         f"{number(place, 2)} {unit.symbol} from where it began: none drifts. Drift in the input "
-        f"would become slip, and is marked from {scene.say.both(DRIFT_M)} on."
+        f"would become slip, and is marked from {package.say.both(DRIFT_M)} on."
     )
 
 
-def _drift_row(story: Story, names: Sequence[str], si: float) -> Row:
+def _drift_row(story: PreparedMotion, names: Sequence[str], si: float) -> Row:
     found = [story.measures.get(name) for name in names]
     speeds = ("none" if m is None else number(m.final_velocity_mps / si, 2) for m in found)
     places = ("none" if m is None else number(m.final_displacement_m / si, 2) for m in found)
@@ -147,16 +147,16 @@ def _drift_row(story: Story, names: Sequence[str], si: float) -> Row:
     )
 
 
-def drifts(story: Story) -> bool:
+def drifts(story: PreparedMotion) -> bool:
     """Whether a component of a motion ends away from where it began."""
     return any(abs(m.final_displacement_m) > DRIFT_M for m in story.measures.values())
 
 
-def beyond_table(scene: Scene, found: Sequence[Beyond]) -> Table:
+def beyond_table(package: PackageData, found: Sequence[Beyond]) -> Table:
     """Return how much of the slip comes from periods that a high-pass takes away."""
-    say = scene.say
+    say = package.say
     return Table(
-        caption=f"Periods beyond the high-pass corner: PRD of array {scene.governing.array.id}",
+        caption=f"Periods beyond the high-pass corner: PRD of array {package.governing.array.id}",
         columns=(
             Column(head="Motion", align="left", share=1.2),
             Column(head="Corner", unit="Hz"),
@@ -266,9 +266,9 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
     )
 
 
-def target_words(scene: Scene) -> Sequence[str]:
+def target_words(package: PackageData) -> Sequence[str]:
     """Return which spectra the motions are held against, a sentence each."""
-    goals, tail = scene.assessment.targets, Tail(scene.data.target.tail)
+    goals, tail = package.assessment.targets, Tail(package.data.target.tail)
     roof = (
         "the project's own spectrum (sheet Spectrum of the workbook), which replaces that of AC156"
         if goals.roof.name == OWN
@@ -279,7 +279,7 @@ def target_words(scene: Scene) -> Sequence[str]:
     texts: list[str] = [
         Markup("Target at the roof: {}. Sliding is driven by long periods.").format(roof)
     ]
-    if has_ground(scene):
+    if has_ground(package):
         texts.append(_GROUND.get(goals.ground.name, _GROUND[""]))
     return texts
 
@@ -300,9 +300,9 @@ def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
 
 
 def page(
-    scene: Scene,
+    package: PackageData,
     motions: Sequence[Motion],
-    stories: Sequence[Story],
+    stories: Sequence[PreparedMotion],
     records: Sequence[RecordFile],
     found: Sequence[Spectra],
     beyond: Sequence[Beyond],
@@ -311,11 +311,11 @@ def page(
     return {
         "table": motion_table(motions, stories),
         "notes": _notes(records),
-        "undisturbed": drift_sentence(scene, stories),
-        "drift": drift_table(scene, stories),
-        "beyond": [beyond_table(scene, beyond)] if beyond else [],
-        "building": building_part(scene, motions, stories) if has_ground(scene) else None,
-        "target": target_words(scene),
+        "undisturbed": drift_sentence(package, stories),
+        "drift": drift_table(package, stories),
+        "beyond": [beyond_table(package, beyond)] if beyond else [],
+        "building": building_part(package, motions, stories) if has_ground(package) else None,
+        "target": target_words(package),
         "achieved": achieved_table(found),
         "spectra": tuple(spectrum_table(part) for part in found),
     }

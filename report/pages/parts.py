@@ -13,12 +13,14 @@ from itertools import groupby
 
 from markupsafe import Markup
 
-from report.assess import ArrayAssessment, Assessment, ClearanceCheck
-from report.equations import formula
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.project import Assessment
 from report.sheet.schema import Direction, ProjectInput
-from report.units import Quantity, Unit, measured, number, pair
+from report.typeset.equations import formula
+from report.words.units import Quantity, Unit, measured, number, pair
 from solver.model import DefectError
-from solver.provisions import SEPARATION_KEYS, Basis, Check, Measure, Provision
+from solver.rules.provisions import SEPARATION_KEYS, Basis, Check, Measure, Provision
 
 NO_VALUE = "no value"
 WHOLE_ROWS = 24  # longer tables may go on over the page, with their heads repeated
@@ -238,11 +240,15 @@ def check_value(check: Check, value: float, say: Say) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Scene:
+class PackageData:
     """All that the pages are made from."""
 
-    data: ProjectInput
     assessment: Assessment
+
+    @property
+    def data(self) -> ProjectInput:
+        """The input."""
+        return self.assessment.project
 
     @property
     def say(self) -> Say:
@@ -259,11 +265,8 @@ class Scene:
 
     @property
     def governing(self) -> ArrayAssessment:
-        """The array with the largest design displacement; one without a value over all."""
-        return max(
-            self.assessment.arrays,
-            key=lambda found: nan_is_worst(found.design_m),
-        )
+        """The array with the largest design displacement."""
+        return self.assessment.governing
 
     def prescriptive_key(self, found: ArrayAssessment) -> str:
         """Return which provision the prescriptive displacement comes from."""

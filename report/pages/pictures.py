@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from report.assess import ArrayAssessment
-from report.findings import Findings
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.evidence import Evidence
+from report.assessment.spectra import Spectra
 from report.pages import accuracy
 from report.pages.motions import titles
-from report.pages.parts import Picture, Scene
-from report.pdf import TEMPLATES
-from report.spectra import Spectra
+from report.pages.parts import PackageData, Picture
+from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS = 12, 16  # most that one figure holds: it must fit on a page
@@ -27,16 +27,16 @@ def load_charts() -> None:
     load_fonts(TEMPLATES / "fonts")
 
 
-def draw_assessment(scene: Scene) -> Pictures:
-    """Return the pictures that need no findings, by the id of the part that they belong to."""
+def draw_assessment(package: PackageData) -> Pictures:
+    """Return the pictures that need no evidence, by the id of the part that they belong to."""
     from report.figures import charts as figures
 
     load_charts()
-    us_first, assessment = scene.say.us_first, scene.assessment
+    us_first, assessment = package.say.us_first, package.assessment
     return {
         "inputs-3": [
             Picture(
-                svg=figures.roof_plan(scene.data, us_first),
+                svg=figures.roof_plan(package.data, us_first),
                 caption="Roof plan to scale: arrays with their fall and slope, objects, roof "
                 "edges, and the clearances by their numbers in part 8.",
                 alt="Roof plan with arrays, objects, edges and clearances",
@@ -64,13 +64,13 @@ def draw_assessment(scene: Scene) -> Pictures:
     }
 
 
-def draw_findings(scene: Scene, found: Findings) -> Pictures:
+def draw_evidence(package: PackageData, found: Evidence) -> Pictures:
     """Return the other pictures, by the id of the part that they belong to."""
     from report.figures import charts as figures
 
-    us_first = scene.say.us_first
+    us_first = package.say.us_first
     pictures = {
-        f"motions-{len(titles(scene))}": [
+        f"motions-{len(titles(package))}": [
             Picture(
                 svg=figures.spectra(parts),
                 caption=f"Response spectra of the motions {where}, 5 % damping, and target.",
@@ -78,9 +78,13 @@ def draw_findings(scene: Scene, found: Findings) -> Pictures:
             )
             for where, parts in _by_place(found.spectra)
         ],
-        "accuracy": [accuracy.picture(found.rivals, us_first)] if found.rivals.runs else [],
+        "accuracy": (
+            [accuracy.picture(found.accuracy.rivals, us_first)]
+            if found.accuracy.rivals.runs
+            else []
+        ),
     }
-    runs = zip(scene.assessment.arrays, found.histories, strict=True)
+    runs = zip(package.assessment.arrays, found.histories, strict=True)
     for count, (one, followed) in enumerate(runs, start=1):
         pictures[f"results-{count}"] = list(_histories(one, followed, us_first))
     return pictures

@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assess import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.runs import MotionRun
 from report.pages.checks import check_table
-from report.pages.parts import NO_VALUE, Column, Row, Scene, Table, Wide, statistic
-from report.runs import MotionRun
+from report.pages.parts import NO_VALUE, Column, PackageData, Row, Table, Wide, statistic
 from report.sheet.schema import Direction
-from report.units import number
+from report.words.units import number
 from solver.model import Heading, Status
 
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
@@ -25,15 +25,15 @@ _SHORT = {
 }
 
 
-def array_results(scene: Scene, found: ArrayAssessment) -> Mapping[str, object]:
+def array_results(package: PackageData, found: ArrayAssessment) -> Mapping[str, object]:
     """Return the table of one array and the lines above and below it."""
     troubles = [
         text
-        for text in scene.assessment.warnings
+        for text in package.assessment.warnings
         if text.casefold().startswith(f"array {found.array.id},".casefold())
     ]
     return {
-        "table": _peaks(scene, found),
+        "table": _peaks(package, found),
         "facts": f"{_facts(found)} {_spread(found)}".rstrip(),
         "troubles": troubles,
     }
@@ -66,8 +66,8 @@ def _over_mean(found: ArrayAssessment, run: MotionRun) -> str:
     return number(run.governing.result.prd_m / mean, 2) if mean > 0.0 else "—"
 
 
-def _peaks(scene: Scene, found: ArrayAssessment) -> Table:
-    say, headings = scene.say, _headings(found)
+def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
+    say, headings = package.say, _headings(found)
     first = say.units()[0].symbol
     return Table(
         caption=f"Array {found.array.id}: every motion in every run",
@@ -82,8 +82,8 @@ def _peaks(scene: Scene, found: ArrayAssessment) -> Table:
             Column(head="Status", align="left", share=1.05),
         ),
         rows=(
-            *(_motion_row(scene, found, run, headings) for run in found.motions),
-            *_statistics(scene, found, len(headings)),
+            *(_motion_row(package, found, run, headings) for run in found.motions),
+            *_statistics(package, found, len(headings)),
         ),
         notes=(
             f"{_meaning(headings)}; bold what counts. PRD is the largest distance from the start "
@@ -122,13 +122,13 @@ def _meaning(headings: Sequence[Heading]) -> str:
 
 
 def _motion_row(
-    scene: Scene, found: ArrayAssessment, run: MotionRun, headings: Sequence[Heading]
+    package: PackageData, found: ArrayAssessment, run: MotionRun, headings: Sequence[Heading]
 ) -> Row:
-    say, result = scene.say, run.governing.result
+    say, result = package.say, run.governing.result
     return Row(
         cells=(
             run.motion.id,
-            *(_peak(scene, run, heading) for heading in headings),
+            *(_peak(package, run, heading) for heading in headings),
             *say.cells(result.prd_m),
             *(say.cells(run.peak_m(direction))[0] for direction in _WAYS),
             *(say.cells(value)[0] for value in (result.residual_m, result.residual_across_m)),
@@ -139,19 +139,19 @@ def _motion_row(
     )
 
 
-def _peak(scene: Scene, run: MotionRun, heading: Heading) -> str:
+def _peak(package: PackageData, run: MotionRun, heading: Heading) -> str:
     """Return the PRD of one run in the first unit; blank where the motion has no such run."""
     for one in run.runs:
         if one.heading == heading:
-            text = scene.say.cells(one.result.prd_m)[0]
+            text = package.say.cells(one.result.prd_m)[0]
             return Markup("<b>{}</b>").format(text) if one is run.governing else text
     return ""
 
 
-def _statistics(scene: Scene, found: ArrayAssessment, runs: int) -> Sequence[Row]:
-    analysis, rules = found.analysis, scene.assessment.rules
-    factor = rules.values["analysis_factor"].clause + scene.mark("analysis_factor")
-    floor = rules.values["analysis_floor"].clause + scene.mark("analysis_floor")
+def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequence[Row]:
+    analysis, rules = found.analysis, package.assessment.rules
+    factor = rules.values["analysis_factor"].clause + package.mark("analysis_factor")
+    floor = rules.values["analysis_floor"].clause + package.mark("analysis_floor")
     ways = [found.directions[direction] for direction in _WAYS]
     towards = [found.design_towards_m(direction) for direction in _WAYS]
     lines: tuple[tuple[str, float, str, str, list[float]], ...] = (
@@ -165,16 +165,16 @@ def _statistics(scene: Scene, found: ArrayAssessment, runs: int) -> Sequence[Row
             [way.value_m for way in ways],
         ),
         (
-            f"Floor: {_floor_words(scene, floor)}",
+            f"Floor: {_floor_words(package, floor)}",
             found.floor_m,
-            scene.mark("analysis_floor"),
+            package.mark("analysis_floor"),
             "",
             [found.floor_m] * len(ways),
         ),
         (
             "Design",
             found.design_m,
-            scene.design_mark(found),
+            package.design_mark(found),
             f"governed by: {found.governs}",
             towards,
         ),
@@ -183,8 +183,8 @@ def _statistics(scene: Scene, found: ArrayAssessment, runs: int) -> Sequence[Row
         Row(
             cells=(
                 Wide(label, 1 + runs),
-                *scene.say.cells(value, mark=mark),
-                *(scene.say.cells(one)[0] for one in excursions),
+                *package.say.cells(value, mark=mark),
+                *(package.say.cells(one)[0] for one in excursions),
                 Wide(words, 5),
             ),
             kind="total",
@@ -193,31 +193,31 @@ def _statistics(scene: Scene, found: ArrayAssessment, runs: int) -> Sequence[Row
     ]
 
 
-def _floor_words(scene: Scene, clause: str) -> str:
-    if scene.data.options.peer_reviewed:
+def _floor_words(package: PackageData, clause: str) -> str:
+    if package.data.options.peer_reviewed:
         return "none, the analysis being peer reviewed"
-    share = number(100.0 * scene.assessment.rules["analysis_floor"], 0)
+    share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
     return f"{share} % of the prescriptive displacement, {clause}"
 
 
-def comparison(scene: Scene) -> Mapping[str, object]:
+def comparison(package: PackageData) -> Mapping[str, object]:
     """Return the comparison with the prescriptive displacement, without its chart."""
     checks = [
         (f"Array {found.array.id}", check)
-        for found in scene.assessment.arrays
+        for found in package.assessment.arrays
         for check in found.prescriptive_checks
     ]
     return {
-        "table": _ratios(scene),
+        "table": _ratios(package),
         "routes": check_table(
-            "Whether the prescriptive route is open", scene, checks, ("kept", "not kept")
+            "Whether the prescriptive route is open", package, checks, ("kept", "not kept")
         ),
-        "sentences": tuple(_sentence(scene, found) for found in scene.assessment.arrays),
+        "sentences": tuple(_sentence(package, found) for found in package.assessment.arrays),
     }
 
 
-def _ratios(scene: Scene) -> Table:
-    say = scene.say
+def _ratios(package: PackageData) -> Table:
+    say = package.say
     return Table(
         caption="Displacement by analysis against the prescriptive displacement",
         columns=(
@@ -231,29 +231,31 @@ def _ratios(scene: Scene) -> Table:
             Column(head="Design / prescr.", share=1.2),
             Column(head="Governs", align="left", share=1.4),
         ),
-        rows=tuple(_ratio_row(scene, found) for found in scene.assessment.arrays),
+        rows=tuple(_ratio_row(package, found) for found in package.assessment.arrays),
         kind="compact",
     )
 
 
-def _ratio_row(scene: Scene, found: ArrayAssessment) -> Row:
-    say = scene.say
+def _ratio_row(package: PackageData, found: ArrayAssessment) -> Row:
+    say = package.say
     shares = (found.analysis.value_m / found.prescriptive.value_m, found.ratio)
     return Row(
         cells=(
             found.array.id,
-            *say.cells(found.prescriptive.value_m, mark=scene.mark(scene.prescriptive_key(found))),
+            *say.cells(
+                found.prescriptive.value_m, mark=package.mark(package.prescriptive_key(found))
+            ),
             *say.cells(found.analysis.mean_m),
             *say.cells(found.analysis.value_m),
-            *say.cells(found.floor_m, mark=scene.mark("analysis_floor")),
-            *say.cells(found.design_m, mark=scene.design_mark(found)),
+            *say.cells(found.floor_m, mark=package.mark("analysis_floor")),
+            *say.cells(found.design_m, mark=package.design_mark(found)),
             *(NO_VALUE if math.isnan(share) else number(share, 2) for share in shares),
             found.governs,
         )
     )
 
 
-def _sentence(scene: Scene, found: ArrayAssessment) -> str:
+def _sentence(package: PackageData, found: ArrayAssessment) -> str:
     failed = [check.title for check in found.prescriptive_checks if not check.ok]
     route = (
         f"the prescriptive route is not open ({'; '.join(failed)})"
@@ -262,19 +264,19 @@ def _sentence(scene: Scene, found: ArrayAssessment) -> str:
     )
     if math.isnan(found.design_m):
         return f"Array {found.array.id}: no value from analysis, {route}."
-    if scene.data.options.peer_reviewed:
+    if package.data.options.peer_reviewed:
         floor = "no floor applies, the analysis being peer reviewed"
     else:
-        share = number(100.0 * scene.assessment.rules["analysis_floor"], 0)
+        share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
         floor = (
             f"the floor of {share} % of the prescriptive value"
-            f"{scene.mark('analysis_floor')} "
+            f"{package.mark('analysis_floor')} "
             f"{'governs' if found.governs == 'floor' else 'does not govern'}"
         )
-    return f"Array {found.array.id}: {_exceeds(scene, found)}{floor}; {route}."
+    return f"Array {found.array.id}: {_exceeds(package, found)}{floor}; {route}."
 
 
-def _exceeds(scene: Scene, found: ArrayAssessment) -> str:
+def _exceeds(package: PackageData, found: ArrayAssessment) -> str:
     """Return where the analysis is above the prescriptive value; it governs then all the same."""
     over = found.analysis.value_m / found.prescriptive.value_m
     peaks = sum(m.governing.result.prd_m > found.prescriptive.value_m for m in found.motions)

@@ -26,7 +26,7 @@ from report.sheet.schema import (
     s_ds,
     slope_rad,
 )
-from report.units import Quantity, pair
+from report.words.units import Quantity, pair
 
 LEAST_I_E = {
     RiskCategory.I: 1.0,

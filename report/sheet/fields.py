@@ -18,7 +18,7 @@ from annotated_types import Ge, Gt, Le, Lt
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 from pydantic.fields import FieldInfo
 
-from report.units import Quantity
+from report.words.units import Quantity
 
 
 class Place(NamedTuple):

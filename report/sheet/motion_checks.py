@@ -11,7 +11,7 @@ from itertools import pairwise
 
 from report.sheet.fields import Draft, Fault, Place, Row, Where
 from report.sheet.schema import RecordedAt, Scaling, s_ds
-from solver.beam import MOST_STOREYS
+from solver.building.beam import MOST_STOREYS
 
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
 """Fields of a motion that name a record, each with what the component is called."""

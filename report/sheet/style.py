@@ -19,7 +19,7 @@ from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.fields import Entry, YesNo
-from report.units import Unit
+from report.words.units import Unit
 
 INK = "1F3A4D"
 GREY = "7A7F85"

@@ -21,7 +21,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet import style
 from report.sheet.fields import Entry, Frozen, Section, entries
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput, UnitsFirst
-from report.units import LENGTHS, STIFFNESSES, WEIGHTS, Unit
+from report.words.units import LENGTHS, STIFFNESSES, WEIGHTS, Unit
 
 BLANK_ROWS = 20
 SPARE_ROWS = 5

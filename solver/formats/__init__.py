@@ -6,6 +6,6 @@ Public names are listed here; knows no code rules and changes no sample. Read
 
 from solver.formats.motionfile import MotionFile
 from solver.formats.reader import read_motion_file, read_record
-from solver.formats.units import UNIT_CHOICES
+from solver.records.units import UNIT_CHOICES
 
 __all__ = ["UNIT_CHOICES", "MotionFile", "read_motion_file", "read_record"]

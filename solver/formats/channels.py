@@ -14,7 +14,7 @@ import numpy as np
 from solver.formats.motionfile import MotionFile, distinct
 from solver.formats.source import Source
 from solver.model import Floats, InputError
-from solver.motion import UNITS, Record, read_only
+from solver.records.record import UNITS, Record, read_only
 
 MAX_CHANNELS = 1000
 

@@ -21,9 +21,9 @@ from solver.formats.channels import Channel, check_number, motion_file, offset_n
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
 from solver.formats.source import Source, Stated
-from solver.formats.units import unit_size
 from solver.model import InputError
-from solver.motion import shown
+from solver.records.record import shown
+from solver.records.units import unit_size
 
 _FIRST = re.compile(
     r"\s*(RAW|UNCORRECTED|CORRECTED)\s+([A-Z]+)\b.*\(FORMAT\s+V", re.ASCII | re.IGNORECASE

@@ -29,8 +29,8 @@ from solver.formats.numbers import (
 )
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
-from solver.formats.units import unit_size
 from solver.model import Floats, InputError
+from solver.records.units import unit_size
 
 _VOLUME_1 = re.compile(r"\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
 _VOLUME_2 = re.compile(r"\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from solver.formats.units import is_other_unit, unit_size
+from solver.records.units import is_other_unit, unit_size
 
 _TIMES = {"t", "time", "times", "zeit", "tiempo", "temps", "tempo", "sec", "secs", "seconds"}
 _SECONDS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 0.001}

@@ -19,7 +19,7 @@ from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, free_values, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError
-from solver.motion import shown
+from solver.records.record import shown
 
 _HEADING_LINES = 20
 _SCALE = re.compile(r"([\d.]+)\s*\(\s*([A-Z]+)\s*\)\s*/\s*([\d.]+)", re.ASCII | re.IGNORECASE)

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from solver.model import InputError
-from solver.motion import Record, shown
+from solver.records.record import Record, shown
 
 _LISTED = 30
 

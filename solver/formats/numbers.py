@@ -16,7 +16,7 @@ import numpy as np
 
 from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
-from solver.motion import BEYOND, is_finite_number, raise_any, shown
+from solver.records.record import BEYOND, is_finite_number, raise_any, shown
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)

@@ -17,7 +17,7 @@ from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, free_values, printed
 from solver.formats.source import Source
 from solver.model import InputError
-from solver.motion import shown
+from solver.records.record import shown
 
 # The count stands within the first lines of a file; the heading has four.
 _HEADING_LINES = 6

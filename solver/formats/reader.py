@@ -13,7 +13,7 @@ from pathlib import Path
 from solver.formats import cosmos, csmip, geonet, knet, peer, smc, text
 from solver.formats.motionfile import MotionFile
 from solver.formats.source import Source, open_source
-from solver.motion import Record
+from solver.records.record import Record
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

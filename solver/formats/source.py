@@ -10,9 +10,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from solver.formats.units import UNIT_CHOICES, unit_size
 from solver.model import InputError
-from solver.motion import is_finite_number, raise_any, shown
+from solver.records.record import is_finite_number, raise_any, shown
+from solver.records.units import UNIT_CHOICES, unit_size
 
 MAX_BYTES = 64_000_000
 MAX_LINE = 1000

@@ -24,9 +24,9 @@ from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import field_problem, printed
 from solver.formats.source import Source, Stated
 from solver.formats.times import Sampled, is_even, sampled
-from solver.formats.units import unit_size
 from solver.model import Floats, InputError
-from solver.motion import BEYOND, raise_any, shown
+from solver.records.record import BEYOND, raise_any, shown
+from solver.records.units import unit_size
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")

@@ -14,7 +14,7 @@ import numpy as np
 
 from solver.formats.source import Source
 from solver.model import Floats, InputError
-from solver.motion import fits, raise_any
+from solver.records.record import fits, raise_any
 
 MAX_SAMPLES = 2_000_000
 """Samples that the columns of a file may have together once resampled."""

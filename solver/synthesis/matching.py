@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from solver import kernels
+from solver.kernels import oscillator
 from solver.model import Floats
-from solver.motion import DECIMALS, UNITS
+from solver.records.record import DECIMALS, UNITS
 from solver.synthesis.target import BAND_HZ, DAMPING, Target, target_sa_g
 
 # A little above 1: a reader with another spectrum routine then still finds the mean above 1.
@@ -134,7 +134,7 @@ def _peaks(frame: Frame, a: Floats) -> tuple[Floats, _Samples]:
     seen = a.view()
     seen.setflags(write=False)
     peak, at = np.empty(len(frame.freq_hz)), np.empty(len(frame.freq_hz), dtype=np.int64)
-    kernels.oscillator_peaks(seen, frame.dt_s, 2.0 * math.pi * frame.freq_hz, DAMPING, peak, at)
+    oscillator.peaks(seen, frame.dt_s, 2.0 * math.pi * frame.freq_hz, DAMPING, peak, at)
     return peak, at
 
 

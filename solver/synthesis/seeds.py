@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import Floats
-from solver.motion import Record
+from solver.records.record import Record
 
 # Of the duration: over what time a record's level is taken, and the window of turned phases.
 _LEVEL, _WINDOW = 1.0 / 7.5, 1.0 / 15.0

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import InputError
-from solver.motion import Record
+from solver.records.record import Record
 from solver.synthesis.matching import Frame, goal_mps2, make_frame, matched, rounded, shaped
 from solver.synthesis.seeds import Seed, grown, noise_seed, seeds_of, strongest
 from solver.synthesis.target import Target, band, keeps, spectrum_fit, target_problems
@@ -152,7 +152,7 @@ def synthesise(
     1976), shaped in frequency, then corrected in time by the reversed impulse responses of the
     oscillators (Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824). Velocity
     and displacement are back at zero at the end, exactly for straight lines between samples. The
-    record is rounded to what `solver.motion.write_record` prints in g before it is checked.
+    record is rounded to what `solver.records.record.write_record` prints in g before it is checked.
 
     Parameters
     ----------

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import Floats
-from solver.motion import UNITS, Record, response_spectrum
+from solver.records.record import UNITS, Record
+from solver.records.spectrum import response_spectrum
 
 Target = tuple[Floats, Floats]
 """Corner points of a target spectrum: frequencies [Hz], rising, and accelerations [g]."""

@@ -13,12 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
-from solver.building import RoofMotion, building_of_modes, building_of_periods, to_roof
+from solver.building.periods import FOOT_M, approximate_period_s
+from solver.building.roof import RoofMotion, building_of_modes, building_of_periods, to_roof
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
-from solver.motion import response_spectrum
-from solver.periods import FOOT_M, approximate_period_s
-from solver.sliding import slide
+from solver.records.spectrum import response_spectrum
+from solver.sliding.checked import slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
 from solver.verification.identification import Identified, identify
 
@@ -32,7 +32,7 @@ SLOPE_DEG, MUS, PPA_G = 2.0, (0.1, 0.2, 0.3, 0.4), 1.0
 
 CODE_DAMPING = 0.05
 FRAME_ALPHA0 = 12.5
-"""Middle of the usual stiffness ratios of moment frames, see `solver.beam.beam_modes`."""
+"""Middle of the usual stiffness ratios of moment frames, see `solver.building.beam.beam_modes`."""
 
 BY_HEIGHT = "period by height, nothing measured"
 """Name of the prediction that an engineer could make beforehand."""

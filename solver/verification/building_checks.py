@@ -11,10 +11,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from solver.beam import beam_modes, floor_stiffness, storey_modes
-from solver.building import absolute_accelerations, building_of_periods, roof_motion
+from solver.building.beam import beam_modes, floor_stiffness, storey_modes
+from solver.building.roof import absolute_accelerations, building_of_periods, roof_motion
 from solver.model import Floats
-from solver.motion import Record
+from solver.records.record import Record
 from solver.verification.building import FloorRecords
 from solver.verification.checks import ROUNDING, check
 from solver.verification.evidence import CheckRow, RoofComparison

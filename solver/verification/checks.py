@@ -1,7 +1,7 @@
 """Checks of the solver against what is known apart from it, one row for each value.
 
-Closed forms (`solver.problems`) and the paper's physical checks; runs nothing but `solver.slide`
-and `slide_history`. Read `crosschecks` for 50 digits, symmetries and the rivals.
+Closed forms (`solver.verification.problems`) and the paper's physical checks; runs nothing but
+`solver.slide` and `slide_history`. Read `crosschecks` for 50 digits, symmetries and the rivals.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from solver import problems
 from solver.model import EventKind, Floats
-from solver.motion import Record
-from solver.sliding import slide, slide_history
+from solver.records.record import Record
+from solver.sliding.checked import slide, slide_history
+from solver.verification import problems
 from solver.verification.evidence import CheckRow
 from solver.verification.scenes import scale_to
 
@@ -59,7 +59,7 @@ def trapezoid(peak: float, plateau: int, rest: int, ramp: int = 1) -> Floats:
 
 
 def closed_forms() -> Iterator[CheckRow]:
-    """Check against `solver.problems`, all with g = 9.81 m/s2."""
+    """Check against `solver.verification.problems`, all with g = 9.81 m/s2."""
     yield from _pulses_on_a_flat_roof()
     yield from _pulses_on_a_slope()
     yield from _half_sines()

@@ -11,12 +11,11 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from solver import problems
-from solver.methods import METHODS, Method, link_frequency
 from solver.model import STANDARD_GRAVITY_MPS2
-from solver.motion import Record
-from solver.sliding import slide, slide_history
-from solver.verification import reference
+from solver.records.record import Record
+from solver.rivals.methods import METHODS, Method, link_frequency
+from solver.sliding.checked import slide, slide_history
+from solver.verification import problems, reference
 from solver.verification.checks import ROUNDING, G, check, trapezoid
 from solver.verification.evidence import CheckRow
 from solver.verification.scenes import Case, is_runnable, scale_to

@@ -293,7 +293,7 @@ class RoofPrediction:
         Of the first mode [s], of every mode, and the lateral stiffness ratio.
     n_modes : int
     left_out_share : float
-        See `solver.building.RoofMotion`.
+        See `solver.building.roof.RoofMotion`.
     unexplained : float
         Sum of squares of computed less recorded roof acceleration, over that of the recorded one.
     peak_mps2 : float

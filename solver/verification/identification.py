@@ -1,6 +1,6 @@
 """Period, damping and stiffness ratio of a building from motions of its ground and its floors.
 
-A search, not a method of the packages: it tells how good `solver.building` can be.
+A search, not a method of the packages: it tells how good `solver.building.roof` can be.
 Read `identify`.
 """
 
@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver.beam import MOST_ALPHA0, Modes, beam_modes
-from solver.building import absolute_accelerations
+from solver.building.beam import MOST_ALPHA0, Modes, beam_modes
+from solver.building.roof import absolute_accelerations
+from solver.building.structure import MOST_DAMPING
 from solver.model import Floats
-from solver.structure import MOST_DAMPING
 
 MODES = 12
 """Of a beam; more of them change nothing that a floor shows."""

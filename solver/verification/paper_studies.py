@@ -11,11 +11,11 @@ import math
 
 import numpy as np
 
-from solver.methods import METHODS
 from solver.model import Floats, SlideHistory
-from solver.motion import Record
-from solver.sliding import slide_history
-from solver.studies import sweep
+from solver.records.record import Record
+from solver.rivals.methods import METHODS
+from solver.sliding.checked import slide_history
+from solver.sliding.sweep import sweep
 from solver.verification.evidence import (
     Convergence,
     DesignCurves,

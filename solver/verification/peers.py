@@ -17,10 +17,10 @@ from functools import partial
 
 import numpy as np
 
-from solver import sliding
-from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2, Scene, coulomb
-from solver.motion import Record
+from solver.records.record import Record
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import one_axis, two_axes
 from solver.verification import rungs
 from solver.verification.evidence import PeerPoint, percent_off
 from solver.verification.plane_scipy import samples_of
@@ -102,7 +102,7 @@ def _motion_scenes(triples: Sequence[Triple], quick: bool, *, second: bool) -> I
 
 def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> PeerPoint:
     has_two = scene.ay_mps2.size > 0
-    exact = sliding.in_plane(scene) if has_two else sliding.along(scene)
+    exact = two_axes.run(scene) if has_two else one_axis.run(scene)
     note, seconds = f"{model}; {peer.note}", math.nan
     try:
         importlib.import_module(peer.module)

@@ -1,7 +1,8 @@
 """A block in two axes by SciPy: a slow, careful reference, and what a general solver does at first.
 
-SciPy is loaded when it runs, and is needed by nothing else. Apart from `solver.biaxial`: no series
-and no bound. Read `reference`, then `regularised`. Letters as in `solver.biaxial`.
+SciPy is loaded when it runs, and is needed by nothing else. Apart from `solver.kernels.two_axes`:
+no series and no bound. Read `reference`, then `regularised`. Letters as in
+`solver.kernels.two_axes`.
 """
 
 from __future__ import annotations

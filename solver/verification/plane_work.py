@@ -1,7 +1,7 @@
 """Two axes: work against precision, and what is left of each method when a block has stopped.
 
-Against fixed steps (`solver.plane_rivals`) and, where it is installed, SciPy. Read `work`, then
-`stops`.
+Against fixed steps (`solver.kernels.fixed_steps`) and, where it is installed, SciPy. Read `work`,
+then `stops`.
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ import time
 from collections.abc import Iterator
 from functools import partial
 
-from solver import plane, plane_rivals, sliding
+from solver.kernels import fixed_steps
 from solver.model import Scene, coulomb
+from solver.sliding import two_axes
 from solver.verification import plane_scipy
 from solver.verification.plane_scipy import Solver, samples_of
 from solver.verification.rung_evidence import PlaneWork, StopPoint
@@ -46,17 +47,17 @@ def work(triple: Triple, *, quick: bool) -> tuple[str, tuple[PlaneWork, ...]]:
     """Return the scene in words, and every method over its settings on it."""
     part = triple.cut(SAMPLES[not quick])
     scene = part.scene(CASE, coulomb(CASE.mu))
-    exact = sliding.in_plane(scene, TIGHT)
+    exact = two_axes.run(scene, TIGHT)
     found = (*_ours(scene), *_fixed(scene, exact.prd_m), *_scipy(scene, exact.prd_m, quick))
     return f"{part.name}, {CASE}", tuple(found)
 
 
 def _ours(scene: Scene) -> Iterator[PlaneWork]:
     """Its error is the largest at the samples: that of the PRD may be nothing by chance."""
-    truth = sliding.in_plane_history(scene, TIGHT)
+    truth = two_axes.run_history(scene, TIGHT)
     for tolerance in TOLERANCES:
-        found = plane.follow(scene, tolerance)
-        seen = sliding.in_plane_history(scene, tolerance)
+        found = two_axes.follow(scene, tolerance)
+        seen = two_axes.run_history(scene, tolerance)
         off = max(
             abs(found.prd_m - truth.result.prd_m),
             float(abs(seen.u_m - truth.u_m).max()),
@@ -65,7 +66,7 @@ def _ours(scene: Scene) -> Iterator[PlaneWork]:
         yield PlaneWork(
             method=OURS,
             setting=f"tol. {tolerance:g}",
-            seconds=least_seconds(partial(plane.follow, scene, tolerance)),
+            seconds=least_seconds(partial(two_axes.follow, scene, tolerance)),
             steps=found.n_steps,
             error_percent=100.0 * off / truth.result.prd_m,
         )
@@ -75,7 +76,7 @@ def _fixed(scene: Scene, prd_m: float) -> Iterator[PlaneWork]:
     rows, cs = samples_of(scene), math.cos(scene.slope_rad)
     for method, holds in ((HOLDING, True), (CHATTERING, False)):
         for substeps in SUBSTEPS:
-            run = partial(plane_rivals.slide_fixed, rows, scene.dt_s, cs, substeps, holds)
+            run = partial(fixed_steps.slide_fixed, rows, scene.dt_s, cs, substeps, holds)
             found = run()[0]  # before the clock: the first call compiles
             yield PlaneWork(
                 method=method,
@@ -109,10 +110,10 @@ def stops() -> Iterator[StopPoint]:
     Its place is known in closed form, see `rungs.stopped_scene` and its checks.
     """
     scene = stopped_scene()
-    truth = sliding.in_plane(scene, TIGHT)
+    truth = two_axes.run(scene, TIGHT)
     place = truth.residual_m, truth.residual_across_m
     for tolerance in (1e-4, 1e-6):
-        ours = plane.follow(scene, tolerance)
+        ours = two_axes.follow(scene, tolerance)
         yield StopPoint(
             method=OURS,
             setting=f"tol. {tolerance:g}",
@@ -123,7 +124,7 @@ def stops() -> Iterator[StopPoint]:
     rows = samples_of(scene)
     for method, holds in ((HOLDING, True), (CHATTERING, False)):
         for substeps in (10, 100, 1000):
-            _, x, y, speed = plane_rivals.slide_fixed(rows, scene.dt_s, 1.0, substeps, holds)
+            _, x, y, speed = fixed_steps.slide_fixed(rows, scene.dt_s, 1.0, substeps, holds)
             yield StopPoint(
                 method=method,
                 setting=f"{1e3 * scene.dt_s / substeps:g} ms",

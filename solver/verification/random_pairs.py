@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, Status, coulomb
-from solver.plane import PlaneOutcome, follow
+from solver.rivals.methods import NO_RECORD
+from solver.sliding.two_axes import PlaneOutcome, follow
 from solver.verification.triples import readonly
 
 EPS = 2.0**-52

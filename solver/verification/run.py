@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 
-from solver.motion import Record
+from solver.records.record import Record
 from solver.verification import (
     building,
     building_checks,

@@ -14,10 +14,10 @@ from functools import partial
 
 import numpy as np
 
-from solver import sliding
-from solver.methods import NO_RECORD
 from solver.model import Friction, Heading, Scene, coulomb
-from solver.row import Row, RowResult, slide_row
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import one_axis, two_axes
+from solver.sliding.row import Row, RowResult, slide_row
 from solver.verification import plane_work
 from solver.verification.bound_study import bound_ratios
 from solver.verification.rung_evidence import (
@@ -178,15 +178,15 @@ def _scene(triple: Triple, case: Case, heading: Heading) -> Scene:
 def _runs(scene: Scene, mu: float) -> _Runs | None:
     """Run a scene by every model; None where the normal force vanishes.
 
-    The friction of the lesser models is that at a crawl, as `solver.ladder` has it.
+    The friction of the lesser models is that at a crawl, as `solver.sliding.least_model` has it.
     """
-    vertical = sliding.along(scene)
+    vertical = one_axis.run(scene)
     if math.isnan(vertical.prd_m):
         return None
-    both = sliding.in_plane(scene)
+    both = two_axes.run(scene)
     more_at_rest = replace(scene, friction=held(mu, 1.0 / SLOW_SHARE))
     return _Runs(
-        one_axis_m=sliding.along(replace(scene, az_mps2=NO_RECORD)).prd_m,
+        one_axis_m=one_axis.run(replace(scene, az_mps2=NO_RECORD)).prd_m,
         vertical_m=vertical.prd_m,
         two_axes_m=both.prd_m,
         by_speed_m=_plane_prd(replace(scene, friction=by_speed(mu))),
@@ -198,7 +198,7 @@ def _runs(scene: Scene, mu: float) -> _Runs | None:
 
 
 def _plane_prd(scene: Scene) -> float:
-    return sliding.in_plane(scene).prd_m
+    return two_axes.run(scene).prd_m
 
 
 def _rows(triples: Sequence[Triple], cases: Sequence[Case], ppa_g: float) -> Iterator[RungChange]:
@@ -258,9 +258,9 @@ def _row(scene: Scene) -> RowResult:
 
 _RUNGS: tuple[tuple[str, Callable[[Scene], object], Callable[[float], Friction], bool, bool], ...]
 _RUNGS = (
-    ("One axis", sliding.along, coulomb, False, False),
-    ("One axis with vertical", sliding.along, coulomb, False, True),
-    ("Two axes with vertical", sliding.in_plane, coulomb, True, True),
-    ("Two axes, friction by speed", sliding.in_plane, by_speed, True, True),
+    ("One axis", one_axis.run, coulomb, False, False),
+    ("One axis with vertical", one_axis.run, coulomb, False, True),
+    ("Two axes with vertical", two_axes.run, coulomb, True, True),
+    ("Two axes, friction by speed", two_axes.run, by_speed, True, True),
     ("Row of five blocks, links of 1 mm", _row, coulomb, False, True),
 )

@@ -11,12 +11,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from solver import ladder, sliding
 from solver.forces import forces
-from solver.ladder import Rung, Settings
-from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
-from solver.row import Row, slide_row
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import least_model, one_axis, two_axes
+from solver.sliding.least_model import Rung, Settings
+from solver.sliding.row import Row, slide_row
 from solver.verification import plane_scipy
 from solver.verification.bound_study import bound_ratios
 from solver.verification.checks import check
@@ -63,14 +63,14 @@ def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]
 
 def stays(triple: Triple) -> bool:
     """Whether the vertical of a motion lifts the block off the roof in none of `CASES`."""
-    runs = (sliding.along(triple.scene(case, coulomb(case.mu))) for case in CASES)
+    runs = (one_axis.run(triple.scene(case, coulomb(case.mu))) for case in CASES)
     return all(run.status is not Status.UPLIFT for run in runs)
 
 
 def _one_axis(triple: Triple) -> Iterator[CheckRow]:
     for case in CASES:
         one = triple.scene(case, coulomb(case.mu), second=False)
-        exact, found = sliding.along(one), sliding.in_plane(one, TIGHT)
+        exact, found = one_axis.run(one), two_axes.run(one, TIGHT)
         for quantity, known, value in (
             ("PRD", exact.prd_m, found.prd_m),
             ("Residual (error relative to the PRD)", exact.residual_m, found.residual_m),
@@ -91,9 +91,9 @@ def _one_axis(triple: Triple) -> Iterator[CheckRow]:
 def _turned(triple: Triple) -> Iterator[CheckRow]:
     case = CASES[0]
     flat = triple.scene(case, coulomb(case.mu))
-    one = sliding.in_plane(flat, TIGHT)
+    one = two_axes.run(flat, TIGHT)
     for degrees in (30.0, 137.0):
-        turned = sliding.in_plane(_turned_by(flat, degrees), TIGHT)
+        turned = two_axes.run(_turned_by(flat, degrees), TIGHT)
         back = _turn(np.array([turned.residual_m, turned.residual_across_m]), -degrees)
         off = math.dist(back.tolist(), (one.residual_m, one.residual_across_m))
         name = f"Both components turned by {degrees:g} degrees: {triple.name}, {case}"
@@ -114,14 +114,14 @@ def _turned(triple: Triple) -> Iterator[CheckRow]:
 def _in_proportion(triple: Triple) -> CheckRow:
     case = CASES[0]
     one = triple.scene(case, coulomb(case.mu), second=False)
-    line = sliding.in_plane(_turned_by(one, 53.0), TIGHT)
+    line = two_axes.run(_turned_by(one, 53.0), TIGHT)
     return check(
         SECTION,
         f"One component turned by 53 degrees: {triple.name}, {case}",
         "Components in proportion slide along one line, as the exact method of one axis has it",
         "PRD",
         "m",
-        sliding.along(one).prd_m,
+        one_axis.run(one).prd_m,
         line.prd_m,
         AGREES,
     )
@@ -143,7 +143,7 @@ def _circle() -> Iterator[CheckRow]:
     a, omega, mu, count, turns = 6.0, 2.0 * math.pi, 0.3, 2000, 12
     dt = 1.0 / count
     t = np.arange(turns * count + 1) * dt
-    history = sliding.in_plane_history(
+    history = two_axes.run_history(
         Scene(
             ax_mps2=readonly(a * np.cos(omega * t)),
             ay_mps2=readonly(a * np.sin(omega * t)),
@@ -188,7 +188,7 @@ def stopped_scene() -> Scene:
 
 def _stop() -> Iterator[CheckRow]:
     scene = stopped_scene()
-    history = sliding.in_plane_history(scene, TIGHT)
+    history = two_axes.run_history(scene, TIGHT)
     at, push, c = 6, 2.0, 0.4 * STANDARD_GRAVITY_MPS2
     vx, vy = float(history.v_mps[at]), float(history.across_mps[at])
     w, along = math.hypot(vx, vy), push * vy
@@ -211,7 +211,7 @@ def _stop() -> Iterator[CheckRow]:
 
 def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
     case = CASES[1]
-    plain = sliding.in_plane(triple.scene(case, coulomb(case.mu)), TIGHT)
+    plain = two_axes.run(triple.scene(case, coulomb(case.mu)), TIGHT)
     for drop in (1e-4, 1e-5, 1e-6):
         law = Friction(
             mu_slow=case.mu * (1.0 - drop),
@@ -219,7 +219,7 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
             rate_s_per_m=30.0,
             mu_static=case.mu * (1.0 - drop),
         )
-        found = sliding.in_plane(triple.scene(case, law), TIGHT)
+        found = two_axes.run(triple.scene(case, law), TIGHT)
         yield check(
             SECTION,
             f"Friction less by {100.0 * drop:.4g} % at a crawl: {triple.name}, {case}",
@@ -240,8 +240,8 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
     for excess in (1e-2, 1e-3, 1e-4):
         law = replace(both.friction, mu_static=(1.0 + excess) * case.mu)
         for scene, axes, kinetic, method in (
-            (alone, "one axis", sliding.along(alone).prd_m, "the exact method with vertical"),
-            (both, "two axes", sliding.in_plane(both, TIGHT).prd_m, "one coefficient"),
+            (alone, "one axis", one_axis.run(alone).prd_m, "the exact method with vertical"),
+            (both, "two axes", two_axes.run(both, TIGHT).prd_m, "one coefficient"),
         ):
             yield check(
                 SECTION,
@@ -250,7 +250,7 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
                 "PRD",
                 "m",
                 kinetic,
-                sliding.in_plane(replace(scene, friction=law), TIGHT).prd_m,
+                two_axes.run(replace(scene, friction=law), TIGHT).prd_m,
                 50.0 * excess**2,
             )
 
@@ -259,7 +259,7 @@ def _one_block(triple: Triple) -> Iterator[CheckRow]:
     """Rows that move as one block: of one, and of three alike, whose links have nothing to do."""
     case = CASES[1]
     scene = triple.scene(case, coulomb(case.mu), second=False)
-    exact = sliding.along(scene)
+    exact = one_axis.run(scene)
     for count in (1, 3):
         found = slide_row(scene, Row(mus=(case.mu,) * count, stiffness_per_s2=1e4))
         yield check(
@@ -281,8 +281,8 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
         for case in CASES[:2] if quick else CASES:
             full = triple.scene(case, coulomb(case.mu))
             scene = replace(full, ay_mps2=readonly(share * full.ay_mps2))
-            found = ladder.solve(scene)
-            change = abs(sliding.in_plane(scene, TIGHT).prd_m - found.result.prd_m)
+            found = least_model.solve(scene)
+            change = abs(two_axes.run(scene, TIGHT).prd_m - found.result.prd_m)
             said = 0.0 if found.rung is Rung.TWO_AXES else found.next_effect_m
             over += not change <= said + found.result.error_m
             count += 1
@@ -334,7 +334,7 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
             "Rung chosen",
             "1",
             float(rung),
-            float(ladder.solve(scene, Settings()).rung),
+            float(least_model.solve(scene, Settings()).rung),
             0.0,
         )
 
@@ -344,7 +344,7 @@ def _against_scipy(triple: Triple, samples: int) -> Iterator[CheckRow]:
     scene = triple.cut(samples).scene(case, coulomb(case.mu))
     x, y = plane_scipy.reference(scene)
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
-        history = sliding.in_plane_history(scene, tolerance)
+        history = two_axes.run_history(scene, tolerance)
         off = float(np.hypot(history.u_m - x, history.across_m - y).max())
         yield check(
             SECTION,

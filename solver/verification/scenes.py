@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver import kernels
-from solver.methods import NO_RECORD, Prepared
+from solver.kernels import one_axis
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
-from solver.motion import Record
+from solver.records.record import Record
+from solver.rivals.methods import NO_RECORD, Prepared
 from solver.synthesis import SuiteMotion, Target, make_suite
 
 SEED = 2003
@@ -84,9 +84,9 @@ def prepared(record: Record, case: Case) -> Prepared:
     """Return what `Method.follow` takes, so that nothing but the method is timed."""
     return Prepared(
         ax=record.a_mps2,
-        x=kernels.bounds(record.a_mps2),
+        x=one_axis.bounds(record.a_mps2),
         az=NO_RECORD,
-        z=kernels.bounds(NO_RECORD),
+        z=one_axis.bounds(NO_RECORD),
         dt=record.dt_s,
         sn=math.sin(case.slope_rad),
         cs=math.cos(case.slope_rad),

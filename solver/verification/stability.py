@@ -1,7 +1,8 @@
 """Where methods blow up, stall or are off: maps of error over two settings; and where no method
 can be right, because the problem itself hangs on the last digits of its friction coefficient.
 
-Runs only. A failed run is a failed cell, never left out. Read `solver.methods` for the limits.
+Runs only. A failed run is a failed cell, never left out. Read `solver.rivals.methods` for the
+limits.
 """
 
 from __future__ import annotations
@@ -11,10 +12,10 @@ from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 
-from solver.methods import METHODS, link_frequency
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
-from solver.motion import Record
-from solver.studies import sweep
+from solver.records.record import Record
+from solver.rivals.methods import METHODS, link_frequency
+from solver.sliding.sweep import sweep
 from solver.verification.evidence import Conditioning, StabilityMap, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable, scale_to, shortened
 from solver.verification.workprecision import run

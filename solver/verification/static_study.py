@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from solver import sliding
-from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import one_axis, two_axes
 from solver.verification.rung_evidence import (
     LEAST_M,
     FadingAxis,
@@ -62,7 +62,7 @@ def static_evidence(scenes: Sequence[Scene], ratio: float) -> StaticEvidence:
     ratio : float
         Static over kinetic friction where the second component fades.
     """
-    alone = [(scene, sliding.along(scene).prd_m) for scene in scenes]
+    alone = [(scene, one_axis.run(scene).prd_m) for scene in scenes]
     slid = [(scene, prd_m) for scene, prd_m in alone if prd_m >= LEAST_M]
     return StaticEvidence(
         n_scenes=len(slid),
@@ -103,7 +103,7 @@ def _fading(slid: Sequence[tuple[Scene, float]], ratio: float) -> Iterator[Fadin
 
 def _prd(scene: Scene, law: Friction | None = None) -> float:
     run = scene if law is None else replace(scene, friction=law)
-    return sliding.in_plane(run, TIGHT).prd_m
+    return two_axes.run(run, TIGHT).prd_m
 
 
 def _faded(scene: Scene, share: float) -> Scene:
@@ -133,8 +133,8 @@ def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
 
 def _pushed() -> Iterator[PushedPoint]:
     for across_mps2 in ACROSS_MPS2:
-        found = sliding.in_plane(pushed_scene(across_mps2, JUMPING), PUSHED_TOLERANCE)
-        fell = sliding.in_plane(pushed_scene(across_mps2, FALLING), PUSHED_TOLERANCE)
+        found = two_axes.run(pushed_scene(across_mps2, JUMPING), PUSHED_TOLERANCE)
+        fell = two_axes.run(pushed_scene(across_mps2, FALLING), PUSHED_TOLERANCE)
         yield PushedPoint(
             across_mps2=across_mps2,
             end_m=math.hypot(found.residual_m, found.residual_across_m),

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from solver.formats import read_motion_file
-from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, InputError, Motion, Scene
-from solver.motion import Record
+from solver.records.record import Record
+from solver.rivals.methods import NO_RECORD
 from solver.verification.scenes import Case, own_suite
 
 _UP = ("up", "v", "ud", "vertical", "vert", "z")

@@ -1,7 +1,7 @@
 """Work against precision: every method over its settings, timed and held against the exact one.
 
 The timing is of one thread, warm, the least of some repeats, with the record prepared and the
-input checked before. Read `solver.methods` for the methods and their knobs.
+input checked before. Read `solver.rivals.methods` for the methods and their knobs.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from solver.methods import METHODS, Method, Prepared
 from solver.model import STANDARD_GRAVITY_MPS2, SlideResult, Status
-from solver.motion import Record
-from solver.sliding import slide
+from solver.records.record import Record
+from solver.rivals.methods import METHODS, Method, Prepared
+from solver.sliding.checked import slide
 from solver.verification.evidence import WorkPoint, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable, prepared, scale_to
 

@@ -18,10 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
-from solver import ladder
-from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, coulomb
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import least_model
 from solver.verification.triples import own_triples, readonly, recorded_triples
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -56,7 +56,7 @@ def turned(scene: Scene, degrees: float) -> Scene:
 
 def worst(scene: Scene, angles: range) -> float:
     """Return the largest PRD over angles [m]; NaN where the block leaves the roof."""
-    return max(ladder.solve(turned(scene, angle)).result.prd_m for angle in angles)
+    return max(least_model.solve(turned(scene, angle)).result.prd_m for angle in angles)
 
 
 def main() -> None:

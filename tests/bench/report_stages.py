@@ -28,18 +28,18 @@ def child(project: Path) -> None:
         clock[:] = [now, name]
 
     stage("read the workbook, with imports")
-    from report.sheet.workbook import read_workbook
+    from report.sheet.read import read_workbook
 
     book = read_workbook(project)
     stage("run the motions, compiled code loaded")
-    from report.assess import assess
+    from report.assessment.project import assess
 
     assessment = assess(book.input, book.motions)
     stage("(the same once more, now that all code is loaded)")
     solver_s = assess(book.input, book.motions).solver_seconds
     stage("load what draws and lays out")
-    from report.findings import find
-    from report.package import load, render, words
+    from report.assessment.evidence import find
+    from report.package.html import load, render, words
     from report.pages.parts import Scene
 
     load()
@@ -48,8 +48,8 @@ def child(project: Path) -> None:
     found = find(book, assessment, scene.governing)
     package = render(scene, lambda: found, lambda: words(book, scene, found), stage)
     stage("result tables")
-    from report.outputs import results_json
-    from report.results_book import results_xlsx
+    from report.results.json import results_json
+    from report.results.xlsx import results_xlsx
 
     sizes = [len(package), len(results_xlsx(book, assessment)), len(results_json(book, assessment))]
     stage("")

@@ -18,7 +18,7 @@ import numba
 import numpy as np
 from scipy.signal import cont2discrete, lfilter
 
-from solver.building import absolute_accelerations, building_of_periods, to_roof
+from solver.building.roof import absolute_accelerations, building_of_periods, to_roof
 
 SIZES = ((1, 13_000), (4, 13_000), (12, 13_000), (40, 13_000), (40, 100_000))
 DT_S, DAMPING = 0.005, 0.05

@@ -17,8 +17,8 @@ from collections.abc import Callable
 import numba
 import numpy as np
 
-from solver import sliding
-from solver.row import Row, slide_row
+from solver.sliding import checked, one_axis
+from solver.sliding.row import Row, slide_row
 
 DT_S, SECONDS, MUS = 0.005, 30.0, (0.3, 0.5, 0.4, 0.35, 0.45)
 STIFFNESSES = (0.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8)
@@ -48,10 +48,10 @@ def seconds(call: Callable[[], object], repeats: int) -> float:
 def main() -> None:
     """Print a row for each stiffness, then one for each number of blocks."""
     repeats = int(sys.argv[1]) if sys.argv[1:] else 5
-    scene = sliding.checked(
+    scene = checked.scene(
         noise(1, 1.0), DT_S, slope_rad=math.radians(2.0), mu=0.4, az_mps2=noise(2, 0.4)
     )
-    rigid = seconds(lambda: sliding.along(scene), 20 * repeats)
+    rigid = seconds(lambda: one_axis.run(scene), 20 * repeats)
     print(f"{platform.machine()}, Python {platform.python_version()}, numba {numba.__version__}, "
           f"medians of {repeats}; one rigid block {rigid * 1e6:.0f} us")  # fmt: skip
     print(f"{'k/m 1/s2':>9}{'ms':>9}{'ratio':>9}{'steps':>9}{'stops':>7}{'PRD mm':>9}"

@@ -18,11 +18,11 @@ from pathlib import Path
 
 import numpy as np
 
-from solver import ladder, sliding
 from solver.formats.reader import read_motion_file, read_record
-from solver.methods import NO_RECORD
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, SlideResult, Status, coulomb
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import least_model, one_axis, two_axes
 from solver.verification.triples import readonly
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -104,22 +104,22 @@ def main() -> None:
     for index in range(scenes):
         kind, one = scene(np.random.default_rng([10, index]))
         started = time.perf_counter()
-        found = ladder.solve(one)
+        found = least_model.solve(one)
         chosen_s += time.perf_counter() - started
-        if found.rung is ladder.Rung.NO_SLIP or found.result.status is Status.UPLIFT:
+        if found.rung is least_model.Rung.NO_SLIP or found.result.status is Status.UPLIFT:
             continue
         started = time.perf_counter()
-        sliding.in_plane(one)
+        two_axes.run(one)
         always_s += time.perf_counter() - started
-        true, lesser = sliding.in_plane(one, 1e-8), sliding.along(one)
+        true, lesser = two_axes.run(one, 1e-8), one_axis.run(one)
         off = difference(found.result, true)
-        bound = ladder.DEFAULT.bound_m(lesser.prd_m)
+        bound = least_model.DEFAULT.bound_m(lesser.prd_m)
         worst = max(worst, off / bound)
         for what in (kind, "all"):
             count[what, "slide"] += 1
             count[what, "wrong"] += off > bound + true.error_m + found.result.error_m
             count[what, "need rung 3"] += difference(lesser, true) > bound
-            count[what, "get rung 3"] += found.rung is ladder.Rung.TWO_AXES
+            count[what, "get rung 3"] += found.rung is least_model.Rung.TWO_AXES
     print(f"{'scenes':34}{'slide':>8}{'wrong':>8}{'need rung 3':>13}{'get rung 3':>13}")
     for kind in sorted({kind for kind, _ in count}):
         slide, wrong = count[kind, "slide"], count[kind, "wrong"]

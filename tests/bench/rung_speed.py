@@ -19,9 +19,9 @@ from functools import partial
 
 import numba
 
-from solver import ladder, sliding
 from solver.model import Friction, Scene, coulomb
-from solver.row import slide_row
+from solver.sliding import least_model, one_axis, two_axes
+from solver.sliding.row import slide_row
 from solver.synthesis import make_suite
 from solver.verification.rung_study import by_speed, row_of
 from solver.verification.scenes import HORIZONTAL, SEED, VERTICAL, Case
@@ -45,13 +45,13 @@ def row(scene: Scene) -> object:
 
 Law = Callable[[float], Friction]
 RUNGS: tuple[tuple[str, Callable[[Scene], object], Law, bool, bool], ...] = (
-    ("1 one axis", sliding.along, coulomb, False, False),
-    ("2 one axis with vertical", sliding.along, coulomb, False, True),
-    ("3 two axes with vertical", sliding.in_plane, coulomb, True, True),
-    ("3 the same to 1e-10", partial(sliding.in_plane, tolerance=TIGHT), coulomb, True, True),
-    ("4 friction by speed", sliding.in_plane, by_speed, True, True),
+    ("1 one axis", one_axis.run, coulomb, False, False),
+    ("2 one axis with vertical", one_axis.run, coulomb, False, True),
+    ("3 two axes with vertical", two_axes.run, coulomb, True, True),
+    ("3 the same to 1e-10", partial(two_axes.run, tolerance=TIGHT), coulomb, True, True),
+    ("4 friction by speed", two_axes.run, by_speed, True, True),
     ("5 row of five blocks", row, coulomb, False, True),
-    ("choice of the rung and run", ladder.solve, coulomb, True, True),
+    ("choice of the rung and run", least_model.solve, coulomb, True, True),
 )
 
 

@@ -18,7 +18,7 @@ import numpy as np
 import plane_oracle
 from solver.formats.reader import read_motion_file, read_record
 from solver.model import Scene, coulomb
-from solver.plane import PlaneOutcome, follow
+from solver.sliding.two_axes import PlaneOutcome, follow
 
 ROOT = Path(__file__).resolve().parents[2]
 SHARED = ROOT.parent / "shared" / "records"

@@ -16,7 +16,7 @@ import numpy as np
 
 import oracle
 from solver.formats import read_record
-from solver.sliding import slide
+from solver.sliding.checked import slide
 
 ROOT = Path(__file__).resolve().parents[2]
 G = 9.80665

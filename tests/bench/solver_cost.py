@@ -14,8 +14,8 @@ import time
 import numpy as np
 from numba import njit
 
-from solver import kernels
-from solver.studies import sweep
+from solver.kernels import one_axis
+from solver.sliding.sweep import sweep
 
 G = 9.80665
 
@@ -27,7 +27,7 @@ def repeat(
     """Run one scene many times; the sum keeps the work from being optimised away."""
     found, stops = 0.0, 0
     for _ in range(times):
-        out = kernels.slide_exact(
+        out = one_axis.slide_exact(
             ax, None, x, None, dt, sn, math.sqrt(1.0 - sn * sn), mu, G, 1.0, None
         )
         found += out[0] - out[1]
@@ -38,7 +38,7 @@ def repeat(
 def nanoseconds(ax: np.ndarray, dt: float, sn: float, mu: float) -> tuple[float, int]:
     """Median time of a run [ns] and its number of stops."""
     ax.setflags(write=False)
-    x, times, found = kernels.bounds(ax), 200, []
+    x, times, found = one_axis.bounds(ax), 200, []
     _, stops = repeat(ax, x, dt, sn, mu, times)
     for _ in range(15):
         started = time.perf_counter()

@@ -1,11 +1,11 @@
 """Whether cases side by side in vector lanes are faster than one after the other.
 
-Run from the top: .venv/bin/python tests/bench/solver_lanes.py [RECORD.csv ...]
-The exact method for LANES cases at once, in explicit vectors. The cases are sorted by what they
-yield at, so that neighbours slip together, and go through the record in lockstep: past what is
-quiet for all, sample by sample without branches while no lane has an event, and where one has,
-all events of the interval at once. Prints the speed beside `kernels.slide_exact`, over the grid and
-the records of `solver_speed`, and the largest difference in s relative to the PRD.
+Run from the top: .venv/bin/python tests/bench/solver_lanes.py [RECORD.csv ...] The exact method for
+LANES cases at once, in explicit vectors. The cases are sorted by what they yield at, so that
+neighbours slip together, and go through the record in lockstep: past what is quiet for all, sample
+by sample without branches while no lane has an event, and where one has, all events of the interval
+at once. Prints the speed beside `one_axis.slide_exact`, over the grid and the records of
+`solver_speed`, and the largest difference in s relative to the PRD.
 """
 
 import math
@@ -16,8 +16,8 @@ from numba import njit
 from solver_speed import GRID, G, seconds, suites
 from solver_vectors import LANES, count, floats, gather, lane, least, most, root, where, whole
 
-from solver import kernels
 from solver.formats import read_record
+from solver.kernels import one_axis
 
 ROUNDING = 1e-11
 LEAST_PRD_M = 1e-9
@@ -45,7 +45,7 @@ def slide_lanes(ax, x, dt, cases, first, out):
     rest, i = zero <= 0.0, 0
     while i < last:
         if count(rest) == LANES:
-            i = max(kernels._next_push(PUSH, PUSH, band, ax, None, x, None, i) - 1, i)
+            i = max(one_axis._next_push(PUSH, PUSH, band, ax, None, x, None, i) - 1, i)
             if i >= last:
                 break
         # A lane at rest has no push, so that its sums stay zero.
@@ -84,7 +84,7 @@ def slide_lanes(ax, x, dt, cases, first, out):
             step = where(runs, h, least(step, h))
             s = where(acts, s + sigma * (step * (w + step * (p * 0.5 + step * (r / 6.0)))), s)
             w = where(acts, where(runs, w_end, zero), w)
-            t = where(tau + step > tau, tau + step, tau * (1.0 + 2.3e-16) + kernels.TINY)
+            t = where(tau + step > tau, tau + step, tau * (1.0 + 2.3e-16) + one_axis.TINY)
             acts = acts & ~runs
             tau = where(acts, t, tau)
             s_max, s_min = where(acts, most(s_max, s), s_max), where(acts, least(s_min, s), s_min)
@@ -107,7 +107,7 @@ def fill_cases(grid, peak, cases):
         down = (sn - mu * cs) * G, 0.0, (cs + mu * sn) * grid[k, 2] * G / peak
         up = (-sn - mu * cs) * G, 0.0, (mu * sn - cs) * grid[k, 2] * G / peak
         cases[0, k], cases[1, k], cases[2, k], cases[3, k] = down[0], down[2], up[0], up[2]
-        cases[4, k], cases[5, k] = kernels._resting_band(down, up)
+        cases[4, k], cases[5, k] = one_axis._resting_band(down, up)
 
 
 @njit
@@ -133,7 +133,7 @@ def run_lanes(ax, x, dt, peak, out):
 def run_one_by_one(ax, x, dt, peak, grid, out):
     for k in range(grid.shape[0]):
         sn, cs, scale = math.sin(grid[k, 0]), math.cos(grid[k, 0]), grid[k, 2] * G / peak
-        found = kernels.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
+        found = one_axis.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
         out[k, 0], out[k, 1], out[k, 2] = found[0], found[1], found[2]
 
 
@@ -141,7 +141,7 @@ def measure(path):
     """Return the time of a run [s], one by one and in lanes, and the largest difference."""
     record = read_record(path, units="g")
     ax = record.a_mps2
-    given = ax, kernels.bounds(ax), record.dt_s, float(np.abs(ax).max())
+    given = ax, one_axis.bounds(ax), record.dt_s, float(np.abs(ax).max())
     scalar, lanes = np.empty((2, len(GRID), 3))
     times = seconds(lambda: run_one_by_one(*given, GRID, scalar), lambda: run_lanes(*given, lanes))
     prd = np.maximum(np.maximum(scalar[:, 0], -scalar[:, 1]), LEAST_PRD_M)

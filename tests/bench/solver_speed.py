@@ -24,9 +24,9 @@ from pathlib import Path
 import numpy as np
 from numba import njit
 
-from solver import kernels, rivals
 from solver.formats import read_record
-from solver.studies import order_alike
+from solver.kernels import one_axis, rivals
+from solver.sliding.sweep import order_alike
 
 ROOT = Path(__file__).resolve().parents[2]
 G = 9.80665
@@ -58,8 +58,8 @@ def run_exact(ax: np.ndarray, x: np.ndarray, dt: float, peak: float, grid: np.nd
     found = 0.0
     for k in range(grid.shape[0]):
         sn, cs, scale = math.sin(grid[k, 0]), math.cos(grid[k, 0]), grid[k, 2] * G / peak
-        n_min, _ = kernels.least_normal(ax, None, x, None, dt, sn, cs, G, scale)
-        out = kernels.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
+        n_min, _ = one_axis.least_normal(ax, None, x, None, dt, sn, cs, G, scale)
+        out = one_axis.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
         found += max(out[0], -out[1]) + min(n_min, 0.0)
     return found
 
@@ -126,7 +126,7 @@ def measure(path: Path) -> tuple[int, float, float, float, float]:
     """Return the samples of a record and the time of a run: exact, one pass, both papers [s]."""
     record = read_record(path, units="g")
     ax, dt = record.a_mps2, record.dt_s
-    x, peak, few = kernels.bounds(ax), float(np.abs(ax).max()), GRID[::97]
+    x, peak, few = one_axis.bounds(ax), float(np.abs(ax).max()), GRID[::97]
     listed, fast = run_listed(ax, dt, peak, few), run_fast(ax, dt, peak, few)
     np.testing.assert_allclose(fast, listed, rtol=1e-9, atol=1e-9)
     exact, passes, listed_s, fast_s = seconds(

@@ -17,7 +17,7 @@ import numba
 import numpy as np
 from numba import njit
 
-from solver.motion import response_spectrum
+from solver.records.spectrum import response_spectrum
 
 SIZES = ((200, 13_000), (200, 1_500), (50, 13_000), (1, 13_000), (200, 100_000))
 

@@ -17,10 +17,11 @@ from pathlib import Path
 import numpy as np
 
 from solver.formats import read_record
-from solver.measures import measures
 from solver.model import Floats
-from solver.motion import Record
-from solver.provisions import RULE_SETS, ac156_horizontal, ac156_vertical
+from solver.records.measures import measures
+from solver.records.record import Record
+from solver.rules.provisions import RULE_SETS
+from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis import make_suite, spectrum_fit
 from solver.synthesis.matching import goal_mps2, make_frame, matched, rounded, shaped
 from solver.synthesis.seeds import Seed, grown, strongest

@@ -36,7 +36,7 @@ from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Revision, Site, s_ds
 from report.sheet.schema.scene import Array, Clearance, Rectangle, RoofObject, slope_rad
-from solver.provisions import OVERRIDABLE
+from solver.rules.provisions import OVERRIDABLE
 
 __all__ = [
     "MAX_TEXT",

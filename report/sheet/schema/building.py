@@ -1,6 +1,6 @@
 """The building between a ground motion and its roof, and the spectra that motions are held against.
 
-Read `report.sheet.schema` first; `solver.building` and `solver.scaling` use them.
+Read `report.sheet.schema` first; `solver.building.roof` and `solver.records.scaling` use them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Rows of linked blocks: arrays of which the workbook asks whether one rigid block is enough.
 
-Read `report.sheet.schema` first; `report.linked` runs them.
+Read `report.sheet.schema` first; `report.assessment.links` runs them.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from pydantic import Field, model_validator
 
 from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import Id, Positive
-from report.units import G_MPS2, Quantity
-from solver.row import Row
+from report.words.units import G_MPS2, Quantity
+from solver.sliding.row import Row
 
 BLOCKS = (2, 20)
 """Fewest and most blocks of a row."""

@@ -1,4 +1,4 @@
-"""The roof motions, as asked for; `report.sheet.records` loads them.
+"""The roof motions, as asked for; `report.motions.components` loads them.
 
 Read `report.sheet.schema` first.
 """

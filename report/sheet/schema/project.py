@@ -22,7 +22,7 @@ from report.sheet.schema.choices import (
     Text,
     UnitsFirst,
 )
-from report.units import Quantity
+from report.words.units import Quantity
 
 
 class Project(Frozen):

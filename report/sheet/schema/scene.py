@@ -23,7 +23,7 @@ from report.sheet.schema.choices import (
     SlopeUnit,
     Text,
 )
-from report.units import Quantity
+from report.words.units import Quantity
 from solver.model import Friction
 
 MuCell = Annotated[float, Field(ge=0.0, le=1.5)]

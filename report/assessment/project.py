@@ -1,0 +1,198 @@
+"""Runs every array under every motion and holds the result against the rule set.
+
+Orders the work and keeps what came out; computes no physics (`solver.sliding.checked`) and reads no
+code rule itself (`solver.rules.provisions`). Read `report.assessment.arrays`,
+`report.assessment.clearances`, `report.assessment.links` first.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+
+from report.assessment.arrays import ArrayAssessment, assess_array, by_id, same_id
+from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.links import LinkedArray, assess_linked
+from report.assessment.runs import MotionRun, nan_is_worst, run_motion
+from report.motions.prepare import Shaking
+from report.motions.targets import Targets, ac156, targets
+from report.sheet.read import Sheet
+from report.sheet.schema import Array, Model, ProjectInput
+from solver.model import Motion, SlideResult, Status
+from solver.rules import provisions
+from solver.rules.provisions import Check, RuleSet
+from solver.rules.spectra import RequiredSpectrum
+
+THREADS = 2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assessment:
+    """Everything that was computed for a project.
+
+    Attributes
+    ----------
+    sheet : Sheet
+    shaking : Shaking
+    project : ProjectInput
+        As assessed: that of the sheet, but for runs with other friction.
+    horizontal_target, vertical_target : RequiredSpectrum
+        AC156 at the roof.
+    targets : Targets
+        What the motions are held against: AC156 or the project's own.
+    linked : tuple of LinkedArray
+        The arrays of which the workbook asks whether one rigid block is enough.
+    """
+
+    sheet: Sheet
+    shaking: Shaking
+    project: ProjectInput
+    rules: RuleSet
+    horizontal_target: RequiredSpectrum
+    vertical_target: RequiredSpectrum
+    targets: Targets
+    building_checks: tuple[Check, ...]
+    arrays: tuple[ArrayAssessment, ...]
+    clearances: tuple[ClearanceCheck, ...]
+    linked: tuple[LinkedArray, ...]
+    solver_seconds: float
+
+    @property
+    def governing(self) -> ArrayAssessment:
+        """The array with the largest design displacement; one without a value over all."""
+        return max(self.arrays, key=lambda found: nan_is_worst(found.design_m))
+
+    @property
+    def ok(self) -> bool:
+        """Whether all limits and clearances are kept and each array has a final design value."""
+        limits_kept = all(check.ok for check in self.building_checks)
+        arrays_stand = all(map(self.array_ok, self.arrays))
+        return limits_kept and arrays_stand and all(gap.ok for gap in self.clearances)
+
+    def array_ok(self, found: ArrayAssessment) -> bool:
+        """Whether an array keeps its limits, has final values, and all its room."""
+        return (
+            not math.isnan(found.design_m)
+            and found.is_model_enough
+            and found.tipping.is_ok
+            and all(one.is_rigid_enough for one in self.linked_of(found))
+            and all(check.ok for check in found.checks)
+            and all(gap.ok for gap in self.gaps_of(found.array.id))
+            and all(run.result.status is Status.OK for m in found.motions for run in m.runs)
+        )
+
+    def linked_of(self, found: ArrayAssessment) -> Sequence[LinkedArray]:
+        """Return an array as a row of linked blocks, where the workbook asks for it."""
+        return [one for one in self.linked if one.found.array.id == found.array.id]
+
+    def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
+        """Return the clearances that name an array, on either side."""
+        return [
+            gap
+            for gap in self.clearances
+            if same_id(gap.clearance.array, array_id) or same_id(gap.clearance.object, array_id)
+        ]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Runs whose displacement is missing or not final, in words."""
+        return tuple(
+            f"Array {assessed.array.id}, motion {motion.motion.id}, "
+            f"{', '.join(run.heading.name for run in runs)}: "
+            f"{_trouble([run.result for run in runs])}."
+            for assessed in self.arrays
+            for motion in assessed.motions
+            for status in Status
+            if status is not Status.OK
+            and (runs := [run for run in motion.runs if run.result.status is status])
+        )
+
+    def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
+        """Return the clearance of an array, from either side, with the largest D/C, if any."""
+        of_array = self.gaps_of(array_id)
+        return max(of_array, key=lambda c: nan_is_worst(c.demand_capacity), default=None)
+
+
+def _trouble(results: Sequence[SlideResult]) -> str:
+    """Return in words what is wrong with runs of one outcome."""
+    status = results[0].status
+    if status is Status.UPLIFT:
+        return f"{status.sentence} (at {min(result.t_uplift_s for result in results):.3f} s)"
+    if status is not Status.SLIDING_AT_END:
+        return status.sentence
+    fastest = max(abs(result.end_speed_mps) for result in results)
+    return f"{status.sentence} (at {fastest:.3f} m/s)"
+
+
+def assess(sheet: Sheet, shaking: Shaking) -> Assessment:
+    """Run every array under every motion and check every limit and clearance.
+
+    Raises
+    ------
+    InputError
+        For an override of a provision that the rule set does not have.
+    """
+    return _assess(sheet, shaking, sheet.project, hold_models=True)
+
+
+def reassess(given: Assessment, project: ProjectInput) -> Assessment:
+    """Assess another input under the same motions, by its own models alone."""
+    return _assess(given.sheet, given.shaking, project, hold_models=False)
+
+
+def _assess(sheet: Sheet, shaking: Shaking, data: ProjectInput, *, hold_models: bool) -> Assessment:
+    """Assess an input.
+
+    Parameters
+    ----------
+    hold_models : bool
+        Whether models that are asked for are held against those that the scenes need, and one
+        rigid block against a row of them.
+    """
+    site = data.site
+    rules = provisions.RULE_SETS[site.rule_set].overridden(
+        {row.provision: (row.value, row.reason) for row in data.overrides}
+    )
+    started = time.perf_counter()
+    # Runs in two axes, and of rows, leave Python alone: two of them go on at once.
+    with ThreadPoolExecutor(THREADS) as pool:
+        runs = [_runs(pool, array, shaking.motions, hold_models) for array in data.arrays]
+        seconds = time.perf_counter() - started
+        arrays = tuple(
+            assess_array(data, rules, array, *found)
+            for array, found in zip(data.arrays, runs, strict=True)
+        )
+        asked = data.links if hold_models else ()
+        linked = tuple(assess_linked(pool, rules, one, by_id(arrays, one.array)) for one in asked)
+    return Assessment(
+        sheet=sheet,
+        shaking=shaking,
+        project=data,
+        rules=rules,
+        horizontal_target=ac156(data)[0],
+        vertical_target=ac156(data)[1],
+        targets=targets(data),
+        building_checks=provisions.building_checks(
+            rules,
+            risk_category=list(type(site.risk_category)).index(site.risk_category) + 1,
+            storeys=site.storeys,
+        ),
+        arrays=arrays,
+        clearances=tuple(check_clearance(data, rules, arrays, row) for row in data.clearances),
+        linked=linked,
+        solver_seconds=seconds,
+    )
+
+
+def _runs(
+    pool: Executor, array: Array, motions: Sequence[Motion], hold_models: bool
+) -> tuple[tuple[MotionRun, ...], ...]:
+    """Return the runs of an array, and those by the models that its scenes need."""
+    runs = tuple(pool.map(partial(run_motion, array), motions))
+    if array.model is Model.CHOOSE or not hold_models:
+        return runs, runs
+    return runs, tuple(pool.map(partial(run_motion, array, model=Model.CHOOSE), motions))

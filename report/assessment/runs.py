@@ -1,0 +1,107 @@
+"""One array under one motion: each component along the slope in each sense, and which run counts.
+
+Follows nothing itself (`solver.sliding.least_model` does) and knows no code rule. Read
+`report.assessment.project` next.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from report.sheet.schema import Array, Direction, Model
+from solver.model import Heading, Motion, Scene, SlideHistory, SlideResult
+from solver.sliding import least_model
+from solver.sliding.least_model import Rung, Settings, Solution
+
+RUNGS: Mapping[Model, Rung] = {
+    Model.ONE_AXIS: Rung.ONE_AXIS,
+    Model.ONE_AXIS_VERTICAL: Rung.ONE_AXIS_VERTICAL,
+    Model.TWO_AXES: Rung.TWO_AXES,
+}
+"""The models that a workbook can ask for."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeadingRun:
+    """One motion with one horizontal component along the slope, in one polarity."""
+
+    heading: Heading
+    scene: Scene
+    solution: Solution
+
+    @property
+    def result(self) -> SlideResult:
+        """What the model that was chosen gave."""
+        return self.solution.result
+
+    @property
+    def has_across(self) -> bool:
+        """Whether motion across the slope was modelled, or shown to be none."""
+        return self.solution.rung is Rung.NO_SLIP or self.solution.rung >= Rung.TWO_AXES
+
+    def excursion_m(self, direction: Direction) -> float:
+        """Return how far the array goes in a direction, at its farthest [m].
+
+        Where no motion across the slope was modelled, the PRD stands for it.
+        """
+        found = self.result
+        return {
+            Direction.DOWN: found.down_m,
+            Direction.UP: found.up_m,
+            Direction.ACROSS: found.across_m if self.has_across else found.prd_m,
+            Direction.ANY: found.prd_m,
+        }[direction]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MotionRun:
+    """One array under one motion, with each horizontal component in the polarities asked for.
+
+    Attributes
+    ----------
+    governing : HeadingRun
+        The run with the largest PRD; one without a displacement governs over all.
+    """
+
+    motion: Motion
+    runs: tuple[HeadingRun, ...]
+    governing: HeadingRun
+
+    @property
+    def seconds(self) -> float:
+        """Time of the last sample [s]."""
+        return self.motion.dt_s * (len(self.motion.ax_mps2) - 1)
+
+    def peak_m(self, direction: Direction) -> float:
+        """Return the largest excursion of all runs in a direction [m]; NaN where one has none."""
+        return max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
+
+    def history(self) -> SlideHistory:
+        """Follow the governing run once more, at the samples: for drawing alone."""
+        return least_model.history(self.governing.scene, self.governing.solution)
+
+
+def run_motion(array: Array, motion: Motion, model: Model | None = None) -> MotionRun:
+    """Run one array under one motion in all of its runs.
+
+    Parameters
+    ----------
+    model : Model, optional
+        In place of the array's own.
+    """
+    settings = Settings(forced=RUNGS.get(array.model if model is None else model))
+    runs = tuple(_run(array, motion, heading, settings) for heading in motion.headings)
+    worst = max(runs, key=lambda run: nan_is_worst(run.result.prd_m))
+    return MotionRun(motion=motion, runs=runs, governing=worst)
+
+
+def _run(array: Array, motion: Motion, heading: Heading, settings: Settings) -> HeadingRun:
+    scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
+    return HeadingRun(heading=heading, scene=scene, solution=least_model.solve(scene, settings))
+
+
+def nan_is_worst(value: float) -> float:
+    """Return a value to sort by: NaN over all."""
+    return math.inf if math.isnan(value) else value

@@ -1,0 +1,221 @@
+"""How sure the answer of a package is: every method on its governing run, and other friction.
+
+Runs the solver and keeps numbers; `report.pages.accuracy` puts them into words and
+`report.figures.accuracy` draws them.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.project import Assessment, reassess
+from report.assessment.runs import MotionRun
+from report.sheet.schema import ProjectInput
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, SlideResult, Status
+from solver.rivals.methods import METHODS, Method
+from solver.sliding.checked import slide
+
+SHIFT = 0.05
+"""Share by which the friction coefficient is lowered and raised."""
+
+MOST_STEPS = 64
+"""In a sampling interval; finer settings are in the verification manual alone."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MethodRun:
+    """One method with one setting on the governing run.
+
+    Attributes
+    ----------
+    name : str
+        Of the method.
+    steps : float
+        Its steps in each sampling interval.
+    is_default : bool
+        Whether these are the parameters that the method has by itself.
+    error : float
+        |PRD / exact PRD - 1|; NaN where the method failed.
+    """
+
+    name: str
+    parameters: dict[str, float]
+    steps: float
+    is_default: bool
+    result: SlideResult
+    error: float
+
+    @property
+    def method(self) -> Method:
+        """The method itself."""
+        return METHODS[self.name]
+
+    @property
+    def failed(self) -> bool:
+        """Whether it gave no displacement."""
+        return math.isnan(self.error)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rivals:
+    """The governing run, along the slope alone, by every method: they know one axis.
+
+    Attributes
+    ----------
+    array : ArrayAssessment
+        The one with the largest design displacement.
+    motion : MotionRun
+        Its motion with the largest PRD.
+    exact : SlideResult
+        Of its governing run along the slope alone.
+    doubled : float
+        |PRD / PRD - 1| of the exact method with a sample added midway between each two: the same
+        motion, so that what is found is rounding. NaN without a displacement.
+    seconds : float
+        Time of the exact run, the least of some [s].
+    runs : tuple of MethodRun
+        Empty where nothing slides or the block leaves the roof.
+    """
+
+    array: ArrayAssessment
+    motion: MotionRun
+    exact: SlideResult
+    doubled: float
+    seconds: float
+    runs: tuple[MethodRun, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Accuracy:
+    """The governing run by every method, and the design with 5 % less and 5 % more friction.
+
+    Attributes
+    ----------
+    rivals : Rivals
+    less, given, more : Assessment
+        With the friction coefficients lowered, as given, and raised.
+    """
+
+    rivals: Rivals
+    less: Assessment
+    given: Assessment
+    more: Assessment
+
+    @property
+    def newly_short(self) -> tuple[ClearanceCheck, ...]:
+        """Clearances that are kept as given and not with less friction."""
+        pairs = zip(self.given.clearances, self.less.clearances, strict=True)
+        return tuple(after for before, after in pairs if before.ok and not after.ok)
+
+
+def rivals(array: ArrayAssessment) -> Rivals:
+    """Run the governing motion of an array by every method."""
+    motion = array.worst
+    scene = _scene(motion)
+    exact = slide(**scene)
+    peak = exact.prd_m
+    return Rivals(
+        array=array,
+        motion=motion,
+        exact=exact,
+        doubled=abs(slide(**_doubled(scene)).prd_m / peak - 1.0) if peak > 0.0 else math.nan,
+        seconds=_seconds(scene),
+        runs=tuple(_runs(scene, peak)) if peak > 0.0 else (),
+    )
+
+
+def accuracy(given: Assessment) -> Accuracy:
+    """Run the governing motion by every method, and all arrays with other friction."""
+    return Accuracy(
+        rivals=rivals(given.governing),
+        less=reassess(given, _with_friction(given.project, 1.0 - SHIFT)),
+        given=given,
+        more=reassess(given, _with_friction(given.project, 1.0 + SHIFT)),
+    )
+
+
+def _seconds(scene: dict[str, Any]) -> float:
+    """Return the least time of some runs: what disturbs a run only lengthens it."""
+    found = []
+    for _ in range(7):
+        started = time.perf_counter()
+        slide(**scene)
+        found.append(time.perf_counter() - started)
+    return min(found)
+
+
+def _with_friction(data: ProjectInput, factor: float) -> ProjectInput:
+    names = ("mu", "mu_fast", "mu_static")
+    changed = [
+        array.model_copy(
+            update={name: mu * factor for name in names if (mu := getattr(array, name)) is not None}
+        )
+        for array in data.arrays
+    ]
+    return data.model_copy(update={"arrays": type(data.arrays)(changed)})
+
+
+def _scene(run: MotionRun) -> dict[str, Any]:
+    """Return the governing run, along the slope alone, as arguments of `slide`."""
+    found = run.governing.scene
+    return {
+        "ax_mps2": found.ax_mps2,
+        "az_mps2": found.az_mps2 if run.motion.has_vertical else None,
+        "dt_s": found.dt_s,
+        "scale": found.scale,
+        "slope_rad": found.slope_rad,
+        "mu": found.friction.mu_slow,
+    }
+
+
+def _doubled(scene: dict[str, Any]) -> dict[str, Any]:
+    vertical = scene["az_mps2"]
+    return scene | {
+        "dt_s": scene["dt_s"] / 2.0,
+        "ax_mps2": _midway(scene["ax_mps2"]),
+        "az_mps2": None if vertical is None else _midway(vertical),
+    }
+
+
+def _midway(samples: Floats) -> Floats:
+    found = np.empty(2 * samples.size - 1)
+    found[::2] = samples
+    found[1::2] = (samples[:-1] + samples[1:]) / 2.0
+    return found
+
+
+def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
+    for method in _shown(with_vertical=scene["az_mps2"] is not None):
+        default = dict(method.parameters)
+        settings = [method.settings(v, scene["dt_s"], STANDARD_GRAVITY_MPS2) for v in method.sweep]
+        for parameters in [default, *(s for s in settings if s != default)]:
+            if parameters.get("substeps", 1.0) > MOST_STEPS:
+                continue
+            result = slide(**scene, method=method.name, **parameters)
+            has_value = result.status is not Status.DIVERGED
+            yield MethodRun(
+                name=method.name,
+                parameters=parameters,
+                steps=parameters.get("substeps", 1.0),
+                is_default=parameters == default,
+                result=result,
+                error=abs(result.prd_m / peak_m - 1.0) if has_value else math.nan,
+            )
+
+
+def _shown(with_vertical: bool) -> Iterator[Method]:
+    """Yield the rivals that take the scene; regularised friction would take too long here.
+
+    `adaptive` gives the numbers of `paper`: it stands for both with vertical shaking, which the
+    paper's own does not take.
+    """
+    left_out = {"exact", "regularised", "paper" if with_vertical else "adaptive"}
+    return (method for method in METHODS.values() if method.name not in left_out)

@@ -1,0 +1,101 @@
+"""Response spectra of the motions as run, with the target that they are held against.
+
+Draws nothing and prints nothing: `report.figures` and `report.pages.motions` do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from report.assessment.project import Assessment
+from report.motions.targets import TargetSpectrum
+from report.sheet.schema import RecordedAt
+from report.words.units import G_MPS2
+from solver.model import Floats, Motion
+from solver.records.record import Record
+from solver.records.spectrum import response_spectrum
+
+PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
+BAND_HZ = 0.3 * 2.0 ** (np.arange(82) / 12.0)  # 1/12 octaves to 32.3 Hz
+# From the last corner of AC156 to its first: the band, beyond it coarser, and what is printed.
+PERIODS_S: Floats = np.unique(
+    np.concatenate([1.0 / BAND_HZ, np.geomspace(3.6, 9.3, 10), [1 / 33.3], PRINTED_S[1:]])
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spectra:
+    """Response spectra of one component [g] of all motions, over periods [s].
+
+    Attributes
+    ----------
+    ids : tuple of str
+    periods_s : array, shape (m,)
+    sa_g : array, shape (n, m)
+    target : TargetSpectrum
+    title : str
+    is_ground : bool
+    """
+
+    ids: tuple[str, ...]
+    periods_s: Floats
+    sa_g: Floats
+    target: TargetSpectrum
+    title: str
+    is_ground: bool
+
+    @property
+    def mean_g(self) -> Floats:
+        """Mean over the motions."""
+        return np.asarray(self.sa_g.mean(axis=0))
+
+    @property
+    def target_g(self) -> Floats:
+        """Ordinates of the target at the periods; NaN where it is not given."""
+        return self.target.ordinates(self.periods_s)
+
+    @property
+    def in_band(self) -> NDArray[np.bool_]:
+        """Whether a period lies in the band that a matched motion keeps to, and has a target."""
+        return np.isin(self.periods_s, 1.0 / BAND_HZ) & np.isfinite(self.target_g)
+
+
+def spectra(assessment: Assessment) -> tuple[Spectra, ...]:
+    """Return the spectra of each component that any motion has: at the roof, then on the ground."""
+    goals, motions = assessment.targets, assessment.shaking.motions
+    ground = [one for one in assessment.shaking.prepared if one.recorded_at is RecordedAt.GROUND]
+    at_roof = (
+        ("Horizontal", goals.roof, [_scaled(m, m.ax_mps2) for m in motions]),
+        ("Transverse", goals.roof, [_scaled(m, m.ay_mps2) for m in motions if m.has_transverse]),
+        ("Vertical", goals.vertical, [_scaled(m, m.az_mps2) for m in motions if m.has_vertical]),
+    )
+    below = (
+        (f"Ground, {name}", goals.ground, [s.scaled[name] for s in ground if name in s.scaled])
+        for name in ("horizontal", "transverse")
+    )
+    return (
+        *(_spectra(*part, is_ground=False) for part in at_roof if part[-1]),
+        *(_spectra(*part, is_ground=True) for part in below if part[-1]),
+    )
+
+
+def _scaled(motion: Motion, a_mps2: Floats) -> Record:
+    return Record(name=motion.id, dt_s=motion.dt_s, a_mps2=a_mps2 * motion.scale)
+
+
+def _spectra(
+    title: str, target: TargetSpectrum, records: Sequence[Record], *, is_ground: bool
+) -> Spectra:
+    found = [response_spectrum(record.a_mps2, record.dt_s, PERIODS_S) for record in records]
+    return Spectra(
+        ids=tuple(record.name for record in records),
+        periods_s=PERIODS_S,
+        sa_g=np.array(found) / G_MPS2,
+        target=target,
+        title=title,
+        is_ground=is_ground,
+    )

@@ -1,0 +1,153 @@
+"""From a folder to a calculation package: `roofslip new`, `check` and `report`.
+
+Read `make`: the whole way, a line for each step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from report.cli.terminal import Progress, input_errors
+
+if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
+    from report.assessment.project import Assessment
+
+SOURCE = click.Path(path_type=Path)
+
+
+@click.command()
+@click.argument("folder", metavar="DIR", type=SOURCE)
+@click.option("--units", type=click.Choice(["US", "SI"]), default="US", show_default=True,
+              help="Units of the input cells, and the ones printed first.")  # fmt: skip
+def new(folder: Path, units: str) -> None:
+    """Write DIR/input.xlsx, ready to fill, and DIR/records/ for the motions."""
+    with input_errors(folder):
+        path = _new_project(folder, units)
+    click.echo(f"{path}: fill the yellow cells, put the roof motions into {folder / 'records'},")
+    click.echo(f"then run: roofslip report {folder}")
+
+
+def _new_project(folder: Path, units: str) -> Path:
+    """Write a blank workbook and an empty records folder; never over a workbook that is there."""
+    from report.sheet.schema import UnitsFirst
+    from report.sheet.template import write_template
+    from solver.model import InputError
+
+    path = folder / "input.xlsx"
+    if path.exists():
+        raise InputError(f"{path}: is there already; choose another folder, or move it away")
+    try:
+        (folder / "records").mkdir(parents=True, exist_ok=True)
+        write_template(path, units=UnitsFirst(units))
+    except OSError as error:
+        raise InputError(
+            f"{path}: cannot be written ({error.strerror}); choose another folder"
+        ) from error
+    return path
+
+
+@click.command()
+@click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
+def check(source: Path) -> None:
+    """Read and validate the input; write nothing."""
+    from report.motions.prepare import prepare
+    from report.sheet.read import read
+
+    with input_errors(source):
+        sheet = read(source)
+        prepare(sheet)
+    data = sheet.project
+    click.echo(
+        f"{sheet.path}: no problems found. {len(data.arrays)} arrays, {len(data.clearances)} "
+        f"clearances, {len(data.motions)} motions, S_DS {data.site.s_ds:.3f} g, "
+        f"{data.site.rule_set}."
+    )
+
+
+@click.command()
+@click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
+@click.option("--out", type=SOURCE, help="Folder for the outputs; default: out/ beside the input.")
+def report(source: Path, out: Path | None) -> None:
+    """Write calc-package.pdf, results.xlsx and results.json, and print the governing numbers."""
+    with input_errors(source), Progress() as progress:
+        assessment, folder, files = make(source, out, progress)
+    _print_summary(assessment)
+    click.echo("")
+    for name in files:
+        click.echo(folder / name)
+
+
+def make(
+    source: Path, out: Path | None, progress: Callable[[str], None]
+) -> tuple[Assessment, Path, Mapping[str, bytes]]:
+    """Read a workbook, run it, and write its package and tables."""
+    from report.assessment.evidence import support
+    from report.assessment.project import assess
+    from report.motions.prepare import prepare
+    from report.package.html import pages
+    from report.results.publish import publish
+    from report.results.tables import tables
+    from report.sheet.read import read
+    from report.typeset.pdf import lay_out
+
+    progress("reading the workbook")
+    sheet = read(source)
+    shaking = prepare(sheet)
+    progress("running the motions (the first run compiles the solver)")
+    assessment = assess(sheet, shaking)
+    evidence = support(assessment)
+    progress("making the pages")
+    html = pages(assessment, evidence)
+    progress("laying out the package")
+    pdf = lay_out(html)
+    progress("writing the result tables")
+    files = {"calc-package.pdf": pdf, **tables(assessment, evidence)}
+    folder = out or sheet.path.parent / "out"
+    publish(files, folder)
+    return assessment, folder, files
+
+
+def _print_summary(assessment: Assessment) -> None:
+    us_first = assessment.project.project.units_first == "US"
+    columns = ("array", "computed", "prescriptive", "design", "governing clearance", "D/C", "")
+    rows = [_summary_row(assessment, item, us_first) for item in assessment.arrays]
+    widths = [max(map(len, column)) for column in zip(columns, *rows, strict=True)]
+    for row in (columns, *rows):
+        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
+        click.echo("  ".join(cells).rstrip())
+    for warning in assessment.warnings:
+        click.echo(f"warning: {warning}")
+    for item in assessment.arrays:
+        if not item.tipping.is_ok:
+            click.echo(f"warning: array {item.array.id} begins to tip: part 11 of the package")
+    for name in (one.found.array.id for one in assessment.linked if not one.is_rigid_enough):
+        text = f"one rigid block is not shown to be enough for array {name}"
+        click.echo(f"warning: {text}: part 11 of the package")
+    checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]
+    for failed in (c for c in checks if not c.ok):
+        click.echo(f"warning: outside {failed.provision.clause}: {failed.title}")
+
+
+def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) -> tuple[str, ...]:
+    from report.words.units import Quantity, pair, ratio
+
+    def shown(value_m: float) -> str:
+        if value_m != value_m:
+            return "no value"
+        return pair(value_m, Quantity.DISPLACEMENT, us_first)
+
+    gap = assessment.governing_clearance(item.array.id)
+    clearance = (f"to {gap.across_from(item.array.id)}", ratio(gap.demand_capacity)) if gap else ()
+    return (
+        item.array.id,
+        shown(item.analysis.value_m),
+        shown(item.prescriptive.value_m),
+        shown(item.design_m),
+        *(clearance or ("none given", "")),
+        "OK" if assessment.array_ok(item) else "NG",
+    )

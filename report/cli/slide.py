@@ -1,0 +1,156 @@
+"""The command `roofslip slide`: one block under one motion, by the least model that answers.
+
+Parses and prints; reading is for `solver.formats`, choosing and running for
+`solver.sliding.least_model`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from report.cli.terminal import UNITS, input_errors
+
+if TYPE_CHECKING:
+    from solver.model import Scene
+    from solver.records.record import Record
+
+MODELS = ("no-slip", "one-axis", "one-axis-vertical", "two-axes")
+"""Rungs of `solver.sliding.least_model` that can be asked for, from the least; friction by speed is
+no option of this command."""
+
+
+@click.command()
+@click.argument("record")
+@click.option("--slope-deg", type=float, required=True, help="Roof slope [deg], positive down "
+              "in the direction of positive acceleration.")  # fmt: skip
+@click.option("--mu", type=float, required=True, help="Friction coefficient.")
+@click.option("--transverse", metavar="RECORD", help="The other horizontal record, across the "
+              "slope.")  # fmt: skip
+@click.option("--vertical", metavar="RECORD", help="Vertical record, positive up.")
+@click.option("--ppa-g", type=float, help="Scale all to this peak of RECORD [g].")
+@click.option("--factor", type=float, help="Scale all by this factor.")
+@click.option("--dt", type=float, help="Time step [s], where the record has no column of times.")
+@click.option("--units", type=click.Choice(UNITS),
+              help="Units of the records, where the files do not say.")  # fmt: skip
+@click.option("--model", type=click.Choice(MODELS), help="Run this model, not the least that "
+              "answers.")  # fmt: skip
+@click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
+def slide(
+    record: str,
+    transverse: str | None,
+    vertical: str | None,
+    slope_deg: float,
+    mu: float,
+    ppa_g: float | None,
+    factor: float | None,
+    dt: float | None,
+    units: str | None,
+    model: str | None,
+    as_json: bool,
+) -> None:
+    """Slide one block under one RECORD: a quick look, or a step of a script.
+
+    Where a file has several channels, RECORD is "FILE | CHANNEL", the channel by name or number.
+    """
+    if ppa_g is not None and factor is not None:
+        raise click.UsageError("give --ppa-g or --factor, not both")
+    step_s = math.nan if dt is None else dt
+    with input_errors(Path(record)):
+        records = _read((record, transverse, vertical), units or "", step_s)
+        scale = _scale(records[0], ppa_g, factor)
+        scene = _scene(records, slope_deg, mu, scale)
+        found = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": scene.dt_s}
+        found |= _solved(scene, model)
+    if as_json:
+        click.echo(json.dumps({k: _finite(v) for k, v in found.items()}))
+        return
+    width = max(map(len, found))
+    for key, value in found.items():
+        shown = f"{value:.6g}" if isinstance(value, float) else value
+        click.echo(f"{key:>{width}}  {shown}")
+
+
+def _finite(value: Any) -> Any:
+    """JSON knows no NaN and no infinity."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record | None]:
+    """Read horizontal, transverse and vertical record; every fault of all of them at once."""
+    from solver.formats import read_record
+    from solver.model import InputError
+
+    problems: list[str] = []
+    records: list[Record | None] = []
+    for name in names:
+        records.append(None)
+        if name is None:
+            continue
+        file, _, channel = name.rpartition("|") if "|" in name else (name, "", "")
+        try:
+            path = Path(file.strip())
+            records[-1] = read_record(path, units=units, dt_s=dt_s, channel=channel.strip())
+        except InputError as error:
+            problems += error.problems
+    problems += _mismatches([record for record in records if record is not None])
+    if problems:
+        raise InputError(problems)
+    return records
+
+
+def _mismatches(records: list[Record]) -> list[str]:
+    return [
+        f"{other.name}: has {len(other.a_mps2)} samples of {other.dt_s:g} s, {records[0].name} "
+        f"{len(records[0].a_mps2)} of {records[0].dt_s:g} s; give components of one length and step"
+        for other in records[1:]
+        if (len(other.a_mps2), other.dt_s) != (len(records[0].a_mps2), records[0].dt_s)
+    ]
+
+
+def _scale(record: Record | None, ppa_g: float | None, factor: float | None) -> float:
+    from solver.model import STANDARD_GRAVITY_MPS2, InputError
+
+    if ppa_g is None or record is None:
+        return 1.0 if factor is None else factor
+    peak = float(abs(record.a_mps2).max())
+    if peak == 0.0:
+        raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a PPA")
+    return ppa_g * STANDARD_GRAVITY_MPS2 / peak
+
+
+def _scene(records: list[Record | None], slope_deg: float, mu: float, scale: float) -> Scene:
+    from solver import scene
+
+    x, y, z = records
+    assert x is not None  # the argument is required
+    return scene(
+        x.a_mps2,
+        x.dt_s,
+        slope_rad=math.radians(slope_deg),
+        mu=mu,
+        ay_mps2=y.a_mps2 if y else None,
+        az_mps2=z.a_mps2 if z else None,
+        scale=scale,
+    )
+
+
+def _solved(scene: Scene, model: str | None) -> dict[str, Any]:
+    """Return the result by name, with the model that gave it."""
+    from solver.sliding.least_model import Rung, Settings, solve
+
+    found = solve(scene, Settings(forced=None if model is None else Rung(MODELS.index(model))))
+    return asdict(found.result) | {
+        "outcome": found.result.status.sentence,
+        "model": f"{int(found.rung)}, {found.rung.title}",
+        "reason": found.reason,
+        "next_model": f"{int(found.next_rung)}, {found.next_rung.title}",
+        "next_effect_m": found.next_effect_m,
+        "error_m": found.result.error_m,
+        "friction_demand": found.friction_demand,
+    }

@@ -1,0 +1,217 @@
+"""Reads the components of each motion that a workbook names, and processes them as asked.
+
+Owns how components go together; `files` reads them, `history` makes motions of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from report.motions.files import Component, Reader, find_file, find_heading, read_component
+from report.sheet.archive import OpenBook
+from report.sheet.fields import Fault, Place
+from report.sheet.motion_checks import LABELS
+from report.sheet.schema import AccelUnit, Baseline, MotionInput, Scaling
+from report.words.units import G_MPS2
+from solver.formats import read_motion_file
+from solver.model import InputError
+from solver.records.processing import Processing, process, process_together
+from solver.records.record import Record
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordFile:
+    """One component of a motion as it was found, before processing and scaling.
+
+    Attributes
+    ----------
+    motion_id, component : str
+        Component is ``horizontal``, ``transverse`` or ``vertical``.
+    name, sha256 : str
+        As the workbook names it; hash of the file, or of a column's values as little-endian
+        doubles in m/s2.
+    format : str
+    npts : int
+    dt_s, peak_g : float
+    notes : tuple of str
+        What a user should know of the reading.
+    """
+
+    motion_id: str
+    component: str
+    name: str
+    sha256: str
+    format: str
+    npts: int
+    dt_s: float
+    peak_g: float
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Components:
+    """The components of one motion, read and processed.
+
+    Attributes
+    ----------
+    files : tuple of RecordFile
+    records : mapping of str to Record
+        By field of `MotionInput`: record, transverse, vertical; one step and one length.
+    unfiltered : mapping of str to Record
+        The same without the high-pass; empty where there is none.
+    """
+
+    files: tuple[RecordFile, ...]
+    records: Mapping[str, Record]
+    unfiltered: Mapping[str, Record]
+
+
+def read_components(book: OpenBook, index: int, row: Mapping[str, Any]) -> Components | list[Fault]:
+    """Read and process the records of a motion, or say what is wrong with them.
+
+    Parameters
+    ----------
+    book : OpenBook
+    index : int
+        Of the row in its table.
+    row : mapping
+        Fields of `report.sheet.schema.MotionInput`; one that could not be read is absent. Without
+        units or time step records are looked for, not read.
+    """
+    faults: list[Fault] = []
+    found: dict[str, Component] = {}
+    read = cache(read_motion_file)
+    for field in LABELS:
+        if row.get(field):
+            try:
+                for one in _read(book, row, field, read):
+                    found[field] = one
+            except InputError as error:
+                faults += _faults(index, field, error)
+    if "record" not in found:
+        return faults
+    try:
+        records = _cut(found, row.get("to_s"))
+    except InputError as error:
+        return [*faults, *_faults(index, "record", error)]
+    faults += [*_mismatches(index, records), *_unscalable(index, row, records)]
+    if faults or any(name not in row for name in MotionInput.model_fields):
+        return faults
+    return _processed(index, MotionInput(**row), found, records)
+
+
+def _faults(index: int, field: str, error: InputError) -> list[Fault]:
+    place = Place("motions", index, field)
+    return [Fault(place, f"{LABELS[field]} record: {problem}") for problem in error.problems]
+
+
+def _read(book: OpenBook, row: Mapping[str, Any], field: str, read: Reader) -> Iterator[Component]:
+    """Yield the component of a field; nothing where its units or time step could not be read."""
+    name = str(row[field])
+    if "units" in row and "dt_s" in row:
+        units = "" if row["units"] is AccelUnit.FROM_FILE else str(row["units"])
+        yield read_component(book, name, units, row["dt_s"], read)
+    elif find_heading(book, name) is None:
+        find_file(book, name)
+
+
+def _cut(found: Mapping[str, Component], to_s: float | None) -> dict[str, Record]:
+    """Return the records up to where they are kept: components often end a little apart."""
+    kept = Processing(to_s=math.inf if to_s is None else to_s)
+    return {field: process(component.record, kept) for field, component in found.items()}
+
+
+def _mismatches(index: int, found: Mapping[str, Record]) -> Iterator[Fault]:
+    """Yield components that do not go with the horizontal one sample by sample."""
+    horizontal = found["record"]
+    for field, record in found.items():
+        label, dt_s = f"{LABELS[field]} record", horizontal.dt_s
+        if abs(record.dt_s - dt_s) > 1e-9 * dt_s:
+            text = (
+                f"{label} has a time step of {record.dt_s:g} s, the horizontal one"
+                f" {dt_s:g} s; give both the same"
+            )
+            yield Fault(Place("motions", index, field), text)
+        count, other = len(record.a_mps2), len(horizontal.a_mps2)
+        if count != other:
+            end = f"{(min(count, other) - 1) * dt_s:g} s"
+            text = (
+                f"{label} has {count} samples, the horizontal one {other}; give both the same,"
+                f" or keep to {end} at most"
+            )
+            yield Fault(Place("motions", index, field), text)
+
+
+_TO_A_LEVEL = {Scaling.PPA: ("record",), Scaling.TARGET: ("record", "transverse")}
+
+
+def _unscalable(index: int, row: Mapping[str, Any], found: Mapping[str, Record]) -> Iterator[Fault]:
+    scaling = row.get("scaling")
+    for field in _TO_A_LEVEL.get(scaling, ()) if scaling else ():
+        if field in found and not found[field].a_mps2.any():
+            goal = "a PPA" if scaling is Scaling.PPA else "a target spectrum"
+            text = f"{LABELS[field]} record is all zeros; {goal} cannot scale it"
+            yield Fault(Place("motions", index, field), text)
+
+
+def _processed(
+    index: int,
+    row: MotionInput,
+    found: Mapping[str, Component],
+    records: Mapping[str, Record],
+) -> Components | list[Fault]:
+    # Steps that differ by rounding are one step from here on.
+    raw = [replace(record, dt_s=records["record"].dt_s) for record in records.values()]
+    processing = processing_of(row)
+    if processing.problems():
+        return []  # told at their cells by `motion_checks`
+    try:
+        done = process_together(raw, processing)
+        bare = process_together(raw, replace(processing, highpass_hz=0.0))
+    except InputError as error:
+        return _faults(index, "record", error)
+    kept = dict(zip(found, done, strict=True))
+    faults = list(_unscalable(index, {"scaling": row.scaling}, kept))
+    if faults:
+        return faults
+    has_highpass = row.highpass_hz is not None
+    return Components(
+        files=tuple(_file(row.id, field, getattr(row, field), one) for field, one in found.items()),
+        records=kept,
+        unfiltered=dict(zip(found, bare, strict=True)) if has_highpass else {},
+    )
+
+
+def processing_of(row: MotionInput) -> Processing:
+    """Return what a row of the sheet asks to be done to its records."""
+    return Processing(
+        from_s=row.from_s or 0.0,
+        to_s=math.inf if row.to_s is None else row.to_s,
+        baseline=list(Baseline).index(row.baseline) - 1,
+        highpass_hz=row.highpass_hz or 0.0,
+        lowpass_hz=row.lowpass_hz or 0.0,
+        order=row.order,
+        dt_s=row.new_dt_s or 0.0,
+        pad_s=row.pad_s or 0.0,
+    )
+
+
+def _file(motion_id: str, field: str, name: str, found: Component) -> RecordFile:
+    a = found.record.a_mps2
+    return RecordFile(
+        motion_id=motion_id,
+        component=LABELS[field],
+        name=name,
+        sha256=found.sha256,
+        format=found.format,
+        npts=len(a),
+        dt_s=found.record.dt_s,
+        peak_g=float(np.abs(a).max() / G_MPS2),
+        notes=found.notes,
+    )

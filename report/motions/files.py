@@ -1,0 +1,203 @@
+"""Reads one record that a workbook names: a file beside it, or a column in one of its sheets.
+
+Owns what a workbook may reach on the disk. Formats of records are for `solver.formats`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath, PureWindowsPath
+
+import numpy as np
+
+from report.sheet.archive import OpenBook
+from report.sheet.cells import CellError, Found, check_saved, number
+from report.sheet.locate import MAX_COLUMNS, Spot, cells_below
+from solver.formats import MotionFile, read_motion_file
+from solver.model import InputError
+from solver.records.record import Record, record_from_values
+
+MAX_BYTES = 64_000_000
+HEADING_ROWS = 10
+MAX_SAMPLES = 200_000
+MAX_TOLD = 5
+
+
+BAR = "|"
+"""Stands between a file and its channel: no name of a file in Windows has it."""
+
+Reader = Callable[..., MotionFile]
+"""`solver.formats.read_motion_file`, or one that keeps what it has read."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Component:
+    """A record as it was found.
+
+    Attributes
+    ----------
+    record : Record
+    sha256 : str
+        Of the file, or of a pasted column's values as little-endian doubles in m/s2.
+    format : str
+        Such as ``PEER AT2``, or ``pasted column``.
+    notes : tuple of str
+        What a user should know of the reading.
+    """
+
+    record: Record
+    sha256: str
+    format: str
+    notes: tuple[str, ...]
+
+
+def read_component(
+    book: OpenBook, name: str, units: str, dt_s: float | None, read: Reader = read_motion_file
+) -> Component:
+    """Return the record of a name as the workbook gives it: file, file | channel, Sheet!Header.
+
+    Parameters
+    ----------
+    units : str
+        Empty where the file has to say it.
+    dt_s : float or None
+        None where the file has to say it.
+
+    Raises
+    ------
+    InputError
+        With every problem of the record.
+    """
+    heading = find_heading(book, name)
+    if heading is not None:
+        return _read_column(book, name, heading, units, dt_s)
+    path, channel = find_file(book, name)
+    found = read(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
+    return Component(
+        record=found.channel(channel),
+        sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+        format=found.format,
+        notes=found.notes,
+    )
+
+
+def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
+    """Return the file of a name and the channel, which is empty where none is named.
+
+    Raises
+    ------
+    InputError
+        Where it is not there, or leads out of the workbook's folder.
+    """
+    file, _, channel = name.partition(BAR)
+    return _path(book.path.parent, file.strip()), channel.strip()
+
+
+def _path(folder: Path, name: str) -> Path:
+    """Return the file of a name, which must lie within the workbook's folder."""
+    name = name.replace("\\", "/")
+    where = "give a file within the workbook's folder, such as records/m1-x.csv"
+    if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or ".." in name.split("/"):
+        raise InputError(f"'{name}' leads out of the workbook's folder; {where}")
+    try:
+        path = (folder / name).resolve()
+        if not path.is_relative_to(folder.resolve()):
+            raise InputError(f"'{name}' leads out of the workbook's folder by a link; {where}")
+        if not path.exists():
+            raise InputError(f"'{name}' is not there; {where}")
+        if not path.is_file():
+            raise InputError(f"'{name}' is no file; {where}")
+        size = path.stat().st_size
+    except (OSError, RuntimeError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"'{name}' cannot be found; {where}") from error
+    if size > MAX_BYTES:
+        raise InputError(f"'{name}' has {size / 1e6:.0f} MB; at most {MAX_BYTES / 1e6:.0f} MB do")
+    return path
+
+
+def find_heading(book: OpenBook, name: str) -> Spot | None:
+    """Return the heading of a pasted column; None for a file.
+
+    Raises
+    ------
+    InputError
+        Where there is neither a sheet of that name nor a file.
+    """
+    if "!" not in name:
+        return None
+    for sheet in book.typed.worksheets:
+        for title in (sheet.title, f"'{sheet.title}'"):
+            if name.casefold().startswith(f"{title}!".casefold()):
+                return _heading_on(book, sheet.title, name[len(title) + 1 :].strip())
+    if (book.path.parent / name.partition(BAR)[0].strip().replace("\\", "/")).is_file():
+        return None
+    raise InputError(f"'{name}' names no sheet of this workbook; write Sheet!Header, or a file")
+
+
+def _heading_on(book: OpenBook, title: str, header: str) -> Spot:
+    extent, sheet = book.extent(title), book.computed[title]
+    spots = [
+        Spot(title, row, column)
+        for row in range(1, min(HEADING_ROWS, extent.last_row) + 1)
+        for column in range(1, min(MAX_COLUMNS, extent.last_column) + 1)
+        if str(sheet.cell(row, column).value or "").strip().casefold() == header.casefold()
+    ]
+    if not spots:
+        raise InputError(
+            f"sheet '{title}' has no heading '{header}' in its first {HEADING_ROWS} rows; write it"
+            " above the column"
+        )
+    if len(spots) > 1:
+        places = " and ".join(spot.address for spot in spots[:2])
+        raise InputError(f"heading '{header}' is at {places}; give each its own")
+    return spots[0]
+
+
+def _read_column(
+    book: OpenBook, name: str, heading: Spot, units: str, dt_s: float | None
+) -> Component:
+    missing = [("time step", dt_s is None), ("units", not units)]
+    if problems := [f"'{name}' is a pasted column; give its {w}" for w, is_so in missing if is_so]:
+        raise InputError(problems)
+    extent = book.extent(heading.sheet)
+    if extent.last_row > heading.row + MAX_SAMPLES:
+        raise InputError(
+            f"{heading.sheet}!{extent.row_cell} holds something more than {MAX_SAMPLES:,} rows"
+            " below the heading; clear it, or give the record as a file"
+        )
+    values = _numbers(cells_below(book, heading))
+    # A gal is a cm/s2; the solver's own table has one name for each unit.
+    units = "cm/s2" if units == "gal" else units
+    record = record_from_values(name, values, units=units, dt_s=float(dt_s or 0.0))
+    data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()
+    return Component(
+        record=record, sha256=hashlib.sha256(data).hexdigest(), format="pasted column", notes=()
+    )
+
+
+def _numbers(cells: list[Found]) -> list[float]:
+    while cells and cells[-1].is_blank:
+        cells.pop()
+    values, problems = [], []
+    for cell in cells:
+        try:
+            values.append(_number(cell))
+        except CellError as error:
+            problems.append(f"{cell.address} {error.problems[0]}")
+    if len(problems) > MAX_TOLD:
+        problems[MAX_TOLD:] = [f"... and {len(problems) - MAX_TOLD} more cells"]
+    if problems:
+        raise InputError(problems)
+    return values
+
+
+def _number(cell: Found) -> float:
+    if cell.is_blank:
+        raise CellError("is blank, with values below; close the gap")
+    check_saved(cell)
+    return number(cell)

@@ -1,0 +1,197 @@
+"""From processed records to motions as run: scaled, and through the building where asked.
+
+Owns the order of these steps and keeps what each of them did; the steps themselves are those of
+`solver.records.scaling` and `solver.building.roof`. Read `shake` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from report.motions.components import Components, processing_of
+from report.motions.targets import TargetSpectrum, targets
+from report.sheet.motion_checks import LABELS
+from report.sheet.schema import (
+    BuildingInput,
+    MotionInput,
+    Polarity,
+    ProjectInput,
+    RecordedAt,
+    Scaling,
+)
+from report.words.units import G_MPS2
+from solver.building.periods import approximate_period_s
+from solver.building.roof import Building, RoofMotion, building_of_periods, shaking_to_roof
+from solver.model import Floats, Motion
+from solver.records.measures import Measures, measures
+from solver.records.record import Record
+from solver.records.scaling import factor_to_target
+
+SIGNS = {Polarity.BOTH: (1, -1), Polarity.AS_RECORDED: (1,), Polarity.REVERSED: (-1,)}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PreparedMotion:
+    """What became of the records of one motion before they were run.
+
+    Attributes
+    ----------
+    motion_id : str
+    recorded_at : RecordedAt
+    done : str
+        Processing, in words.
+    scaling : str
+        In words, without the factor.
+    measures : mapping of str to Measures
+        By name of the component, processed and scaled, where it was recorded.
+    scaled : mapping of str to Record
+        The same components themselves.
+    roof : mapping of str to RoofMotion
+        Unscaled, by name of the horizontal component; empty for a motion recorded at the roof.
+    unfiltered : tuple of Motion
+        The motion without its high-pass; empty where there is none.
+    """
+
+    motion_id: str
+    recorded_at: RecordedAt
+    done: str
+    scaling: str
+    measures: Mapping[str, Measures]
+    scaled: Mapping[str, Record]
+    roof: Mapping[str, RoofMotion]
+    unfiltered: tuple[Motion, ...]
+
+
+def shake(
+    data: ProjectInput, found: Sequence[Components]
+) -> tuple[tuple[Motion, PreparedMotion], ...]:
+    """Return the motions of a project as run, each with what was done to it.
+
+    Raises
+    ------
+    InputError
+    """
+    return tuple(_shake(data, row, one) for row, one in zip(data.motions, found, strict=True))
+
+
+def _shake(
+    data: ProjectInput, row: MotionInput, found: Components
+) -> tuple[Motion, PreparedMotion]:
+    scale = _scale(data, row, found.records)
+    motion, roof = _motion(data, row, found.records, scale)
+    scaled = {
+        LABELS[field]: replace(one, name=row.id, a_mps2=_frozen(scale * one.a_mps2))
+        for field, one in found.records.items()
+    }
+    bare = found.unfiltered
+    prepared = PreparedMotion(
+        motion_id=row.id,
+        recorded_at=row.recorded_at,
+        done=processing_of(row).words(),
+        scaling=_scaling_words(data, row),
+        measures={name: measures(record) for name, record in scaled.items()},
+        scaled=scaled,
+        roof=roof,
+        unfiltered=(_motion(data, row, bare, scale)[0],) if bare else (),
+    )
+    return motion, prepared
+
+
+def _motion(
+    data: ProjectInput, row: MotionInput, records: Mapping[str, Record], scale: float
+) -> tuple[Motion, Mapping[str, RoofMotion]]:
+    """Return a motion at the roof, and how each horizontal component got there."""
+    a = {field: record.a_mps2 for field, record in records.items()}
+    dt_s, roof = records["record"].dt_s, {}
+    if row.recorded_at is RecordedAt.GROUND:
+        fields = [field for field in a if field != "vertical"]
+        found = shaking_to_roof(
+            [a[field] for field in fields],
+            a.get("vertical", _nothing()),
+            dt_s,
+            [_building(data, field) for field in fields],
+            share=data.building.left_out_percent / 100.0,
+        )
+        dt_s, roof = found.dt_s, dict(zip(fields, found.horizontal, strict=True))
+        a = {field: one.a_mps2 for field, one in roof.items()} | {"vertical": found.vertical_mps2}
+    motion = Motion(
+        id=row.id,
+        source=row.source,
+        dt_s=dt_s,
+        ax_mps2=a["record"],
+        ay_mps2=a.get("transverse", _nothing()),
+        az_mps2=a.get("vertical", _nothing()),
+        scale=scale,
+        signs=SIGNS[row.polarity],
+    )
+    return motion, {LABELS[field]: one for field, one in roof.items()}
+
+
+def _building(data: ProjectInput, field: str) -> Building:
+    """Return the building in the direction of a horizontal component."""
+    asked = data.building
+    periods = [first_period_s(data), *_known(asked.period_2_s)]
+    if field == "transverse" and asked.transverse_s is not None:
+        periods = [asked.transverse_s]
+    return building_of_periods(
+        periods,
+        damping=(asked.damping_percent / 100.0,),
+        alpha0=math.inf if asked.stiffness_ratio is None else asked.stiffness_ratio,
+        storeys=data.site.storeys,
+    )
+
+
+def _known(value: float | None) -> list[float]:
+    return [] if value is None else [value]
+
+
+def first_period_s(data: ProjectInput) -> float:
+    """Return the building's first period [s]: as given, else approximate; NaN for neither."""
+    asked: BuildingInput = data.building
+    if asked.period_s is not None:
+        return asked.period_s
+    if asked.structure is None:
+        return math.nan
+    return approximate_period_s(asked.structure, data.site.structure_height_m)
+
+
+def _scale(data: ProjectInput, row: MotionInput, records: Mapping[str, Record]) -> float:
+    """Return the factor of all components, from the records where they were taken."""
+    horizontals = [record for field, record in records.items() if field != "vertical"]
+    match row.scaling:
+        case Scaling.FACTOR:
+            return float(row.scale_value or 1.0)
+        case Scaling.PPA:
+            peak = np.abs(records["record"].a_mps2).max()
+            return float((row.scale_value or 1.0) * G_MPS2 / peak)
+        case Scaling.TARGET:
+            periods = (data.target.from_s, data.target.to_s)
+            return factor_to_target(horizontals, _target(data, row).at, periods)
+    return 1.0
+
+
+def _target(data: ProjectInput, row: MotionInput) -> TargetSpectrum:
+    return targets(data).horizontal(row.recorded_at)
+
+
+def _scaling_words(data: ProjectInput, row: MotionInput) -> str:
+    match row.scaling:
+        case Scaling.PPA:
+            return f"PPA {row.scale_value:g} g"
+        case Scaling.TARGET:
+            asked = data.target
+            return f"target, {asked.from_s:g} to {asked.to_s:g} s"
+    return row.scaling.value
+
+
+def _nothing() -> Floats:
+    return _frozen(np.empty(0))
+
+
+def _frozen(values: Floats) -> Floats:
+    values.setflags(write=False)
+    return values

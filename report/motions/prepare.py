@@ -1,0 +1,61 @@
+"""The motions of a workbook, ready to run: records read, processed, scaled, through the building.
+
+Orders the steps: `components` reads, `history` scales and carries to the roof. Read `prepare`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from report.motions.components import Components, RecordFile, read_components
+from report.motions.history import PreparedMotion, shake
+from report.motions.stiff_links import stiff_links
+from report.sheet.fields import Fault
+from report.sheet.read import Sheet
+from solver.model import Motion
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Shaking:
+    """The motions of a project.
+
+    Attributes
+    ----------
+    motions : tuple of Motion
+        At the roof, as run.
+    prepared : tuple of PreparedMotion
+        What was done to the records of each motion.
+    records : tuple of RecordFile
+        Every component as it was found.
+    """
+
+    motions: tuple[Motion, ...]
+    prepared: tuple[PreparedMotion, ...]
+    records: tuple[RecordFile, ...]
+
+
+def prepare(sheet: Sheet) -> Shaking:
+    """Read the records that a workbook names and make its motions of them.
+
+    Raises
+    ------
+    InputError
+        With every problem of the workbook and of its records, in the order of the template.
+    """
+    found: list[Components] = []
+    faults: list[Fault] = []
+    for index, row in enumerate(sheet.draft["motions"]):
+        match read_components(sheet.book, index, row):
+            case Components() as components:
+                found.append(components)
+            case wrong:
+                faults += wrong
+    sheet.refuse(faults)
+    shaken = shake(sheet.project, found)
+    motions = tuple(motion for motion, _ in shaken)
+    sheet.refuse(stiff_links(sheet.project, motions))
+    return Shaking(
+        motions=motions,
+        prepared=tuple(prepared for _, prepared in shaken),
+        records=tuple(file for components in found for file in components.files),
+    )

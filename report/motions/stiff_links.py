@@ -1,0 +1,41 @@
+"""Links that are too stiff to be followed under the motions of a project, foreseen.
+
+What one row says, and what it says of its array, is for `checks`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from report.sheet.fields import Fault, Place
+from report.sheet.schema import Links, ProjectInput
+from report.words.units import G_MPS2, Quantity
+from solver.model import Motion
+from solver.sliding.row import MOST_STEPS, Row, least_steps
+
+
+def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault]:
+    """Yield the rows that take more than `MOST_STEPS` for all of their runs together."""
+    seconds = sum(len(one.headings) * one.dt_s * len(one.ax_mps2) for one in motions)
+    weights = {array.id: array.weight_n for array in data.arrays}
+    for index, one in enumerate(data.links):
+        most = _stiffest(one, weights[one.array], seconds)
+        if one.stiffness_n_per_m > most:
+            yield Fault(
+                Place("links", index, "stiffness_n_per_m"),
+                f"link stiffness is {_said(one.stiffness_n_per_m)}, too much to be followed in "
+                f"{MOST_STEPS:.0e} steps; give {_said(0.9 * most)} or less: above that a row moves "
+                "as one rigid block of the mean coefficient",
+            )
+
+
+def _stiffest(one: Links, weight_n: float, seconds: float) -> float:
+    """Return the stiffness [N/m] that takes `MOST_STEPS`, which grow with its square root."""
+    soft = Row(mus=one.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * one.damping_ratio)
+    per_s2 = (MOST_STEPS / least_steps(soft, seconds)) ** 2
+    return per_s2 * weight_n / (len(one.mus) * G_MPS2)
+
+
+def _said(stiffness: float) -> str:
+    us, si = (f"{stiffness / unit.si:.2g} {unit.symbol}" for unit in Quantity.STIFFNESS.value)
+    return f"{us} ({si})"

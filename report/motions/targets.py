@@ -1,0 +1,121 @@
+"""The spectra that motions are held against and scaled to, as a project asks for them.
+
+Owns which spectrum counts where; the formulas are those of `solver.rules.provisions` and
+`solver.records.scaling`. Read `targets` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from report.sheet.schema import ProjectInput, RecordedAt, SpectrumPoint
+from solver.model import Floats
+from solver.records.scaling import Target, corner_points, design_spectrum
+from solver.rules.provisions import RULE_SETS
+from solver.rules.spectra import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical
+
+OWN = "project's own"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TargetSpectrum:
+    """A target spectrum, 5 % damping.
+
+    Attributes
+    ----------
+    name : str
+        Empty where there is no target: ordinates are NaN then.
+    at : callable
+        Spectral acceleration [g] at frequencies [Hz]; a target of points is flat beyond them. It
+        can be handed to another process: no closure.
+    from_s, to_s : float
+        Periods over which it is given [s].
+    """
+
+    name: str
+    at: Target
+    from_s: float
+    to_s: float
+
+    def ordinates(self, periods_s: Floats) -> Floats:
+        """Return accelerations [g] at periods [s]; NaN where it is not given."""
+        given = (periods_s >= self.from_s * (1.0 - 1e-9)) & (periods_s <= self.to_s * (1.0 + 1e-9))
+        return np.where(given, self.at(1.0 / periods_s), math.nan)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Targets:
+    """What the components at the roof, and the horizontal ones on the ground, are held against."""
+
+    roof: TargetSpectrum
+    vertical: TargetSpectrum
+    ground: TargetSpectrum
+
+    def horizontal(self, at: RecordedAt) -> TargetSpectrum:
+        """Return the target of a motion where it was recorded."""
+        return self.ground if at is RecordedAt.GROUND else self.roof
+
+
+def _nowhere(freq_hz: Floats) -> Floats:
+    return np.full(freq_hz.shape, math.nan)
+
+
+NO_TARGET = TargetSpectrum(name="", at=_nowhere, from_s=0.0, to_s=math.inf)
+
+
+def targets(data: ProjectInput) -> Targets:
+    """Return the targets of a project: its own table where given, else those of its rule set."""
+    roof, vertical = ac156(data)
+    own = data.spectrum
+    across = _own(own, [row.horizontal_g for row in own]) if own else None
+    upward = [row.vertical_g for row in own if row.vertical_g is not None]
+    return Targets(
+        # With ground motions the project's own spectrum is one of the ground.
+        roof=across if across and not _any_ground(data) else _ac156(roof),
+        vertical=_own(own, upward) if upward else _ac156(vertical),
+        ground=across or _design(data),
+    )
+
+
+def ac156(data: ProjectInput) -> tuple[RequiredSpectrum, RequiredSpectrum]:
+    """Return the AC156 spectra at the roof, horizontal and vertical."""
+    site, tail = data.site, Tail(data.target.tail)
+    horizontal = ac156_horizontal(
+        RULE_SETS[site.rule_set],
+        s_ds_g=site.s_ds,
+        z_over_h=site.roof_height_m / site.structure_height_m,
+        tail=tail,
+    )
+    return horizontal, ac156_vertical(s_ds_g=site.s_ds, tail=tail)
+
+
+def _any_ground(data: ProjectInput) -> bool:
+    return any(row.recorded_at is RecordedAt.GROUND for row in data.motions)
+
+
+def _ac156(found: RequiredSpectrum) -> TargetSpectrum:
+    return TargetSpectrum(name="AC156", at=found.at, from_s=0.0, to_s=1.0 / found.freq_hz[0])
+
+
+def _own(rows: Sequence[SpectrumPoint], sa_g: Sequence[float]) -> TargetSpectrum:
+    order = np.argsort([-row.period_s for row in rows])
+    freq = 1.0 / np.array([row.period_s for row in rows])[order]
+    return TargetSpectrum(
+        name=OWN,
+        at=corner_points(freq, np.array(sa_g)[order]),
+        from_s=float(1.0 / freq[-1]),
+        to_s=float(1.0 / freq[0]),
+    )
+
+
+def _design(data: ProjectInput) -> TargetSpectrum:
+    site, t_l_s = data.site, data.target.t_l_s
+    if site.s_1_g is None or site.f_v is None or t_l_s is None:
+        return NO_TARGET
+    s_d1_g = 2.0 / 3.0 * site.f_v * site.s_1_g
+    at = design_spectrum(s_ds_g=site.s_ds, s_d1_g=s_d1_g, t_l_s=t_l_s)
+    return TargetSpectrum(name="ASCE 7 design spectrum", at=at, from_s=0.0, to_s=math.inf)

@@ -1,0 +1,1 @@
+"""The calculation package as HTML. Read `html`."""

@@ -1,0 +1,1 @@
+"""Results as tables: results.json and results.xlsx. Read `json`."""

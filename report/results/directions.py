@@ -1,0 +1,120 @@
+"""The sheets Peaks and Directions of results.xlsx: from runs to displacements in each direction.
+
+Live formulas, each written with the value that `report.assessment.project` found. Read
+`report.results.xlsx`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import pandas as pd
+from xlsxwriter.utility import xl_rowcol_to_cell
+from xlsxwriter.worksheet import Worksheet
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.project import Assessment
+from report.results.sheets import METRES_PER_INCH, Pages, write_headings
+from report.sheet.schema import Direction
+from solver.rules.provisions import Basis
+
+PeakRanges = Mapping[tuple[str, Direction], str]
+"""The cells of the peaks of an array in a direction, one for each motion."""
+
+DirectionCells = Mapping[tuple[str, Direction], str]
+"""The cell of the design displacement of an array, its id case-folded, in a direction."""
+
+_RUNS_COLUMNS = {
+    Direction.DOWN: "Down [in]",
+    Direction.UP: "Up [in]",
+    Direction.ACROSS: "Across [in]",
+    Direction.ANY: "PRD [in]",
+}
+_DIRECTIONS_HEADINGS = (
+    "Array", "Direction", "Mean of peaks [in]", "Largest peak [in]", "Analysis factor",
+    "Computed [in]", "Floor [in]", "Design [in]", "Design by Roofslip [in]", "Difference [in]",
+)  # fmt: skip
+
+
+def write_peaks(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> PeakRanges:
+    """Write the largest excursion of all runs of each motion, by direction; return its cells."""
+    sheet = pages.sheet(
+        "Peaks", "Peaks", "The largest of all runs of a motion, by direction, from the sheet Runs."
+    )
+    write_headings(
+        pages, sheet, 3, ("Array", "Motion", *(f"{d.value.capitalize()} [in]" for d in Direction))
+    )
+    columns = {d: list(runs.columns).index(name) for d, name in _RUNS_COLUMNS.items()}
+    row, first, found = 4, 1, {}
+    for item in assessment.arrays:
+        top = row
+        for motion in item.motions:
+            last = first + len(motion.runs) - 1
+            sheet.write_string(row, 0, item.array.id)
+            sheet.write_string(row, 1, motion.motion.id)
+            for column, direction in enumerate(Direction, start=2):
+                cells = _range("Runs", columns[direction], first, last)
+                value = motion.peak_m(direction) / METRES_PER_INCH
+                if math.isnan(value):
+                    sheet.write_string(row, column, "no value")
+                else:
+                    sheet.write_formula(row, column, f"=MAX({cells})", pages.numbers[2], value)
+            row, first = row + 1, last + 1
+        for column, direction in enumerate(Direction, start=2):
+            found[item.array.id, direction] = _range("Peaks", column, top, row - 1)
+    return found
+
+
+def _range(sheet: str, column: int, first: int, last: int) -> str:
+    return f"{sheet}!{xl_rowcol_to_cell(first, column)}:{xl_rowcol_to_cell(last, column)}"
+
+
+def write_directions(pages: Pages, assessment: Assessment, peaks: PeakRanges) -> DirectionCells:
+    """Write the design displacement of each array in each direction; return their cells."""
+    sheet = pages.sheet(
+        "Directions",
+        "Design displacement by direction",
+        "A clearance takes the displacement in its own direction. From the sheets Peaks and "
+        "Design.",
+    )
+    write_headings(pages, sheet, 3, _DIRECTIONS_HEADINGS)
+    row, cells = 4, {}
+    for design_row, item in enumerate(assessment.arrays, start=5):
+        for direction in Direction:
+            found = peaks[item.array.id, direction]
+            _write_row(pages, sheet, row, item, direction, found, design_row)
+            cells[item.array.id.casefold(), direction] = f"Directions!$H${row + 1}"
+            row += 1
+    return cells
+
+
+def _write_row(
+    pages: Pages,
+    sheet: Worksheet,
+    row: int,
+    item: ArrayAssessment,
+    direction: Direction,
+    peaks: str,
+    design_row: int,
+) -> None:
+    found, inch, r = item.directions[direction], METRES_PER_INCH, row + 1
+    sheet.write_string(row, 0, item.array.id)
+    sheet.write_string(row, 1, direction.value)
+    if math.isnan(found.value_m):
+        for column in (2, 3, 5, 7):
+            sheet.write_string(row, column, "no value")
+        return
+    picked = "D" if found.basis is Basis.LARGEST_FACTORED else "C"
+    design = item.design_towards_m(direction) / inch
+    for column, formula, value in (
+        (2, f"=AVERAGE({peaks})", found.mean_m / inch),
+        (3, f"=MAX({peaks})", found.largest_m / inch),
+        (4, f"=Design!J{design_row}", found.factor),
+        (5, f"=E{r}*{picked}{r}", found.value_m / inch),
+        (6, f"=Design!M{design_row}", item.floor_m / inch),
+        (7, f"=MAX(F{r},G{r})", design),
+        (9, f"=H{r}-I{r}", 0.0),
+    ):
+        sheet.write_formula(row, column, formula, pages.numbers[4 if column == 9 else 2], value)
+    sheet.write_number(row, 8, design, pages.numbers[2])

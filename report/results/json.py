@@ -1,0 +1,231 @@
+"""results.json, and putting finished files in place: all of them or none.
+
+Computes nothing: the numbers come from `report.assessment.project`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+from importlib.metadata import version
+from typing import Any
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.links import LinkedArray
+from report.assessment.project import Assessment
+from report.motions.components import RecordFile
+from report.motions.history import PreparedMotion
+from report.sheet.schema import Direction
+from solver.building.roof import RoofMotion
+from solver.model import Motion
+from solver.rules.provisions import Check
+
+
+def results_json(assessment: Assessment) -> bytes:
+    """Return everything as JSON: SI, units in the keys, null where there is no value."""
+    sheet, shaking, project = assessment.sheet, assessment.shaking, assessment.project
+    document = {
+        "roofslip_version": version("roofslip"),
+        "workbook": {"name": sheet.path.name, "sha256": sheet.sha256},
+        "records": [_record(record) for record in shaking.records],
+        "motions": [_motion(*pair) for pair in zip(shaking.motions, shaking.prepared, strict=True)],
+        "input": project.model_dump(mode="json"),
+        "s_ds_g": project.site.s_ds,
+        "rule_set": assessment.rules.name,
+        "ok": assessment.ok,
+        "warnings": list(assessment.warnings),
+        "building_checks": [_check(check) for check in assessment.building_checks],
+        "arrays": [_array(item) for item in assessment.arrays],
+        "clearances": [_clearance(item) for item in assessment.clearances],
+        "linked": [_linked(item) for item in assessment.linked],
+    }
+    return json.dumps(_nan_to_none(document), indent=1, ensure_ascii=False).encode() + b"\n"
+
+
+def _record(record: RecordFile) -> dict[str, Any]:
+    return {
+        "motion": record.motion_id,
+        "component": record.component,
+        "name": record.name,
+        "format": record.format,
+        "notes": list(record.notes),
+        "sha256": record.sha256,
+        "npts": record.npts,
+        "dt_s": record.dt_s,
+        "peak_g": record.peak_g,
+    }
+
+
+def _motion(motion: Motion, prepared: PreparedMotion) -> dict[str, Any]:
+    return {
+        "id": motion.id,
+        "recorded_at": prepared.recorded_at,
+        "processing": prepared.done,
+        "scaling": prepared.scaling,
+        "scale": motion.scale,
+        "dt_s": motion.dt_s,
+        "npts": len(motion.ax_mps2),
+        "components": {name: asdict(found) for name, found in prepared.measures.items()},
+        "building": {name: _roof(found) for name, found in prepared.roof.items()},
+    }
+
+
+def _roof(found: RoofMotion) -> dict[str, Any]:
+    return {
+        "words": found.building.words,
+        "n_modes": found.n_modes,
+        "next_mode_share": found.next_share,
+        "left_out_share": found.left_out_share,
+        "ground_peak_mps2": found.ground_peak_mps2,
+        "roof_peak_mps2": found.roof_peak_mps2,
+        "pad_s": found.pad_s,
+    }
+
+
+def _array(item: ArrayAssessment) -> dict[str, Any]:
+    return {
+        "id": item.array.id,
+        "slope_rad": item.array.slope_rad,
+        "mu": item.array.mu,
+        "friction": asdict(item.array.friction),
+        "computed_m": item.analysis.value_m,
+        "computed_basis": item.analysis.basis,
+        "mean_prd_m": item.analysis.mean_m,
+        "largest_prd_m": item.analysis.largest_m,
+        "prd_variation": item.variation,
+        "prescriptive_m": item.prescriptive.value_m,
+        "prescriptive_governs": item.prescriptive.governs,
+        "floor_m": item.floor_m,
+        "design_m": item.design_m,
+        "design_governs": item.governs,
+        "model_asked_for": item.array.model,
+        "model_is_enough": item.is_model_enough,
+        "directions": {
+            direction: {
+                "mean_m": found.mean_m,
+                "largest_m": found.largest_m,
+                "computed_m": found.value_m,
+                "design_m": item.design_towards_m(direction),
+                "design_by_chosen_model_m": item.chosen_towards_m(direction),
+            }
+            for direction, found in item.directions.items()
+        },
+        "peaks": [
+            {
+                "motion": motion.motion.id,
+                **{f"{d.value}_m": motion.peak_m(d) for d in Direction},
+            }
+            for motion in item.motions
+        ],
+        "interconnection_n": item.interconnection_n,
+        "tipping": {
+            "demand": item.tipping.demand,
+            "capacity": item.tipping.capacity,
+            "held_ratio": item.tipping.held_ratio,
+            "sliding_ratio": item.tipping.sliding_ratio,
+            "ok": item.tipping.is_ok,
+        },
+        "uplift": {
+            "n_min_g": item.uplift.n_min_g,
+            "t_first_s": item.uplift.t_first_s,
+            "duration_s": item.uplift.duration_s,
+            "times": item.uplift.times,
+        },
+        "checks": [_check(check) for check in item.checks],
+        "prescriptive_checks": [_check(check) for check in item.prescriptive_checks],
+        "runs": [
+            {
+                "motion": motion.motion.id,
+                "along": run.heading.component,
+                "polarity": run.heading.sign,
+                "scale": motion.motion.scale,
+                "dt_s": motion.motion.dt_s,
+                **asdict(run.result),
+                "rung": int(run.solution.rung),
+                "model": run.solution.rung.title,
+                "reason": run.solution.reason,
+                "next_rung": int(run.solution.next_rung),
+                "next_effect_m": run.solution.next_effect_m,
+                "error_m": run.result.error_m,
+                "friction_demand": run.solution.friction_demand,
+            }
+            for motion in item.motions
+            for run in motion.runs
+        ],
+    }
+
+
+def _clearance(item: ClearanceCheck) -> dict[str, Any]:
+    return {
+        "array": item.clearance.array,
+        "object": item.clearance.object,
+        "direction": item.clearance.direction,
+        "neighbour": item.neighbour,
+        "governing_array": item.governing_array,
+        "governing_direction": item.governing_direction,
+        "design_m": item.design_m,
+        "factor": item.factor,
+        "required_m": item.required_m,
+        "provided_m": item.clearance.provided_m,
+        "demand_capacity": item.demand_capacity,
+        "ok": item.ok,
+    }
+
+
+def _linked(item: LinkedArray) -> dict[str, Any]:
+    return {
+        "array": item.found.array.id,
+        "mus": item.row.mus,
+        "stiffness_n_per_m": item.links.stiffness_n_per_m,
+        "damping_ratio": item.links.damping_ratio,
+        "rigid_one_axis_m": item.rigid.value_m,
+        "linked_one_axis_m": item.linked.value_m,
+        "ratio": item.ratio,
+        "design_m": item.found.design_m,
+        "estimated_m": item.estimated_m,
+        "link_force_n": item.link_force_n,
+        "rigid_is_enough": item.is_rigid_enough,
+        "runs": [
+            {
+                "motion": motion.motion.id,
+                "along": run.heading.component,
+                "polarity": run.heading.sign,
+                "status": run.row.status,
+                "rigid_status": run.rigid.status,
+                "rigid_prd_m": run.rigid.prd_m,
+                "prd_m": run.row.prd_m,
+                "residual_m": run.row.residual_m,
+                "stretch_m": run.row.stretch_m,
+                "link_force_n": run.row.link_force * item.block_n,
+                "error_m": run.row.error_m,
+                "n_stops": run.row.n_stops,
+            }
+            for motion in item.motions
+            for run in motion.runs
+        ],
+    }
+
+
+def _check(check: Check) -> dict[str, Any]:
+    unit = {"deg": "_deg", "m": "_m", "count": "", "": ""}[check.measure]
+    return {
+        "title": check.title,
+        f"found{unit}": check.found,
+        f"limit{unit}": check.limit,
+        "clause": check.provision.clause,
+        "ok": check.ok,
+    }
+
+
+def _nan_to_none(value: Any) -> Any:
+    """Return the document with null for every NaN or infinity: JSON has neither."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {key: _nan_to_none(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_nan_to_none(item) for item in value]
+    return value

@@ -1,0 +1,168 @@
+"""The sheets LinkRuns and Links of results.xlsx: rows of linked blocks beside one rigid block.
+
+Live formulas, each written with the value that `report.assessment.links` found. Read
+`report.results.xlsx`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import pandas as pd
+from xlsxwriter.utility import xl_rowcol_to_cell
+from xlsxwriter.worksheet import Worksheet
+
+from report.assessment.links import LinkedArray
+from report.assessment.project import Assessment
+from report.results.sheets import METRES_PER_INCH, Pages, write_headings
+from report.words.units import NEWTONS_PER_POUND
+from solver.rules.provisions import Basis
+from solver.sliding.least_model import DEFAULT
+
+_RIGID, _ROW = "PRD, rigid [in]", "PRD, row [in]"
+_HEADINGS = (
+    "Array", "Mean, rigid [in]", "Largest, rigid [in]", "Mean, row [in]", "Largest, row [in]",
+    "Analysis factor", "Rigid [in]", "Row [in]", "Ratio", "Computed [in]", "Floor [in]",
+    "Design with links [in]", "Design used [in]", "Within [in]", "Result",
+    "With links by Roofslip [in]", "Difference [in]",
+)  # fmt: skip
+
+
+def link_runs_table(assessment: Assessment) -> pd.DataFrame:
+    """One row for each run of an array that is held against a row of linked blocks."""
+    return pd.DataFrame(
+        {
+            "Array": found.found.array.id,
+            "Motion": motion.motion.id,
+            "Along the slope": run.heading.component,
+            "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
+            _RIGID: run.rigid.prd_m / METRES_PER_INCH,
+            _ROW: run.prd_m / METRES_PER_INCH,
+            "Farthest block": "no value" if math.isnan(run.prd_m) else str(run.block),
+            "PRD of blocks, from the highest down [in]": _listed(run.row.prd_m),
+            "Largest stretch [in]": run.row.stretch_m / METRES_PER_INCH,
+            "Largest link force [lb]": run.row.link_force * found.block_n / NEWTONS_PER_POUND,
+            "Error below [in]": run.row.error_m / METRES_PER_INCH,
+            "Stops": run.row.n_stops,
+            "Outcome of the row": run.row.status.sentence,
+        }
+        for found in assessment.linked
+        for motion in found.motions
+        for run in motion.runs
+    )
+
+
+def _listed(places_m: tuple[float, ...]) -> str:
+    if any(map(math.isnan, places_m)):
+        return "no value"
+    return ", ".join(f"{place / METRES_PER_INCH:.2f}" for place in places_m)
+
+
+def write_links(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> None:
+    """Write for each array what links change in its design displacement, from the sheet LinkRuns.
+
+    The peaks of the motions stand below the arrays.
+    """
+    sheet = pages.sheet(
+        "Links",
+        "Rows of linked blocks",
+        "From the sheets LinkRuns and Design. Ratio: row / rigid, in one axis. Design with links: "
+        "max(max(1, ratio) x computed, floor).",
+    )
+    write_headings(pages, sheet, 3, _HEADINGS)
+    top = 4 + len(assessment.linked) + 2
+    for column, heading in enumerate(("Array", "Motion", _RIGID, _ROW)):
+        sheet.write_string(top - 1, column, heading, pages.head)
+    ranges = _write_peaks(pages, sheet, top, assessment, runs)
+    ids = [item.array.id for item in assessment.arrays]
+    for row, (found, peaks) in enumerate(zip(assessment.linked, ranges, strict=True), start=4):
+        _write_row(pages, sheet, row, found, peaks, 5 + ids.index(found.found.array.id))
+
+
+def _write_peaks(
+    pages: Pages, sheet: Worksheet, row: int, assessment: Assessment, runs: pd.DataFrame
+) -> Iterator[tuple[str, str]]:
+    """Write the largest of all runs of each motion; yield the cells of each array."""
+    columns, first = [list(runs.columns).index(name) for name in (_RIGID, _ROW)], 1
+    for found in assessment.linked:
+        top = row
+        for motion in found.motions:
+            last = first + len(motion.runs) - 1
+            sheet.write_string(row, 0, found.found.array.id)
+            sheet.write_string(row, 1, motion.motion.id)
+            for to, column, value in zip(
+                (2, 3), columns, (motion.rigid_m, motion.linked_m), strict=True
+            ):
+                cells = f"LinkRuns!{_range(column, first, last)}"
+                _write(pages, sheet, row, to, f"=MAX({cells})", value / METRES_PER_INCH)
+            row, first = row + 1, last + 1
+        yield _range(2, top, row - 1), _range(3, top, row - 1)
+
+
+def _range(column: int, first: int, last: int) -> str:
+    return f"{xl_rowcol_to_cell(first, column)}:{xl_rowcol_to_cell(last, column)}"
+
+
+def _write_row(
+    pages: Pages,
+    sheet: Worksheet,
+    row: int,
+    found: LinkedArray,
+    peaks: tuple[str, str],
+    design_row: int,
+) -> None:
+    inch, r, d = METRES_PER_INCH, row + 1, design_row
+    rigid, linked, design, estimated = found.rigid, found.linked, found.found, found.estimated_m
+    sheet.write_string(row, 0, design.array.id)
+    if not math.isfinite(estimated):
+        sheet.write_string(row, 11, "no value")
+        sheet.write_string(row, 14, "NG")
+        return
+    is_largest = rigid.basis is Basis.LARGEST_FACTORED
+    ratio = f"=H{r}/G{r}" if rigid.value_m > 0.0 else "=1"
+    bound = DEFAULT.bound_m(design.design_m)
+    for column, formula, value in (
+        (1, f"=AVERAGE({peaks[0]})", rigid.mean_m / inch),
+        (2, f"=MAX({peaks[0]})", rigid.largest_m / inch),
+        (3, f"=AVERAGE({peaks[1]})", linked.mean_m / inch),
+        (4, f"=MAX({peaks[1]})", linked.largest_m / inch),
+        (5, f"=Design!J{d}", rigid.factor),
+        (6, f"=F{r}*{'C' if is_largest else 'B'}{r}", rigid.value_m / inch),
+        (7, f"=F{r}*{'E' if is_largest else 'D'}{r}", linked.value_m / inch),
+        (8, ratio, found.ratio),
+        (9, _computed(found, d), found.value_m / inch),
+        (10, f"=Design!M{d}", design.floor_m / inch),
+        (11, f"=MAX(MAX(1,I{r})*J{r},K{r})", estimated / inch),
+        (12, f"=Design!N{d}", design.design_m / inch),
+        (13, f"=MAX({DEFAULT.matters_m}/0.0254,{DEFAULT.matters_share}*M{r})", bound / inch),
+        (16, f"=L{r}-P{r}", 0.0),
+    ):
+        _write(pages, sheet, row, column, formula, value, 4 if column == 16 else 3)
+    sheet.write_number(row, 15, estimated / inch, pages.numbers[3])
+    if found.is_final:
+        verdict = "OK" if found.is_rigid_enough else "NG"
+        sheet.write_formula(row, 14, f'=IF(L{r}<=M{r}+N{r},"OK","NG")', pages.plain, verdict)
+    else:
+        sheet.write_string(row, 14, "NG")
+
+
+def _computed(found: LinkedArray, design_row: int) -> str:
+    """Return the value from analysis: a number where it is not that of the design."""
+    is_used = found.value_m == found.found.analysis.value_m
+    return f"=Design!K{design_row}" if is_used else f"={found.value_m / METRES_PER_INCH!r}"
+
+
+def _write(
+    pages: Pages,
+    sheet: Worksheet,
+    row: int,
+    column: int,
+    formula: str,
+    value: float,
+    decimals: int = 3,
+) -> None:
+    if math.isnan(value):
+        sheet.write_string(row, column, "no value")
+    else:
+        sheet.write_formula(row, column, formula, pages.numbers[decimals], value)

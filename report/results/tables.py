@@ -1,0 +1,16 @@
+"""The result files beside the package. Read `tables`, then `json` and `xlsx`."""
+
+from __future__ import annotations
+
+from report.assessment.evidence import Evidence
+from report.assessment.project import Assessment
+from report.results.json import results_json
+from report.results.xlsx import results_xlsx
+
+
+def tables(assessment: Assessment, evidence: Evidence) -> dict[str, bytes]:
+    """Return results.xlsx and results.json, by file name."""
+    return {
+        "results.xlsx": results_xlsx(assessment, evidence.spectra),
+        "results.json": results_json(assessment),
+    }

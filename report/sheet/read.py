@@ -1,0 +1,332 @@
+"""Reads an input workbook: every value with its cell, or every error with its cell.
+
+Joins opening (`archive`), finding (`locate`), converting (`cells`), checking
+(`checks`); records are for `report.motions`. Start at `read`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from report.sheet.archive import OpenBook, open_book
+from report.sheet.cells import CellError, Found, plain, read_cell, wish
+from report.sheet.checks import faults
+from report.sheet.fields import Entry, Fault, Place, Section, YesNo, entries
+from report.sheet.locate import (
+    Column,
+    Spot,
+    TableFound,
+    find_cell,
+    find_table,
+    find_unit_cell,
+    found_at,
+    is_absent,
+    unit_size,
+)
+from report.sheet.schema import SECTIONS, ProjectInput
+from report.words.units import Quantity
+from solver.model import InputError
+
+SI_SYMBOLS = {
+    Quantity.SIZE: "m",
+    Quantity.PLAN: "m",
+    Quantity.WEIGHT: "N",
+    Quantity.STIFFNESS: "N/m",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EchoRow:
+    """One cell as it was read, in finished text.
+
+    Attributes
+    ----------
+    sheet, cell, label : str
+    typed, unit : str
+        As typed; a formula with the value that it had when the workbook was saved.
+    value : str
+        As taken, in SI where the unit is a choice.
+    """
+
+    sheet: str
+    cell: str
+    label: str
+    typed: str
+    unit: str
+    value: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sheet:
+    """A workbook as data, with every problem that was found in it.
+
+    Attributes
+    ----------
+    path : Path
+    sha256 : str
+        Of the workbook.
+    book : OpenBook
+        For columns pasted into it, and files beside it.
+    draft : mapping
+        Rows of each section by field; a field that could not be read is absent.
+    echo : tuple of EchoRow
+        Every field in the order of the template.
+    problems : tuple of (Place, str)
+        Finished lines.
+    addresses : mapping of Place to str
+    unfound : frozenset of str
+        Sections that could not be found.
+    """
+
+    path: Path
+    sha256: str
+    book: OpenBook
+    draft: Mapping[str, Sequence[Mapping[str, Any]]]
+    echo: tuple[EchoRow, ...]
+    problems: tuple[tuple[Place, str], ...]
+    addresses: Mapping[Place, str]
+    unfound: frozenset[str]
+
+    @cached_property
+    def project(self) -> ProjectInput:
+        """The input, validated.
+
+        Raises
+        ------
+        InputError
+            With every problem, each as `Sheet!Cell: what is found; what would do`.
+        """
+        self.refuse(())
+        return ProjectInput(**{section.key: self._made(section) for section in SECTIONS})
+
+    def _made(self, section: Section) -> Any:
+        rows = tuple(section.model(**row) for row in self.draft[section.key])
+        return rows if section.is_table else rows[0]
+
+    def refuse(self, faults: Iterable[Fault]) -> None:
+        """Raise the problems of the workbook together with more faults, if there are any.
+
+        Raises
+        ------
+        InputError
+            In the order of the template.
+        """
+        found = [*self.problems, *_lines(faults, self.addresses, self.unfound)]
+        if found:
+            raise InputError(_ordered(found))
+
+
+def read(path: Path) -> Sheet:
+    """Read the input workbook at a path, or `input.xlsx` in a folder; run nothing.
+
+    Raises
+    ------
+    InputError
+        Where there is no workbook to read. What is wrong within it is told by `Sheet.project`, or
+        with the faults of its records by `report.motions.prepare`.
+    """
+    book = open_book(path)
+    gathered = _Gathered()
+    for section in SECTIONS:
+        _read_section(book, section, gathered)
+    gathered.take(faults(gathered.draft, gathered.where))
+    return Sheet(
+        path=book.path,
+        sha256=book.sha256,
+        book=book,
+        draft=gathered.draft,
+        echo=tuple(gathered.echo),
+        problems=tuple(gathered.problems),
+        addresses=gathered.addresses,
+        unfound=frozenset(gathered.unfound),
+    )
+
+
+def _where(place: Place, addresses: Mapping[Place, str]) -> str:
+    """Return the address of a place; of its table or sheet where it has no cell."""
+    whole = addresses.get(Place(place.section), place.section)
+    return addresses.get(place, whole)
+
+
+def _lines(
+    faults: Iterable[Fault], addresses: Mapping[Place, str], unfound: Set[str]
+) -> Iterator[tuple[Place, str]]:
+    """Yield faults as lines, apart from those that only follow from a table that is not there."""
+    sources = {"clearances": {"arrays", "objects"}, "links": {"arrays"}}
+    for place, text in faults:
+        if place.section not in unfound and not sources.get(place.section, set()) & unfound:
+            yield place, f"{_where(place, addresses)}: {text}"
+
+
+def _ordered(problems: Sequence[tuple[Place, str]]) -> list[str]:
+    """Return the lines in the order of the template."""
+    order = {section.key: i for i, section in enumerate(SECTIONS)}
+    fields = {
+        (section.key, entry.name): i
+        for section in SECTIONS
+        for i, entry in enumerate(entries(section.model))
+    }
+
+    def rank(problem: tuple[Place, str]) -> tuple[int, int, int]:
+        place = problem[0]
+        return order[place.section], place.row, fields.get((place.section, place.field), -1)
+
+    return list(dict.fromkeys(line for _, line in sorted(problems, key=rank)))
+
+
+@dataclass(slots=True)
+class _Gathered:
+    """What has been read so far; problems are lines with the place that orders them."""
+
+    draft: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+    echo: list[EchoRow] = field(default_factory=list)
+    problems: list[tuple[Place, str]] = field(default_factory=list)
+    addresses: dict[Place, str] = field(default_factory=dict)
+    unfound: set[str] = field(default_factory=set)
+
+    def where(self, place: Place) -> str:
+        """Return the address of a place."""
+        return _where(place, self.addresses)
+
+    def add(self, place: Place, lines: Iterable[str]) -> None:
+        """Take in finished lines."""
+        self.problems += [(place, line) for line in lines]
+
+    def take(self, found: Iterable[Fault]) -> None:
+        """Take in faults."""
+        self.problems += _lines(found, self.addresses, self.unfound)
+
+
+def _read_section(book: OpenBook, section: Section, gathered: _Gathered) -> None:
+    gathered.draft[section.key] = []
+    if section.may_be_absent and is_absent(book, section):
+        defaults = {entry.name: entry.default for entry in entries(section.model)}
+        gathered.draft[section.key] += [] if section.is_table else [defaults]
+        return
+    try:
+        if section.is_table:
+            _read_table(book, section, find_table(book, section), gathered)
+        else:
+            _read_block(book, section, gathered)
+    except InputError as error:
+        gathered.unfound.add(section.key)
+        gathered.add(Place(section.key), error.problems)
+
+
+def _read_block(book: OpenBook, section: Section, gathered: _Gathered) -> None:
+    row: dict[str, Any] = {}
+    gathered.draft[section.key].append(row)
+    for entry in entries(section.model):
+        place = Place(section.key, 0, entry.name)
+        try:
+            spot = find_cell(book, section, entry)
+            gathered.addresses[place] = spot.address
+            column = _block_column(book, section, entry, spot)
+        except InputError as error:
+            gathered.add(place, error.problems)
+            continue
+        _read_field(section, entry, place, found_at(book, spot), column, row, gathered)
+
+
+def _block_column(book: OpenBook, section: Section, entry: Entry, spot: Spot) -> Column:
+    if entry.quantity is None:
+        return Column(number=spot.column, unit=str(entry.cell.unit), si=1.0)
+    unit = found_at(book, find_unit_cell(book, section, entry, spot))
+    text = "" if unit.value is None else plain(unit.value).strip()
+    try:
+        symbol, si = unit_size(entry, text)
+    except InputError as error:
+        raise InputError(f"{unit.address}: {error.problems[0]}") from error
+    return Column(number=spot.column, unit=symbol, si=si)
+
+
+def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: _Gathered) -> None:
+    gathered.addresses[Place(section.key)] = table.heading.address
+    gathered.add(Place(section.key), table.problems)
+    gathered.echo += [_ignored(book, spot) for spot in table.others]
+    sheet = table.heading.sheet
+    for number in table.rows:
+        cells = {
+            name: found_at(book, Spot(sheet, number, column.number))
+            for name, column in table.columns.items()
+        }
+        if not all(cell.is_blank for cell in cells.values()):
+            _read_row(section, table, cells, gathered)
+
+
+def _read_row(
+    section: Section, table: TableFound, cells: dict[str, Found], gathered: _Gathered
+) -> None:
+    row: dict[str, Any] = {}
+    rows = gathered.draft[section.key]
+    rows.append(row)
+    for entry in entries(section.model):
+        if entry.name in table.absent:
+            row[entry.name] = entry.default
+        elif entry.name in cells:
+            place, found = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
+            gathered.addresses[place] = found.address
+            _read_field(section, entry, place, found, table.columns[entry.name], row, gathered)
+
+
+def _read_field(
+    section: Section,
+    entry: Entry,
+    place: Place,
+    found: Found,
+    column: Column,
+    row: dict[str, Any],
+    gathered: _Gathered,
+) -> None:
+    try:
+        row[entry.name] = _value(section, entry, found, column)
+    except CellError as error:
+        gathered.add(place, [f"{found.address}: {entry.spoken} {error.problems[0]}"])
+        return
+    gathered.echo.append(_echoed(entry, found, column, row[entry.name]))
+
+
+def _value(section: Section, entry: Entry, found: Found, column: Column) -> Any:
+    if not found.is_blank:
+        return read_cell(found, entry, section.model, column.unit, column.si)
+    if entry.is_required:
+        raise CellError(f"is missing; {wish(entry, column.unit, column.si)}")
+    return entry.default
+
+
+def _echoed(entry: Entry, found: Found, column: Column, value: Any) -> EchoRow:
+    shown = _shown(value, SI_SYMBOLS[entry.quantity] if entry.quantity else column.unit)
+    if found.is_blank and shown:
+        shown += " (default)"
+    return EchoRow(
+        sheet=found.sheet,
+        cell=found.cell,
+        label=entry.cell.label,
+        typed=found.text,
+        unit=column.unit,
+        value=shown or "—",
+    )
+
+
+def _shown(value: Any, unit: str) -> str:
+    if isinstance(value, bool):
+        return str(YesNo.YES if value else YesNo.NO)
+    if isinstance(value, float):
+        return f"{value:.6g} {unit}".rstrip()
+    return "" if value is None else plain(value)
+
+
+def _ignored(book: OpenBook, spot: Spot) -> EchoRow:
+    text = plain(found_at(book, spot).value)
+    return EchoRow(
+        sheet=spot.sheet,
+        cell=spot.cell,
+        label=f"column '{text}'",
+        typed="",
+        unit="",
+        value="not an input: not read",
+    )

@@ -1,0 +1,266 @@
+"""What `roofslip motion suite` gives: every file as finished bytes, and the printed table.
+
+Prints nothing and touches no folder; the motions are `solver.synthesis`'s. Read
+`suite_files` first.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from report.figures.base import load_fonts
+from report.figures.suite import Panel, suite_png
+from report.suite.inputs import Targets
+from report.typeset.pdf import TEMPLATES
+from report.words.units import G_MPS2
+from solver.model import Floats
+from solver.records.measures import Measures, measures
+from solver.records.record import Record, record_csv
+from solver.synthesis import (
+    BAND_HZ,
+    CORRELATION,
+    SpectrumFit,
+    SuiteMotion,
+    Target,
+    spectrum_fit,
+)
+
+LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.05
+"""What a suite promises of every component's ratios to its target, at 1/12 octave."""
+
+_DRAWN_HZ: Floats = np.geomspace(0.1, 50.0, 180)
+# A drift below this part of the peak is rounding of sums.
+_NO_DRIFT = 1e-9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Component:
+    """One component of a made motion, as it is reported."""
+
+    motion: str
+    component: str
+    grew_from: str
+    record: Record
+    fit: SpectrumFit
+    measures: Measures
+
+    @property
+    def keeps(self) -> bool:
+        """Whether the promised ratios hold."""
+        fit = self.fit
+        in_range = fit.least >= LEAST and fit.greatest <= GREATEST
+        return in_range and abs(fit.mean - 1.0) <= MEAN_OFF
+
+    @property
+    def final_velocity_mps(self) -> float:
+        """Velocity at the end, 0 where it is rounding [m/s]."""
+        return _cleared(self.measures.final_velocity_mps, self.measures.pgv_mps)
+
+    @property
+    def final_displacement_m(self) -> float:
+        """Displacement at the end, 0 where it is rounding [m]."""
+        return _cleared(self.measures.final_displacement_m, self.measures.pgd_m)
+
+
+def _cleared(value: float, peak: float) -> float:
+    return 0.0 if abs(value) <= _NO_DRIFT * peak else value
+
+
+def components(suite: Sequence[SuiteMotion], targets: Targets) -> tuple[Component, ...]:
+    """Return every component of a suite with its fit and measures."""
+    return tuple(
+        Component(
+            motion=f"motion-{k:02d}",
+            component=name,
+            grew_from=grew_from,
+            record=record,
+            fit=spectrum_fit(record, targets.of(name)),
+            measures=measures(record),
+        )
+        for k, motion in enumerate(suite, start=1)
+        for name, record, grew_from in zip("xyz", motion.components, motion.seeds, strict=True)
+    )
+
+
+def suite_files(
+    suite: Sequence[SuiteMotion],
+    targets: Targets,
+    *,
+    seed: int,
+    records: Mapping[str, str],
+) -> dict[str, bytes]:
+    """Return every file of a suite by name: the records, suite.json and suite.png.
+
+    Parameters
+    ----------
+    suite : sequence of SuiteMotion
+    targets : Targets
+    seed : int
+    records : mapping of str to str
+        The files that seeded it, with their SHA-256.
+    """
+    parts = components(suite, targets)
+    files = {f"{part.record.name}.csv": record_csv(part.record).encode() for part in parts}
+    document = _document(suite, targets, parts, seed, records, files)
+    files["suite.json"] = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
+    load_fonts(TEMPLATES / "fonts")
+    files["suite.png"] = suite_png([_panel(suite, targets, name) for name in "xyz"])
+    return files
+
+
+def _document(
+    suite: Sequence[SuiteMotion],
+    targets: Targets,
+    parts: Sequence[Component],
+    seed: int,
+    records: Mapping[str, str],
+    files: Mapping[str, bytes],
+) -> dict[str, Any]:
+    one = suite[0].x
+    duration_s = (len(one.a_mps2) - 1) * one.dt_s
+    return {
+        "roofslip_version": version("roofslip"),
+        "seed": seed,
+        "seed_records": [{"file": name, "sha256": found} for name, found in records.items()],
+        "dt_s": one.dt_s,
+        "duration_s": duration_s,
+        "envelope_s": [duration_s / 6.0, duration_s * 4.0 / 6.0, duration_s / 6.0],
+        "damping": 0.05,
+        "target": {
+            **targets.facts,
+            "horizontal": _corners(targets.horizontal),
+            "vertical": _corners(targets.vertical),
+        },
+        "limits": {
+            "least_ratio": LEAST,
+            "greatest_ratio": GREATEST,
+            "mean_ratio_off": MEAN_OFF,
+            "from_hz": BAND_HZ[0],
+            "to_hz": BAND_HZ[1],
+            "points_per_octave": 12,
+            "correlation": CORRELATION,
+        },
+        "motions": [
+            _motion(motion, parts[3 * k : 3 * k + 3], files) for k, motion in enumerate(suite)
+        ],
+    }
+
+
+def _corners(target: Target) -> dict[str, list[float]]:
+    freq_hz, sa_g = target
+    return {"freq_hz": freq_hz.tolist(), "sa_g": sa_g.tolist()}
+
+
+def _motion(
+    motion: SuiteMotion, parts: Sequence[Component], files: Mapping[str, bytes]
+) -> dict[str, Any]:
+    xy, xz, yz = motion.correlations
+    return {
+        "id": parts[0].motion,
+        "correlation_xy": xy,
+        "correlation_xz": xz,
+        "correlation_yz": yz,
+        "components": [_component(part, files) for part in parts],
+    }
+
+
+def _component(part: Component, files: Mapping[str, bytes]) -> dict[str, Any]:
+    name, found = f"{part.record.name}.csv", part.measures
+    return {
+        "component": part.component,
+        "file": name,
+        "sha256": hashlib.sha256(files[name]).hexdigest(),
+        "grew_from": part.grew_from,
+        "npts": len(part.record.a_mps2),
+        "least_ratio": part.fit.least,
+        "greatest_ratio": part.fit.greatest,
+        "mean_ratio": part.fit.mean,
+        "pga_g": found.pga_mps2 / G_MPS2,
+        "pgv_mps": found.pgv_mps,
+        "pgd_m": found.pgd_m,
+        "arias_mps": found.arias_mps,
+        "d5_95_s": found.d5_95_s,
+        "final_velocity_mps": part.final_velocity_mps,
+        "final_displacement_m": part.final_displacement_m,
+    }
+
+
+def _panel(suite: Sequence[SuiteMotion], targets: Targets, name: str) -> Panel:
+    records = [motion.components["xyz".index(name)] for motion in suite]
+    fits = tuple(spectrum_fit(record, targets.of(name), _DRAWN_HZ) for record in records)
+    kind = "vertical" if name == "z" else "horizontal"
+    return Panel(title=f"{name}, {kind}", fits=fits, band_hz=BAND_HZ, limits=(LEAST, GREATEST))
+
+
+_COLUMNS = (
+    ("motion", ""),
+    ("", ""),
+    ("least", ">"),
+    ("greatest", ">"),
+    ("mean", ">"),
+    ("PGA [g]", ">"),
+    ("PGV [cm/s]", ">"),
+    ("PGD [cm]", ">"),
+    ("D5-95 [s]", ">"),
+    ("end [cm/s]", ">"),
+    ("end [cm]", ">"),
+    ("correlation", ""),
+    ("from", ""),
+)
+
+
+def suite_table(suite: Sequence[SuiteMotion], targets: Targets) -> list[str]:
+    """Return the lines to print: targets, limits, a line a component, and whether all hold."""
+    parts = components(suite, targets)
+    pairs = [
+        f"{name} {value:+.2f}"
+        for motion in suite
+        for name, value in zip(("x-y", "x-z", "y-z"), motion.correlations, strict=True)
+    ]
+    rows = [tuple(name for name, _ in _COLUMNS)]
+    rows += [_cells(part, pair) for part, pair in zip(parts, pairs, strict=True)]
+    kept = sum(part.keeps for part in parts)
+    return [
+        *targets.lines,
+        *_aligned(rows),
+        f"{kept} of {len(parts)} components within {LEAST:.2f} to {GREATEST:.2f} of the target, "
+        f"mean within {100 * MEAN_OFF:g} %, at 1/12 octave from {BAND_HZ[0]:g} to "
+        f"{BAND_HZ[1]:g} Hz, 5 % damping",
+    ]
+
+
+def _cells(part: Component, pair: str) -> tuple[str, ...]:
+    found = part.measures
+    return (
+        part.motion if part.component == "x" else "",
+        part.component,
+        f"{part.fit.least:.3f}",
+        f"{part.fit.greatest:.3f}",
+        f"{part.fit.mean:.3f}",
+        f"{found.pga_mps2 / G_MPS2:.3f}",
+        f"{100.0 * found.pgv_mps:.1f}",
+        f"{100.0 * found.pgd_m:.1f}",
+        f"{found.d5_95_s:.1f}",
+        f"{100.0 * part.final_velocity_mps:.3g}",
+        f"{100.0 * part.final_displacement_m:.3g}",
+        pair,
+        part.grew_from,
+    )
+
+
+def _aligned(rows: Sequence[tuple[str, ...]]) -> list[str]:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        "  ".join(
+            f"{text:{align or '<'}{width}}"
+            for text, width, (_, align) in zip(row, widths, _COLUMNS, strict=True)
+        ).rstrip()
+        for row in rows
+    ]

@@ -1,0 +1,89 @@
+"""What `roofslip motion info` says of a file of records: numbers by name, and their table.
+
+Prints nothing and draws nothing. Read `report.cli.motion` for the command.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from report.words.units import G_MPS2
+from solver.model import Floats
+from solver.records.measures import measures
+from solver.records.record import Record
+from solver.records.spectrum import response_spectrum
+
+PERIODS_S: Floats = np.geomspace(0.02, 10.0, 200)
+
+# Heading, key of the numbers, and their size in what is printed.
+_COLUMNS = (
+    ("dt [s]", "dt_s", 1.0),
+    ("points", "npts", 1.0),
+    ("length [s]", "duration_s", 1.0),
+    ("PGA [g]", "pga_g", 1.0),
+    ("PGV [cm/s]", "pgv_mps", 100.0),
+    ("PGD [cm]", "pgd_m", 100.0),
+    ("Arias [m/s]", "arias_mps", 1.0),
+    ("D5-95 [s]", "d5_95_s", 1.0),
+    ("final v [cm/s]", "final_velocity_mps", 100.0),
+    ("final d [cm]", "final_displacement_m", 100.0),
+)
+
+# A drift below this part of the peak is rounding.
+_NO_DRIFT = 1e-9
+
+
+def summary(record: Record) -> dict[str, Any]:
+    """Return what a record amounts to: SI but for g, units in the keys."""
+    found = measures(record)
+    npts = len(record.a_mps2)
+    return {
+        "name": record.name,
+        "dt_s": record.dt_s,
+        "npts": npts,
+        "duration_s": (npts - 1) * record.dt_s,
+        "pga_g": found.pga_mps2 / G_MPS2,
+        "pgv_mps": found.pgv_mps,
+        "pgd_m": found.pgd_m,
+        "arias_mps": found.arias_mps,
+        "d5_95_s": found.d5_95_s,
+        "final_velocity_mps": found.final_velocity_mps,
+        "final_displacement_m": found.final_displacement_m,
+    }
+
+
+def table(channels: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return summaries as lines of a table, a channel each, under a heading."""
+    rows = [("", "channel", *(heading for heading, _, _ in _COLUMNS))]
+    rows += [(str(number), *_row(one)) for number, one in enumerate(channels, start=1)]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [_aligned(row, widths) for row in rows]
+
+
+def spectra_g(records: Sequence[Record]) -> Floats:
+    """Return the 5 % damped pseudo-accelerations [g] of each record over `PERIODS_S`."""
+    rows = [response_spectrum(one.a_mps2, one.dt_s, PERIODS_S) / G_MPS2 for one in records]
+    return np.array(rows)
+
+
+def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:
+    shown = dict(channel)
+    for end, peak in (("final_velocity_mps", "pgv_mps"), ("final_displacement_m", "pgd_m")):
+        if abs(channel[end]) <= _NO_DRIFT * channel[peak]:
+            shown[end] = 0.0
+    values = (_number(shown[key] * size, key) for _, key, size in _COLUMNS)
+    return (channel["name"], *values)
+
+
+def _number(value: float, key: str) -> str:
+    return f"{value:.0f}" if key == "npts" else f"{value:.4g}"
+
+
+def _aligned(row: Sequence[str], widths: Sequence[int]) -> str:
+    """Names to the left, numbers to the right."""
+    number, name, *values = row
+    cells = [text.rjust(width) for text, width in zip(values, widths[2:], strict=True)]
+    return "  ".join([number.rjust(widths[0]), name.ljust(widths[1]), *cells])

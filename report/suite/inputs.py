@@ -1,0 +1,232 @@
+"""What a made suite is asked for: targets by code or table, records as seeds, a folder to fill.
+
+Makes nothing: `report.suite.files` does. Read `Targets` first.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from report.suite.target_table import TargetTable
+from solver.formats import MotionFile, read_motion_file
+from solver.model import InputError
+from solver.records.record import Record
+from solver.rules.provisions import RULE_SETS
+from solver.rules.spectra import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical
+from solver.synthesis import Target
+
+CODES = {"asce7-16": "ASCE 7-16", "asce7-22": "ASCE 7-22", "pv1": "SEAOC PV1-2012"}
+"""Rule sets by their names on the command line."""
+
+_MOST_S_DS_G = 5.0
+_UPRIGHT = re.compile(r"(?<![a-z])(up|ud|u-d|vert|vertical|v|z)(?![a-z])", re.IGNORECASE)
+_MADE = re.compile(r"motion-\d{2,}-[xyz]\.csv")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Targets:
+    """What x and y, and z, are to follow, and how that is said.
+
+    Attributes
+    ----------
+    horizontal, vertical : Target
+    lines : tuple of str
+        For a reader.
+    facts : mapping
+        For suite.json.
+    """
+
+    horizontal: Target
+    vertical: Target
+    lines: tuple[str, ...]
+    facts: Mapping[str, Any]
+
+    def of(self, component: str) -> Target:
+        """Return the target of x, y or z."""
+        return self.vertical if component == "z" else self.horizontal
+
+
+def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> Targets:
+    """Return the AC156 spectra of a code at a height.
+
+    Parameters
+    ----------
+    code : str
+        A key of `CODES`.
+
+    Raises
+    ------
+    InputError
+        Where a number is out of its range.
+    """
+    problems = _s_ds_problems(s_ds_g)
+    if not 0.0 <= z_over_h <= 1.0:
+        problems.append(f"z/h is {z_over_h:g}; give a number from 0 (ground) to 1 (roof)")
+    if problems:
+        raise InputError(problems)
+    rules = RULE_SETS[CODES[code]]
+    across = ac156_horizontal(rules, s_ds_g=s_ds_g, z_over_h=z_over_h, tail=tail)
+    upward = ac156_vertical(s_ds_g=s_ds_g, tail=tail)
+    return Targets(
+        horizontal=(across.freq_hz, across.sa_g),
+        vertical=(upward.freq_hz, upward.sa_g),
+        lines=(
+            f"target: AC156 with {rules.name}, S_DS {s_ds_g:g} g, z/h {z_over_h:g}: "
+            f"A_FLX {across.sa_g[1]:.4g} g, A_RIG {across.sa_g[3]:.4g} g; "
+            f"vertical {_plateaus(upward)}",
+            f"tail: {tail.sentence}",
+        ),
+        facts={
+            "source": "AC156",
+            "code": rules.name,
+            "s_ds_g": s_ds_g,
+            "z_over_h": z_over_h,
+            "tail": tail.value,
+            "tail_rule": tail.sentence,
+        },
+    )
+
+
+def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> Targets:
+    """Return the targets of a table; without its own vertical, AC156's for S_DS.
+
+    Raises
+    ------
+    InputError
+        Where the table has no vertical and S_DS is NaN.
+    """
+    slowest_s = 1.0 / table.freq_hz[0]
+    lines = [
+        f"target: {table.source}, {len(table.freq_hz)} points to a period of {slowest_s:.4g} s"
+    ]
+    facts: dict[str, Any] = {"source": table.source}
+    if table.has_vertical:
+        vertical = table.vertical
+    else:
+        if math.isnan(s_ds_g):
+            raise InputError(
+                f"{table.source}: has no vertical; add a column vertical [g], or give --sds for "
+                "the vertical of AC156"
+            )
+        if problems := _s_ds_problems(s_ds_g):
+            raise InputError(problems)
+        upward = ac156_vertical(s_ds_g=s_ds_g, tail=tail)
+        vertical = (upward.freq_hz, upward.sa_g)
+        lines += [
+            f"vertical: AC156, S_DS {s_ds_g:g} g: {_plateaus(upward)}",
+            f"tail of the vertical: {tail.sentence}",
+        ]
+        facts |= {"vertical_source": "AC156", "s_ds_g": s_ds_g, "tail": tail.value}
+    return Targets(horizontal=table.horizontal, vertical=vertical, lines=tuple(lines), facts=facts)
+
+
+def _s_ds_problems(s_ds_g: float) -> list[str]:
+    if 0.0 < s_ds_g <= _MOST_S_DS_G:
+        return []
+    return [f"S_DS is {s_ds_g:g} g; give a number above 0, at most {_MOST_S_DS_G:g}"]
+
+
+def _plateaus(upward: RequiredSpectrum) -> str:
+    return f"{upward.sa_g[1]:.4g} and {upward.sa_g[3]:.4g} g"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Seeds:
+    """Records that a suite grows from.
+
+    Attributes
+    ----------
+    groups : tuple of tuple of Record
+        A group a motion; a vertical record among three comes last.
+    sha256 : mapping of str to str
+        Of each file.
+    notes : tuple of str
+        What a user should know of the reading.
+    """
+
+    groups: tuple[tuple[Record, ...], ...]
+    sha256: Mapping[str, str]
+    notes: tuple[str, ...]
+
+
+def read_seeds(names: Sequence[str], *, units: str, dt_s: float) -> Seeds:
+    """Read the records of seeds: a motion for each name, or for files joined by commas.
+
+    Raises
+    ------
+    InputError
+        With the problems of every file.
+    """
+    groups: list[tuple[Record, ...]] = []
+    found: dict[str, MotionFile] = {}
+    problems: list[str] = []
+    for name in names:
+        paths = [Path(name)] if Path(name).exists() else [Path(part) for part in name.split(",")]
+        try:
+            files = {str(path): read_motion_file(path, units=units, dt_s=dt_s) for path in paths}
+            groups.append(_group(name, files.values()))
+            found |= files
+        except InputError as error:
+            problems += error.problems
+    if problems:
+        raise InputError(problems)
+    return Seeds(
+        groups=tuple(groups),
+        sha256={name: hashlib.sha256(Path(name).read_bytes()).hexdigest() for name in found},
+        notes=tuple(f"{name}: {note}" for name, file in found.items() for note in file.notes),
+    )
+
+
+def _group(name: str, files: Iterable[MotionFile]) -> tuple[Record, ...]:
+    """Return the channels of all files, named after them, a vertical among three last."""
+    channels = [(file, record) for file in files for record in file.channels]
+    group = [_named(file, record) for file, record in channels]
+    if len(group) > 3:
+        raise InputError(
+            f"{name}: found {len(group)} channels; give one, two or three for a motion "
+            "(roofslip motion convert takes one out of a file)"
+        )
+    upright = [_is_upright(file, record) for file, record in channels]
+    if len(group) == 3 and sum(upright) == 1:
+        group.append(group.pop(upright.index(True)))
+    return tuple(group)
+
+
+def _is_upright(file: MotionFile, record: Record) -> bool:
+    """Whether a channel, or a lone one's file, is named as vertical."""
+    name = Path(file.name).stem if record.name == file.name else record.name
+    return bool(_UPRIGHT.search(name))
+
+
+def _named(file: MotionFile, record: Record) -> Record:
+    alike = record.name == file.name
+    return record if alike else replace(record, name=f"{file.name}, {record.name}")
+
+
+def check_folder(folder: Path, count: int) -> None:
+    """Refuse a folder in which motions of an older suite would be left beside the new ones.
+
+    Raises
+    ------
+    InputError
+        With their names.
+    """
+    try:
+        names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
+    except OSError as error:
+        raise InputError(
+            f"{folder}: cannot be read ({error.strerror}); choose another folder"
+        ) from error
+    new = {f"motion-{k:02d}-{axis}.csv" for k in range(1, count + 1) for axis in "xyz"}
+    left = [name for name in names if _MADE.fullmatch(name) and name not in new]
+    if left:
+        raise InputError(
+            f"{folder}: {left[0]} and {len(left) - 1} others of an older suite would be left "
+            "beside the new ones; remove them, or choose another folder"
+        )

@@ -1,0 +1,87 @@
+"""From finished HTML to PDF: the only module that knows the renderer.
+
+Reads nothing but the HTML, `data:` addresses and the fonts and styles shipped in the template
+folder. Whatever the renderer logs as a warning or worse is a defect.
+"""
+
+from __future__ import annotations
+
+import gc
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from solver.model import DefectError
+
+_HERE = Path(__file__).resolve().parents[1]
+# A wheel carries the folder within the package, a checkout beside it.
+TEMPLATES = next(
+    (path for path in (_HERE / "templates", _HERE.parent / "templates") if path.is_dir()),
+    _HERE / "templates",
+)
+_SCHEME = "shipped:"
+
+
+def lay_out(html: str) -> bytes:
+    """Return the PDF of an HTML document; `shipped:/NAME` addresses a file of the templates.
+
+    Raises
+    ------
+    DefectError
+        With the renderer's log, where it has any line of warning level or above.
+    """
+    from weasyprint import HTML
+    from weasyprint.text.fonts import FontConfiguration
+
+    gc.disable()  # layout keeps about a million live objects, which each collection would visit
+    try:
+        with _clean_log():
+            document = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=_fetcher())
+            pdf: bytes = document.write_pdf(font_config=FontConfiguration())
+    finally:
+        gc.enable()
+    return pdf
+
+
+def _fetcher() -> Any:
+    from weasyprint.urls import URLFetcher, URLFetcherResponse
+
+    class Shipped(URLFetcher):  # type: ignore[misc]
+        """Serves the template folder and `data:`; refuses everything else."""
+
+        def fetch(self, url: str, headers: dict[str, str] | None = None) -> Any:
+            if not url.startswith(_SCHEME):
+                return super().fetch(url, headers)
+            path = (TEMPLATES / url.removeprefix(_SCHEME).lstrip("/")).resolve()
+            if not path.is_relative_to(TEMPLATES):
+                raise ValueError(f"outside the templates: {url}")
+            return URLFetcherResponse(url, path.read_bytes())
+
+    return Shipped(allowed_protocols=("data",))
+
+
+@contextmanager
+def _clean_log() -> Iterator[None]:
+    lines = _Lines(level=logging.WARNING)
+    logger = logging.getLogger("weasyprint")
+    logger.addHandler(lines)
+    try:
+        yield
+    finally:
+        logger.removeHandler(lines)
+    if lines.found:
+        raise DefectError("the PDF renderer complained:\n" + "\n".join(dict.fromkeys(lines.found)))
+
+
+class _Lines(logging.Handler):
+    """Keeps what is logged."""
+
+    def __init__(self, level: int) -> None:
+        super().__init__(level)
+        self.found: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep one line."""
+        self.found.append(record.getMessage())

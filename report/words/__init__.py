@@ -1,0 +1,1 @@
+"""Units and letters: how values are written. Read `units`."""

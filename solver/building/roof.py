@@ -1,0 +1,297 @@
+"""From ground to roof: an elastic building of a few modes between a ground motion and its roof.
+
+Owns the roof's motion; what a building is made of is `solver.building.structure`'s. Slides nothing.
+Read `to_roof` first, then `shaking_to_roof` for all components of a motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from solver.building.structure import Building, building_of_modes, building_of_periods
+from solver.kernels import oscillator
+from solver.model import Floats, InputError
+from solver.records.spectrum import refined
+
+__all__ = [
+    "Building",
+    "RoofMotion",
+    "RoofShaking",
+    "absolute_accelerations",
+    "building_of_modes",
+    "building_of_periods",
+    "lengthened",
+    "roof_motion",
+    "shaking_to_roof",
+    "to_roof",
+]
+
+SHARE = 0.05
+"""All modes left out together may change the roof acceleration by this share of its peak."""
+
+RESTING_SHARE = 0.01
+"""A roof motion ends where its free vibration stays below this share of its peak."""
+
+FINENESS, MOST_STEPS = 20, 16
+"""Samples in a period of the fastest mode taken: straight lines between them miss up to 1.2 % of
+its peaks; and most steps for each interval of the ground's record.
+"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoofMotion:
+    """The absolute acceleration of a roof, and what the model was cut to.
+
+    Attributes
+    ----------
+    dt_s : float
+    a_mps2 : array, shape (n,)
+        [m/s2], read-only; longer than the ground's by `pad_s`.
+    pad_s : float
+        Time that the free vibration goes on after the ground's record [s].
+    n_modes : int
+        Modes in it, the slowest ones.
+    shares : array, shape (m,)
+        Largest contribution of each mode of the building, over the roof's peak with all of them.
+    left_out_share : float
+        Largest contribution of all modes that are left out, together, over that peak.
+    ground_peak_mps2, roof_peak_mps2 : float
+    building : Building
+    """
+
+    dt_s: float
+    a_mps2: Floats
+    pad_s: float
+    n_modes: int
+    shares: Floats
+    left_out_share: float
+    ground_peak_mps2: float
+    roof_peak_mps2: float
+    building: Building
+
+    @property
+    def next_share(self) -> float:
+        """Share of the first mode that is left out; 0 where none is."""
+        return float(self.shares[self.n_modes]) if self.n_modes < self.shares.size else 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoofShaking:
+    """All components of a roof's motion, with one step and one length.
+
+    Attributes
+    ----------
+    dt_s : float
+    horizontal : tuple of RoofMotion
+    vertical_mps2 : array, shape (n,) or (0,)
+        That of the ground [m/s2], read-only; empty where there is none.
+    """
+
+    dt_s: float
+    horizontal: tuple[RoofMotion, ...]
+    vertical_mps2: Floats
+
+
+def to_roof(
+    ground_mps2: ArrayLike, dt_s: float, building: Building, *, share: float = SHARE
+) -> RoofMotion:
+    """Return the motion of a building's roof under a ground motion, from rest.
+
+        a_roof = a_ground + sum Gamma_i phi_i (A_i - a_ground)
+
+    A_i being the absolute acceleration of an oscillator of the mode's period and damping, exact at
+    the samples of the linearly interpolated record (Nigam and Jennings, Bull. Seism. Soc. Am. 59
+    (1969) 909-922). As few modes are taken as bring all others together under `share` of the
+    roof's peak at every instant; what is left out follows the ground as if it were rigid, a weight
+    of 1 - sum Gamma_i phi_i.
+
+    The mass of the arrays is neglected: what slides does not act back on the building. One
+    direction at a time: no torsion, no yielding, no soil below, a roof that is stiff in its plane.
+    The vertical motion passes unchanged from ground to roof, see `shaking_to_roof`.
+
+    The motion goes on after the ground's until the free vibration stays below `RESTING_SHARE` of
+    the peak, because a block may still slide then. Where the roof would swing between the samples
+    the step is refined, see `FINENESS`.
+
+    Parameters
+    ----------
+    ground_mps2 : array_like, shape (n,)
+        Horizontal acceleration of the ground [m/s2], n >= 2.
+    dt_s : float
+        Sampling interval [s], > 0.
+    share : float
+        In [0, 1); 0 takes every mode.
+
+    Raises
+    ------
+    InputError
+    """
+    ground = _checked(ground_mps2, dt_s, share)
+    cut = _cut(ground, dt_s, building, share)
+    return _carried(ground, dt_s, building, cut, _steps(cut.n_modes, dt_s, building))
+
+
+def roof_motion(
+    ground_mps2: ArrayLike, dt_s: float, building: Building, *, share: float = SHARE
+) -> Floats:
+    """Return the roof's absolute acceleration [m/s2] at the ground's own samples; see `to_roof`."""
+    found = to_roof(ground_mps2, dt_s, building, share=share)
+    return found.a_mps2[:: round(dt_s / found.dt_s)]
+
+
+def shaking_to_roof(
+    horizontal_mps2: Sequence[ArrayLike],
+    vertical_mps2: ArrayLike,
+    dt_s: float,
+    buildings: Sequence[Building],
+    *,
+    share: float = SHARE,
+) -> RoofShaking:
+    """Return all components at the roof, with the finest step and the greatest length of any.
+
+    Parameters
+    ----------
+    horizontal_mps2 : sequence of array_like
+        Horizontal components of the ground's motion [m/s2].
+    vertical_mps2 : array_like
+        Vertical one, which passes unchanged; empty for none.
+    buildings : sequence of Building
+        One for each horizontal component; the same one may stand for several.
+
+    Raises
+    ------
+    InputError
+    """
+    grounds = [_checked(a, dt_s, share) for a in horizontal_mps2]
+    pairs = list(zip(grounds, buildings, strict=True))
+    cuts = [_cut(a, dt_s, building, share) for a, building in pairs]
+    steps = max(
+        (_steps(c.n_modes, dt_s, b) for c, b in zip(cuts, buildings, strict=True)), default=1
+    )
+    found = [_carried(a, dt_s, b, c, steps) for (a, b), c in zip(pairs, cuts, strict=True)]
+    vertical = np.asarray(vertical_mps2, dtype=np.float64)
+    count = max([(vertical.size - 1) * steps + 1, *(one.a_mps2.size for one in found)])
+    if vertical.size:
+        vertical = lengthened(vertical, math.ceil((count - 1) / steps) + 1)
+        vertical = refined(vertical, steps)[:count]
+    return RoofShaking(
+        dt_s=dt_s / steps,
+        horizontal=tuple(_as_long(one, count) for one in found),
+        vertical_mps2=_read_only(vertical),
+    )
+
+
+def _as_long(one: RoofMotion, count: int) -> RoofMotion:
+    more_s = (count - one.a_mps2.size) * one.dt_s
+    return replace(one, a_mps2=lengthened(one.a_mps2, count), pad_s=one.pad_s + more_s)
+
+
+class _Cut(NamedTuple):
+    """What a model is cut to: modes taken, and shares as in `RoofMotion`."""
+
+    n_modes: int
+    shares: Floats
+    left_out_share: float
+
+
+def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
+    # Between the samples as well: what is left out swings fastest.
+    steps = _steps(building.periods_s.size, dt_s, building)
+    a = refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
+    parts = absolute_accelerations(a, dt_s / steps, building.periods_s, building.damping)
+    parts -= a[:, None]
+    parts *= building.roof_factors
+    peak = float(np.abs(a + parts.sum(axis=1)).max())
+    each = np.maximum(parts.max(axis=0), -parts.min(axis=0))
+    # Column n: all modes from n on together. Few enough: no later column is over the limit.
+    rest = np.cumsum(parts[:, ::-1], axis=1, out=parts[:, ::-1])[:, ::-1]
+    left_out = np.append(np.maximum(rest.max(axis=0), -rest.min(axis=0)), 0.0)
+    over = np.flatnonzero(left_out > share * peak)
+    n_modes = int(over[-1]) + 1 if over.size else 0
+    per = 1.0 / peak if peak > 0.0 else 0.0
+    return _Cut(n_modes, _read_only(each * per), float(left_out[n_modes]) * per)
+
+
+def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: int) -> RoofMotion:
+    """Return the roof's motion in so many steps for each interval of the ground's."""
+    dt, taken, n = dt_s / steps, slice(cut.n_modes), (ground.size - 1) * steps + 1
+    a = refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
+    factors = building.roof_factors[taken]
+    found = absolute_accelerations(a, dt, building.periods_s[taken], building.damping[taken])
+    roof = a * (1.0 - factors.sum()) + found @ factors
+    top = float(np.abs(roof).max())
+    end = min(max(n, _last_over(roof, RESTING_SHARE * top) + 2), roof.size)
+    return RoofMotion(
+        dt_s=dt,
+        a_mps2=_read_only(roof[:end]),
+        pad_s=(end - n) * dt,
+        n_modes=cut.n_modes,
+        shares=cut.shares,
+        left_out_share=cut.left_out_share,
+        ground_peak_mps2=float(np.abs(ground).max()),
+        roof_peak_mps2=top,
+        building=building,
+    )
+
+
+def absolute_accelerations(
+    a_mps2: ArrayLike, dt_s: float, periods_s: ArrayLike, damping: ArrayLike
+) -> Floats:
+    """Return absolute accelerations of oscillators, shape (n, m): a row for each sample [m/s2]."""
+    a, zeta = _read_only(a_mps2), _read_only(damping)
+    omega = _read_only(2.0 * math.pi / np.asarray(periods_s, dtype=np.float64))
+    found = np.empty((a.size, omega.size))
+    oscillator.histories(a, float(dt_s), omega, zeta, found)
+    return found
+
+
+def lengthened(a_mps2: ArrayLike, count: int) -> Floats:
+    """Return a record with zeros after it up to so many samples, read-only."""
+    a = np.asarray(a_mps2, dtype=np.float64)
+    return _read_only(np.append(a, np.zeros(max(count - a.size, 0))))
+
+
+def _free_samples(building: Building, dt_s: float) -> int:
+    """Samples in which the free vibration of every mode falls to `RESTING_SHARE` of itself."""
+    slowest = float((2.0 * math.pi * building.damping / building.periods_s).min())
+    return math.ceil(-math.log(RESTING_SHARE) / slowest / dt_s)
+
+
+def _steps(n_modes: int, dt_s: float, building: Building) -> int:
+    """Steps for each interval that the fastest of the first modes needs."""
+    if n_modes == 0:
+        return 1
+    fastest = float(building.periods_s[n_modes - 1])
+    return min(max(math.ceil(FINENESS * dt_s / fastest - 1e-9), 1), MOST_STEPS)
+
+
+def _last_over(a: Floats, limit: float) -> int:
+    over = np.flatnonzero(np.abs(a) > limit)
+    return int(over[-1]) if over.size else 0
+
+
+def _read_only(values: ArrayLike) -> Floats:
+    # numba compiles a second version for writable arrays, so kernels see read-only ones only.
+    array = np.ascontiguousarray(values, dtype=np.float64).view()
+    array.setflags(write=False)
+    return array
+
+
+def _checked(ground_mps2: ArrayLike, dt_s: float, share: float) -> Floats:
+    ground = np.asarray(ground_mps2, dtype=np.float64)
+    problems = []
+    if ground.ndim != 1 or ground.size < 2 or not np.isfinite(ground).all():
+        problems.append("ground motion: give one column of two or more finite numbers")
+    if not (math.isfinite(dt_s) and dt_s > 0.0):
+        problems.append(f"time step dt is {dt_s!r}; give a number of seconds above 0")
+    if not 0.0 <= share < 1.0:
+        problems.append(f"share of modes left out is {share!r}; give 0 to below 1")
+    if problems:
+        raise InputError(problems)
+    return ground

@@ -1,0 +1,166 @@
+"""Elastic buildings of a few modes: periods, damping and what the roof feels of each.
+
+Owns no motions (`solver.building.roof`) and no shapes of modes (`solver.building.beam`).
+Read `building_of_periods` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from solver.building.beam import MOST_STOREYS, Modes, beam_modes, check_alpha0, storey_modes
+from solver.model import Floats, InputError
+
+BEAM_MODES = 40
+"""Modes of a building without storeys; beyond them each roof factor is under 0.04."""
+
+LEAST_DAMPING, MOST_DAMPING = 0.01, 0.5
+MOST_PERIOD_S = 10.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Building:
+    """An elastic building, as far as its roof feels the ground; arrays are read-only.
+
+    Attributes
+    ----------
+    periods_s, damping : array, shape (n,)
+        Of each mode, the longest period first [s]; fraction of critical damping.
+    roof_factors : array, shape (n,)
+        Participation factor times shape at the roof, Gamma phi, of each.
+    words : str
+        How it was made, for a reader.
+    """
+
+    periods_s: Floats
+    damping: Floats
+    roof_factors: Floats
+    words: str
+
+
+def building_of_periods(
+    periods_s: Sequence[float],
+    *,
+    damping: Sequence[float] = (0.05,),
+    alpha0: float = math.inf,
+    storeys: int = 0,
+) -> Building:
+    """Return a uniform building whose first modes have the given periods.
+
+    Roof factors, and the periods of higher modes over the last one given, are those of
+    `solver.building.beam`. With few storeys the floors' masses matter: one storey has a roof factor
+    of 1, where a beam without storeys has up to 1.57.
+
+    Parameters
+    ----------
+    periods_s : sequence of float
+        Of the first mode or modes [s], falling.
+    damping : sequence of float
+        Fraction of critical damping of the first modes; the last value holds for all others.
+    alpha0 : float
+        Lateral stiffness ratio, see `solver.building.beam.beam_modes`; infinite: shear building.
+    storeys : int
+        Equal storeys with equal floor masses; 0 for a beam.
+
+    Raises
+    ------
+    InputError
+    """
+    _check_periods(periods_s, damping)
+    modes = _modes(alpha0, storeys)
+    ratios = modes.period_ratios
+    given = np.array(periods_s[: ratios.size], dtype=np.float64)
+    periods = np.append(given, given[-1] * ratios[given.size :] / ratios[given.size - 1])
+    zeta = np.full(periods.size, float(damping[-1]))
+    first = np.array(damping[: periods.size], dtype=np.float64)
+    zeta[: first.size] = first
+    return Building(
+        periods_s=_read_only(periods),
+        damping=_read_only(zeta),
+        roof_factors=_read_only(modes.factors[:, 0]),
+        words=_words(given, damping, alpha0, storeys),
+    )
+
+
+def building_of_modes(
+    periods_s: Sequence[float], damping: Sequence[float], roof_factors: Sequence[float]
+) -> Building:
+    """Return a building from the modes of an analysis of it.
+
+    Parameters
+    ----------
+    periods_s, damping, roof_factors : sequence of float, equally long
+        As in `Building`; Gamma phi at the roof, in the direction of the motion.
+
+    Raises
+    ------
+    InputError
+    """
+    _check_periods(periods_s, damping)
+    counts = {len(periods_s), len(damping), len(roof_factors)}
+    if len(counts) > 1 or not np.isfinite(roof_factors).all():
+        raise InputError("modes: give a period, a damping and a roof factor for each")
+    total = sum(roof_factors)
+    return Building(
+        periods_s=_read_only(periods_s),
+        damping=_read_only(damping),
+        roof_factors=_read_only(roof_factors),
+        words=f"{len(periods_s)} modes as given, roof factors adding up to {total:.3f}",
+    )
+
+
+def _modes(alpha0: float, storeys: int) -> Modes:
+    check_alpha0(alpha0)
+    if storeys == 0:
+        return beam_modes(alpha0, BEAM_MODES)
+    if not 1 <= storeys <= MOST_STOREYS:
+        raise InputError(
+            f"storeys: found {storeys}; give a whole number from 1 to {MOST_STOREYS}, 0 for a beam"
+        )
+    return storey_modes(alpha0, storeys)
+
+
+def _words(given: Floats, damping: Sequence[float], alpha0: float, storeys: int) -> str:
+    """Return how a uniform building was made."""
+    periods = ", ".join(f"{period:.3g}" for period in given)
+    ratios = ", ".join(f"{100.0 * value:.3g}" for value in damping)
+    if storeys == 1:
+        kind = "one storey"
+    else:
+        kind = "uniform" if storeys == 0 else f"{storeys} equal storeys"
+        kind += ", in shear" if math.isinf(alpha0) else ""
+        kind += ", in bending" if alpha0 == 0.0 else ""
+        if 0.0 < alpha0 < math.inf:
+            kind += f", in shear and bending with a lateral stiffness ratio of {alpha0:.3g}"
+    return f"{kind}; period {periods} s; damping {ratios} % of critical"
+
+
+def _read_only(values: ArrayLike) -> Floats:
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None:
+    problems = []
+    if not len(periods_s) or not len(damping):
+        problems.append("building: give at least one period and one damping")
+    for period in periods_s:
+        if not 0.0 < period <= MOST_PERIOD_S:
+            problems.append(f"period: found {period} s; give above 0 to {MOST_PERIOD_S:g} s")
+    if any(after > before for before, after in pairwise(periods_s)):
+        problems.append("periods: give the longest first")
+    for value in damping:
+        if not LEAST_DAMPING <= value <= MOST_DAMPING:
+            problems.append(
+                f"damping: found {value}; give a fraction of critical from {LEAST_DAMPING:g} to "
+                f"{MOST_DAMPING:g}"
+            )
+    if problems:
+        raise InputError(problems)

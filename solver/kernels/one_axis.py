@@ -1,0 +1,383 @@
+"""Every jitted function: plain functions of floats and arrays.
+
+Never raises, never allocates for its caller, knows no units but SI; numpy and numba only.
+Read `solver.sliding.checked` for what the numbers mean and `solver.records.record` for spectra.
+
+Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
+    ax, az   horizontal (right) and vertical (up) acceleration of the plane     [m/s2]
+    x, z     bounds of ax and of az over blocks of samples                      [m/s2]
+    g        acceleration of gravity                                            [m/s2]
+    sn, cs   sine and cosine of the roof slope theta, positive down to the right
+    mu       friction coefficient, static and kinetic
+    s, w     distance slid down the slope [m]; speed in the direction of sliding, >= 0 [m/s]
+    sigma    direction of sliding: +1 down the slope, -1 up, 0 at rest
+    q, r     acceleration in the direction of sliding [m/s2] and its rate in an interval [m/s3]
+    dt, tau  sampling interval and time since the interval began                [s]
+"""
+
+import math
+
+import numpy as np
+from numba import config, njit, prange
+
+# GNU OpenMP, numba's first choice, takes 8 ms to start a sweep where this takes 0.2 ms.
+config.THREADING_LAYER = "workqueue"
+
+# Kinds of event in the `events` array.
+DOWN = 1.0
+UP = -1.0
+STOP = 0.0
+
+TINY = 2.3e-308
+SIXTH = 1.0 / 6.0
+MARGIN = 1e-15
+
+# Samples in a block, and blocks in a block of blocks.
+SHIFT = 4
+BLOCK = 1 << SHIFT
+
+# Samples over which a gain in speed is summed by itself.
+CHUNK = 64
+
+# An index is np.uintp where time counts: any other, numba first tests for counting from the end.
+
+
+@njit(cache=True)
+def bounds(a):
+    """Least and greatest sample over blocks of BLOCK, over blocks of BLOCK blocks, and over all.
+
+    Rounding keeps order, so what is computed from a bound bounds what is computed from a sample,
+    to the last bit: a block can be passed over without changing anything.
+    """
+    fine = (a.size + BLOCK - 1) >> SHIFT
+    coarse = (fine + BLOCK - 1) >> SHIFT
+    found = np.empty((2, fine + coarse + 1))
+    found[0], found[1] = np.inf, -np.inf
+    for i in range(a.size):
+        block = i >> SHIFT
+        found[0, block] = min(found[0, block], a[i])
+        found[1, block] = max(found[1, block], a[i])
+    for block in range(fine):
+        for above in (fine + (block >> SHIFT), fine + coarse):
+            found[0, above] = min(found[0, above], found[0, block])
+            found[1, above] = max(found[1, above], found[1, block])
+    return found
+
+
+@njit(cache=True, forceinline=True)
+def _push(c, ax, az, i):
+    """Acceleration in one direction at sample i; c holds its weights of 1, z and x."""
+    if az is None:
+        return c[0] - c[2] * ax[np.uintp(i)]
+    return c[0] + c[1] * az[np.uintp(i)] - c[2] * ax[np.uintp(i)]
+
+
+@njit(cache=True, forceinline=True)
+def _greatest_push(c, x, z, block):
+    """Bound of `_push` over a block."""
+    across = min(c[2] * x[0, np.uintp(block)], c[2] * x[1, np.uintp(block)])
+    if z is None:
+        return c[0] - across
+    return c[0] + max(c[1] * z[0, np.uintp(block)], c[1] * z[1, np.uintp(block)]) - across
+
+
+@njit(cache=True)
+def least_normal(ax, az, x, z, dt, sn, cs, g, scale):
+    """Least N / (m g) over the record, and when N first falls below zero (NaN: never).
+
+    N = (g + a_v) cos(theta) + a_h sin(theta), Eq. 6 with the vertical added. N is linear between
+    samples, so its minimum is at one of them. -N has the form of a push.
+    """
+    c = (-cs * g, -cs * scale, sn * scale)
+    most = _greatest_push(c, x, z, x.shape[1] - 1)
+    if az is not None:
+        most = -np.inf
+        for block in range((ax.size + BLOCK - 1) // BLOCK):
+            if _greatest_push(c, x, z, block) > most:
+                for i in range(block * BLOCK, min((block + 1) * BLOCK, ax.size)):
+                    most = max(most, _push(c, ax, az, i))
+    if most <= 0.0:
+        return -most / g, np.nan
+    i = 0
+    while _push(c, ax, az, i) <= 0.0:
+        i += 1
+    if i == 0:
+        return -most / g, 0.0
+    before, after = _push(c, ax, az, i - 1), _push(c, ax, az, i)
+    return -most / g, (i - 1 + before / (before - after)) * dt
+
+
+@njit(cache=True, forceinline=True)
+def _resting_band(down, up):
+    """Horizontal accelerations between which no push is positive, drawn in by a few roundings."""
+    low, high = -np.inf, np.inf
+    for c in (down, up):
+        if c[2] > 0.0:
+            low = max(low, c[0] / c[2] + MARGIN * abs(c[0] / c[2]))
+        elif c[2] < 0.0:
+            high = min(high, c[0] / c[2] - MARGIN * abs(c[0] / c[2]))
+        elif c[0] > 0.0:
+            low = np.inf
+    return low, high
+
+
+@njit(cache=True, forceinline=True)
+def _is_quiet(down, up, band, x, z, block):
+    """Whether no sample of a block can push a resting block over."""
+    if z is None:
+        return x[0, np.uintp(block)] >= band[0] and x[1, np.uintp(block)] <= band[1]
+    return _greatest_push(down, x, z, block) <= 0.0 and _greatest_push(up, x, z, block) <= 0.0
+
+
+@njit(cache=True, forceinline=True)
+def _next_push(down, up, band, ax, az, x, z, i):
+    """First sample from i on that pushes a resting block over, or n."""
+    n = ax.size
+    fine = (n + BLOCK - 1) >> SHIFT
+    far_end = x.shape[1] - 1
+    while i < n:
+        if i & (BLOCK - 1) == 0:
+            block = i >> SHIFT
+            if block & (BLOCK - 1) == 0:
+                far = fine + (block >> SHIFT)
+                while far < far_end and _is_quiet(down, up, band, x, z, far):
+                    far += 1
+                block = (far - fine) << SHIFT
+            end = min(((block >> SHIFT) + 1) << SHIFT, fine)
+            while block < end and _is_quiet(down, up, band, x, z, block):
+                block += 1
+            i = block << SHIFT
+            if block == end:
+                continue
+        end = min(((i >> SHIFT) + 1) << SHIFT, n)
+        while i < end:
+            beyond = az is not None or ax[np.uintp(i)] < band[0] or ax[np.uintp(i)] > band[1]
+            if beyond and (_push(down, ax, az, i) > 0.0 or _push(up, ax, az, i) > 0.0):
+                return i
+            i += 1
+    return n
+
+
+@njit(cache=True, forceinline=True)
+def _first_stop(w, q, r, h):
+    """First tau in (0, h] where the speed w + q tau + r tau^2 / 2 is zero, or -1.
+
+    The end value alone is not enough: the speed may touch or cross zero inside and be positive
+    again at the end, so the vertex is looked at too.
+    """
+    ends_moving = w + h * (q + 0.5 * r * h) > 0.0
+    dips = r > 0.0 and q < 0.0 and -q < r * h
+    discriminant = q * q - 2.0 * r * w
+    if ends_moving and not (dips and discriminant >= 0.0):
+        return -1.0
+    root = math.sqrt(max(discriminant, 0.0))  # a rounding below zero: it touches zero
+    # The forms of the quadratic formula without cancellation; unless q < 0, here r < 0.
+    tau = 2.0 * w / (root - q) if q < 0.0 else (q + root) / -r
+    return min(tau, h)
+
+
+@njit(cache=True, forceinline=True)
+def _onset(q_0, q_1, tau, dt):
+    """When a push from q_0 to q_1 in dt first becomes positive: in [tau, dt), or dt for never."""
+    if q_0 <= 0.0 and q_1 <= 0.0:
+        return dt
+    if q_0 <= 0.0 and q_1 > 0.0:
+        return max(dt * (q_0 / (q_0 - q_1)), tau)
+    r = (q_1 - q_0) / dt
+    return tau if q_0 + r * tau > 0.0 else dt
+
+
+@njit(cache=True, forceinline=True)
+def _move(w, q_0, q_1, tau, dt, rate):
+    """Slide on from tau to the end of the interval, or until the speed is zero.
+
+    Returns the time reached, the way and the speed there: 0 where it stops, and only there.
+    """
+    r = (q_1 - q_0) * rate
+    q, h = q_0 + r * tau, dt - tau
+    if w == 0.0:
+        q = max(q, 0.0)  # an onset has no push against it: what is left is rounding
+    step = _first_stop(w, q, r, h) if w > 0.0 or r < 0.0 else -1.0
+    if step < 0.0:
+        return dt, h * (w + h * (0.5 * q + h * (r * SIXTH))), w + h * (q + 0.5 * r * h)
+    # Where the step is lost in rounding, time must pass all the same.
+    reached = tau + step if tau + step > tau else tau * (1.0 + 2.3e-16) + TINY
+    return reached, step * (w + step * (0.5 * q + step * (r * SIXTH))), 0.0
+
+
+@njit(cache=True, forceinline=True)
+def _slide_on(c, ax, az, w, i, last, dt):
+    """Slide through whole intervals, up to the first in which the speed may come to zero.
+
+    Where the speed is positive at the end of an interval and, by its first push alone, in its
+    middle, a dip between them cannot reach zero. The sum of the cubic ways telescopes:
+    dt (sum of w + half its change) + dt^2 / 12 (q first - q last).
+
+    Returns the sample reached, the way and the speed there.
+    """
+    half = 0.5 * dt
+    c = (c[0] * half, c[1] * half, c[2] * half)  # q dt / 2 from here on
+    q = _push(c, ax, az, i)
+    way = 0.0
+    while i < last:
+        # Speed gained is summed from zero every CHUNK samples, to keep its small digits.
+        q_first, gained, total, end = q, 0.0, 0.0, min(i + CHUNK, last)
+        start = i
+        while i < end:
+            q_next = _push(c, ax, az, i + 1)
+            middle = gained + q
+            more = gained + (q + q_next)  # not middle + q_next: one sum less to wait for
+            if min(middle, more) <= -w:
+                break
+            total += gained
+            gained, q = more, q_next
+            i += 1
+        way += dt * ((i - start) * w + (total + 0.5 * gained) + (q_first - q) * SIXTH)
+        w += gained
+        if i < end:
+            break
+    return i, way, w
+
+
+@njit(cache=True, forceinline=True)
+def _note(events, n, t, kind, s):
+    """Write event n and return how many there are."""
+    if events is not None:
+        events[n, 0], events[n, 1], events[n, 2] = t, kind, s
+    return n + 1
+
+
+@njit(cache=True)
+def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
+    """Follow the linearly interpolated record exactly, event by event.
+
+    In each interval N and the driving acceleration are linear, so s' is quadratic and s cubic
+    between events, and each event is the root of a linear or quadratic polynomial. At rest, blocks
+    of samples that cannot push the block over are passed over.
+
+    Parameters
+    ----------
+    az : array, shape (n,), or None
+        None for no vertical shaking; another version is compiled for it.
+    x, z : array
+        `bounds` of ax and of az (None where az is).
+    events : array, shape (m, 3), or None
+        Filled with time, kind and s of the events, m of them or more; two for each stop and one
+        for a slip that has none.
+
+    Returns
+    -------
+    tuple
+        s at its largest, s at its least, s at the end, s' at the end, time of the largest |s|,
+        number of stops, number of events.
+    """
+    c_down, c_up = sn - mu * cs, -sn - mu * cs
+    down = (c_down * g, c_down * scale, (cs + mu * sn) * scale)
+    up = (c_up * g, c_up * scale, (mu * sn - cs) * scale)
+    c, sigma, band = down, DOWN, _resting_band(down, up)
+    s = w = s_max = s_min = t_max = t_min = 0.0
+    i = n_stops = n_events = 0
+    last, rate = ax.size - 1, 1.0 / dt
+    while i < last:
+        # At rest at sample i: on to the interval in which a push begins.
+        first = _next_push(down, up, band, ax, az, x, z, i)
+        if first > last:
+            break
+        tau = 0.0
+        if first > i:
+            # The push rises from q_0 <= 0 to q_1 > 0: in the time h left of it nothing stops.
+            c, sigma = (down, DOWN) if _push(down, ax, az, first) > 0.0 else (up, UP)
+            q_0, q_1 = _push(c, ax, az, first - 1), _push(c, ax, az, first)
+            h = dt * (q_1 / (q_1 - q_0))
+            n_events = _note(events, n_events, first * dt - h, sigma, s)
+            s += sigma * (q_1 * h * h * SIXTH)
+            w, i = 0.5 * q_1 * h, first
+        while i < last:
+            if w > 0.0:
+                i, way, w = _slide_on(c, ax, az, w, i, last, dt)
+                s += sigma * way
+                if i == last:
+                    break
+                q_0, q_1 = _push(c, ax, az, i), _push(c, ax, az, i + 1)
+            else:
+                q_0, q_1 = _push(down, ax, az, i), _push(down, ax, az, i + 1)
+                u_0, u_1 = _push(up, ax, az, i), _push(up, ax, az, i + 1)
+                t_down, t_up = _onset(q_0, q_1, tau, dt), _onset(u_0, u_1, tau, dt)
+                tau, c, sigma = t_down, down, DOWN
+                if t_up < t_down:
+                    tau, c, sigma, q_0, q_1 = t_up, up, UP, u_0, u_1
+                if tau >= dt:
+                    i += 1
+                    break  # at rest to the end of the interval
+                n_events = _note(events, n_events, i * dt + tau, sigma, s)
+            tau, way, w = _move(w, q_0, q_1, tau, dt, rate)
+            s += sigma * way
+            if w > 0.0:
+                i, tau = i + 1, 0.0
+            else:
+                t = i * dt + tau
+                t_max, t_min = t if s > s_max else t_max, t if s < s_min else t_min
+                s_max, s_min = max(s_max, s), min(s_min, s)
+                n_stops += 1
+                n_events = _note(events, n_events, t, STOP, s)
+    t_max, t_min = last * dt if s > s_max else t_max, last * dt if s < s_min else t_min
+    s_max, s_min = max(s_max, s), min(s_min, s)
+    t_peak = t_max if s_max >= -s_min else t_min
+    return s_max, s_min, s, sigma * w, t_peak, n_stops, n_events
+
+
+@njit(cache=True)
+def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
+    """Sample the motion that `slide_exact` found: s and s' from each slip to its stop.
+
+    Parameters
+    ----------
+    events : array, shape (m, 3)
+        All events of the run.
+    history : array, shape (2, n)
+        Filled.
+    """
+    history[:] = 0.0
+    for k in range(0, events.shape[0], 2):
+        t, sigma, s = events[k, 0], events[k, 1], events[k, 2]
+        ends = k + 1 < events.shape[0]
+        t_stop = events[k + 1, 0] if ends else np.inf
+        c = (
+            (sn - sigma * mu * cs) * g,
+            (sn - sigma * mu * cs) * scale,
+            (cs + sigma * mu * sn) * scale,
+        )
+        w, before, i = 0.0, t, int(t / dt) + 1
+        while i < ax.size and i * dt < t_stop:
+            q_0, q_1 = _push(c, ax, az, i - 1), _push(c, ax, az, i)
+            r = (q_1 - q_0) / dt
+            h = i * dt - before
+            q = q_1 - r * h
+            s += h * (w + h * (0.5 * q + h * (r * SIXTH)))
+            w += h * (q + 0.5 * r * h)
+            history[0, i], history[1, i] = s, w
+            before = i * dt
+            i += 1
+        if ends:
+            history[0, i:] = events[k + 1, 2]
+
+
+@njit(cache=True, parallel=True)
+def sweep_exact(ax, az, x, z, dt, g, scenes, out):
+    """Run many scenes under one record, side by side.
+
+    Parameters
+    ----------
+    scenes : array, shape (m, 3)
+        Slope [rad], friction coefficient and scale of each.
+    out : array, shape (m, 4)
+        Filled with s at its largest, at its least and at the end, and s' there; NaN after uplift.
+    """
+    for k in prange(scenes.shape[0]):
+        slope, mu, scale = scenes[k, 0], scenes[k, 1], scenes[k, 2]
+        sn, cs = math.sin(slope), math.cos(slope)
+        least, _ = least_normal(ax, az, x, z, dt, sn, cs, g, scale)
+        out[k, :] = np.nan
+        if least >= 0.0:
+            s_max, s_min, s, w, _, _, _ = slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, None)
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = s_max, s_min, s, w

@@ -1,0 +1,252 @@
+"""The methods that the exact one is held against, jitted: each as the field knows it.
+
+Never raises, knows no units but SI; numpy and numba only. Read `solver.rivals.methods` for what
+each one is, and `solver.kernels.one_axis` for the exact one.
+
+Letters, along the slope and for each unit of mass, signs down the slope:
+    ax, az   horizontal (right) and vertical (up) acceleration of the plane          [m/s2]
+    g        acceleration of gravity                                                 [m/s2]
+    sn, cs   sine and cosine of the roof slope theta, positive down to the right
+    mu       friction coefficient, static and kinetic
+    G, N     drive down the slope and normal force (Eq. 6 with the vertical added)   [m/s2]
+    down, up G - mu N and -G - mu N: the net push on a block sliding that way        [m/s2]
+    s, w     distance slid and its rate                                              [m], [m/s]
+    a        acceleration s''                                                        [m/s2]
+    dt, h    sampling interval and sub-step                                          [s]
+    k        stiffness of the link for each unit of mass, omega^2                    [1/s2]
+    x, F     stretch of the link [m] and its force on the block, up the slope        [m/s2]
+    cap      mu N, the most that the link can hold                                   [m/s2]
+
+Every kernel trusts that N >= 0 throughout (`kernels.least_normal`), fills `history` of shape (2, n)
+with s and w at the samples or (2, 0) with nothing, and returns its code, the largest and the least
+s, s and w at the end, the time of the largest |s| and the number of stops. What slides no more has
+w = 0 at the end.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+# Outcome codes; `solver.sliding.checked` maps them to `Status`.
+FOLLOWED = 0
+DIVERGED = 1
+
+ENERGY = 6.0
+"""Energy that a link may dissipate while its cap could hold the load, for each unit it has."""
+
+ITERATIONS = 25
+"""Newton iterations in a sub-step before it is given up."""
+
+
+@njit(cache=True, inline="always")
+def _drive_and_cap(ax, az, i, sn, cs, mu, g, scale):
+    """G and mu N at sample i; an empty vertical record means none."""
+    x = scale * ax[i]
+    z = g + scale * az[i] if az.size > 0 else g
+    return sn * z - cs * x, mu * (cs * z + sn * x)
+
+
+@njit(cache=True, inline="always")
+def _seen(s, t, s_max, s_min, t_peak):
+    """The extremes and the time of the largest |s|, with one more s looked at."""
+    if abs(s) > max(s_max, -s_min):
+        t_peak = t
+    return max(s_max, s), min(s_min, s), t_peak
+
+
+@njit(cache=True)
+def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
+    """Follow the paper's own algorithm: constant acceleration over each of `substeps` sub-steps.
+
+    Eqs. 1-19 with their sign(0) = 0 (Eq. 13), so that the first sub-step of a slip has no
+    friction, for s = (u_x - u_p) / cos(theta): u_x'' - u_p'' of Eq. 18 is cos(theta) (G - mu N
+    sign), because A tan(theta) + B is 1 / cos(theta). First order in h.
+
+    Where `skips`, an interval that begins at rest and could hold the block at both its samples is
+    taken as one step: N and G are linear there, so every sub-step would have found the same.
+    """
+    h = dt / substeps
+    half, share = 0.5 * h * h, 1.0 / substeps
+    drive, cap = _drive_and_cap(ax, az, 0, sn, cs, mu, g, scale)
+    down, up = drive - cap, -drive - cap
+    s = s_before = w = w_before = s_max = s_min = t_peak = 0.0
+    n_stops = 0
+    for i in range(ax.size - 1):
+        if history.shape[1] > 0:
+            history[0, i], history[1, i] = s, w
+        drive, cap = _drive_and_cap(ax, az, i + 1, sn, cs, mu, g, scale)
+        down_0, up_0, down, up = down, up, drive - cap, -drive - cap
+        holds = down_0 < 0.0 and up_0 < 0.0 and down < 0.0 and up < 0.0
+        if skips and holds and w == 0.0 and w_before == 0.0:
+            continue
+        r_down, r_up = (down - down_0) * share, (up - up_0) * share
+        j = 0
+        while j < substeps:
+            if w > 0.0 and w_before >= 0.0:
+                a = down_0 + j * r_down
+            elif w < 0.0 and w_before <= 0.0:
+                a = -(up_0 + j * r_up)
+            else:
+                # At rest, or reversed within the last sub-step: s is largest at one of its ends.
+                if w_before != 0.0:
+                    t = (i * substeps + j) * h
+                    s_max, s_min, t_peak = _seen(s_before, t - h, s_max, s_min, t_peak)
+                    s_max, s_min, t_peak = _seen(s, t, s_max, s_min, t_peak)
+                    n_stops += 1
+                first = j
+                while j < substeps and down_0 + j * r_down < 0.0 and up_0 + j * r_up < 0.0:
+                    j += 1  # Eqs. 6, 8, 9
+                if j > first:
+                    w = w_before = 0.0
+                    continue
+                a = 0.5 * (down_0 + j * r_down - (up_0 + j * r_up))
+                if w != 0.0:
+                    a = down_0 + j * r_down if w > 0.0 else -(up_0 + j * r_up)
+            s_before, w_before = s, w
+            s += w * h + half * a
+            w += a * h
+            j += 1
+    t = (ax.size - 1) * dt
+    s_max, s_min, t_peak = _seen(s_before, t - h, s_max, s_min, t_peak)
+    s_max, s_min, t_peak = _seen(s, t, s_max, s_min, t_peak)
+    if history.shape[1] > 0:
+        history[0, -1], history[1, -1] = s, w
+    return FOLLOWED, s_max, s_min, s, w, t_peak, n_stops
+
+
+@njit(cache=True)
+def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
+    """Take the plane's acceleration as linear in each sub-step, its sliding direction as fixed.
+
+    What the paper suggests in its limitations. Slip, stop and reversal are still found at the ends
+    of sub-steps only, and the block slips the way it is pushed: the paper's sign(0) = 0 would make
+    it first order. Second order in h; first where the block reverses without a rest, because the
+    friction of the old direction acts until the end of that sub-step.
+    """
+    h = dt / substeps
+    share = 1.0 / substeps
+    drive, cap = _drive_and_cap(ax, az, 0, sn, cs, mu, g, scale)
+    s = w = w_before = s_max = s_min = t_peak = 0.0
+    n_stops = 0
+    for i in range(ax.size - 1):
+        if history.shape[1] > 0:
+            history[0, i], history[1, i] = s, w
+        drive_0, cap_0 = drive, cap
+        drive, cap = _drive_and_cap(ax, az, i + 1, sn, cs, mu, g, scale)
+        r_drive, r_cap = (drive - drive_0) * share, (cap - cap_0) * share
+        for j in range(substeps):
+            drive_j, cap_j = drive_0 + j * r_drive, cap_0 + j * r_cap
+            reversed_ = w * w_before < 0.0
+            n_stops += reversed_
+            if (w == 0.0 or reversed_) and abs(drive_j) <= cap_j:
+                w = w_before = 0.0
+                continue
+            sign = math.copysign(1.0, w if w != 0.0 else drive_j)
+            a, rise = drive_j - sign * cap_j, r_drive - sign * r_cap
+            w_before = w
+            s += h * (w + h * (0.5 * a + rise / 6.0))
+            w += h * (a + 0.5 * rise)
+            t = (i * substeps + j + 1) * h
+            s_max, s_min, t_peak = _seen(s, t, s_max, s_min, t_peak)
+    if history.shape[1] > 0:
+        history[0, -1], history[1, -1] = s, w
+    return FOLLOWED, s_max, s_min, s, w, t_peak, n_stops
+
+
+@njit(cache=True, inline="always")
+def _link(x, k, cap):
+    """Force of the link stretched by x, at most its cap, and the direction in which it slips."""
+    force = k * x
+    if force >= cap:
+        return cap, 1
+    if force <= -cap:
+        return -cap, -1
+    return force, 0
+
+
+@njit(cache=True)
+def _solve_sub_step(x, free, lever, k, cap):
+    """Newton's method on x = free - lever F(x), F the capped force of the link.
+
+    Three straight pieces: a tangent that leads back to its own piece has found the root. Where
+    lever k = (omega h)^2 / 4 is above 1 the two outer pieces may lead to each other for ever.
+
+    Returns
+    -------
+    tuple
+        x, and whether it was found.
+    """
+    _, piece = _link(x, k, cap)
+    for _ in range(ITERATIONS):
+        x = free / (1.0 + lever * k) if piece == 0 else free - piece * lever * cap
+        _, landed = _link(x, k, cap)
+        if landed == piece:
+            return x, True
+        piece = landed
+    return x, False
+
+
+@njit(cache=True)
+def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history):
+    """Hold the block by a spring whose force is capped at mu N: friction as programs model it.
+
+    Newmark's method with gamma = 1/2: with beta = 0 explicit, stable for h < 2 / omega; `implicit`
+    with beta = 1/4 and Newton's method. No damping; the link starts in balance with gravity, as
+    after the dead-load stage of the paper's SAP 2000 model.
+
+    Diverged is a run in which a sub-step is not solved in ITERATIONS, a number is not finite, or
+    the link chatters: the cap keeps an instability finite, so it shows in the energy alone. While
+    |G| < mu N, v^2 / 2 + (F - G)^2 / 2k is all that block and link have, the changing load adds at
+    most (mu N + |G|) |dG| / k, and slip of ds takes (mu N - |G|) |ds| of it. A run is given up
+    when its slip has taken ENERGY times what was there (mu^2 N^2 / 2k more, for a start) and what
+    was added since |G| came below mu N: in sound runs up to 1.5 with h omega <= 1.7, up to 5 near
+    the limit of 2.
+    """
+    h = dt / substeps
+    half, share = 0.5 * h * h, 1.0 / substeps
+    lever = 0.25 * h * h
+    failed = (DIVERGED, np.nan, np.nan, np.nan, np.nan, np.nan, 0)
+    drive, cap = _drive_and_cap(ax, az, 0, sn, cs, mu, g, scale)
+    force = min(max(g * sn, -mu * g * cs), mu * g * cs)
+    x, a = force / k, drive - min(max(force, -cap), cap)
+    left = 0.5 * ENERGY * (a * a + cap * cap) / k
+    s = w = s_max = s_min = t_peak = 0.0
+    slip = n_stops = 0
+    for i in range(ax.size - 1):
+        if history.shape[1] > 0:
+            history[0, i], history[1, i] = s, w
+        drive_0, cap_0 = drive, cap
+        drive, cap = _drive_and_cap(ax, az, i + 1, sn, cs, mu, g, scale)
+        change = abs(drive - drive_0) * share
+        for j in range(1, substeps + 1):
+            drive_j = drive_0 + (drive - drive_0) * (j * share)
+            cap_j = cap_0 + (cap - cap_0) * (j * share)
+            if implicit:
+                # Of the way in a sub-step only the share of F at its end is not known.
+                free = x + h * w + lever * (a + drive_j)
+                stretch, found = _solve_sub_step(x, free, lever, k, cap_j)
+                if not found:
+                    return failed
+            else:
+                stretch = x + h * w + half * a
+            s += stretch - x
+            force, slips = _link(stretch, k, cap_j)
+            x = force / k if slips != 0 else stretch
+            n_stops += slip != 0 and slips != slip
+            slip = slips
+            w += 0.5 * h * (a + drive_j - force)
+            a = drive_j - force
+            push = abs(drive_j)
+            if push < cap_j:
+                added = (cap_j + push) * change / k
+                left += ENERGY * added - (cap_j - push) * abs(stretch - x)
+            else:
+                left = 0.5 * ENERGY * (w * w + (a * a + cap_j * cap_j) / k)
+            if not (left >= 0.0 and abs(w) < np.inf):
+                return failed
+            t = (i * substeps + j) * h
+            s_max, s_min, t_peak = _seen(s, t, s_max, s_min, t_peak)
+    if history.shape[1] > 0:
+        history[0, -1], history[1, -1] = s, w
+    return FOLLOWED, s_max, s_min, s, w if slip != 0 else 0.0, t_peak, n_stops

@@ -1,0 +1,332 @@
+"""Blocks in a row on a shaken roof, joined by springs and dashpots, jitted: series between events.
+
+Never raises, knows no units but SI; numpy and numba only. Read `slide_row`, then `_first_below`;
+`solver.sliding.row` says what the numbers mean.
+
+The model, for each unit of mass of block i, along the slope:
+    w_i' = G - sigma_i mu_i N + (F_i - F_i-1) / m_i   while sliding;  w_i = 0 while it rests
+    e_j' = w_j+1 - w_j      F_j = k e_j + c e_j'
+    it rests while |f_i| <= mu_i N, f_i = G + (F_i - F_i-1) / m_i
+Links pull by place and speed, which do not jump: so each block is held or let go by itself. While
+no block changes its state the equations are linear, with a forcing that is linear between samples:
+the motion is an entire function of time, and its power series is summed to rounding.
+
+Letters:
+    drive, normal   G and N / m at the samples                                     [m/s2]
+    s, w, sigma     place down the slope [m], its rate [m/s], direction: +1, -1, 0 at rest
+    e               stretch of each link [m]; kept beside s, so that stiff links lose no digits
+    m               mass of each block / mean mass; their sum is their number
+    k, c            stiffness and damping of a link / mean mass                    [1/s2], [1/s]
+    h, x            length of the series' unit of time [s]; time in that unit, from 0 to 1
+    b               series: rows W and F of blocks, E and T of links, coefficients of x^j
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+ORDER = 22
+"""Degree of the series. A step is so short that term j is below 1 / j! of the motion."""
+
+EPS = 2.220446049250313e-16
+TIE = 64.0
+"""Roundings by which a push has to be above friction to make a block slip."""
+
+ZERO = 4.0
+"""Roundings within which a value is zero; well below TIE."""
+
+STEP = 8.0
+"""Roundings of a step, by the size of what is summed in it."""
+
+NEVER = 2.0
+NEWTON = 200
+
+# Rows of series in b[row, block or link, power]: speed, push without friction; stretch, tension.
+W, F, E, T = range(4)
+
+
+@njit(cache=True)
+def _value(c, order, x):
+    """Polynomial at x and its derivative there."""
+    value = slope = 0.0
+    for j in range(order, -1, -1):
+        slope = slope * x + value
+        value = value * x + c[j]
+    return value, slope
+
+
+@njit(cache=True)
+def _first_below(c, order):
+    """First x in [0, 1) where a polynomial that begins at 0 or above falls through zero, or NEVER.
+
+    With a bound M of the second derivative, p + p' d - M d^2 / 2 bounds the polynomial from below:
+    up to its root nothing can be missed, two roots close to each other included. From there on
+    again; that comes to a simple root as fast as Newton's method, and never steps over it.
+
+    Returns that x and whether it falls there: where the line is so flat that the steps run out,
+    it does not yet, and x is where to look again.
+    """
+    low, total, bend = c[0], abs(c[0]), 0.0
+    for j in range(1, order + 1):
+        low += min(c[j], 0.0)
+        total += abs(c[j])
+        bend += j * (j - 1) * abs(c[j])
+    if low > 0.0 or total == 0.0:
+        return NEVER, False
+    x = 0.0
+    for _ in range(NEWTON):
+        p, slope = _value(c, order, x)
+        if p < -ZERO * EPS * total or (p <= ZERO * EPS * total and slope <= 0.0):
+            return x, True
+        root = math.sqrt(slope * slope + 2.0 * bend * max(p, 0.0))
+        if slope < 0.0:
+            x += 2.0 * p / (root - slope)
+        elif bend > 0.0:
+            x += (slope + root) / bend
+        else:
+            return NEVER, False
+        if x >= 1.0:
+            return NEVER, False
+    return x, False
+
+
+@njit(cache=True)
+def _largest(c, order, end):
+    """Largest |p| of a polynomial in [0, end]: at the ends, and where it turns between them."""
+    last, slope_last = _value(c, order, end)
+    found = max(abs(c[0]), abs(last))
+    if c[1] * slope_last >= 0.0:
+        return found
+    low, high = 0.0, end
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        p, slope = _value(c, order, middle)
+        if slope * c[1] > 0.0:
+            low = middle
+        else:
+            high = middle
+        found = max(found, abs(p))
+    return found
+
+
+@njit(cache=True)
+def _series(b, w, e, sigma, mus, m, k, c, h, push, hold):
+    """Fill the series of all blocks and links; push and hold are G and N, two coefficients each.
+
+    Returns the degree at which they end and the size of the motion: speeds, and stretches times
+    sqrt(k) [m/s], with what a step adds to them.
+    """
+    n, scale = w.size, math.sqrt(k)
+    b[W, :, 0] = w
+    for j in range(n - 1):
+        b[E, j, 0] = e[j]
+    size = 0.0
+    for p in range(ORDER):
+        g, hold_p = (push[p], hold[p]) if p < 2 else (0.0, 0.0)
+        share = h / (p + 1)
+        largest, before = 0.0, 0.0
+        for i in range(n):
+            tension = 0.0
+            if i < n - 1:
+                rate = b[W, i + 1, p] - b[W, i, p]
+                tension = k * b[E, i, p] + c * rate
+                b[T, i, p], b[E, i, p + 1] = tension, share * rate
+                largest = max(largest, scale * abs(b[E, i, p + 1]))
+            b[F, i, p] = g + (tension - before) / m[i]
+            before = tension
+        for i in range(n):
+            b[W, i, p + 1] = 0.0
+            if sigma[i] != 0.0:
+                b[W, i, p + 1] = share * (b[F, i, p] - sigma[i] * mus[i] * hold_p)
+            largest = max(largest, abs(b[W, i, p + 1]))
+        size += largest
+        if p >= 2 and largest <= 0.01 * EPS * size:
+            break
+    degree = p + 1
+    b[F, :, degree], b[T, :, degree] = 0.0, 0.0
+    for i in range(n):
+        size += abs(w[i])
+        if i < n - 1:
+            size += scale * abs(e[i])
+    return degree, size
+
+
+@njit(cache=True)
+def _room(b, i, side, mu, hold, degree, line):
+    """Fill line with how far block i is from slipping to a side; return the tie that is in it."""
+    total = abs(hold[0]) + abs(hold[1])  # a tie also where neither friction nor push is there
+    for p in range(degree + 1):
+        line[p] = (mu * hold[p] if p < 2 else 0.0) - side * b[F, i, p]
+        total += abs(b[F, i, p]) + (mu * abs(hold[p]) if p < 2 else 0.0)
+    line[0] += TIE * EPS * total
+    return TIE * EPS * total
+
+
+@njit(cache=True)
+def _next_events(b, sigma, mus, hold, degree, line, when, side):
+    """Fill the time of each block's next event, and the side to which one that rests would slip.
+
+    The side is 0 where nothing happens but that the time has come to look again.
+
+    Returns the first of the times, NEVER for none, and the largest tie.
+    """
+    first, tie = NEVER, 0.0
+    for i in range(sigma.size):
+        when[i] = NEVER
+        if sigma[i] != 0.0:
+            for p in range(degree + 1):
+                line[p] = sigma[i] * b[W, i, p]
+            when[i], falls = _first_below(line, degree)
+            side[i] = 1.0 if falls else 0.0
+        else:
+            for towards in (1.0, -1.0):
+                tie = max(tie, _room(b, i, towards, mus[i], hold, degree, line))
+                x, falls = _first_below(line, degree)
+                if x < when[i]:
+                    when[i], side[i] = x, towards if falls else 0.0
+        first = min(first, when[i])
+    return first, tie
+
+
+@njit(cache=True)
+def _spend(b, sigma, mus, m, c, h, x, push, hold, degree, energy):
+    """Add the work of G, and what friction and dashpots take, from 0 to x: exact integrals."""
+    n = sigma.size
+    for i in range(n):
+        work = loss = 0.0
+        power = h * x * m[i] / n
+        for p in range(degree + 1):
+            flat, steep = power * b[W, i, p] / (p + 1), power * x * b[W, i, p] / (p + 2)
+            work += push[0] * flat + push[1] * steep
+            loss += hold[0] * flat + hold[1] * steep
+            power *= x
+        energy[0] += work
+        energy[1] += sigma[i] * mus[i] * loss
+    if c == 0.0:
+        return
+    for i in range(n - 1):
+        for p in range(degree + 1):
+            rate = b[W, i + 1, p] - b[W, i, p]
+            power = c * h / n * rate * x ** (p + 1)
+            for q in range(degree + 1):
+                energy[2] += power * (b[W, i + 1, q] - b[W, i, q]) / (p + q + 1)
+                power *= x
+
+
+@njit(cache=True)
+def _advance(b, s, w, e, links, h, x, degree):
+    """Move all blocks and links to x and keep the largest stretches and tensions."""
+    for i in range(s.size):
+        way, power = 0.0, h * x
+        for p in range(degree + 1):
+            way += power * b[W, i, p] / (p + 1)
+            power *= x
+        s[i] += way
+        w[i] = _value(b[W, i], degree, x)[0]
+    for j in range(e.size):
+        links[j, 0] = max(links[j, 0], _largest(b[E, j], degree, x))
+        links[j, 1] = max(links[j, 1], _largest(b[T, j], degree - 1, x))
+        e[j] = _value(b[E, j], degree, x)[0]
+
+
+@njit(cache=True)
+def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
+    """Let every block whose event is at x stop, turn round or slip.
+
+    Returns how many stopped and the greatest speed that was set to zero.
+    """
+    n_stops, lost = 0, 0.0
+    for i in range(s.size):
+        if when[i] != x or side[i] == 0.0:
+            continue
+        if sigma[i] == 0.0:
+            sigma[i] = side[i]
+            continue
+        n_stops += 1
+        lost, w[i], sigma[i] = max(lost, abs(w[i])), 0.0, 0.0
+        peaks[i, 0], peaks[i, 1] = max(peaks[i, 0], s[i]), min(peaks[i, 1], s[i])
+        for towards in (1.0, -1.0):
+            _room(b, i, towards, mus[i], hold, degree, line)
+            if _value(line, degree, x)[0] < 0.0:
+                sigma[i] = towards
+    return n_stops, lost
+
+
+@njit(cache=True, nogil=True)
+def slide_row(drive, normal, dt, mus, m, k, c, most, peaks, links, energy, samples):
+    """Follow a row of blocks from rest, links unstretched, event by event.
+
+    The error is bounded by energy: of two motions of the row the difference, measured by
+    sqrt(sum of m dw^2 + k de^2), never grows by itself, because friction, dashpots and springs
+    never feed it (N >= 0). So what each step adds - the rest of its series, its rounding, a speed
+    set to zero at a stop, pushes up to the tie - is summed, and its integral over time is the
+    bound of the error in place.
+
+    Parameters
+    ----------
+    drive, normal : array, shape (n,)
+    mus, m : array, shape (blocks,)
+    most : int
+        Events in one interval above which the run is given up.
+    peaks : array, shape (blocks, 4)
+        Filled with s at its largest, its least and the end, and w at the end.
+    links : array, shape (blocks - 1, 2)
+        Filled with the largest |e| [m] and |F| [m/s2] of each.
+    energy : array, shape (5,)
+        Filled with the work of G, what friction and dashpots took, what moves and what the
+        springs hold at the end, each by the mass of the row [J/kg].
+    samples : array, shape (blocks, n), or None
+        Filled with s.
+
+    Returns
+    -------
+    tuple
+        Whether the end was reached, bound of the error of a place [m], number of stops, of steps.
+    """
+    n = mus.size
+    b = np.zeros((4, n, ORDER + 1))
+    s, w, sigma, e = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n - 1)
+    when, side, line = np.empty(n), np.zeros(n), np.zeros(ORDER + 1)
+    push, hold = np.zeros(2), np.zeros(2)
+    peaks[:], links[:], energy[:] = 0.0, 0.0, 0.0
+    if samples is not None:
+        samples[:, 0] = 0.0
+    most_mu = mus.max()
+    rate = 2.0 * math.sqrt(k / m.min()) + 4.0 * c / m.min() if n > 1 else 0.0
+    longest = min(dt, 1.0 / rate) if rate > 0.0 else dt
+    n_stops = n_steps = 0
+    drift = error = 0.0
+    for i in range(drive.size - 1):
+        tau, n_events = 0.0, 0
+        given = max(abs(drive[i]), abs(drive[i + 1])) + most_mu * max(normal[i], normal[i + 1])
+        while tau < dt:
+            h = min(longest, dt - tau)
+            for line_of, values in ((push, drive), (hold, normal)):
+                gain = (values[i + 1] - values[i]) / dt
+                line_of[0], line_of[1] = values[i] + gain * tau, gain * h
+            degree, size = _series(b, w, e, sigma, mus, m, k, c, h, push, hold)
+            x, tie = _next_events(b, sigma, mus, hold, degree, line, when, side)
+            reached = min(x, 1.0)
+            _spend(b, sigma, mus, m, c, h, reached, push, hold, degree, energy)
+            _advance(b, s, w, e, links, h, reached, degree)
+            n_steps += 1
+            drift += STEP * EPS * (size + h * given) + tie * h
+            if x < NEVER:
+                stopped, lost = _switch(
+                    b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks
+                )
+                n_stops, n_events, drift = n_stops + stopped, n_events + 1, drift + lost
+                if n_events > most:
+                    return False, np.inf, n_stops, n_steps
+            error += drift * h * reached
+            tau = dt if x == NEVER and h == dt - tau else tau + h * reached
+        if samples is not None:
+            samples[:, i + 1] = s
+    for i in range(n):
+        peaks[i, 0], peaks[i, 1] = max(peaks[i, 0], s[i]), min(peaks[i, 1], s[i])
+        peaks[i, 2], peaks[i, 3] = s[i], w[i]
+        energy[3] += 0.5 * m[i] / n * w[i] * w[i]
+        if i < n - 1:
+            energy[4] += 0.5 * k / n * e[i] * e[i]
+    return True, error / math.sqrt(m.min() / n), n_stops, n_steps

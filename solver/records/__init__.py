@@ -1,0 +1,1 @@
+"""Records: units, processing, scaling, spectra, measures. Read `record`."""

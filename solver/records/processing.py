@@ -1,0 +1,342 @@
+"""Processing of records: trimming, base line, filters, resampling, zeros at the end.
+
+Reads no files and judges nothing: `solver.records.measures` says what drift is left.
+Read `Processing` first, then `process`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.model import Floats, InputError
+from solver.records.record import Record
+
+MAX_DEGREE = 8
+MAX_ORDER = 12
+MAX_SAMPLES = 4_000_000
+
+AS_RECORDED = "as recorded"
+"""What is done to a record that nothing is done to, in words."""
+
+# Of the new Nyquist frequency: where the anti-alias low-pass begins.
+_PASSED = 0.8
+# Zeros on either side in which it rings, in new steps; they are taken off again.
+_RINGING = 50
+# Where the new step is no whole multiple of the old one, the filtered record is drawn this much
+# finer before it is read off along straight lines: 2e-4 of its shortest period at most.
+_FINER = 64
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Processing:
+    """What is done to a record, in the order of the fields; the defaults do nothing.
+
+    Attributes
+    ----------
+    from_s, to_s : float
+        Part of the record that is kept [s from its first sample], samples at the bounds included.
+    baseline : int
+        Degree of the polynomial that is fitted to the acceleration by least squares and taken
+        off: 0 the mean, 1 a straight line; -1 none.
+    highpass_hz, lowpass_hz : float
+        Corner frequencies [Hz]; 0 none.
+    order : int
+        Order n of both filters: the amplitude at the frequency f is multiplied by
+        1 / sqrt(1 + (corner / f)^(2 n)), for the low-pass (f / corner), and the phase is left as
+        it is. So the gain at the corner is 1 / sqrt(2), applied once. A Butterworth filter run
+        forth and back, as by ``filtfilt``, of order n / 2 falls off as steeply.
+    dt_s : float
+        New sampling interval [s]; 0 leaves it.
+    pad_s : float
+        Time of zeros added after the end [s], in which a sliding array comes to rest.
+    """
+
+    from_s: float = 0.0
+    to_s: float = math.inf
+    baseline: int = -1
+    highpass_hz: float = 0.0
+    lowpass_hz: float = 0.0
+    order: int = 4
+    dt_s: float = 0.0
+    pad_s: float = 0.0
+
+    def words(self) -> str:
+        """What is done, in one line for a report."""
+        said = [_trim_words(self), _baseline_words(self.baseline), *_filter_words(self)]
+        if self.dt_s > 0.0:
+            said.append(f"resampled to {self.dt_s:g} s")
+        if self.pad_s > 0.0:
+            said.append(f"{self.pad_s:g} s of zeros added at the end")
+        return "; ".join(part for part in said if part) or AS_RECORDED
+
+    def problems(self) -> tuple[str, ...]:
+        """What is wrong with it whatever the record, a sentence each."""
+        return (*_range_problems(self), *_filter_problems(self))
+
+
+def process(record: Record, processing: Processing) -> Record:
+    """Process a record: trim, base line, filters and resampling, zeros at the end, in this order.
+
+    The filters work on the spectrum of the whole record, between zeros of 1.5 n / corner [s]
+    before and after it (Boore, Bull. Seism. Soc. Am. 95 (2005) 745-750, doi:10.1785/0120040160,
+    asks for that much in all). What the filter puts there belongs to the motion: without it
+    velocity and displacement no longer end at zero. So the zeros stay, and the result begins
+    earlier than the record by as much.
+
+    A finer step reads off the straight lines between the samples; where it divides the old one,
+    the motion stays exactly the same for the solver. For a coarser step everything above the new
+    Nyquist frequency is removed first, with a cosine-shaped transition over the last fifth below
+    it and the phase left as it is.
+
+    Nothing is tapered: a record that does not begin and end near zero has a step there.
+
+    Parameters
+    ----------
+    record : Record
+    processing : Processing
+
+    Returns
+    -------
+    Record
+        Of the same name. Its length depends on nothing but the record's length and step.
+
+    Raises
+    ------
+    InputError
+        Where the processing does not make sense, or not for this record.
+    """
+    problems = processing.problems() or _record_problems(record, processing)
+    if problems:
+        raise InputError([f"{record.name}: {problem}" for problem in problems])
+    a = _level(_trimmed(record, processing), processing.baseline)
+    a = _resampled(_filtered(a, record.dt_s, processing), record.dt_s, processing.dt_s)
+    dt_s = processing.dt_s or record.dt_s
+    a = np.concatenate([a, np.zeros(_steps(processing.pad_s, dt_s))])
+    a.setflags(write=False)
+    return Record(name=record.name, dt_s=dt_s, a_mps2=a)
+
+
+def process_together(records: Sequence[Record], processing: Processing) -> tuple[Record, ...]:
+    """Process the components of one motion alike: one step, one length, before and after.
+
+    Raises
+    ------
+    InputError
+        Where their steps or lengths differ, or as `process`.
+    """
+    first = records[0]
+    problems = [
+        f"{other.name}: {len(other.a_mps2)} samples of {other.dt_s:g} s, but {first.name} has "
+        f"{len(first.a_mps2)} of {first.dt_s:g} s; give components of one length and step"
+        for other in records[1:]
+        if (len(other.a_mps2), other.dt_s) != (len(first.a_mps2), first.dt_s)
+    ]
+    if problems:
+        raise InputError(problems)
+    return tuple(process(record, processing) for record in records)
+
+
+# The steps
+
+
+def _steps(seconds: float, dt_s: float) -> int:
+    """Whole steps that cover a time, forgiving the rounding of the quotient."""
+    return math.ceil(seconds / dt_s - 1e-6)
+
+
+def _bounds(record: Record, processing: Processing) -> tuple[int, int]:
+    """Indices of the first sample kept and of the first one no longer kept."""
+    last = len(record.a_mps2) - 1
+    end = min(processing.to_s / record.dt_s + 1e-6, float(last))
+    return _steps(processing.from_s, record.dt_s), math.floor(end) + 1
+
+
+def _trimmed(record: Record, processing: Processing) -> Floats:
+    start, stop = _bounds(record, processing)
+    return record.a_mps2[start:stop]
+
+
+def _level(a: Floats, degree: int) -> Floats:
+    """Take off the polynomial that fits best by least squares."""
+    if degree < 0:
+        return a
+    # Legendre polynomials are nearly orthogonal on the samples: no digits are lost.
+    basis = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, len(a)), degree)
+    fitted = np.linalg.lstsq(basis, a, rcond=None)[0]
+    return np.asarray(a - basis @ fitted)
+
+
+def _filtered(a: Floats, dt_s: float, processing: Processing) -> Floats:
+    """Apply high- and low-pass between zeros, which stay."""
+    pad_s = _pad_s(processing)
+    if pad_s == 0.0:
+        return a
+    a = np.pad(a, _steps(pad_s, dt_s))
+    gain = _gain(_frequencies(len(a), dt_s), processing)
+    return np.fft.irfft(np.fft.rfft(a) * gain, len(a))
+
+
+def _frequencies(count: int, dt_s: float) -> Floats:
+    return np.asarray(np.fft.rfftfreq(count, dt_s), dtype=np.float64)
+
+
+def _pad_s(processing: Processing) -> float:
+    """Zeros on either side that the filters need [s]."""
+    corners = [f for f in (processing.highpass_hz, processing.lowpass_hz) if f > 0.0]
+    return max((1.5 * processing.order / f for f in corners), default=0.0)
+
+
+def _gain(freq_hz: Floats, processing: Processing) -> Floats:
+    """Gain of the high- and the low-pass at frequencies [Hz], 0 included."""
+    gain = np.ones_like(freq_hz)
+    power = 2 * processing.order
+    with np.errstate(divide="ignore", over="ignore"):
+        if processing.highpass_hz > 0.0:
+            gain /= np.sqrt(1.0 + (processing.highpass_hz / freq_hz) ** power)
+        if processing.lowpass_hz > 0.0:
+            gain /= np.sqrt(1.0 + (freq_hz / processing.lowpass_hz) ** power)
+    return gain
+
+
+def _resampled(a: Floats, dt_s: float, new_s: float) -> Floats:
+    """Read the record off at a new step, from its first sample to the last one covered."""
+    ratio = new_s / dt_s
+    if new_s == 0.0 or _is_near(ratio, 1.0):
+        return a
+    count = math.floor((len(a) - 1) / ratio + 1e-6) + 1
+    if ratio > 1.0:
+        finer = _finer(ratio)
+        a, ratio = _without_aliases(a, ratio, finer), ratio * finer
+    if _is_whole(ratio):
+        return a[:: round(ratio)][:count]
+    # Where samples fall together they are the same to the last bit.
+    parts = 1.0 / ratio
+    places = np.arange(count) / (round(parts) if _is_whole(parts) else parts)
+    return np.interp(places, np.arange(len(a)), a)
+
+
+def _without_aliases(a: Floats, ratio: float, finer: int) -> Floats:
+    """Keep what a step coarser by the ratio can hold, drawn finer by a whole number."""
+    pad = math.ceil(_RINGING * ratio)
+    wide = np.pad(a, pad)
+    spectrum = np.fft.rfft(wide) * _anti_alias(ratio * _frequencies(len(wide), 1.0))
+    drawn = finer * np.fft.irfft(spectrum, finer * len(wide))
+    return np.asarray(drawn[finer * pad : finer * (pad + len(a) - 1) + 1])
+
+
+def _anti_alias(cycles: Floats) -> Floats:
+    """Gain at frequencies in cycles for each new step: none at 1/2 and above."""
+    part = np.clip((2.0 * cycles - _PASSED) / (1.0 - _PASSED), 0.0, 1.0)
+    return np.asarray(0.5 + 0.5 * np.cos(math.pi * part))
+
+
+def _finer(ratio: float) -> int:
+    return 1 if _is_whole(ratio) else _FINER
+
+
+def _is_whole(ratio: float) -> bool:
+    return _is_near(ratio, round(ratio))
+
+
+def _is_near(ratio: float, wanted: float) -> bool:
+    return abs(ratio - wanted) <= 1e-9 * wanted
+
+
+# What is said
+
+
+def _trim_words(processing: Processing) -> str:
+    if processing.from_s <= 0.0 and math.isinf(processing.to_s):
+        return ""
+    end = "the end" if math.isinf(processing.to_s) else f"{processing.to_s:g} s"
+    return f"cut to {processing.from_s:g} s to {end}"
+
+
+def _baseline_words(degree: int) -> str:
+    names = {-1: "", 0: "mean removed", 1: "straight line removed"}
+    return names.get(degree, f"polynomial of degree {degree} removed")
+
+
+def _filter_words(processing: Processing) -> list[str]:
+    corners = {"high-pass": processing.highpass_hz, "low-pass": processing.lowpass_hz}
+    said = [
+        f"{name} {corner:g} Hz, order {processing.order}, zero phase"
+        for name, corner in corners.items()
+        if corner > 0.0
+    ]
+    if said:
+        said.append(f"{_pad_s(processing):g} s of zeros before and after kept")
+    return said
+
+
+def _range_problems(processing: Processing) -> list[str]:
+    """Numbers that are out of range by themselves."""
+    found = []
+    if not (0.0 <= processing.from_s < processing.to_s):
+        found.append(
+            f"cut from {processing.from_s:g} s to {processing.to_s:g} s; give two times, the "
+            f"first 0 or above, the second later"
+        )
+    if not -1 <= processing.baseline <= MAX_DEGREE:
+        found.append(
+            f"degree of the base line is {processing.baseline}; give 0 (mean) to {MAX_DEGREE}, "
+            f"or -1 for none"
+        )
+    for name, value in (("new time step", processing.dt_s), ("zeros at the end", processing.pad_s)):
+        if not 0.0 <= value < math.inf:
+            found.append(f"{name}: {value:g} s; give a number of seconds, 0 for none")
+    return found
+
+
+def _filter_problems(processing: Processing) -> list[str]:
+    found = []
+    high, low = processing.highpass_hz, processing.lowpass_hz
+    for name, corner in (("high-pass", high), ("low-pass", low)):
+        if not 0.0 <= corner < math.inf:
+            found.append(f"{name} corner is {corner:g} Hz; give a frequency, 0 for none")
+    if 0.0 < low <= high:
+        found.append(
+            f"high-pass corner is {high:g} Hz, low-pass corner {low:g} Hz; give a low-pass above "
+            f"the high-pass"
+        )
+    # A high-pass of the first order lets the displacement drift for ever.
+    if not 2 <= processing.order <= MAX_ORDER:
+        found.append(f"filter order is {processing.order}; give 2 to {MAX_ORDER}")
+    return found
+
+
+def _record_problems(record: Record, processing: Processing) -> list[str]:
+    """What is wrong for this record, the processing making sense."""
+    found = []
+    length_s = (len(record.a_mps2) - 1) * record.dt_s
+    start, stop = _bounds(record, processing)
+    if stop - start < max(2, processing.baseline + 2):
+        found.append(
+            f"cut from {processing.from_s:g} s to {processing.to_s:g} s leaves "
+            f"{max(stop - start, 0)} samples of a record of {length_s:g} s; give a longer part"
+        )
+    nyquist_hz = 0.5 / record.dt_s
+    corners = {"high-pass": processing.highpass_hz, "low-pass": processing.lowpass_hz}
+    found += [
+        f"{name} corner is {corner:g} Hz; give less than {nyquist_hz:g} Hz, half the sampling rate"
+        for name, corner in corners.items()
+        if corner >= nyquist_hz
+    ]
+    return found or _size_problems(record, processing, length_s)
+
+
+def _size_problems(record: Record, processing: Processing, length_s: float) -> list[str]:
+    new_s = processing.dt_s or record.dt_s
+    if new_s > length_s:
+        return [f"new time step is {new_s:g} s; give less than the {length_s:g} s of the record"]
+    ratio = new_s / record.dt_s
+    filtered_s = length_s + 2.0 * _pad_s(processing)
+    drawn = _finer(ratio) if ratio > 1.0 else 1
+    count = max(drawn * filtered_s / record.dt_s, (filtered_s + processing.pad_s) / new_s)
+    if count > MAX_SAMPLES:
+        return [f"becomes {count:.2g} samples; give a coarser step, higher corners or fewer zeros"]
+    return []

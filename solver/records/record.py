@@ -1,0 +1,159 @@
+"""Acceleration records: makes them of values, writes them, takes their spectra.
+
+Owns no file formats to read (`solver.formats`), no code rules (`solver.rules.provisions`) and makes
+no motions (`solver.synthesis`). Read `Record` first, then `response_spectrum`.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
+
+UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
+"""Acceleration units and their size in m/s2."""
+
+DECIMALS = {"g": 5, "m/s2": 4, "cm/s2": 2, "mm/s2": 1}
+"""Decimals that `write_record` prints, about 1e-5 g in every unit."""
+
+MAX_PROBLEMS = 10
+"""Problems of one file or column that are told; the others are counted."""
+
+MAX_COUNTED = 10_000
+
+BEYOND = 1e300
+"""Larger numbers count as infinite, so that a change of unit cannot make them so."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Record:
+    """One component of a motion, evenly sampled, straight lines between samples.
+
+    Attributes
+    ----------
+    name : str
+    dt_s : float
+        Sampling interval [s], > 0.
+    a_mps2 : array, shape (n,)
+        Acceleration [m/s2], read-only, n >= 2.
+    """
+
+    name: str
+    dt_s: float
+    a_mps2: Floats
+
+
+def record_from_values(
+    name: str, values: Sequence[object] | Floats, *, units: str, dt_s: float
+) -> Record:
+    """Make a record of values that are at hand, such as a pasted column.
+
+    Raises
+    ------
+    InputError
+        With every value that is not a finite number, counted from 1.
+    """
+    _check_arguments(name, units, dt_s)
+    values = values.tolist() if isinstance(values, np.ndarray) else values
+    if len(values) < 2:
+        raise InputError(f"{name}: a column of {len(values)}; give at least 2 values")
+    problems = [
+        f"{name}: value {i} is {shown(value)}; give a number"
+        for i, value in enumerate(values, start=1)
+        if not is_finite_number(value)
+    ]
+    raise_any(problems)
+    return _record(name, np.asarray(values, dtype=np.float64), units, dt_s)
+
+
+def write_record(path: Path, record: Record, units: str = "g", *, within: float = math.inf) -> None:
+    """Write a record as csv of time [s] and acceleration, with a heading line.
+
+    The acceleration is printed to `DECIMALS`, and to as many more as keep every sample `within`
+    that part of the record's peak. A record that was rounded to `DECIMALS`, as those of
+    `solver.synthesis` are in g, is read back bit for bit.
+    """
+    text = record_csv(record, units, within=within)
+    path.write_text(text, encoding="utf-8", newline="\n")
+
+
+def record_csv(record: Record, units: str = "g", *, within: float = math.inf) -> str:
+    """Return the text that `write_record` writes."""
+    _check_arguments(record.name, units, record.dt_s)
+    values = record.a_mps2 / UNITS[units]
+    places = next((k for k in range(1, 9) if fits(record.dt_s, 10.0**-k)), 9)
+    decimals = _decimals(values, DECIMALS[units], within)
+    row = f"{{:.{places}f}},{{:z.{decimals}f}}\n".format
+    body = "".join(row(i * record.dt_s, value) for i, value in enumerate(values.tolist()))
+    return f"time_s,acceleration_{units}\n{body}"
+
+
+def _decimals(values: Floats, least: int, within: float) -> int:
+    """Decimals that print the values to that part of the largest one, from `least` on."""
+    peak = np.abs(values).max()
+    # Beyond 300 decimals a power of ten is no longer a float.
+    kept = (k for k in range(least, 300) if _off(values, k) <= within * peak)
+    return least if math.isinf(within) or peak == 0.0 else next(kept, 300)
+
+
+def _off(values: Floats, decimals: int) -> float:
+    return float(np.abs(values - np.round(values, decimals)).max())
+
+
+def read_only(values: ArrayLike) -> Floats:
+    """The values as a contiguous array of doubles that cannot be written to."""
+    # numba compiles a second version for writable arrays, so kernels see read-only ones only.
+    array = np.ascontiguousarray(values, dtype=np.float64).view()
+    array.setflags(write=False)
+    return array
+
+
+def _record(name: str, values: Floats, units: str, dt_s: float) -> Record:
+    return Record(name=name, dt_s=float(dt_s), a_mps2=read_only(values * UNITS[units]))
+
+
+def is_finite_number(value: object) -> bool:
+    """Whether the value is a number, not a truth value, of a size below `BEYOND`."""
+    if isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool):
+        return bool(-BEYOND < value < BEYOND)
+    return False
+
+
+def shown(value: object) -> str:
+    """The value as a message shows it: quoted, and cut where it is long."""
+    text = repr(value)
+    return text if len(text) <= 32 else f"{text[:28]}...{text[-1]}"
+
+
+def raise_any(problems: Iterable[str]) -> None:
+    """Raise the first problems with a count of the others, if there are any."""
+    left = iter(problems)
+    told = list(itertools.islice(left, MAX_PROBLEMS))
+    if told:
+        # The others are counted without being kept, and not to the end: a file may have millions.
+        more = sum(1 for _ in itertools.islice(left, MAX_COUNTED + 1))
+        words = f"{more} more" if more <= MAX_COUNTED else f"more than {MAX_COUNTED} more"
+        raise InputError([*told, f"... and {words}"] if more else told)
+
+
+def _check_arguments(name: str, units: str, dt_s: float) -> None:
+    problems = []
+    if units not in UNITS:
+        problems.append(f"{name}: unit is {units!r}; give one of {', '.join(UNITS)}")
+    if not (is_finite_number(dt_s) and dt_s > 0.0):
+        problems.append(f"{name}: time step dt is {dt_s!r}; give a number of seconds above 0")
+    raise_any(problems)
+
+
+def fits(values: float | Floats, resolution: float) -> bool:
+    """Whether the values are whole multiples of the resolution, to float precision."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        counts = np.asarray(values) / resolution
+        return bool(np.all(np.abs(counts - np.rint(counts)) < 1e-6))

@@ -1,0 +1,131 @@
+"""Scaling of a motion to a target spectrum: one factor for all its components.
+
+Makes no targets but the design spectrum of ASCE 7, and changes no record.
+Read `factor_to_target` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+
+from solver.model import Floats, InputError
+from solver.records.record import UNITS, Record
+from solver.records.spectrum import response_spectrum
+
+Target = Callable[[Floats], Floats]
+"""Spectral acceleration [g] at frequencies [Hz], 5 % damping."""
+
+DAMPING = 0.05
+PER_DECADE = 100
+
+
+def corner_points(freq_hz: Floats, sa_g: Floats) -> Target:
+    """Return the target through corners [Hz], [g]: log-log between them, flat beyond."""
+    return partial(_between, log_freq=np.log(freq_hz), log_sa=np.log(sa_g))
+
+
+def _between(freq_hz: Floats, *, log_freq: Floats, log_sa: Floats) -> Floats:
+    return np.asarray(np.exp(np.interp(np.log(freq_hz), log_freq, log_sa)))
+
+
+def design_spectrum(*, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Target:
+    """Return the design response spectrum of the ground.
+
+    S_DS (0.4 + 0.6 T / T_0) up to T_0 = 0.2 T_S, S_DS up to T_S = S_D1 / S_DS, S_D1 / T up to T_L,
+    S_D1 T_L / T^2 beyond: ASCE/SEI 7-16, 11.4.6; ASCE/SEI 7-22, 11.4.5.2 (two-period spectrum).
+
+    Parameters
+    ----------
+    s_ds_g, s_d1_g : float
+        Design spectral acceleration at short periods and at 1 s [g], > 0.
+    t_l_s : float
+        Long-period transition period [s], > T_S.
+
+    Raises
+    ------
+    InputError
+    """
+    _check_design(s_ds_g, s_d1_g, t_l_s)
+    return partial(_design, s_ds_g=s_ds_g, s_d1_g=s_d1_g, t_l_s=t_l_s)
+
+
+def _design(freq_hz: Floats, *, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Floats:
+    with np.errstate(divide="ignore"):
+        period = 1.0 / np.asarray(freq_hz, dtype=np.float64)
+    rising = s_ds_g * np.minimum(0.4 + 0.6 * period / (0.2 * (s_d1_g / s_ds_g)), 1.0)
+    # At period 0 and at frequency 0 the other branch is the least.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        falling = s_d1_g / period * np.minimum(1.0, t_l_s / period)
+    return np.asarray(np.fmin(rising, falling))
+
+
+def factor_to_target(
+    horizontals: Sequence[Record], target: Target, periods_s: tuple[float, float]
+) -> float:
+    """Factor that brings a motion to a target over a range of periods, on average.
+
+    The exponential of the mean of ln(target / spectrum) over periods that are evenly spaced in
+    their logarithm, the spectrum being the geometric mean of the horizontal components', 5 %
+    damping. Of all factors it leaves the least squares of the logarithms. All components of the
+    motion, the vertical one too, are to be multiplied by it.
+
+    Parameters
+    ----------
+    horizontals : sequence of Record
+        One or two components.
+    target : callable
+        See `Target`; ``RequiredSpectrum.at`` is one.
+    periods_s : tuple of float
+        Least and greatest period [s].
+
+    Raises
+    ------
+    InputError
+        Where the range is none, or a component is zero throughout.
+    """
+    _check_range(periods_s)
+    periods = _periods(*periods_s)
+    logs = [_log_spectrum(record, periods) for record in horizontals]
+    off = np.log(target(1.0 / periods)) - np.mean(logs, axis=0)
+    return float(np.exp(off.mean()))
+
+
+def _periods(shortest_s: float, longest_s: float) -> Floats:
+    count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
+    return np.geomspace(shortest_s, longest_s, max(count, 2))
+
+
+def _log_spectrum(record: Record, periods_s: Floats) -> Floats:
+    if not record.a_mps2.any():
+        raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a target")
+    found = response_spectrum(record.a_mps2, record.dt_s, periods_s, DAMPING)
+    return np.asarray(np.log(found / UNITS["g"]))
+
+
+def _check_range(periods_s: tuple[float, float]) -> None:
+    shortest, longest = periods_s
+    if not 0.0 < shortest < longest < math.inf:
+        raise InputError(
+            f"period range is {shortest:g} s to {longest:g} s; give two periods above 0, the "
+            f"second longer"
+        )
+
+
+def _check_design(s_ds_g: float, s_d1_g: float, t_l_s: float) -> None:
+    problems = [
+        f"{name} is {value:g} {unit}; give a number above 0"
+        for name, value, unit in (
+            ("S_DS", s_ds_g, "g"),
+            ("S_D1", s_d1_g, "g"),
+            ("T_L", t_l_s, "s"),
+        )
+        if not 0.0 < value < math.inf
+    ]
+    if not problems and t_l_s <= s_d1_g / s_ds_g:
+        problems = [f"T_L is {t_l_s:g} s; give more than T_S = {s_d1_g / s_ds_g:g} s"]
+    if problems:
+        raise InputError(problems)

@@ -1,0 +1,94 @@
+"""Response spectra of records.
+
+Reads no files. Read `response_spectrum`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from solver.kernels import oscillator
+from solver.model import Floats
+from solver.records.record import raise_any, read_only
+
+PEAK_FINENESS, PEAK_STEPS = 40, 16
+"""Places of a period at which an oscillator's peak is looked for; at most so many of an interval.
+"""
+
+
+def response_spectrum(
+    a_mps2: ArrayLike, dt_s: float, periods_s: ArrayLike, damping: float = 0.05
+) -> Floats:
+    """Pseudo-spectral acceleration of a record, omega^2 times the largest |displacement|.
+
+    The oscillators follow the linearly interpolated record exactly (Nigam and Jennings, Bull.
+    Seism. Soc. Am. 59 (1969) 909-922), from rest to the end of the record. Short periods are looked
+    at between the samples as well: at `PEAK_FINENESS` places of a period, which miss a peak by
+    0.3 % at most, 1 - cos(pi / PEAK_FINENESS); below 2.5 dt at `PEAK_STEPS` places of each
+    interval. Free vibration after the record's end is not looked at: pad a record with zeros to
+    have it.
+
+    Parameters
+    ----------
+    a_mps2 : array_like, shape (n,)
+        Acceleration [m/s2].
+    dt_s : float
+        Sampling interval [s], > 0.
+    periods_s : array_like, shape (m,)
+        Natural periods [s], >= 0; 0 gives the peak acceleration of the record.
+    damping : float
+        Fraction of critical damping, in [0, 1).
+
+    Returns
+    -------
+    array, shape (m,)
+        Pseudo-spectral acceleration [m/s2].
+
+    Raises
+    ------
+    InputError
+    """
+    a, periods = read_only(a_mps2), np.asarray(periods_s, dtype=np.float64)
+    _check_spectrum(a, dt_s, periods, damping)
+    with np.errstate(divide="ignore", over="ignore"):
+        omega = 2.0 * math.pi / periods
+    rigid = ~np.isfinite(omega)
+    found = np.full(omega.shape, np.abs(a).max())
+    steps = _peak_steps(float(dt_s), np.where(rigid, 0.0, omega))
+    for each in np.unique(steps[~rigid]).tolist():
+        some = ~rigid & (steps == each)
+        peak, at = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
+        fine = read_only(refined(a, each))
+        oscillator.peaks(fine, dt_s / each, omega[some], float(damping), peak, at)
+        found[some] = np.abs(peak)
+    return found
+
+
+def _peak_steps(dt_s: float, omega: Floats) -> NDArray[np.int64]:
+    """Steps for each interval at which the peak of an oscillator is looked for: powers of two."""
+    needed = np.clip(PEAK_FINENESS * dt_s * omega / (2.0 * math.pi), 1.0, PEAK_STEPS)
+    return (2.0 ** np.ceil(np.log2(needed))).astype(np.int64)
+
+
+def refined(a: Floats, steps: int) -> Floats:
+    """Return a record with so many steps in each interval, on its straight lines."""
+    if steps == 1:
+        return a
+    at = np.arange((a.size - 1) * steps + 1)
+    return np.interp(at, np.arange(a.size) * steps, a)
+
+
+def _check_spectrum(a: Floats, dt_s: float, periods: Floats, damping: float) -> None:
+    problems = []
+    if a.ndim != 1 or len(a) < 1 or not np.isfinite(a).all():
+        problems.append("acceleration: give one column of finite numbers")
+    if not (math.isfinite(dt_s) and dt_s > 0.0):
+        problems.append(f"time step dt is {dt_s!r}; give a number of seconds above 0")
+    if periods.ndim != 1 or not (np.isfinite(periods).all() and (periods >= 0.0).all()):
+        problems.append("periods: give one column of numbers of seconds, 0 or above")
+    if not 0.0 <= damping < 1.0:
+        problems.append(f"damping is {damping!r}; give a fraction from 0 to below 1")
+    raise_any(problems)

@@ -1,0 +1,46 @@
+"""Names of acceleration units as files print them.
+
+Owns their spelling and size. Read `unit_size` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+from solver.records.record import UNITS
+
+UNIT_CHOICES = (*UNITS, "gal")
+"""Units that a caller may give for a file that does not say its own."""
+
+_G_MPS2 = UNITS["g"]
+
+# COSMOS V1.20 has in/s2 and milli-g too (table 2); g/10 is CSMIP's volume 1.
+_SIZES = UNITS | {
+    "gal": 0.01,
+    "g/10": _G_MPS2 / 10.0,
+    "%g": _G_MPS2 / 100.0,
+    "mg": _G_MPS2 / 1000.0,
+    "ft/s2": 0.3048,
+    "in/s2": 0.0254,
+}
+
+_LENGTHS = "mm|cm|m|ft|in"
+_NOT_ACCELERATION = re.compile(rf"({_LENGTHS})(/s)?", re.ASCII)
+
+
+def unit_size(text: str) -> float:
+    """Size [m/s2] of a unit in any of its spellings; nan where it is no unit of acceleration."""
+    return _SIZES.get(_plain(text), math.nan)
+
+
+def is_other_unit(text: str) -> bool:
+    """Whether the text is a unit of length or of velocity."""
+    return bool(_NOT_ACCELERATION.fullmatch(_plain(text)))
+
+
+def _plain(text: str) -> str:
+    """One spelling for all: `CM/SEC/SEC`, `cm/s**2`, `cm s^-2`, `cmps2` and `cm/s²` are `cm/s2`."""
+    plain = re.sub(r"[\s^*·]", "", text.lower()).replace("²", "2").replace("⁻", "-")
+    plain = re.sub(r"sec(onds?)?", "s", plain).replace("s/s", "s2").replace("gals", "gal")
+    return re.sub(rf"^({_LENGTHS})(?:[p_/]s-?2|s-2)$", r"\1/s2", plain)

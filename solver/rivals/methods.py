@@ -1,0 +1,350 @@
+"""The methods by name: what each one is, takes and is good for, and how a scene is run by it.
+
+Checks no input and packs no results (`solver.sliding.checked`); integrates nothing
+(`solver.kernels.one_axis`, `solver.kernels.rivals`, `solver.rivals.regularized`). Read `METHODS`
+first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+
+from solver.kernels import one_axis, rivals
+from solver.model import Floats
+from solver.rivals import regularized
+
+NO_RECORD = np.empty(0)
+NO_RECORD.setflags(write=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """One block under one motion, checked, in the letters of the kernels.
+
+    `ax` and `az` are read-only; `az` has shape (0,) where there is no vertical shaking. `x` and `z`
+    hold the `one_axis.bounds` of `ax` and `az`.
+    """
+
+    ax: Floats
+    x: Floats
+    az: Floats
+    z: Floats
+    dt: float
+    sn: float
+    cs: float
+    mu: float
+    g: float
+    scale: float
+
+
+class Outcome(NamedTuple):
+    """What a method found, along the slope: [m], [m/s], [s]."""
+
+    followed: bool
+    s_max: float
+    s_min: float
+    s_end: float
+    w_end: float
+    t_peak: float
+    n_stops: int
+
+
+Parameters = Mapping[str, float]
+Follow = Callable[[Prepared, Parameters, Floats], Outcome]
+"""Runs a scene; the array of shape (2, n) is filled with s and s' at the samples, (2, 0) not."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Method:
+    """One way to follow the block.
+
+    Attributes
+    ----------
+    name, title : str
+    parameters : mapping
+        Every parameter that it takes, with its default.
+    knob : str
+        The parameter that sets its accuracy; empty for none.
+    sweep : tuple of float
+        Values of the knob from coarse to fine.
+    order : float
+        Formal order of the error in the sub-step where the motion is smooth, NaN for none. Stick
+        and slip brings each down to first order.
+    takes_vertical : bool
+    invalid_when : str
+        When not to trust it, in a sentence.
+    source : str
+    link_steps_per_radian : float
+        Sub-steps for each radian omega h of its link in a sweep (`settings`); 0 without a link.
+    follow : callable
+    """
+
+    name: str
+    title: str
+    parameters: Parameters
+    knob: str
+    sweep: tuple[float, ...]
+    order: float
+    takes_vertical: bool
+    invalid_when: str
+    source: str
+    link_steps_per_radian: float = 0.0
+    follow: Follow
+
+    def settings(self, value: float, dt_s: float, g_mps2: float) -> dict[str, float]:
+        """Return all parameters for one value of the knob; a link gets the sub-steps it needs."""
+        found = dict(self.parameters) | {self.knob: value}
+        if self.link_steps_per_radian:
+            radians = link_frequency(found["stiffness_per_m"], g_mps2) * dt_s
+            found["substeps"] = max(1, math.ceil(radians * self.link_steps_per_radian))
+        return found
+
+
+def link_frequency(stiffness_per_m: float, g_mps2: float) -> float:
+    """Return omega = sqrt(g k) [rad/s] of a block on a link of k times its weight for each metre.
+
+    The explicit link is unstable for sub-steps above 2 / omega.
+    """
+    return math.sqrt(g_mps2 * stiffness_per_m)
+
+
+def least_normal(scene: Prepared) -> tuple[float, float]:
+    """Return the least N / (m g), and when N first falls below zero [s]; NaN if it never does."""
+    c, (az, z) = scene, _vertical(scene)
+    found: tuple[float, float] = one_axis.least_normal(
+        c.ax, az, c.x, z, c.dt, c.sn, c.cs, c.g, c.scale
+    )
+    return found
+
+
+def exact_events(scene: Prepared, n_stops: int) -> Floats:
+    """Return the events of a run with so many stops: time, kind (`kernels`) and s of each."""
+    rows = np.empty((2 * n_stops + 1, 3))
+    n_events = _run_exact(scene, rows)[-1]
+    return rows[: int(n_events)]
+
+
+def _vertical(scene: Prepared) -> tuple[Floats | None, Floats | None]:
+    """Return the vertical record and its bounds as the exact kernels take them."""
+    return (scene.az, scene.z) if scene.az.size else (None, None)
+
+
+def _run_exact(
+    scene: Prepared, events: Floats | None
+) -> tuple[float, float, float, float, float, int, int]:
+    c, (az, z) = scene, _vertical(scene)
+    found: tuple[float, float, float, float, float, int, int] = one_axis.slide_exact(
+        c.ax, az, c.x, z, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events
+    )
+    return found
+
+
+def _exact(scene: Prepared, _: Parameters, samples: Floats) -> Outcome:
+    c, found = scene, Outcome(True, *_run_exact(scene, None)[:-1])
+    if samples.size:
+        events = exact_events(scene, found.n_stops)
+        one_axis.fill_history(
+            c.ax, _vertical(c)[0], c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events, samples
+        )
+        samples[:, -1] = found.s_end, found.w_end
+    return found
+
+
+def _frozen(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+    """Follow the scene on a flat roof that drives the block alike: the exact kernel serves.
+
+    There N = g' for good and G = -a', so g' = g cos(theta) freezes the normal force and a' = -G
+    keeps the drive, vertical shaking included.
+    """
+    drive, _ = drive_and_cap(scene)
+    a = -drive
+    a.setflags(write=False)
+    x = one_axis.bounds(a)
+    none = replace(scene, az=NO_RECORD, z=one_axis.bounds(NO_RECORD))
+    flat = replace(none, ax=a, x=x, sn=0.0, cs=1.0, g=scene.g * scene.cs, scale=1.0)
+    return _exact(flat, parameters, samples)
+
+
+def _constant(scene: Prepared, parameters: Parameters, samples: Floats, skips: bool) -> Outcome:
+    p = int(parameters["substeps"])
+    return _outcome(rivals.slide_constant(*_letters(scene), p, skips, samples))
+
+
+def _paper(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+    return _constant(scene, parameters, samples, False)
+
+
+def _adaptive(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+    return _constant(scene, parameters, samples, True)
+
+
+def _linear(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+    p = int(parameters["substeps"])
+    return _outcome(rivals.slide_linear(*_letters(scene), p, samples))
+
+
+def _link(scene: Prepared, parameters: Parameters, samples: Floats, implicit: bool) -> Outcome:
+    p, k = int(parameters["substeps"]), scene.g * parameters["stiffness_per_m"]
+    return _outcome(rivals.slide_link(*_letters(scene), p, k, implicit, samples))
+
+
+def _explicit(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+    return _link(scene, parameters, samples, False)
+
+
+def _implicit(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+    return _link(scene, parameters, samples, True)
+
+
+def _regularised(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+    drive, cap = drive_and_cap(scene)
+    velocity, tolerance = parameters["velocity_mps"], parameters["tolerance"]
+    return Outcome(*regularized.slide(drive, cap, scene.dt, velocity, tolerance, samples))
+
+
+def drive_and_cap(scene: Prepared) -> tuple[Floats, Floats]:
+    """Return G and mu N at the samples [m/s2]."""
+    x = scene.scale * scene.ax
+    z = scene.g + scene.scale * (scene.az if scene.az.size else np.zeros_like(x))
+    return scene.sn * z - scene.cs * x, scene.mu * (scene.cs * z + scene.sn * x)
+
+
+def _letters(scene: Prepared) -> tuple[Floats, Floats, float, float, float, float, float, float]:
+    c = scene
+    return c.ax, c.az, c.dt, c.sn, c.cs, c.mu, c.g, c.scale
+
+
+def _outcome(found: tuple[int, float, float, float, float, float, int]) -> Outcome:
+    return Outcome(found[0] == rivals.FOLLOWED, *found[1:])
+
+
+_PAPER = "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to Seismic Motion"
+_SUBSTEPS: Parameters = MappingProxyType({"substeps": 64})
+_LINK: Parameters = MappingProxyType({"stiffness_per_m": 1e5, "substeps": 20})
+_POWERS_OF_TWO = (1, 2, 4, 8, 16, 32, 64, 128, 256)
+_STIFFNESSES = (1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8)
+
+_ALL = (
+    Method(
+        name="exact",
+        title="Exact, event by event",
+        parameters=MappingProxyType({}),
+        knob="",
+        sweep=(),
+        order=math.nan,
+        takes_vertical=True,
+        invalid_when="Never, where one rigid block with one friction coefficient is the model.",
+        source="solver.kernels.one_axis.slide_exact: roots of the cubic motion between samples",
+        follow=_exact,
+    ),
+    Method(
+        name="paper",
+        title="The paper's, constant acceleration",
+        parameters=_SUBSTEPS,
+        knob="substeps",
+        sweep=_POWERS_OF_TWO,
+        order=1.0,
+        takes_vertical=False,
+        invalid_when=(
+            "With vertical shaking; with few sub-steps, its error jumps from one number of them to "
+            "the next, because each event falls differently."
+        ),
+        source=f"{_PAPER}, Eqs. 1-19",
+        follow=_paper,
+    ),
+    Method(
+        name="linear",
+        title="Linear acceleration",
+        parameters=_SUBSTEPS,
+        knob="substeps",
+        sweep=_POWERS_OF_TWO,
+        order=2.0,
+        takes_vertical=True,
+        invalid_when=(
+            "Where the block often reverses without a rest: there it is of first order, because it "
+            "finds a reversal at the end of a sub-step only."
+        ),
+        source=f"{_PAPER}, Limitations: a linear acceleration method",
+        follow=_linear,
+    ),
+    Method(
+        name="adaptive",
+        title="The paper's, small steps only in slip",
+        parameters=_SUBSTEPS,
+        knob="substeps",
+        sweep=_POWERS_OF_TWO,
+        order=1.0,
+        takes_vertical=True,
+        invalid_when="As the paper's, whose numbers it gives; it gains nothing in lasting slip.",
+        source=f"{_PAPER}, Limitations: larger time steps while no slip is detected",
+        follow=_adaptive,
+    ),
+    Method(
+        name="penalty-explicit",
+        title="Link with a friction cap, explicit",
+        parameters=_LINK,
+        knob="stiffness_per_m",
+        sweep=_STIFFNESSES,
+        order=2.0,
+        takes_vertical=True,
+        invalid_when=(
+            "For sub-steps above 2 / sqrt(g k) it is unstable, and above 1.7 / sqrt(g k) it may "
+            "slip in every third; a soft link adds its own stretch, mu / k, and vibrates for ever."
+        ),
+        source=f"{_PAPER}, SAP 2000: Newmark gamma 0.5, beta 0, no damping, 100 N/mm on 1 N",
+        link_steps_per_radian=1.0,
+        follow=_explicit,
+    ),
+    Method(
+        name="penalty-implicit",
+        title="Link with a friction cap, implicit",
+        parameters=_LINK,
+        knob="stiffness_per_m",
+        sweep=_STIFFNESSES,
+        order=2.0,
+        takes_vertical=True,
+        invalid_when=(
+            "For sub-steps above 2 / sqrt(g k) Newton's method may go to and fro between stick and "
+            "slip for ever; a soft link adds its own stretch, mu / k."
+        ),
+        source="OpenSees flatSliderBearing with Newmark gamma 0.5, beta 0.25 and Newton's method",
+        link_steps_per_radian=1.0,
+        follow=_implicit,
+    ),
+    Method(
+        name="regularised",
+        title="Friction mu N tanh(v / v0), adaptive Runge-Kutta",
+        parameters=MappingProxyType({"velocity_mps": 0.01, "tolerance": 1e-3}),
+        knob="tolerance",
+        sweep=(1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8),
+        order=math.nan,
+        takes_vertical=True,
+        invalid_when=(
+            "On any slope: it creeps where it should stick, by v0 atanh(tan(theta) / mu); no "
+            "tolerance mends that, and a small v0 makes it stiff."
+        ),
+        source="scipy.integrate.solve_ivp, RK45: Dormand and Prince, J. Comp. Appl. Math. 6 (1980)",
+        follow=_regularised,
+    ),
+    Method(
+        name="frozen-normal",
+        title="Normal force frozen at m g cos(theta)",
+        parameters=MappingProxyType({}),
+        knob="",
+        sweep=(),
+        order=math.nan,
+        takes_vertical=True,
+        invalid_when="On any slope and with vertical shaking: both change the normal force.",
+        source="What SLAMMER's dual-slope analysis and an elastic-plastic spring do",
+        follow=_frozen,
+    ),
+)
+
+METHODS: Mapping[str, Method] = MappingProxyType({method.name: method for method in _ALL})
+"""Every method by its name."""

@@ -1,0 +1,1 @@
+"""Every number of every code, by edition, and what follows from them. Read `rulesets`."""

@@ -1,0 +1,86 @@
+"""The required response spectra of AC156.
+
+Knows no motions. Read `ac156_horizontal`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from solver.model import Floats
+from solver.rules.rulesets import RuleSet
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RequiredSpectrum:
+    """AC156 required response spectrum: corners to join by straight lines on log-log axes.
+
+    Attributes
+    ----------
+    freq_hz, sa_g : array, shape (4,)
+    """
+
+    freq_hz: Floats
+    sa_g: Floats
+
+    def at(self, freq_hz: Floats) -> Floats:
+        """Return ordinates [g] at frequencies [Hz], flat outside the corners."""
+        return np.asarray(
+            np.exp(np.interp(np.log(freq_hz), np.log(self.freq_hz), np.log(self.sa_g))),
+            dtype=np.float64,
+        )
+
+
+class Tail(StrEnum):
+    """How an AC156 spectrum falls below 1.3 Hz, which is where long slips come from."""
+
+    AC156 = "AC156"
+    RECIPROCAL = "1/T"
+
+    @property
+    def sentence(self) -> str:
+        """The rule in words."""
+        return _TAIL_SENTENCES[self]
+
+
+_FLEXIBLE_FROM_HZ = 1.3
+
+
+_TAIL_SENTENCES = {
+    Tail.AC156: "below 1.3 Hz (beyond 0.77 s) the line of AC156, down to 0.1 A_FLX at 0.1 Hz",
+    Tail.RECIPROCAL: "beyond 0.77 s (below 1.3 Hz) 1/T, down to 0.077 A_FLX at 10 s",
+}
+
+
+_TAIL_AT_10_S = {Tail.AC156: 0.1, Tail.RECIPROCAL: 0.1 / _FLEXIBLE_FROM_HZ}
+
+
+def ac156_horizontal(
+    rules: RuleSet, *, s_ds_g: float, z_over_h: float, tail: Tail = Tail.AC156
+) -> RequiredSpectrum:
+    """Return the horizontal AC156 spectrum, 5 % damping.
+
+    A_FLX = S_DS (1 + 2 z/h) <= 1.6 S_DS, A_RIG = 0.4 S_DS (1 + 2 z/h); with ASCE 7-22
+    A_FLX = S_DS H_f/R_mu <= 1.6 S_DS, A_RIG = 0.4 S_DS H_f/R_mu, H_f = 1 + 2.5 z/h, R_mu = 1.3
+    above grade and 1 at it.
+    PV1-2012 Sec. 9 allows the tail 1/T beyond 0.77 s in place of AC156's line.
+    """
+    ratio = 1.0 + 2.0 * z_over_h
+    if rules.name == "ASCE 7-22":
+        ratio = (1.0 + 2.5 * z_over_h) / (1.3 if z_over_h > 0.0 else 1.0)
+    return _corners(min(ratio, 1.6) * s_ds_g, 0.4 * ratio * s_ds_g, tail)
+
+
+def ac156_vertical(*, s_ds_g: float, tail: Tail = Tail.AC156) -> RequiredSpectrum:
+    """Return the vertical AC156 spectrum: 0.67 S_DS and 0.27 S_DS."""
+    return _corners(0.67 * s_ds_g, 0.27 * s_ds_g, tail)
+
+
+def _corners(flexible_g: float, rigid_g: float, tail: Tail) -> RequiredSpectrum:
+    return RequiredSpectrum(
+        freq_hz=np.array([0.1, _FLEXIBLE_FROM_HZ, 8.3, 33.3]),
+        sa_g=np.array([_TAIL_AT_10_S[tail] * flexible_g, flexible_g, flexible_g, rigid_g]),
+    )

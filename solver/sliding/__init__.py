@@ -1,0 +1,1 @@
+"""One block under one motion: one axis, two axes, a row, the least model. Read `checked`."""

@@ -1,0 +1,319 @@
+"""Chooses the least model that answers a scene: one array under one motion.
+
+Follows nothing itself (`solver.sliding.checked` and `solver.sliding.two_axes` do) and knows no code
+rules. Read `Rung`, then `solve`.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+import numpy as np
+
+from solver.forces import forces
+from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import one_axis, two_axes
+from solver.sliding.row import Row, slide_row
+
+
+class Rung(IntEnum):
+    """The models of a scene, from the least to the fullest."""
+
+    NO_SLIP = 0
+    ONE_AXIS = 1
+    ONE_AXIS_VERTICAL = 2
+    TWO_AXES = 3
+    SPEED_FRICTION = 4
+    ROW = 5
+
+    @property
+    def title(self) -> str:
+        """The model in words."""
+        return _TITLES[self]
+
+
+_TITLES = {
+    Rung.NO_SLIP: "no slip",
+    Rung.ONE_AXIS: "one axis",
+    Rung.ONE_AXIS_VERTICAL: "one axis with vertical",
+    Rung.TWO_AXES: "two axes with vertical",
+    Rung.SPEED_FRICTION: "two axes, friction by speed",
+    Rung.ROW: "a row of linked blocks, one axis",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """How to choose.
+
+    Attributes
+    ----------
+    matters_m, matters_share : float
+        A component whose effect on the PRD and on every excursion is below the first [m] or the
+        second, of the PRD, is not modelled.
+    tolerance : float
+        Of two axes and of friction by speed, relative to the PRD (`two_axes.TOLERANCES`).
+    forced : Rung or None
+        This rung and no other. A row is never chosen, only asked for.
+    row : Row or None
+        The blocks and links of `Rung.ROW`.
+    """
+
+    matters_m: float = 1e-3
+    matters_share: float = 0.005
+    tolerance: float = two_axes.DEFAULT_TOLERANCE
+    forced: Rung | None = None
+    row: Row | None = None
+
+    def bound_m(self, prd_m: float) -> float:
+        """Return the effect on a PRD below which nothing more is modelled [m]."""
+        return max(self.matters_m, self.matters_share * prd_m)
+
+
+DEFAULT = Settings()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Solution:
+    """A scene's result, the model that gave it, and what a fuller one would change.
+
+    Attributes
+    ----------
+    rung : Rung
+    reason : str
+        Why this rung, in a clause.
+    result : SlideResult
+    next_rung : Rung
+        The first one above that was left out; the rung itself where there is none.
+    next_effect_m : float
+        What it and fuller models would change in the PRD, and in any excursion, at most [m], by
+        runs of them with their errors; inf where such a run gives no displacement, NaN where the
+        motion or the test report has nothing to tell it from.
+    friction_demand : float
+        Largest shear over normal force of a block that is held: it slips where this is above the
+        friction coefficient; inf where the normal force vanishes.
+    seconds : float
+        What choosing and running took.
+    """
+
+    rung: Rung
+    reason: str
+    result: SlideResult
+    next_rung: Rung
+    next_effect_m: float
+    friction_demand: float
+    seconds: float = math.nan
+
+
+def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
+    """Answer a scene with the least model that does.
+
+    A block that is never pushed over is not run. Else the least rung answers whose PRD and
+    excursions agree to `Settings.bound_m` with those of all fuller ones, bounds of their errors
+    included: they are run.
+    What pushes across the slope is carried along the whole path, so that no estimate from one axis
+    alone bounds it. Friction by speed is modelled where the scene's friction depends on it. Where
+    the normal force falls below zero no rung gives a displacement, a forced one included.
+
+    Raises
+    ------
+    InputError
+        Where a rung is forced that the scene does not allow.
+    """
+    started = time.perf_counter()
+    demand = forces(scene).friction_demand
+    if math.isinf(demand) and one_axis.run(scene).status is Status.UPLIFT:
+        found = _lifted(scene)
+    elif settings.forced is None:
+        found = _climbed(scene, settings, demand)
+    else:
+        found = _forced(scene, settings, settings.forced, demand)
+    return replace(found, seconds=time.perf_counter() - started)
+
+
+def history(scene: Scene, found: Solution, settings: Settings = DEFAULT) -> SlideHistory:
+    """Return the motion at the samples of a scene that was solved, by the same rung.
+
+    Raises
+    ------
+    InputError
+        For a row: `solver.sliding.row.row_history` gives the motion of each of its blocks.
+    """
+    if found.rung is Rung.ROW:
+        raise InputError("a row has a history for each block; ask solver.sliding.row.row_history")
+    run = _run_as(scene, found.rung)
+    if found.rung >= Rung.TWO_AXES:
+        return two_axes.run_history(run, settings.tolerance)
+    return one_axis.run_history(run)
+
+
+def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
+    if demand <= scene.friction.mu_static:
+        return _still(scene, demand)
+    if not scene.friction.is_constant:
+        why = "the friction coefficient is given by speed"
+        return _in_plane(scene, settings, Rung.SPEED_FRICTION, why, demand)
+    found = one_axis.run(scene)
+    bound = settings.bound_m(found.prd_m)
+    level = one_axis.run(_level(scene)) if scene.az_mps2.size else found
+    both = two_axes.run(scene, settings.tolerance) if scene.ay_mps2.any() else found
+    less, lesser = _left_out(found, both), _left_out(level, found, both)
+    if lesser <= bound:
+        why = f"nothing more changes a displacement by over {_mm(bound)}"
+        return _along(scene, Rung.ONE_AXIS, level, lesser, why, demand)
+    if less <= bound:
+        why = f"without the vertical a displacement changes by {_mm(lesser)}, over {_mm(bound)}"
+        return _along(scene, Rung.ONE_AXIS_VERTICAL, found, less, why, demand)
+    why = f"without the second component a displacement changes by {_mm(less)}, over {_mm(bound)}"
+    return _followed(scene, Rung.TWO_AXES, both, why, demand)
+
+
+def _left_out(found: SlideResult, *fuller: SlideResult) -> float:
+    """Return what fuller models change in a PRD or an excursion at most [m]; inf for unknown.
+
+    Excursions as well: two models may come as far from the start by chance, on other ways.
+    """
+    effects = [
+        abs(getattr(one, name) - getattr(found, name)) + one.error_m
+        for one in fuller
+        if one is not found
+        for name in ("prd_m", "down_m", "up_m", "across_m")
+    ]
+    return math.inf if any(map(math.isnan, effects)) else max(effects, default=0.0)
+
+
+def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solution:
+    hold, why = scene.friction.mu_static, "asked for"
+    if rung is Rung.NO_SLIP and demand > hold:
+        raise InputError(
+            f"no slip is asked for, but the friction demand is {demand:.3g} and the coefficient "
+            f"{hold:.3g}; ask for a fuller model"
+        )
+    if rung is Rung.NO_SLIP:
+        return _still(scene, demand)
+    if rung is Rung.ROW:
+        return _linked(scene, settings.row, demand)
+    if rung >= Rung.TWO_AXES:
+        return _in_plane(scene, settings, rung, why, demand)
+    found, fuller = one_axis.run(_run_as(scene, rung)), []
+    if scene.ay_mps2.any():
+        fuller.append(two_axes.run(_run_as(scene, Rung.TWO_AXES), settings.tolerance))
+    if rung is Rung.ONE_AXIS and scene.az_mps2.size:
+        fuller.append(one_axis.run(scene))
+    return _along(scene, rung, found, _left_out(found, *fuller), why, demand)
+
+
+def _lifted(scene: Scene) -> Solution:
+    rung = Rung.ONE_AXIS_VERTICAL if scene.az_mps2.size else Rung.ONE_AXIS
+    return Solution(
+        rung=rung,
+        reason="the normal force falls below zero: no model goes on from there",
+        result=one_axis.run(scene),
+        next_rung=rung,
+        next_effect_m=math.nan,
+        friction_demand=math.inf,
+    )
+
+
+def _still(scene: Scene, demand: float) -> Solution:
+    hold = scene.friction.mu_static
+    return Solution(
+        rung=Rung.NO_SLIP,
+        reason=f"the friction demand, {demand:.2f}, is below the coefficient, {hold:.2f}",
+        result=one_axis.run(_run_as(scene, Rung.NO_SLIP)),
+        next_rung=Rung.NO_SLIP,
+        next_effect_m=0.0,
+        friction_demand=demand,
+    )
+
+
+def _along(
+    scene: Scene, rung: Rung, found: SlideResult, effect: float, why: str, demand: float
+) -> Solution:
+    """Return what was found in one axis, with the effect of what was left out."""
+    following = rung
+    if rung is Rung.ONE_AXIS and scene.az_mps2.size:
+        following = Rung.ONE_AXIS_VERTICAL
+    elif scene.ay_mps2.size:
+        following = Rung.TWO_AXES
+    return Solution(
+        rung=rung,
+        reason=why,
+        result=found,
+        next_rung=following,
+        next_effect_m=math.nan if following is rung else effect,
+        friction_demand=demand,
+    )
+
+
+def _in_plane(scene: Scene, settings: Settings, rung: Rung, why: str, demand: float) -> Solution:
+    found = two_axes.run(_run_as(scene, rung), settings.tolerance)
+    if scene.friction.is_constant or rung is Rung.SPEED_FRICTION:
+        return _followed(scene, rung, found, why, demand)
+    fuller = two_axes.run(scene, settings.tolerance)
+    by_speed = _followed(scene, rung, found, why, demand)
+    effect = _left_out(found, fuller)
+    return replace(by_speed, next_rung=Rung.SPEED_FRICTION, next_effect_m=effect)
+
+
+def _followed(scene: Scene, rung: Rung, found: SlideResult, why: str, demand: float) -> Solution:
+    """Return what was found in two axes, with nothing left out that the scene has."""
+    return Solution(
+        rung=rung,
+        reason=why,
+        result=found,
+        next_rung=rung,
+        next_effect_m=math.nan,
+        friction_demand=demand,
+    )
+
+
+def _linked(scene: Scene, row: Row | None, demand: float) -> Solution:
+    """Return the farthest of a row's blocks, with the largest excursions of them all."""
+    if row is None:
+        raise InputError("a row of blocks is asked for, but not given; give Settings.row")
+    found = slide_row(scene, row)
+    worst = int(np.argmax(found.prd_m))
+    result = replace(
+        found.rigid,
+        status=found.status,
+        prd_m=found.prd_m[worst],
+        residual_m=found.residual_m[worst],
+        down_m=max(found.down_m),
+        up_m=max(found.up_m),
+        t_prd_s=math.nan,
+        n_stops=found.n_stops,
+        end_speed_mps=math.nan,
+        error_m=found.error_m,
+    )
+    return Solution(
+        rung=Rung.ROW,
+        reason=f"asked for; its links change the PRD by {_mm(found.flexibility_m)}",
+        result=result,
+        next_rung=Rung.ROW,
+        next_effect_m=math.nan,
+        friction_demand=demand,
+    )
+
+
+def _run_as(scene: Scene, rung: Rung) -> Scene:
+    """Return of a scene what a rung models."""
+    if rung is Rung.NO_SLIP:
+        return replace(scene, friction=coulomb(scene.friction.mu_static))
+    if rung is Rung.ONE_AXIS:
+        return _level(scene)
+    if rung is Rung.TWO_AXES:
+        return replace(scene, friction=coulomb(scene.friction.mu_slow))
+    return scene
+
+
+def _level(scene: Scene) -> Scene:
+    return replace(scene, az_mps2=NO_RECORD)
+
+
+def _mm(value_m: float) -> str:
+    return f"{float(f'{value_m * 1e3:.2g}'):g} mm"

@@ -1,0 +1,162 @@
+"""Rungs 1 and 2: one block along the slope, by the exact method or by a rival of it.
+
+Checks no input (`solver.sliding.checked`) and computes no physics (`solver.kernels.one_axis`,
+`solver.rivals`). Read `run` first.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import numpy as np
+
+from solver.kernels import one_axis as kernel
+from solver.model import Event, EventKind, Floats, Scene, SlideHistory, SlideResult, Status
+from solver.rivals.methods import (
+    METHODS,
+    NO_RECORD,
+    Method,
+    Outcome,
+    Parameters,
+    Prepared,
+    exact_events,
+    least_normal,
+)
+
+_NO_HISTORY = np.empty((2, 0))
+
+
+def run(scene: Scene) -> SlideResult:
+    """Slide a checked scene along the slope, exactly: what shakes it across is left out."""
+    return run_method(METHODS["exact"], {}, scene)
+
+
+def run_history(scene: Scene) -> SlideHistory:
+    """Return the history of what `run` follows."""
+    return method_history(METHODS["exact"], {}, scene)
+
+
+def rounding(scene: Scene) -> float:
+    """Return what rounding may change in a displacement by the method `exact` [m], at most.
+
+    Drive and friction are rounded by 4 units in the last place of the terms they are made of.
+    Friction is monotone, so a push that is off by d makes the speed off by d t after a time t, and
+    the place by d t^2 / 2: over the whole record, here with twice that for the sums.
+    """
+    return _rounding(prepared(scene))
+
+
+def _rounding(scene: Prepared) -> float:
+    c, up = scene, abs(scene.scale) * float(max(-scene.z[0, -1], scene.z[1, -1], 0.0))
+    along = abs(c.scale) * float(max(-c.x[0, -1], c.x[1, -1]))
+    terms = (abs(c.sn) + c.mu * c.cs) * (c.g + up) + (c.cs + c.mu * abs(c.sn)) * along
+    lasts = (c.ax.size - 1) * c.dt
+    return 4.0 * sys.float_info.epsilon * terms * lasts * lasts
+
+
+def run_method(method: Method, parameters: Parameters, scene: Scene) -> SlideResult:
+    """Slide a checked scene along the slope by a method."""
+    return _run(method, parameters, prepared(scene), _NO_HISTORY)
+
+
+def _run(method: Method, parameters: Parameters, scene: Prepared, samples: Floats) -> SlideResult:
+    """Run a scene; `samples` of shape (2, n) is filled with u and its rate, (2, 0) with nothing."""
+    n_min_g, t_uplift = least_normal(scene)
+    if n_min_g < 0.0:
+        return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
+    found = method.follow(scene, dict(method.parameters) | dict(parameters), samples)
+    if not (found.followed and math.isfinite(found.s_max - found.s_min)):
+        samples[:] = np.nan
+        return without_displacement(Status.DIVERGED, n_min_g, math.nan)
+    samples *= scene.cs
+    error_m = _rounding(scene) if method.name == "exact" else math.nan
+    return _result(found, scene.cs, n_min_g, error_m)
+
+
+def _events(scene: Prepared, result: SlideResult) -> tuple[Event, ...]:
+    """Return the events of the exact method: at most a slip before each stop, and one more."""
+    if math.isnan(result.prd_m):
+        return ()
+    return tuple(
+        Event(
+            t_s=t,
+            kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP,
+            u_m=scene.cs * s,
+        )
+        for t, kind, s in exact_events(scene, result.n_stops).tolist()
+    )
+
+
+def _result(found: Outcome, cs: float, n_min_g: float, error_m: float) -> SlideResult:
+    return SlideResult(
+        status=Status.OK if found.w_end == 0.0 else Status.SLIDING_AT_END,
+        prd_m=cs * max(found.s_max, -found.s_min),
+        residual_m=cs * found.s_end,
+        down_m=cs * found.s_max,
+        up_m=cs * abs(found.s_min),
+        across_m=0.0,
+        residual_across_m=0.0,
+        t_prd_s=found.t_peak,
+        n_stops=found.n_stops,
+        n_min_g=n_min_g,
+        t_uplift_s=math.nan,
+        end_speed_mps=cs * found.w_end,
+        error_m=error_m,
+    )
+
+
+def without_displacement(status: Status, n_min_g: float, t_uplift: float) -> SlideResult:
+    """Return the result of a run without an answer."""
+    return SlideResult(
+        status=status,
+        prd_m=math.nan,
+        residual_m=math.nan,
+        down_m=math.nan,
+        up_m=math.nan,
+        across_m=math.nan,
+        residual_across_m=math.nan,
+        t_prd_s=math.nan,
+        n_stops=0,
+        n_min_g=n_min_g,
+        t_uplift_s=t_uplift,
+        end_speed_mps=math.nan,
+        error_m=math.nan,
+    )
+
+
+def method_history(method: Method, parameters: Parameters, scene: Scene) -> SlideHistory:
+    """Return the motion by a method at the samples; the exact one alone has events."""
+    samples = np.full((2, scene.ax_mps2.size), np.nan)
+    made = prepared(scene)
+    result = _run(method, parameters, made, samples)
+    return SlideHistory(
+        t_s=sample_times(scene),
+        u_m=samples[0],
+        v_mps=samples[1],
+        across_m=NO_RECORD,
+        across_mps=NO_RECORD,
+        events=_events(made, result) if method.name == "exact" else (),
+        result=result,
+    )
+
+
+def sample_times(scene: Scene) -> Floats:
+    """Return the times of the samples [s]."""
+    return np.arange(scene.ax_mps2.size, dtype=np.float64) * scene.dt_s
+
+
+def prepared(scene: Scene) -> Prepared:
+    """Return a scene in the letters of the kernels of one axis."""
+    return Prepared(
+        ax=scene.ax_mps2,
+        x=kernel.bounds(scene.ax_mps2),
+        az=scene.az_mps2,
+        z=kernel.bounds(scene.az_mps2),
+        dt=scene.dt_s,
+        sn=math.sin(scene.slope_rad),
+        cs=math.cos(scene.slope_rad),
+        mu=scene.friction.mu_slow,
+        g=scene.g_mps2,
+        scale=scene.scale,
+    )

@@ -1,0 +1,269 @@
+"""Rung 5: blocks in a row along the slope, joined by springs and dashpots, each with its friction.
+
+Shows whether one rigid block is enough for an array; not for default use. Integrates nothing itself
+(see `solver.kernels.row`). Read `Row`, then `slide_row`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solver.forces import forces
+from solver.kernels import row as kernel
+from solver.model import Floats, InputError, Scene, SlideResult, Status, coulomb
+from solver.sliding import one_axis
+
+MOST_STEPS = 10_000_000
+"""Steps above which links are too stiff to follow: about a minute for a row of five."""
+
+_MOST_EVENTS = 20_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """Blocks in a row down the slope, the first the highest, with a link between neighbours.
+
+    Attributes
+    ----------
+    mus : tuple of float
+        Friction coefficient of each block, static and kinetic, >= 0.
+    stiffness_per_s2 : float
+        Stiffness of each link / mean mass of a block, k / m [1/s2], >= 0. A link that stretches by
+        d under the weight of a block has g / d.
+    damping_per_s : float
+        Damping of each link / mean mass of a block, c / m [1/s], >= 0.
+    shares : tuple of float
+        Weight of each block / weight of the row; they add up to 1. Empty for equal blocks.
+    """
+
+    mus: tuple[float, ...]
+    stiffness_per_s2: float
+    damping_per_s: float = 0.0
+    shares: tuple[float, ...] = ()
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """Share of each block in the weight of the row."""
+        return self.shares or (1.0 / len(self.mus),) * len(self.mus)
+
+    @property
+    def mean_mu(self) -> float:
+        """Friction coefficient of the row as one rigid array: the mean of the blocks by weight."""
+        if len(set(self.mus)) == 1:
+            return self.mus[0]
+        return math.fsum(mu * share for mu, share in zip(self.mus, self.weights, strict=True))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Energy:
+    """Where the energy of a row went, by its mass, relative to the roof [J/kg].
+
+    Attributes
+    ----------
+    work : float
+        Of gravity and of the shaking along the slope.
+    friction, dampers : float
+        What they took.
+    kinetic, springs : float
+        What is there at the end.
+    """
+
+    work: float
+    friction: float
+    dampers: float
+    kinetic: float
+    springs: float
+
+    @property
+    def defect(self) -> float:
+        """What does not add up: 0 but for rounding."""
+        return self.work - self.friction - self.dampers - self.kinetic - self.springs
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowResult:
+    """A row under one motion. Displacements are horizontal, relative to the roof.
+
+    With `Status.UPLIFT` and `Status.DIVERGED` every number but `n_stops` and `rigid` is NaN.
+
+    Attributes
+    ----------
+    status : Status
+    prd_m, residual_m, down_m, up_m : tuple of float
+        Of each block, as in `SlideResult` [m].
+    stretch_m : float
+        Largest lengthening or shortening of a link, along the slope [m]. Of two turns within a
+        step, a sixth of the shortest period of the links at most, one is looked for.
+    link_force : float
+        Largest force in a link / mean weight of a block.
+    energy : Energy
+    error_m : float
+        No place of a block is more than this from the exact motion of the interpolated record
+        [m]: a bound, from energy (`solver.kernels.row`), rounding counted.
+    n_stops, n_steps : int
+    rigid : SlideResult
+        The row as one rigid array with `Row.mean_mu`.
+    """
+
+    status: Status
+    prd_m: tuple[float, ...]
+    residual_m: tuple[float, ...]
+    down_m: tuple[float, ...]
+    up_m: tuple[float, ...]
+    stretch_m: float
+    link_force: float
+    energy: Energy
+    error_m: float
+    n_stops: int
+    n_steps: int
+    rigid: SlideResult
+
+    @property
+    def flexibility_m(self) -> float:
+        """What links that give way change: largest PRD of a block less that of the rigid array."""
+        return max(self.prd_m) - self.rigid.prd_m
+
+
+def slide_row(scene: Scene, row: Row) -> RowResult:
+    """Slide a row of blocks along the slope, exact to rounding between events and at them.
+
+    The row begins at rest with its links unstretched; all blocks feel the same roof motion. What
+    shakes the scene across the slope is left out, and so is the friction of the scene: the blocks
+    have their own. Links carry no vertical force, so N is that of a block by itself.
+
+    Raises
+    ------
+    InputError
+        With every fault of the row; and where its links are too stiff to be followed in
+        `MOST_STEPS` steps.
+    """
+    return _run(scene, row, None)
+
+
+def row_history(scene: Scene, row: Row) -> Floats:
+    """Return the displacement of each block at the samples, shape (blocks, n) [m].
+
+    NaN where `slide_row` gives none; errors as there.
+    """
+    samples = np.full((len(row.mus), scene.ax_mps2.size), np.nan)
+    found = _run(scene, row, samples)
+    if math.isnan(found.prd_m[0]):
+        samples[:] = np.nan
+    return samples * math.cos(scene.slope_rad)
+
+
+def _run(scene: Scene, row: Row, samples: Floats | None) -> RowResult:
+    """Run a row; samples are filled with s."""
+    if problems := _faults(row) or _too_stiff(scene, row):
+        raise InputError(problems)
+    rigid = one_axis.run(replace(scene, friction=coulomb(row.mean_mu)))
+    if rigid.status is Status.UPLIFT:
+        return _nothing(Status.UPLIFT, row, rigid)
+    count, on_plane = len(row.mus), forces(scene)
+    peaks, links, energy = np.empty((count, 4)), np.empty((count - 1, 2)), np.empty(5)
+    reached, error, n_stops, n_steps = kernel.slide_row(
+        on_plane.down_mps2,
+        on_plane.normal_mps2,
+        scene.dt_s,
+        np.array(row.mus, dtype=np.float64),
+        np.array(row.weights, dtype=np.float64) * count,
+        float(row.stiffness_per_s2),
+        float(row.damping_per_s),
+        _MOST_EVENTS,
+        peaks,
+        links,
+        energy,
+        samples,
+    )
+    if not reached or not np.isfinite(peaks).all():
+        return _nothing(Status.DIVERGED, row, rigid)
+    down, up, end, rate = math.cos(scene.slope_rad) * peaks.T
+    stretch, force = links.max(axis=0, initial=0.0)
+    return RowResult(
+        status=Status.OK if not rate.any() else Status.SLIDING_AT_END,
+        prd_m=_tuple(np.maximum(down, -up)),
+        residual_m=_tuple(end),
+        down_m=_tuple(down),
+        up_m=_tuple(np.abs(up)),
+        stretch_m=float(stretch),
+        link_force=float(force) / scene.g_mps2,
+        energy=Energy(**dict(zip(_ENERGIES, energy.tolist(), strict=True))),
+        error_m=error,
+        n_stops=n_stops,
+        n_steps=n_steps,
+        rigid=rigid,
+    )
+
+
+_ENERGIES = ("work", "friction", "dampers", "kinetic", "springs")
+
+
+def _nothing(status: Status, row: Row, rigid: SlideResult) -> RowResult:
+    none = (math.nan,) * len(row.mus)
+    return RowResult(
+        status=status,
+        prd_m=none,
+        residual_m=none,
+        down_m=none,
+        up_m=none,
+        stretch_m=math.nan,
+        link_force=math.nan,
+        energy=Energy(**dict.fromkeys(_ENERGIES, math.nan)),
+        error_m=math.nan,
+        n_stops=0,
+        n_steps=0,
+        rigid=rigid,
+    )
+
+
+def _tuple(values: Floats) -> tuple[float, ...]:
+    return tuple(values.tolist())
+
+
+def _faults(row: Row) -> list[str]:
+    """Return every value of a row that cannot be."""
+    found = []
+    if not row.mus:
+        found.append("mus is empty; give the friction coefficient of 1 block or more")
+    if not all(_is_none_or_more(mu) for mu in row.mus):
+        found.append(f"mus is {row.mus!r}; give friction coefficients of 0 or more")
+    for name in ("stiffness_per_s2", "damping_per_s"):
+        if not _is_none_or_more(getattr(row, name)):
+            found.append(f"{name} is {getattr(row, name)!r}; give a finite number of 0 or more")
+    return found + _share_faults(row.shares, len(row.mus))
+
+
+def _share_faults(shares: Sequence[float], count: int) -> list[str]:
+    if not shares:
+        return []
+    if len(shares) != count:
+        return [f"shares has {len(shares)} values for {count} blocks; give one for each, or none"]
+    if not all(0.0 < share < math.inf for share in shares) or abs(math.fsum(shares) - 1.0) > 1e-9:
+        return [f"shares is {shares!r}; give numbers above 0 that add up to 1"]
+    return []
+
+
+def least_steps(row: Row, seconds: float) -> float:
+    """Return how many steps a row needs at least to follow a motion of some length [s]."""
+    if len(row.mus) == 1:
+        return 0.0
+    least = min(row.weights) * len(row.mus)
+    rate = 2.0 * math.sqrt(row.stiffness_per_s2 / least) + 4.0 * row.damping_per_s / least
+    return rate * seconds
+
+
+def _too_stiff(scene: Scene, row: Row) -> list[str]:
+    if least_steps(row, scene.dt_s * scene.ax_mps2.size) <= MOST_STEPS:
+        return []
+    return [
+        f"stiffness_per_s2 {row.stiffness_per_s2:g} with damping_per_s {row.damping_per_s:g} takes "
+        f"more than {MOST_STEPS:.0e} steps; give softer links, or take the row as rigid"
+    ]
+
+
+def _is_none_or_more(value: float) -> bool:
+    return 0.0 <= value < math.inf

@@ -1,0 +1,146 @@
+"""Many scenes at once: all combinations of slope, friction coefficient and scale of a record.
+
+Plans the work and shapes the results; each run is `solver.kernels.one_axis.slide_exact`.
+Read `solver.sliding.checked` for a single run.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numba import get_num_threads
+from numpy.typing import ArrayLike, NDArray
+
+from solver.kernels import one_axis
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Status
+from solver.sliding.checked import checked_record
+
+STATUSES = (Status.OK, Status.SLIDING_AT_END, Status.UPLIFT)
+"""What the numbers in `Sweep.status` stand for."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sweep:
+    """Every combination of a sweep. All arrays have the shape (slopes, mus, scales).
+
+    Attributes
+    ----------
+    prd_m, residual_m : array
+        Peak relative displacement and displacement at the end [m], NaN after uplift.
+    status : array of uint8
+        Index into `STATUSES`.
+    """
+
+    prd_m: Floats
+    residual_m: Floats
+    status: NDArray[np.uint8]
+
+
+def sweep(
+    ax_mps2: ArrayLike,
+    dt_s: float,
+    *,
+    slopes_rad: ArrayLike,
+    mus: ArrayLike,
+    scales: ArrayLike,
+    az_mps2: ArrayLike | None = None,
+    g_mps2: float = STANDARD_GRAVITY_MPS2,
+    progress: Callable[[float], None] | None = None,
+) -> Sweep:
+    """Run all combinations of slope, friction coefficient and scale by the exact method.
+
+    The runs go over all cores; the result does not depend on how many there are.
+
+    Parameters
+    ----------
+    ax_mps2, dt_s, az_mps2, g_mps2
+        As in `solver.slide`.
+    slopes_rad, mus, scales : array_like, shape (p,), (q,), (r,)
+    progress : callable, optional
+        Called with the share that is done, as many times as there are slopes.
+
+    Raises
+    ------
+    InputError
+        As `solver.slide`, for every value that is outside its range.
+    """
+    problems: list[str] = []
+    ax = checked_record("ax_mps2", ax_mps2, problems)
+    az = None if az_mps2 is None else checked_record("az_mps2", az_mps2, problems)
+    if az is not None and az.shape != ax.shape:
+        problems.append(f"az_mps2 has shape {az.shape}; give the shape of ax_mps2, {ax.shape}")
+    axes = [
+        _axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
+        _axis("mus", mus, -math.ulp(0.0), math.inf, problems),
+        _axis("scales", scales, -math.inf, math.inf, problems),
+    ]
+    for name, value in (("dt_s", dt_s), ("g_mps2", g_mps2)):
+        if not (math.isfinite(value) and value > 0.0):
+            problems.append(f"{name} is {value!r}; give a number above 0")
+    if problems:
+        raise InputError(problems)
+    return _run(ax, az, float(dt_s), float(g_mps2), axes, progress or (lambda share: None))
+
+
+def _axis(name: str, values: ArrayLike, above: float, below: float, problems: list[str]) -> Floats:
+    axis = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    if axis.ndim != 1 or axis.size == 0:
+        problems.append(f"{name} has shape {axis.shape}; give one row of values")
+    wrong = axis[~((axis > above) & (axis < below))]
+    if wrong.size:
+        problems.append(f"{name} has {wrong[0]}; give values as `slide` takes them")
+    return axis
+
+
+def _run(
+    ax: Floats,
+    az: Floats | None,
+    dt: float,
+    g: float,
+    axes: list[Floats],
+    progress: Callable[[float], None],
+) -> Sweep:
+    slopes, mus, scales = axes
+    x, z = one_axis.bounds(ax), None if az is None else one_axis.bounds(az)
+    grid = np.meshgrid(slopes, mus, scales, indexing="ij")
+    scenes = np.stack([values.ravel() for values in grid], axis=-1)
+    found = np.empty((len(scenes), 4))
+    for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
+        dealt = _deal(part, get_num_threads())
+        out = np.empty((dealt.size, 4))
+        one_axis.sweep_exact(ax, az, x, z, dt, g, scenes[dealt], out)
+        found[dealt] = out
+        progress((k + 1) / slopes.size)
+    s = found.reshape(slopes.size, mus.size, scales.size, 4)
+    # The same product as in a single run, so that both give the same bits.
+    cs = np.array([math.cos(slope) for slope in slopes])[:, None, None]
+    status = np.where(np.isnan(s[..., 0]), 2, np.where(s[..., 3] == 0.0, 0, 1))
+    return Sweep(
+        prd_m=cs * np.maximum(s[..., 0], -s[..., 1]),
+        residual_m=cs * s[..., 2],
+        status=status.astype(np.uint8),
+    )
+
+
+def order_alike(scenes: Floats) -> NDArray[np.intp]:
+    """Order in which neighbours yield the same way, at about the same acceleration.
+
+    A processor guesses the branches of a run from those before it, so runs in this order are
+    faster by 10 to 20 %. The block yields first down the slope, at g tan(phi - |theta|).
+
+    Parameters
+    ----------
+    scenes : array, shape (m, 3)
+        Slope [rad], friction coefficient and scale of each.
+    """
+    slope, mu, scale = scenes.T
+    yields_at = np.arctan2(np.tan(np.arctan(mu) - np.abs(slope)), np.abs(scale))
+    return np.lexsort((yields_at, np.sign(slope * scale)))
+
+
+def _deal(order: NDArray[np.intp], threads: int) -> NDArray[np.intp]:
+    """Deal scenes out, so that the equal shares that threads take cost the same."""
+    return np.concatenate([order[k::threads] for k in range(threads)])

@@ -1,0 +1,277 @@
+"""Rungs 3 and 4: a block in two axes, with friction that may depend on speed, to a tolerance.
+
+Computes no physics itself (see `solver.kernels.two_axes`) and checks no input (`solver.solve` does,
+at the border). Read `Scene`, then `follow`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from solver.kernels import one_axis
+from solver.kernels import two_axes as kernel
+from solver.model import (
+    Event,
+    EventKind,
+    Floats,
+    Scene,
+    SlideHistory,
+    SlideResult,
+    Status,
+)
+from solver.rivals.methods import least_normal
+from solver.sliding.one_axis import prepared, sample_times, without_displacement
+
+DEFAULT_TOLERANCE = 1e-6
+TOLERANCES = (1e-10, 1e-2)
+"""Least and largest tolerance that `follow` keeps to."""
+
+# Tolerance of a step by that of the run: then the bound of the error is below the tolerance of the
+# run in all but long slips.
+_SHARE = 1.5e-3
+_ATTEMPTS = 5
+
+# Steps that a run may take: at most, and more for each sample. 30 s at 0.005 s take 5,000; friction
+# that comes to its value within a micrometer per second takes the most, half a second of time.
+_MOST_STEPS, _MOST_STEPS_OF_SAMPLE = 200_000, 20
+
+_STATUSES = {
+    kernel.FOLLOWED: Status.OK,
+    kernel.TOO_MANY_STEPS: Status.STEP_LIMIT,
+    kernel.NOT_FINITE: Status.DIVERGED,
+}
+
+_NO_EVENTS, _NO_HISTORY = np.empty((0, 4)), np.empty((4, 0))
+
+# What one run more, and how much finer, tells of the error where no bound does.
+_FINER = 0.03
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlaneOutcome:
+    """The motion of a block in plan, relative to the roof: x as the slope falls, y across.
+
+    Attributes
+    ----------
+    status : Status
+        `Status.OK`, or why there is no motion: then every other number means nothing.
+    prd_m, t_prd_s : float
+        Largest distance from the start [m], and when [s].
+    down_m, up_m, left_m, right_m : float
+        Largest excursion towards +x, -x, +y and -y [m], all >= 0.
+    end_m, end_mps : tuple of float
+        Displacement and velocity at the end of the record, x and y [m], [m/s].
+    error_m : float
+        No place is more than this from the exact motion of the interpolated record [m]: a bound
+        where friction is monotone (`Friction.is_monotone`), else the difference between two
+        tolerances.
+    n_stops, n_events, n_steps : int
+    step_tolerance : float
+        What the last attempt ran with.
+    """
+
+    status: Status
+    prd_m: float
+    t_prd_s: float
+    down_m: float
+    up_m: float
+    left_m: float
+    right_m: float
+    end_m: tuple[float, float]
+    end_mps: tuple[float, float]
+    error_m: float
+    n_stops: int
+    n_events: int
+    n_steps: int
+    step_tolerance: float
+
+
+class PlaneEvent(NamedTuple):
+    """Slip begins or ends: time [s], kind, displacement in plan [m]."""
+
+    t_s: float
+    kind: EventKind
+    x_m: float
+    y_m: float
+
+
+def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
+    """Slide a checked scene in two axes, to a tolerance relative to the PRD."""
+    n_min_g, t_uplift = least_normal(prepared(scene))
+    if n_min_g < 0.0:
+        return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
+    return _result(follow(_with_second_axis(scene), tolerance), n_min_g)
+
+
+def _result(found: PlaneOutcome, n_min_g: float) -> SlideResult:
+    if found.status is not Status.OK:
+        return without_displacement(found.status, n_min_g, math.nan)
+    speed = math.hypot(*found.end_mps)
+    return SlideResult(
+        status=Status.OK if speed == 0.0 else Status.SLIDING_AT_END,
+        prd_m=found.prd_m,
+        residual_m=found.end_m[0],
+        down_m=found.down_m,
+        up_m=found.up_m,
+        across_m=max(found.left_m, found.right_m),
+        residual_across_m=found.end_m[1],
+        t_prd_s=found.t_prd_s,
+        n_stops=found.n_stops,
+        n_min_g=n_min_g,
+        t_uplift_s=math.nan,
+        end_speed_mps=speed,
+        error_m=found.error_m,
+    )
+
+
+def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHistory:
+    """Return the history of what `run` follows."""
+    n_min_g, t_uplift = least_normal(prepared(scene))
+    samples = np.full((4, scene.ax_mps2.size), np.nan)
+    events: tuple[Event, ...] = ()
+    if n_min_g < 0.0:
+        result = without_displacement(Status.UPLIFT, n_min_g, t_uplift)
+    else:
+        found = follow(_with_second_axis(scene), tolerance)
+        result = _result(found, n_min_g)
+        if found.status is Status.OK:
+            samples, seen = follow_history(_with_second_axis(scene), found)
+            events = tuple(Event(t, kind, x, y) for t, kind, x, y in seen)
+    return SlideHistory(
+        t_s=sample_times(scene),
+        u_m=samples[0],
+        v_mps=samples[2],
+        across_m=samples[1],
+        across_mps=samples[3],
+        events=events,
+        result=result,
+    )
+
+
+def _with_second_axis(scene: Scene) -> Scene:
+    """Return the scene with a second component, zero where it has none."""
+    if scene.ay_mps2.size:
+        return scene
+    zero = np.zeros_like(scene.ax_mps2)
+    zero.setflags(write=False)
+    return replace(scene, ay_mps2=zero)
+
+
+def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> PlaneOutcome:
+    """Follow a block to a tolerance, relative to its PRD.
+
+    Trusts that the normal force never falls below zero (`solver.kernels.one_axis.least_normal`).
+
+    Parameters
+    ----------
+    tolerance : float
+        Within `TOLERANCES`, relative to the PRD or to a micrometer, whichever is more. The run is
+        repeated with finer steps until `error_m` is below it or rounding stands in the way.
+    """
+    found = _bounded(scene, tolerance)
+    if scene.friction.is_monotone or found.status is not Status.OK:
+        return found
+    finer = _run(scene, _FINER * found.step_tolerance, _NO_EVENTS, _NO_HISTORY)
+    changes = np.subtract(_places(finer), _places(found))
+    return replace(finer, error_m=2.0 * float(np.abs(changes).max()))
+
+
+def follow_history(scene: Scene, found: PlaneOutcome) -> tuple[Floats, tuple[PlaneEvent, ...]]:
+    """Return x, y and their rates at the samples, shape (4, n) [m], [m/s], and the events.
+
+    Parameters
+    ----------
+    found : PlaneOutcome
+        Of `follow`.
+    """
+    events, samples = np.empty((found.n_events, 4)), np.empty((4, len(scene.ax_mps2)))
+    _run(scene, found.step_tolerance, events, samples)
+    cs = math.cos(scene.slope_rad)
+    samples[0::2] *= cs
+    return samples, tuple(
+        PlaneEvent(
+            t_s=t,
+            kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP,
+            x_m=cs * sx,
+            y_m=sy,
+        )
+        for t, kind, sx, sy in events.tolist()
+    )
+
+
+def _bounded(scene: Scene, tolerance: float) -> PlaneOutcome:
+    """Return the first of some runs, each finer than the one before, that keeps to a tolerance."""
+    steps, share = 0, _SHARE * tolerance
+    for _ in range(_ATTEMPTS):
+        found = _run(scene, share, _NO_EVENTS, _NO_HISTORY)
+        steps += found.n_steps
+        wanted = tolerance * max(found.prd_m, kernel.SMALL)
+        settled = not scene.friction.is_monotone or found.error_m <= wanted
+        if settled or found.status is not Status.OK or share <= kernel.LEAST_TOLERANCE:
+            break
+        share *= max(0.3 * wanted / found.error_m, 1e-3)
+    return replace(found, n_steps=steps)
+
+
+def _places(found: PlaneOutcome) -> tuple[float, ...]:
+    sides = found.down_m, found.up_m, found.left_m, found.right_m
+    return found.prd_m, *sides, *found.end_m
+
+
+def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOutcome:
+    friction, cs = scene.friction, math.cos(scene.slope_rad)
+    law = None
+    if not friction.is_constant:
+        drop = friction.mu_fast - friction.mu_slow
+        law = (friction.mu_fast, drop, friction.rate_s_per_m, friction.mu_static)
+    vertical = scene.az_mps2 if len(scene.az_mps2) else None
+    top, end = np.empty(6), np.empty(4)
+    outcome, error, n_stops, n_events, n_steps = kernel.slide_plane(
+        scene.ax_mps2,
+        scene.ay_mps2,
+        vertical,
+        one_axis.bounds(scene.ax_mps2),
+        one_axis.bounds(scene.ay_mps2),
+        None if vertical is None else one_axis.bounds(vertical),
+        scene.dt_s,
+        math.sin(scene.slope_rad),
+        cs,
+        friction.mu_slow if law is None else 1.0,
+        scene.g_mps2,
+        scene.scale,
+        step,
+        _degree(step),
+        _MOST_STEPS + _MOST_STEPS_OF_SAMPLE * len(scene.ax_mps2),
+        law,
+        events,
+        samples,
+        top,
+        end,
+    )
+    prd, t_prd, s_max, s_min, y_max, y_min = top.tolist()
+    sx, sy, vx, vy = end.tolist()
+    return PlaneOutcome(
+        status=_STATUSES[outcome],
+        prd_m=prd,
+        t_prd_s=t_prd,
+        down_m=cs * s_max,
+        up_m=cs * abs(s_min),
+        left_m=y_max,
+        right_m=abs(y_min),
+        end_m=(cs * sx, sy),
+        end_mps=(cs * vx, vy),
+        error_m=error,
+        n_stops=n_stops,
+        n_events=n_events,
+        n_steps=n_steps,
+        step_tolerance=step,
+    )
+
+
+def _degree(step: float) -> int:
+    """Largest degree of a series: what is cheapest for a tolerance, measured, near -log / 2."""
+    return min(kernel.ORDER, 4 + math.ceil(-0.5 * math.log(step)))

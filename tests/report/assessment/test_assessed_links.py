@@ -1,0 +1,206 @@
+"""Arrays held against rows of linked blocks: the solver's own rows, limits, missing values."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.assessment.project import reassess
+from solver.model import Scene, Status, coulomb
+from solver.sliding.checked import slide
+from solver.sliding.least_model import DEFAULT
+from solver.sliding.row import Row, slide_row
+
+G, LB, INCH = 9.80665, 4.4482216152605, 0.0254
+MOTIONS = stand_in.motions(3, seconds=12.0)
+
+
+def assessed(friction, lb_per_in, *, mu=0.45, found=MOTIONS, peer_reviewed=True, **changes):
+    """An array of two degrees as a row, with its assessment."""
+    data = stand_in.project(
+        arrays=[stand_in.array("A1", 2.0, mu=mu)],
+        objects=[],
+        clearances=[],
+        links=[stand_in.links("A1", friction, lb_per_in, **changes)],
+        options={"peer_reviewed": peer_reviewed},
+    )
+    done = stand_in.assess_input(data, found)
+    return done, done.linked[0]
+
+
+def along(motion):
+    """The four runs of a motion, by the component along the slope."""
+    return [sign * x for x in (motion.ax_mps2, motion.ay_mps2) for sign in (1, -1)]
+
+
+def rigid_value(mu):
+    """1.1 times the largest PRD of one block in one axis, by the solver itself."""
+    runs = (
+        slide(a, m.dt_s, slope_rad=math.radians(2.0), mu=mu, az_mps2=m.az_mps2)
+        for m in MOTIONS
+        for a in along(m)
+    )
+    return 1.1 * max(run.prd_m for run in runs)
+
+
+def readonly(values):
+    values = values.copy()
+    values.setflags(write=False)
+    return values
+
+
+def test_the_rows_are_those_of_the_solver():
+    _, item = assessed("0.40, 0.45, 0.50", 500, damping_ratio=0.1)
+    mass, k = 42000 * LB / G / 3, 500 * LB / INCH
+    row = Row(
+        mus=(0.4, 0.45, 0.5),
+        stiffness_per_s2=k / mass,
+        damping_per_s=0.2 * math.sqrt(k * mass) / mass,
+    )
+    for motion, found in zip(MOTIONS, item.motions, strict=True):
+        for a, run in zip(along(motion), found.runs, strict=True):
+            scene = Scene(
+                ax_mps2=readonly(a),
+                ay_mps2=np.empty(0),
+                az_mps2=motion.az_mps2,
+                dt_s=motion.dt_s,
+                slope_rad=math.radians(2.0),
+                friction=coulomb(0.45),
+                scale=1.0,
+                g_mps2=G,
+            )
+            wanted = slide_row(scene, row)
+            assert run.row.prd_m == pytest.approx(wanted.prd_m, rel=1e-9)
+            assert run.row.link_force == pytest.approx(wanted.link_force, rel=1e-9)
+            assert run.block == 1 + int(np.argmax(wanted.prd_m))
+    peaks = [max(run.prd_m for run in found.runs) for found in item.motions]
+    assert item.linked.value_m == pytest.approx(1.1 * max(peaks))
+    assert item.rigid.value_m == pytest.approx(rigid_value(0.45))
+    forces = [run.row.link_force for found in item.motions for run in found.runs]
+    assert item.link_force_n == pytest.approx(max(forces) * mass * G)
+
+
+def test_the_design_grows_by_what_links_change_in_one_axis():
+    done, item = assessed("0.40, 0.45, 0.50", 50)
+    assert item.ratio == pytest.approx(item.linked.value_m / item.rigid.value_m)
+    assert item.ratio > 1.1
+    assert item.estimated_m == pytest.approx(item.ratio * item.found.analysis.value_m)
+    assert not item.is_rigid_enough
+    assert item.is_final
+    assert not done.ok
+
+
+@pytest.mark.parametrize("lb_per_in", [1, 5000, 1e6])
+def test_blocks_with_equal_friction_move_as_one_whatever_links_them(lb_per_in):
+    done, item = assessed("0.45, 0.45, 0.45", lb_per_in)
+    assert item.ratio == pytest.approx(1.0, rel=1e-9)
+    assert item.link_force_n == pytest.approx(0.0, abs=1e-6)
+    assert item.estimated_m == pytest.approx(item.found.design_m, rel=1e-9)
+    assert done.ok
+
+
+def test_very_stiff_links_make_one_block_of_the_mean_coefficient():
+    _, item = assessed("0.40, 0.42, 0.50", 2e6, damping_ratio=0.5)
+    assert item.linked.value_m == pytest.approx(rigid_value(0.44), rel=0.01)
+
+
+def test_very_soft_links_leave_the_weakest_block_by_itself():
+    _, item = assessed("0.50, 0.40, 0.45", 0.01)
+    assert item.linked.value_m == pytest.approx(rigid_value(0.40), rel=0.01)
+    assert item.farthest.block == 2
+
+
+@pytest.mark.parametrize("friction", ["0.40, 0.45, 0.50", "0.50, 0.40", "0.40, 0.60, 0.41, 0.55"])
+@pytest.mark.parametrize("lb_per_in", [50, 5000])
+def test_the_least_coefficient_entered_as_that_of_the_array_does(friction, lb_per_in):
+    done, item = assessed(friction, lb_per_in, mu=0.40)
+    assert item.ratio <= 1.0
+    assert done.ok
+
+
+def test_where_the_floor_governs_links_may_change_what_stays_below_it():
+    done, item = assessed("0.40, 0.45, 0.50", 50, peer_reviewed=False)
+    assert item.ratio > 1.1
+    assert item.estimated_m == item.found.floor_m == item.found.design_m
+    assert done.ok
+
+
+def test_links_raise_the_value_of_the_model_that_the_motions_need():
+    data = stand_in.project(
+        arrays=[stand_in.array("A1", 2.0, mu=0.45, model="one axis")],
+        objects=[],
+        clearances=[],
+        links=[stand_in.links("A1", "0.40, 0.50", 50)],
+        options={"peer_reviewed": True},
+    )
+    (item,) = stand_in.assess_input(data, MOTIONS).linked
+    fuller = item.found.chosen["any"].value_m
+    assert fuller > item.found.analysis.value_m
+    assert item.estimated_m == pytest.approx(item.ratio * fuller)
+
+
+def test_what_every_model_minds_is_allowed():
+    _, item = assessed("0.40, 0.45, 0.50", 50)
+    design = item.found.design_m
+    for extra, enough in ((0.99, True), (1.01, False)):
+        ratio = 1.0 + extra * DEFAULT.bound_m(design) / design
+        grown = replace(item.linked, value_m=ratio * item.rigid.value_m)
+        assert replace(item, linked=grown).is_rigid_enough is enough
+
+
+def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
+    shaking = (stand_in.motion("M", 0.25 * G * np.sin(np.arange(400) / 10.0)),) * 3
+    done, item = assessed("0.10, 0.50", 0.01, mu=0.3, found=shaking)
+    assert item.rigid.value_m == 0.0
+    assert item.linked.value_m > 0.01
+    assert math.isinf(item.ratio)
+    assert math.isinf(item.estimated_m)
+    assert not done.ok
+    _, still = assessed("0.29, 0.50", 0.01, mu=0.3, found=shaking)
+    assert (still.linked.value_m, still.ratio) == (0.0, 1.0)
+    assert still.is_rigid_enough
+
+
+def test_uplift_withholds_the_row_as_well():
+    up = np.zeros(400)
+    up[200:300] = -1.3 * G
+    lifted = stand_in.motion("UP", np.zeros(400), up)
+    done, item = assessed("0.40, 0.50", 50, found=(*MOTIONS, lifted))
+    assert item.farthest.row.status is Status.UPLIFT
+    for value in (item.ratio, item.estimated_m, item.link_force_n, item.rigid_prd_m):
+        assert math.isnan(value)
+    assert not item.is_rigid_enough
+    assert not done.ok
+
+
+def test_a_row_that_cannot_be_followed_is_never_enough(monkeypatch):
+    monkeypatch.setattr("solver.sliding.row._MOST_EVENTS", 0)
+    done, item = assessed("0.45, 0.45", 50)
+    assert item.farthest.row.status is Status.DIVERGED
+    assert math.isnan(item.ratio)
+    assert item.found.is_model_enough
+    assert not done.ok
+
+
+def test_a_row_that_still_slides_at_the_end_is_not_final():
+    ax = np.concatenate([np.zeros(100), np.full(60, -4.0)])
+    cut = (stand_in.motion("CUT", ax, signs=(1,)),) * 3
+    done, item = assessed("0.30, 0.60", 0.01, mu=0.6, found=cut)
+    assert item.found.motions[0].governing.result.status is Status.OK
+    assert item.farthest.row.status is Status.SLIDING_AT_END
+    assert not item.is_final
+    assert not item.is_rigid_enough
+    assert not done.ok
+
+
+def test_too_few_motions_give_no_value():
+    _, item = assessed("0.40, 0.50", 50, found=MOTIONS[:2])
+    assert math.isnan(item.estimated_m)
+    assert not item.is_rigid_enough
+
+
+def test_assessments_of_other_friction_run_no_rows():
+    data = stand_in.project(links=[stand_in.links("A1", "0.40, 0.50", 50)])
+    assert reassess(stand_in.assess_input(data, MOTIONS), data).linked == ()

@@ -1,0 +1,84 @@
+"""What lies across each clearance, how much room it asks for, and whose displacement counts."""
+
+import pytest
+
+import stand_in
+from solver.rules.provisions import Neighbour
+
+
+def assessed(found=None, **changes):
+    return stand_in.assess_input(stand_in.project(**changes), found or stand_in.motions())
+
+
+def site(**changes):
+    return stand_in.project().site.model_dump() | changes
+
+
+@pytest.fixture(scope="module")
+def done():
+    return assessed()
+
+
+def test_clearances_take_the_factor_of_what_lies_across(done):
+    kinds = [item.neighbour for item in done.clearances]
+    assert kinds == [
+        Neighbour.LIKE,
+        Neighbour.FIXED,
+        Neighbour.UNLIKE,
+        Neighbour.PARAPET,
+        Neighbour.EDGE,
+    ]
+    assert [item.factor for item in done.clearances] == [0.5, 1.0, 1.0, 1.0, 2.0]
+    for item in done.clearances:
+        assert item.required_m == pytest.approx(item.factor * item.design_m)
+        assert item.demand_capacity == item.required_m / item.clearance.provided_m
+
+
+def test_between_arrays_the_larger_displacement_counts_for_both():
+    arrays = [stand_in.array("A1", 0.5, mu=0.6), stand_in.array("A2", 3.0, mu=0.3, x=120)]
+    done = assessed(
+        arrays=arrays,
+        clearances=[stand_in.clearance("A1", "a2", 3.0)],
+        options={"peer_reviewed": True},
+    )
+    gap = done.clearances[0]
+    assert gap.governing_array == "A2"
+    assert gap.design_m == done.arrays[1].design_m > done.arrays[0].design_m
+    assert done.governing_clearance("A2") is gap
+    assert (gap.across_from("A2"), gap.across_from("A1")) == ("A1", "a2")
+
+
+def test_arrays_of_other_construction_are_unlike():
+    arrays = [
+        stand_in.array("A1", 0.5),
+        stand_in.array("A2", 0.5, x=120, construction="Tray 5 deg, portrait"),
+    ]
+    done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)])
+    assert done.clearances[0].neighbour is Neighbour.UNLIKE
+
+
+def test_a_low_parapet_leaves_an_edge_without():
+    objects = [stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)]
+    done = assessed(objects=objects, clearances=[stand_in.clearance("A1", "N", 5.0)])
+    assert done.clearances[0].neighbour is Neighbour.EDGE
+
+
+def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7():
+    pv1 = assessed(site=site(risk_category="III", i_e=1.25))
+    asce = assessed(site=site(risk_category="III", i_e=1.25, rule_set="ASCE 7-16"))
+    assert pv1.clearances[1].factor == 1.25
+    assert asce.clearances[1].factor == 1.0
+    ratio = asce.arrays[0].prescriptive.value_m / pv1.arrays[0].prescriptive.value_m
+    assert ratio == pytest.approx(1.25)
+
+
+def test_asce_keeps_four_feet_to_an_edge():
+    done = assessed(
+        stand_in.motions(peak_g=0.05, vertical_peak_g=0.01),
+        site=site(rule_set="ASCE 7-16", s_ds_g=0.5),
+        options={"peer_reviewed": True},
+    )
+    edge = done.clearances[4]
+    assert edge.required_m == pytest.approx(4 * 0.3048)
+    assert edge.is_least_value
+    assert not done.clearances[1].is_least_value

@@ -1,0 +1,125 @@
+"""Spectra of the motions as run, and how the page on motions sums them up."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.assessment.spectra import BAND_HZ, spectra
+from report.pages import motions as page
+from report.sheet.schema import RecordedAt
+from solver.records.spectrum import response_spectrum
+
+G = 9.80665
+
+
+@pytest.fixture(scope="module")
+def assessment():
+    return stand_in.assessed(stand_in.book(found=stand_in.motions(3, seconds=8.0)))
+
+
+def under(assessment, motions, places=()):
+    """An assessment as if it were of other motions."""
+    book = stand_in.book(found=tuple(motions)).having(prepared=tuple(places))
+    return replace(assessment, shaking=book.shaking)
+
+
+def given():
+    return [replace(motion, scale=0.5) for motion in stand_in.motions(3, seconds=8.0)]
+
+
+def test_all_three_components_are_taken_as_run(assessment):
+    motions = given()
+    found = spectra(under(assessment, motions))
+    assert [part.title for part in found] == ["Horizontal", "Transverse", "Vertical"]
+    for part, name in zip(found, ("ax_mps2", "ay_mps2", "az_mps2"), strict=True):
+        for motion, row in zip(motions, part.sa_g, strict=True):
+            alone = response_spectrum(0.5 * getattr(motion, name), motion.dt_s, part.periods_s)
+            assert row == pytest.approx(alone / G, rel=1e-12)
+    assert found[0].target is found[1].target is assessment.targets.roof
+    assert found[2].target is assessment.targets.vertical
+
+
+def test_motions_without_a_component_are_left_out_there(assessment):
+    first, second, third = given()
+    bare = [replace(first, ay_mps2=np.empty(0), az_mps2=np.empty(0)), second, third]
+    found = spectra(under(assessment, bare))
+    assert [part.ids for part in found] == [("M1", "M2", "M3"), ("M2", "M3"), ("M2", "M3")]
+    assert [part.title for part in spectra(under(assessment, bare[:1]))] == ["Horizontal"]
+
+
+def test_the_band_is_that_of_matched_motions_in_twelfths_of_an_octave(assessment):
+    part = spectra(under(assessment, given()))[0]
+    band = np.sort(1.0 / part.periods_s[part.in_band])
+    assert band == pytest.approx(BAND_HZ)
+    assert band[1:] / band[:-1] == pytest.approx(2.0 ** (1 / 12))
+    assert (band[0], band[-1]) == pytest.approx((0.3, 32.3), abs=0.05)
+
+
+def test_the_table_names_the_motion_and_period_of_the_extremes(assessment):
+    motions = given()
+    part = spectra(under(assessment, motions))[1]
+    (row,) = page.achieved_table([part]).rows
+    least, of_least, largest, of_largest = row.cells[-4:]
+    ratios = {
+        (motion.id, freq): response_spectrum(
+            0.5 * motion.ay_mps2, motion.dt_s, np.array([1 / freq])
+        )[0]
+        / G
+        / assessment.horizontal_target.at(np.array([freq]))[0]
+        for motion in motions
+        for freq in BAND_HZ
+    }
+    for text, where, pick in ((least, of_least, min), (largest, of_largest, max)):
+        name, freq = pick(ratios, key=ratios.get)
+        assert text == f"{ratios[name, freq]:.2f}"
+        assert where == f"{name}, {1 / freq:.2f} s"
+
+
+def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment):
+    part = spectra(under(assessment, given()))[0]
+    target, mean, over, least, largest = page.spectrum_table(part).rows
+    at = int(np.argmin(np.abs(part.periods_s - 1.0)))
+    column = 1 + page.PRINTED_S.index(1.0)
+    assert target.cells[column] == f"{part.target_g[at]:.3f}"
+    assert mean.cells[column] == f"{part.sa_g[:, at].mean():.3f}"
+    for row, fold in ((over, np.mean), (least, np.min), (largest, np.max)):
+        assert row.cells[column] == f"{fold(part.sa_g[:, at]) / part.target_g[at]:.2f}"
+
+
+def test_an_own_spectrum_counts_where_it_is_given_and_nowhere_else():
+    points = [(0.1, 2.0), (2.0, 0.5)]
+    rows = [{"period_s": t, "horizontal_g": a} for t, a in points]
+    data = stand_in.project(spectrum=rows)
+    done = stand_in.assessed(stand_in.book(data, stand_in.motions(3, seconds=8.0)))
+    part = spectra(under(done, given()))[0]
+    periods = part.periods_s[part.in_band]
+    assert 0.1 <= periods.min() <= 0.11
+    assert 1.9 <= periods.max() <= 2.0
+    target, _, over, *_ = page.spectrum_table(part).rows
+    for row in (target, over):
+        given_at = [cell != "—" for cell in row.cells[1:]]
+        assert given_at == [0.1 <= period <= 2.0 for period in page.PRINTED_S]
+    (row,) = page.achieved_table([part]).rows
+    assert "—" not in row.cells
+
+
+def test_an_own_spectrum_of_long_periods_alone_leaves_the_band_unjudged():
+    rows = [{"period_s": t, "horizontal_g": 0.1} for t in (4.0, 9.0)]
+    done = stand_in.assessed(stand_in.book(stand_in.project(spectrum=rows), given()))
+    parts = spectra(under(done, given()))
+    assert [row.cells[0] for row in page.achieved_table(parts).rows] == ["Vertical"]
+
+
+def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_target():
+    motions = given()
+    stories = [stand_in.story(m, recorded_at=RecordedAt.GROUND) for m in motions]
+    done = stand_in.assessed(stand_in.book(found=motions))
+    *_, across, transverse = spectra(under(done, motions, stories))
+    assert (across.title, transverse.title) == ("Ground, horizontal", "Ground, transverse")
+    assert across.is_ground
+    alone = response_spectrum(0.5 * motions[1].ax_mps2, motions[1].dt_s, across.periods_s)
+    assert across.sa_g[1] == pytest.approx(alone / G, rel=1e-12)
+    assert [row.cells[0] for row in page.spectrum_table(across).rows] == ["Mean of 3 motions [g]"]
+    assert not page.achieved_table([across]).rows

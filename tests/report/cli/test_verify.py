@@ -1,0 +1,368 @@
+"""The manual says what was found, and a check that fails is not to be overlooked."""
+
+import datetime as dt
+import io
+import math
+import re
+from dataclasses import replace
+from html import unescape
+
+import numba
+import numpy as np
+import pandas as pd
+import pytest
+from click.testing import CliRunner
+from pypdf import PdfReader
+
+import report.manual.render
+import solver.verification.run
+from report.cli.main import main
+from report.figures import work
+from report.figures.base import load_fonts
+from report.manual import blocks
+from report.manual.machine import this_machine
+from report.manual.render import files, manual_html
+from report.manual.sections import sections
+from report.typeset.pdf import TEMPLATES
+from report.words.letters import lettered
+from solver.model import Status
+from solver.rivals.methods import METHODS
+from solver.verification.evidence import PeerPoint
+from solver.verification.run import verify
+
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
+)
+DATE = dt.date(2026, 3, 5)
+
+
+@pytest.fixture(scope="module")
+def found():
+    """A quick verification; other programs, where some are installed, are tested apart."""
+    return replace(verify((), quick=True, progress=lambda line: None), peers=())
+
+
+@pytest.fixture(scope="module")
+def made(found):
+    return files(found, DATE, lambda line: None)
+
+
+@pytest.fixture(scope="module")
+def texts(made):
+    reader = PdfReader(io.BytesIO(made["verification.pdf"]))
+    return [" ".join(page.extract_text().split()) for page in reader.pages]
+
+
+@pytest.fixture(scope="module")
+def whole(texts):
+    return " ".join(texts)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def fonts():
+    load_fonts(TEMPLATES / "fonts")
+
+
+def said(found):
+    """The words of the manual, before they are laid out."""
+    machine = this_machine()
+    html = manual_html(found, sections(found, machine), machine, DATE)
+    body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
+    return " ".join(unescape(body).split())
+
+
+@pytest.fixture(scope="module")
+def words(found):
+    return said(found)
+
+
+@pytest.fixture(scope="module")
+def broken(found):
+    return failing(found)
+
+
+@pytest.fixture(scope="module")
+def words_of_broken(broken):
+    return said(broken)
+
+
+def failing(found):
+    """The same verification with its second check failed and some runs lost."""
+    wrong = replace(found.checks[1], found=1.5, error=0.25, passed=False)
+    nan = math.nan
+    lost = [
+        replace(
+            point,
+            seconds=nan,
+            prd_error_m=nan,
+            prd_error_percent=nan,
+            residual_error_m=nan,
+            residual_error_percent=nan,
+            status=Status.DIVERGED,
+        )
+        if point.method == "penalty-explicit" and point.setting == 1e2
+        else point
+        for point in found.work
+    ]
+    return replace(found, checks=(found.checks[0], wrong, *found.checks[2:]), work=tuple(lost))
+
+
+def test_the_manual_has_a_cover_contents_and_a_summary_of_one_page(texts, found):
+    assert 15 <= len(texts) <= 35
+    passed = f"PASS {len(found.checks)} of {len(found.checks)} checks passed."
+    assert passed in texts[0]
+    assert "Verification manual" in texts[0]
+    assert "2026-03-05" in texts[0]
+    assert texts[1].startswith("Contents")
+    assert texts[2].startswith("1 Summary")
+    assert passed in texts[2]
+    assert texts[3].startswith("2 Scope and terms")
+
+
+def test_every_page_carries_program_sheet_date_and_extent(texts):
+    for count, text in enumerate(texts, start=1):
+        for piece in ("Roofslip", f"Sheet {count} of {len(texts)}", "Date 2026-03-05", "quick"):
+            assert piece in text
+
+
+def test_contents_name_the_sheet_of_each_section(texts):
+    for title in ("3 Checks", "6 Stability", "9 Design curves (Figs. 10 to 12)"):
+        number, words = title.split(" ", 1)
+        sheet = re.search(rf"\b{number} {re.escape(words)} (\d+)", texts[1])
+        assert sheet, title
+        assert texts[int(sheet[1]) - 1].startswith(title)
+
+
+def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(found, words):
+    for row in found.checks:
+        assert f"Source: {lettered(row.source)}" in words
+        line = (
+            f"{lettered(row.problem)} {row.quantity}"
+            + (f" [{lettered(row.unit)}]" if row.unit != "1" else "")
+            + f" {blocks.digits(row.expected)} {blocks.digits(row.found)} "
+            + f"{blocks.scientific(row.error)} {blocks.scientific(row.tolerance)} PASS"
+        )
+        assert line in words, line
+
+
+def test_the_papers_own_figures_stand_beside_those_found(words, found):
+    assert "6.78 %" in words
+    assert "1.69 %" in words
+    assert "0.48 %" in words
+    assert "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm" in words
+    for one in found.links:
+        assert blocks.percent(one.worst_percent) in words
+        assert blocks.percent(one.mean_percent) in words
+    curves = found.curves[0]
+    assert f"{curves.least_mu(2.0, 1.5, 0.5):.3f}" in words
+
+
+def test_every_method_is_in_the_table_with_when_it_is_not_valid(words):
+    for method in METHODS.values():
+        assert lettered(method.title) in words
+        assert lettered(method.invalid_when) in words
+        assert lettered(method.source) in words
+
+
+def test_it_says_plainly_where_no_method_can_help(whole):
+    assert "Where no method can help" in whole
+    assert "no method can be better than that: the problem itself is ill-conditioned" in whole
+
+
+def test_libraries_and_machine_are_named_without_host_or_path(whole):
+    for name in ("numpy", "numba", "weasyprint", "Processor", "Cores"):
+        assert name in whole
+    assert "/home" not in whole
+    assert "/root" not in whole
+
+
+def test_nothing_reads_nan_or_infinite(whole):
+    assert not re.search(r"\b(nan|inf|None)\b", whole)
+
+
+def test_all_and_only_the_checks_and_runs_are_in_the_table(made, found):
+    table = pd.read_csv(io.BytesIO(made["verification.csv"]))
+    checks, runs = table[table["kind"] == "check"], table[table["kind"] == "run"]
+    assert len(checks) == len(found.checks)
+    assert len(runs) == len(found.work)
+    in_two_axes = sum(len(one.work) for one in found.rungs)
+    assert len(table) == len(checks) + len(runs) + in_two_axes
+    assert checks["found"].tolist() == [row.found for row in found.checks]
+    assert checks["error [-]"].tolist() == [row.error for row in found.checks]
+    assert set(checks["passed"]) == {"yes"}
+    assert runs["time per run [s]"].tolist() == [point.seconds for point in found.work]
+    assert runs["PRD error [%]"].tolist() == [point.prd_error_percent for point in found.work]
+    assert "substeps=64" in set(runs["parameters"])
+    for column in ("time per run [s]", "PRD error [m]", "residual error [%]", "tolerance [-]"):
+        assert column in table
+
+
+def test_each_chart_is_a_file_too_with_text_in_the_shipped_font_only(made):
+    charts = {name: data for name, data in made.items() if name.startswith("charts/")}
+    assert len(charts) >= 14
+    for kind in ("work", "stability", "convergence", "links", "curves", "contours", "conditioning"):
+        assert any(name.startswith(f"charts/{kind}-") for name in charts), kind
+    for data in charts.values():
+        text = data.decode()
+        assert text.startswith("<svg")
+        assert "mathdefault" not in text
+        assert set(re.findall(r"font: [^;]*?'([^']+)'", text)) <= {"Source Sans 3"}
+
+
+def test_the_exact_method_is_drawn_at_its_floor_and_said_to_be(made, found):
+    assert ">exact: rounding floor<" in made["charts/work-percent.svg"].decode()
+    curve = next(
+        one for one in work.curves(found.work, "prd_error_percent", 1e-12) if one.method == "exact"
+    )
+    assert curve.median.tolist() == [1e-12]
+
+
+def test_curves_are_medians_with_the_envelope_over_the_scenes(found):
+    points = [p for p in found.work if p.method == "linear" and p.setting == 16]
+    curve = next(
+        one for one in work.curves(found.work, "prd_error_percent", 0.0) if one.method == "linear"
+    )
+    at = [1, 4, 16, 64, 256].index(16)
+    errors = [p.prd_error_percent for p in points]
+    assert curve.median[at] == np.median(errors)
+    assert (curve.low[at], curve.high[at]) == (min(errors), max(errors))
+    assert curve.seconds[at] == np.median([p.seconds for p in points])
+
+
+def test_failed_runs_are_counted_in_the_caption_and_not_drawn(broken, words_of_broken):
+    lost = sum(math.isnan(point.seconds) for point in broken.work)
+    words = words_of_broken
+    assert f"{lost} of {len(broken.work)} runs failed and are not drawn" in words
+    assert f"(penalty-explicit: {lost})" in words
+    curve = next(
+        one
+        for one in work.curves(broken.work, "prd_error_percent", 0.0)
+        if one.method == "penalty-explicit"
+    )
+    assert np.isfinite(curve.median).all()
+
+
+def test_failed_cells_are_hatched_and_counted(made, found, words):
+    count = int(found.maps[0].failed.sum())
+    assert count > 0
+    assert f"Failed: {count} of {found.maps[0].failed.size} cells." in words
+    svg = made["charts/stability-1.svg"].decode()
+    assert svg.count("fill: url(#") >= count
+    for text in ("failed", "1 % contour", "10 % contour", "theoretical limit"):
+        assert f">{text}<" in svg
+
+
+def test_a_failed_check_is_said_on_cover_summary_and_in_its_table(found, words_of_broken):
+    words = words_of_broken
+    count = len(found.checks)
+    assert words.count(f"FAIL {count - 1} of {count} checks passed.") == 2
+    row = found.checks[1]
+    assert f"FAIL: {row.section}, {row.problem}, {row.quantity}" in words
+    assert re.search(r" 1\.5 2\.5 × 10⁻¹ [^A-Z]* FAIL", words)
+
+
+def test_other_programs_have_a_section_where_there_are_any(found):
+    peer = PeerPoint(
+        peer="Other",
+        version="1.2",
+        record="motion-01-x",
+        scene="flat",
+        seconds=0.5,
+        prd_error_percent=1.25,
+        note="as its example",
+    )
+    lost = replace(peer, seconds=math.nan, prd_error_percent=math.nan, note="did not converge")
+    words = said(replace(found, peers=(peer, lost)))
+    assert "13 Other programs" in words
+    assert "Other 1.2: as its example motion-01-x flat 500 ms 1.25 %" in words
+    assert "Other 1.2: did not converge motion-01-x flat — failed" in words
+
+
+def test_without_other_programs_there_is_no_such_section(words):
+    assert "Other programs" not in words
+
+
+def command(monkeypatch, tmp_path, found, *more):
+    """Run the command on what is found already; pictures and layout are tested above."""
+    monkeypatch.setattr(
+        solver.verification.run,
+        "verify",
+        lambda records, *, quick, progress, buildings, motions: found,
+    )
+    monkeypatch.setattr(report.manual.render, "lay_out", str.encode)
+    return CliRunner().invoke(main, ["verify", "--out", str(tmp_path / "v"), *more])
+
+
+def test_the_command_writes_everything_and_exits_0(monkeypatch, tmp_path, found):
+    done = command(monkeypatch, tmp_path, found, "--quick")
+    assert done.exit_code == 0, done.output
+    count = len(found.checks)
+    assert done.stdout.startswith(f"PASS: {count} of {count} checks passed\n")
+    for name in ("verification.pdf", "verification.csv", "charts/work-percent.svg"):
+        assert str(tmp_path / "v" / name) in done.output
+        assert (tmp_path / "v" / name).stat().st_size > 1000
+    assert not list((tmp_path / "v").glob(".roofslip-*"))
+
+
+def test_a_failed_check_is_named_and_exits_1_with_the_outputs_written(
+    monkeypatch, tmp_path, found, broken
+):
+    done = command(monkeypatch, tmp_path, broken)
+    assert done.exit_code == 1
+    row = found.checks[1]
+    assert done.stdout.startswith("FAIL: ")
+    assert f"  {row.section}: {row.problem}, {row.quantity}: expected" in done.output
+    assert "found 1.5 m, error 2.5e-01 over" in done.output
+    table = pd.read_csv(tmp_path / "v" / "verification.csv")
+    assert (table["passed"] == "no").sum() == 1
+
+
+def test_a_folder_that_cannot_be_written_exits_2(monkeypatch, tmp_path, found):
+    (tmp_path / "v").write_text("a file")
+    done = command(monkeypatch, tmp_path, found)
+    assert done.exit_code == 2
+    assert "choose another folder" in done.output
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (3.24e-15, "3.2 × 10⁻¹⁵"),
+        (0.0, "0"),
+        (math.nan, "—"),
+        (math.inf, "∞"),
+        (25.0, "2.5 × 10¹"),
+    ],
+)
+def test_errors_print_as_powers_of_ten(value, text):
+    assert blocks.scientific(value) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.0, "0 %"), (6.78, "6.78 %"), (0.361, "0.361 %"), (478.2, "478 %"), (math.nan, "—"),
+     (1e-6, "1.0 × 10⁻⁶ %")],
+)  # fmt: skip
+def test_percents_print_three_digits(value, text):
+    assert blocks.percent(value) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(2.5, "2.5 s"), (0.0123, "12.3 ms"), (3.7e-6, "3.7 µs"), (5e-8, "50 ns"), (math.nan, "—")],
+)
+def test_times_print_in_a_unit_that_suits(value, text):
+    assert blocks.seconds(value) == text
+
+
+def test_names_of_letters_are_set_as_letters():
+    assert lettered("mu = tan(theta), -0.3 m/s2, multi-axial v0 a-1") == (
+        "μ = tan(θ), −0.3 m/s², multi-axial v₀ a-1"
+    )
+    assert lettered("-g sqrt(a - b) >= pi") == "−g √(a − b) ≥ π"
+
+
+def test_a_value_stays_with_its_name_and_unit():
+    assert blocks.unbroken("2°, μ = 0.4, PPA = 1.5 g, flat") == (
+        "2°, μ\xa0=\xa00.4, PPA\xa0=\xa01.5\xa0g, flat"
+    )

@@ -1,0 +1,127 @@
+import re
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+import stand_in
+from report.assessment.spectra import spectra
+from report.figures import charts as figures
+from report.typeset.pdf import TEMPLATES
+
+
+@pytest.fixture(scope="module", autouse=True)
+def fonts():
+    figures.load_fonts(TEMPLATES / "fonts")
+
+
+@pytest.fixture(scope="module")
+def book():
+    return stand_in.book(found=stand_in.motions(3, seconds=12.0))
+
+
+@pytest.fixture(scope="module")
+def assessment(book):
+    return stand_in.assessed(book)
+
+
+def drawn(book, assessment):
+    """Every chart of the package."""
+    found = spectra(assessment)
+    return [
+        figures.roof_plan(book.input, True),
+        figures.spectra(found),
+        histories(assessment.arrays[0]),
+        figures.comparison(assessment.arrays, True),
+        figures.clearances(assessment.clearances, True),
+    ]
+
+
+def histories(array, us_first=True):
+    return figures.histories(array.motions, [run.history() for run in array.motions], us_first)
+
+
+def words(svg):
+    return re.findall(r"<text[^>]*>([^<]*)</text>", svg)
+
+
+def test_two_runs_draw_the_same_bytes(book, assessment):
+    assert drawn(book, assessment) == drawn(book, assessment)
+
+
+def test_charts_carry_no_date_and_only_the_shipped_font(book, assessment):
+    for svg in drawn(book, assessment):
+        assert "<dc:date>" not in svg
+        assert set(re.findall(r"font: [^;]*?'([^']+)'", svg)) <= {figures.FAMILY}
+
+
+def test_settings_of_the_machine_do_not_matter(book, assessment):
+    before = drawn(book, assessment)
+    with mpl.rc_context({"font.size": 30.0, "lines.linewidth": 9.0, "svg.fonttype": "path"}):
+        assert drawn(book, assessment) == before
+
+
+def test_an_envelope_keeps_the_peaks_and_the_ends():
+    rng = np.random.default_rng(3)
+    t, u = np.arange(6000) * 0.005, np.cumsum(rng.standard_normal(6000))
+    t_few, u_few = figures.envelope(t, u)
+    assert len(t_few) <= figures.MAX_POINTS
+    assert (u_few.min(), u_few.max()) == (u.min(), u.max())
+    assert (t_few[0], t_few[-1]) == (t[0], t[-1])
+    assert np.all(np.diff(t_few) > 0)
+
+
+def test_a_short_record_is_drawn_as_it_is():
+    t, u = np.arange(5.0), np.arange(5.0)
+    assert figures.envelope(t, u) == (t, u)
+
+
+def test_the_plan_shows_every_array_object_and_clearance(book):
+    found = words(figures.roof_plan(book.input, True))
+    for name in ("A1", "A2", "A3", "RTU-1", "T-1", "N edge", "S edge", "1", "2", "3", "4", "5"):
+        assert name in found
+    assert "x [ft]" in found
+
+
+def test_the_plan_does_without_objects_drawn():
+    data = stand_in.project(
+        objects=[{"id": "RTU-1", "kind": "fixed object"}],
+        clearances=[stand_in.clearance("A1", "RTU-1", 2.0)],
+    )
+    assert "A1" in words(figures.roof_plan(data, us_first=False))
+
+
+def test_a_dollar_sign_in_a_name_is_a_dollar_sign(book):
+    data = stand_in.project(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
+    assert "$x_1$" in words(figures.roof_plan(data, True))
+
+
+def test_each_history_states_its_prd_in_both_systems(assessment):
+    found = words(histories(assessment.arrays[1]))
+    assert sum(bool(re.fullmatch(r"PRD [\d.]+ in \(\d+ mm\)", text)) for text in found) == 3
+    found = words(histories(assessment.arrays[1], us_first=False))
+    assert sum(bool(re.fullmatch(r"PRD \d+ mm \([\d.]+ in\)", text)) for text in found) == 3
+
+
+def test_a_run_without_a_value_is_drawn_as_such():
+    up = np.zeros(400)
+    up[100:200] = -1.5 * stand_in.G
+    still = stand_in.motion("M1", np.zeros(400), up, signs=(1,))
+    book = stand_in.book(found=(still,) * 3)
+    assessment = stand_in.assessed(book)
+    found = words(histories(assessment.arrays[0]))
+    assert found.count("no value") == 3
+    assert found.count("PRD: no value") == 3
+    assert "no value" in words(figures.comparison(assessment.arrays, True))
+    assert words(figures.clearances(assessment.clearances, True)).count("no value: NG") == 5
+
+
+def test_a_failed_clearance_is_marked(assessment):
+    assert words(figures.clearances(assessment.clearances, True)).count("NG") == 1
+
+
+@pytest.mark.parametrize("us_first", [True, False])
+def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
+    found = words(figures.comparison(assessment.arrays, us_first))
+    assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in found
+    assert f"[{'mm' if us_first else 'in'}]" in found

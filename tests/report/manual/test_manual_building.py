@@ -1,0 +1,266 @@
+"""Recorded roofs held against computed ones: found again, told honestly, printed and drawn."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from conftest import RECORDS
+
+from report.cli.main import main
+from report.figures.base import load_fonts
+from report.manual.building import answer, building
+from report.typeset.pdf import TEMPLATES
+from solver.building.beam import beam_modes
+from solver.building.roof import absolute_accelerations, building_of_periods, roof_motion
+from solver.model import InputError
+from solver.records.record import Record, write_record
+from solver.records.spectrum import response_spectrum
+from solver.sliding.checked import slide
+from solver.verification import building_checks as checks
+from solver.verification.building import BY_HEIGHT, SPECTRUM_S, compare, recorded_buildings
+from solver.verification.evidence import Verification
+from solver.verification.identification import identify
+from solver.verification.scenes import own_records
+
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
+)
+
+
+@pytest.fixture(scope="module")
+def made():
+    return checks.made_building(own_records(True)[0])
+
+
+@pytest.fixture(scope="module")
+def found(made):
+    return compare(made)
+
+
+@pytest.fixture(scope="module")
+def recorded(made):
+    """The made building as if it had been recorded, with a period by its height."""
+    return compare(
+        replace(made, title="A tower", story="Told.", is_recorded=True, code_period_s=1.0)
+    )
+
+
+@pytest.fixture(scope="module", autouse=True)
+def fonts():
+    load_fonts(TEMPLATES / "fonts")
+
+
+def verification(*roofs):
+    nothing = dict.fromkeys(
+        (
+            "checks",
+            "work",
+            "maps",
+            "convergence",
+            "links",
+            "curves",
+            "conditioning",
+            "rungs",
+            "peers",
+        ),
+        (),
+    )
+    return Verification(**nothing, roofs=roofs, records=(), quick=True, seconds=1.0)
+
+
+def texts(section):
+    return " ".join(text for block in section.blocks for text in block.texts)
+
+
+# What the verification finds
+
+
+def test_every_check_passes_and_no_two_are_alike(made, found):
+    rows = list(checks.building_checks(made, found))
+    assert all(row.passed for row in rows), [row for row in rows if not row.passed]
+    assert len({(row.problem, row.quantity) for row in rows}) == len(rows)
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        ("absolute_accelerations", lambda right: 1.00001 * right),
+        ("roof_motion", lambda right: 1.001 * right),
+        ("beam_modes", lambda right: replace(right, factors=1.001 * right.factors)),
+        ("beam_modes", lambda right: replace(right, period_ratios=right.period_ratios**1.001)),
+        ("storey_modes", lambda right: replace(right, factors=1.001 * right.factors)),
+    ],
+)
+def test_what_is_wrong_fails_the_checks_that_see_it(made, found, monkeypatch, name, wrong):
+    true = getattr(checks, name)
+    monkeypatch.setattr(checks, name, lambda *given, **named: wrong(true(*given, **named)))
+    assert not all(row.passed for row in checks.building_checks(made, found))
+
+
+def test_a_fit_that_is_off_fails_its_checks(made, found):
+    best = found.predictions[0]
+    for change in ({"period_s": 1.19}, {"damping": 0.05}, {"alpha0": 5.0}, {"unexplained": 0.1}):
+        off = replace(found, predictions=(replace(best, **change), *found.predictions[1:]))
+        assert sum(not row.passed for row in checks.building_checks(made, off)) == 1
+
+
+def test_a_beam_is_found_again_from_its_own_floors():
+    ground = own_records(True)[0]
+    modes, period_s, zeta = beam_modes(3.0, 12, [0.4, 1.0]), 0.83, 0.07
+    histories = absolute_accelerations(
+        ground.a_mps2, ground.dt_s, period_s * modes.period_ratios, np.full(12, zeta)
+    )
+    rigid = 1.0 - modes.factors.sum(axis=0)
+    floors = histories @ modes.factors + ground.a_mps2[:, None] * rigid
+    found = identify(ground.a_mps2, ground.dt_s, (0.4, 1.0), floors, (0.4, 1.6))
+    assert found.period_s == pytest.approx(period_s, rel=5e-4)
+    assert found.damping == pytest.approx(zeta, rel=5e-3)
+    assert found.alpha0 == pytest.approx(3.0, rel=1e-2)
+    assert found.unexplained < 1e-5
+
+
+def test_the_fit_is_the_same_every_time(made, found):
+    again = compare(made)
+    for one, other in zip(found.predictions, again.predictions, strict=True):
+        assert one.unexplained == other.unexplained
+        np.testing.assert_array_equal(one.prd_m, other.prd_m)
+
+
+def test_predictions_are_what_their_parts_say(made, recorded):
+    assert [one.name for one in recorded.predictions] == [
+        "fitted to the 12th and 24th floors",
+        "fitted to the 12th floor",
+        BY_HEIGHT,
+        "fitted as first, but with 5 % damping",
+        "the ground motion itself, no building",
+    ]
+    one = recorded.predictions[2]
+    model = building_of_periods([1.0], damping=[0.05], alpha0=one.alpha0)
+    roof = roof_motion(made.ground_mps2, made.dt_s, model)[: made.ground_mps2.size]
+    np.testing.assert_array_equal(one.a_mps2, roof)
+    assert one.unexplained == pytest.approx(
+        ((roof - recorded.roof_mps2) ** 2).sum() / (recorded.roof_mps2**2).sum()
+    )
+    sa = response_spectrum(roof, made.dt_s, SPECTRUM_S)
+    low, high = recorded.bands_s[3]
+    ratios = (sa / recorded.roof_sa_mps2)[(low <= SPECTRUM_S) & (high >= SPECTRUM_S)]
+    assert one.band_ratios[3] == pytest.approx(np.prod(ratios) ** (1.0 / ratios.size))
+    both = [
+        slide(roof, made.dt_s, slope_rad=math.radians(d), mu=0.3, scale=recorded.scale).prd_m
+        for d in (2.0, -2.0)
+    ]
+    assert one.prd_m[2] == max(both)
+    assert np.abs(recorded.roof_mps2).max() * recorded.scale == pytest.approx(9.80665)
+
+
+def test_the_ground_itself_is_the_last_prediction_and_has_no_building(made, found):
+    last = found.predictions[-1]
+    np.testing.assert_array_equal(last.a_mps2, made.ground_mps2)
+    assert last.n_modes == 0
+    assert math.isnan(last.period_s)
+
+
+# Records of a real building
+
+
+def test_575_market_street_is_read_and_its_misfit_stays_what_it_was():
+    if not (RECORDS / "roof_575_market").is_dir():
+        pytest.skip("the records of the building are not here")
+    (records,) = recorded_buildings(RECORDS)
+    assert records.ground_mps2.size == 9694
+    assert records.dt_s == 0.005
+    peaks_g = np.abs(records.floors_mps2).max(axis=0) / 9.80665
+    assert peaks_g == pytest.approx([0.16549, 0.13491], abs=1e-5)
+    # The ground's instrument points the other way: in the floors' direction motions rise together.
+    assert np.corrcoef(np.roll(records.ground_mps2, 106), records.floors_mps2[:, 0])[0, 1] > 0.8
+    found = compare(records)
+    fitted, without_roof, by_height = found.predictions[:3]
+    assert fitted.period_s == pytest.approx(4.88, abs=0.02)
+    assert fitted.damping == pytest.approx(0.126, abs=0.002)
+    assert fitted.unexplained == pytest.approx(0.254, abs=0.005)
+    assert without_roof.unexplained == pytest.approx(0.54, abs=0.02)
+    assert by_height.name == BY_HEIGHT
+    assert by_height.period_s == pytest.approx(4.505, abs=1e-3)
+    assert (np.abs(np.log(fitted.band_ratios)) < 0.2).all()
+    assert (fitted.prd_m / found.prd_m > 0.8).all()
+    assert (fitted.prd_m / found.prd_m < 1.2).all()
+
+
+def test_a_folder_without_a_known_building_is_refused(tmp_path):
+    for folder in (tmp_path, tmp_path / "nowhere"):
+        with pytest.raises(InputError, match="holds no roof_575_market"):
+            recorded_buildings(folder)
+
+
+def test_a_lost_record_is_named(tmp_path):
+    (tmp_path / "roof_575_market").mkdir()
+    with pytest.raises(InputError, match=r"LomaPrieta_k_315\.csv: no such file"):
+        recorded_buildings(tmp_path)
+
+
+def test_records_are_cut_to_the_shortest_and_turned_to_one_direction(tmp_path):
+    folder = tmp_path / "roof_575_market"
+    folder.mkdir()
+    for name, a in (("k_315", [1.0, 2.0, 3.0]), ("i_135", [0.5] * 4), ("c_135", [0.25] * 5)):
+        record = Record(name=name, dt_s=0.01, a_mps2=9.80665 * np.array(a))
+        write_record(folder / f"SF575Market_LomaPrieta_{name}.csv", record)
+    (records,) = recorded_buildings(tmp_path)
+    np.testing.assert_allclose(records.ground_mps2, -9.80665 * np.array([1.0, 2.0, 3.0]))
+    assert records.floors_mps2.shape == (3, 2)
+
+
+def test_the_command_names_a_folder_without_records_and_exits_2(tmp_path):
+    done = CliRunner().invoke(
+        main, ["verify", "--records", str(tmp_path), "--out", str(tmp_path / "out")]
+    )
+    assert done.exit_code == 2
+    assert "holds no roof_575_market; give a folder with it" in done.output
+    assert not Path(tmp_path / "out").exists()
+
+
+# What the manual prints
+
+
+def test_without_records_the_manual_says_that_nothing_real_was_compared(found):
+    section = building(verification(found))
+    assert "No records of a real building were given to this run" in texts(section)
+    assert "nothing about how well a uniform beam stands for a real building" in texts(section)
+    assert [block.title for block in section.blocks] == ["", found.title]
+    assert answer(verification(found)) == ""
+
+
+def test_with_records_the_manual_says_how_far_off_each_prediction_is(found, recorded):
+    both = verification(found, recorded)
+    section = building(both)
+    said = texts(section)
+    assert "Records of a real building were at hand: A tower." in said
+    ratios = recorded.predictions[2].prd_m / recorded.prd_m
+    span = f"{ratios.min():.2f} to {ratios.max():.2f}"
+    assert f"{BY_HEIGHT}: {span}" in said
+    assert f"{BY_HEIGHT}: PRD {span} times" in answer(both)
+    assert "One building in one earthquake is no margin for another." in said
+    tables = [*section.blocks[2].top, *section.blocks[2].tables]
+    cells = [str(cell) for table in tables for row in table.rows for cell in row.cells]
+    for one in recorded.predictions:
+        assert cells.count(one.name[0].upper() + one.name[1:]) == 3
+        for ratio, scatter in zip(one.band_ratios, one.band_scatters, strict=True):
+            assert f"{ratio:.2f} ({100 * scatter:.0f} %)" in cells
+        for prd, true in zip(one.prd_m, recorded.prd_m, strict=True):
+            assert f"{1e3 * prd:.0f} ({prd / true:.2f})" in cells
+    assert cells.count("As recorded") == 2
+    assert not any("nan" in cell for cell in cells)
+
+
+def test_charts_name_each_line_and_only_records_have_a_history(found, recorded):
+    one, other = (building(verification(f)).blocks[1].charts[0] for f in (found, recorded))
+    assert one.name == "building-a-made-building-of-24-storeys"
+    for text in (">ground<", ">roof, stepped<", ">fitted to the 12th floor<"):
+        assert text in one.picture.svg
+    for text in (">roof, recorded<", f">{BY_HEIGHT}<", ">Roof acceleration: recorded (solid)"):
+        assert text in other.picture.svg
+    assert "Roof acceleration" not in one.picture.svg
+    assert "the ground motion itself" not in other.picture.svg

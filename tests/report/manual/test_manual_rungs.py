@@ -1,0 +1,117 @@
+"""The comparison of the models in the manual: what was found is printed, and nothing else."""
+
+import io
+import re
+from dataclasses import replace
+
+import numba
+import numpy as np
+import pandas as pd
+import pytest
+
+from report.figures.base import load_fonts
+from report.manual.blocks import percent
+from report.manual.rungs import answers, rungs
+from report.manual.table import verification_csv
+from report.typeset.pdf import TEMPLATES
+from solver.verification import plane_scipy, rung_study
+from solver.verification.evidence import Verification
+from solver.verification.rung_evidence import HELD, SECOND
+from solver.verification.triples import own_triples
+
+pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    load_fonts(TEMPLATES / "fonts")
+    return rung_study.rung_evidence(own_triples(True), quick=True)
+
+
+def verification(*evidence):
+    nothing = dict.fromkeys(
+        ("checks", "work", "maps", "convergence", "links", "curves", "conditioning", "roofs"), ()
+    )
+    return Verification(**nothing, rungs=evidence, peers=(), records=(), quick=True, seconds=1.0)
+
+
+def words(section):
+    blocks = section.blocks
+    tables = [table for block in blocks for table in (*block.top, *block.tables)]
+    cells = [cell for table in tables for row in table.rows for cell in row.cells]
+    texts = [text for block in blocks for text in block.texts]
+    return " ".join([*texts, *cells, *(note for table in tables for note in table.notes)])
+
+
+def test_the_factor_of_the_second_axis_is_told(evidence):
+    said = words(rungs(verification(evidence)))
+    second = evidence.study.named(SECOND)
+    assert f"PRD is {second.median:.2f} times that of one axis with the same heading" in said
+    assert "One axis underestimates." in said
+    assert "No records of three components were given" in said
+    (answer,) = answers(verification(evidence))
+    assert f"{second.median:.2f} times" in answer[1]
+
+
+def test_static_friction_is_told_beside_friction_by_speed(evidence):
+    said = words(rungs(verification(evidence)))
+    held, least = evidence.study.named(HELD), evidence.static.differences[-1]
+    assert f"{held.median:.2f} times ({held.at(10.0):.2f} to {held.at(90.0):.2f}) in two" in said
+    assert percent(100.0 * least.two_axes[-1]) in said
+    assert "the power 2.0 and 2.0 of the difference" in said
+
+
+def test_the_distribution_of_error_over_bound_is_told(evidence):
+    said = words(rungs(verification(evidence)))
+    assert "Every pair keeps to its bound." in said
+    pairs = sum(one.n_pairs for one in evidence.bounds)
+    assert f"{pairs:,} pairs of runs" in said
+    one = evidence.bounds[0]
+    broken = replace(one, ratios=np.array([0.5, 3.0]), n_unanswered=2)
+    said = words(rungs(verification(replace(evidence, bounds=(broken, *evidence.bounds[1:])))))
+    assert "Pairs over their bounds: 1; without an answer: 2." in said
+
+
+def test_no_number_is_printed_raw(evidence):
+    said = words(rungs(verification(evidence)))
+    assert not re.search(r"\bnan\b|\d+e[-+]?\d|None|\{|\}", said)
+
+
+def test_recorded_motions_and_lifted_runs_are_told(evidence):
+    study = replace(evidence.study, n_recorded=1, n_uplift=3)
+    said = words(rungs(verification(replace(evidence, study=study))))
+    assert "1 recorded in earthquakes" in said
+    assert "In 3 runs the vertical lifts the block" in said
+    assert "No records of three" not in said
+
+
+def test_where_nothing_slides_nothing_is_claimed(evidence):
+    none = [replace(one, ratios=np.empty(0)) for one in evidence.study.changes]
+    study = replace(evidence.study, changes=tuple(none))
+    static = replace(evidence.static, n_scenes=0)
+    found = verification(replace(evidence, study=study, static=static))
+    assert "No scene slides 5 mm or more" in words(rungs(found))
+    assert answers(found) == ()
+
+
+def test_without_scipy_the_manual_says_so(evidence, monkeypatch):
+    monkeypatch.setattr(plane_scipy, "is_installed", lambda: False)
+    work = tuple(one for one in evidence.work if "SciPy" not in one.method)
+    said = words(rungs(verification(replace(evidence, work=work))))
+    assert "SciPy is not installed here" in said
+
+
+def test_the_charts_are_the_same_every_time(evidence):
+    one, other = (rungs(verification(evidence)) for _ in range(2))
+    charts = [[c.picture.svg for b in part.blocks for c in b.charts] for part in (one, other)]
+    assert charts[0] == charts[1]
+    assert len(charts[0]) == 3
+
+
+def test_the_runs_are_in_the_table_of_the_verification(evidence):
+    table = pd.read_csv(io.BytesIO(verification_csv(verification(evidence))))
+    assert set(table["kind"]) == {"run in two axes"}
+    assert list(table["PRD error [%]"]) == pytest.approx(
+        [one.error_percent for one in evidence.work], rel=1e-12
+    )
+    assert set(table["scene"]) == {evidence.work_scene}

@@ -1,0 +1,179 @@
+"""From records to motions as run: processing, scaling, and the way up the building."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.motions.components import Components, processing_of
+from report.motions.history import first_period_s, shake
+from report.sheet.schema import MotionInput
+from solver.building.roof import building_of_periods, shaking_to_roof
+from solver.records.measures import measures
+from solver.records.processing import Processing, process
+from solver.records.record import Record
+from solver.records.spectrum import response_spectrum
+
+G = 9.80665
+GROUND = {"recorded_at": "ground"}
+
+
+def row(**changes):
+    return {"id": "M1", "record": "x", "transverse": "y", "vertical": "z"} | changes
+
+
+def records(count=3, seconds=6.0):
+    """Some components of one motion, by the fields of the sheet."""
+    (given,) = stand_in.motions(1, seconds=seconds, peak_g=0.6)
+    values = (given.ax_mps2, given.ay_mps2, given.az_mps2)[:count]
+    fields = ("record", "transverse", "vertical")
+    return {
+        field: Record(name=field, dt_s=given.dt_s, a_mps2=a)
+        for field, a in zip(fields, values, strict=False)
+    }
+
+
+def prepared(found, unfiltered=None):
+    return Components(files=(), records=found, unfiltered=unfiltered or {})
+
+
+def shaken(found, data_changes=None, unfiltered=None, **changes):
+    data = stand_in.project(motions=[row(**changes)], **(data_changes or {}))
+    (one,) = shake(data, [prepared(found, unfiltered)])
+    return one
+
+
+def test_as_recorded_nothing_is_changed():
+    found = records()
+    motion, story = shaken(found)
+    assert motion.scale == 1.0
+    for a, record in zip(
+        (motion.ax_mps2, motion.ay_mps2, motion.az_mps2), found.values(), strict=True
+    ):
+        assert np.array_equal(a, record.a_mps2)
+    assert (story.done, story.scaling, story.roof) == ("as recorded", "as recorded", {})
+
+
+def test_a_ppa_is_the_peak_of_the_horizontal_record_and_one_factor_serves_all():
+    motion, story = shaken(records(), scaling="PPA", scale_value=1.25)
+    assert motion.scale * np.abs(motion.ax_mps2).max() == pytest.approx(1.25 * G, rel=1e-12)
+    assert story.scaling == "PPA 1.25 g"
+    assert story.scaled["vertical"].a_mps2 == pytest.approx(motion.scale * motion.az_mps2)
+
+
+def log_ratio(motion, target, periods_s):
+    """Mean of ln(spectrum / target) of the geometric mean of both horizontal components."""
+    logs = [
+        np.log(response_spectrum(motion.scale * a, motion.dt_s, periods_s) / G)
+        for a in (motion.ax_mps2, motion.ay_mps2)
+    ]
+    return float((np.mean(logs, axis=0) - np.log(target.at(1 / periods_s))).mean())
+
+
+@pytest.mark.parametrize(("start", "end"), [(0.2, 5.0), (0.5, 2.0)])
+def test_a_motion_scaled_to_the_target_lies_on_it_over_the_periods_asked_for(start, end):
+    data = {"target": {"from_s": start, "to_s": end}}
+    motion, story = shaken(records(), data, scaling="target spectrum")
+    target = stand_in.assessed(stand_in.book(found=(motion,) * 3)).targets.roof
+    assert log_ratio(motion, target, np.geomspace(start, end, 400)) == pytest.approx(0, abs=2e-3)
+    assert story.scaling == f"target, {start:g} to {end:g} s"
+
+
+def test_a_ground_motion_goes_through_the_building_component_by_component():
+    found = records()
+    building = {"period_s": 0.62, "transverse_s": 0.5, "damping_percent": 3.0}
+    motion, story = shaken(found, {"building": building}, **GROUND)
+    buildings = [building_of_periods([t], damping=(0.03,), storeys=1) for t in (0.62, 0.5)]
+    wanted = shaking_to_roof(
+        [found["record"].a_mps2, found["transverse"].a_mps2],
+        found["vertical"].a_mps2,
+        found["record"].dt_s,
+        buildings,
+    )
+    assert motion.dt_s == wanted.dt_s
+    assert np.array_equal(motion.ax_mps2, wanted.horizontal[0].a_mps2)
+    assert np.array_equal(motion.ay_mps2, wanted.horizontal[1].a_mps2)
+    assert np.array_equal(motion.az_mps2, wanted.vertical_mps2)
+    assert list(story.roof) == ["horizontal", "transverse"]
+
+
+def test_a_ground_motion_is_scaled_where_it_was_recorded():
+    found = records()
+    building = {"building": {"period_s": 0.62}}
+    motion, story = shaken(found, building, scaling="PPA", scale_value=0.5, **GROUND)
+    peak = np.abs(found["record"].a_mps2).max()
+    assert motion.scale * peak == pytest.approx(0.5 * G)
+    assert story.measures["horizontal"].pga_mps2 == pytest.approx(0.5 * G)
+    assert story.roof["horizontal"].ground_peak_mps2 == pytest.approx(peak)
+
+
+def test_a_horizontal_component_alone_stays_alone_at_the_roof():
+    motion, _ = shaken(records(1), {"building": {"period_s": 0.4}}, **GROUND)
+    assert not motion.has_transverse
+    assert not motion.has_vertical
+
+
+def test_the_period_is_as_given_or_approximate_by_structure_and_height():
+    height_ft = 36.0
+    cases = (
+        ({"period_s": 0.7, "structure": "other"}, 0.7),
+        ({"structure": "other"}, 0.02 * height_ft**0.75),
+        ({"structure": "steel moment frame"}, 0.028 * height_ft**0.8),
+    )
+    for building, period in cases:
+        assert first_period_s(stand_in.project(building=building)) == pytest.approx(period)
+    assert math.isnan(first_period_s(stand_in.project()))
+
+
+def test_what_is_left_at_the_end_is_measured_after_scaling():
+    drifting = {
+        field: replace(record, a_mps2=record.a_mps2 + 0.02) for field, record in records().items()
+    }
+    _, story = shaken(drifting, scaling="factor", scale_value=2.0)
+    scaled = replace(drifting["record"], a_mps2=2.0 * drifting["record"].a_mps2)
+    assert story.measures["horizontal"] == measures(scaled)
+
+
+def test_the_motion_without_its_high_pass_keeps_the_factor():
+    found = records()
+    cut = {field: replace(r, a_mps2=0.5 * r.a_mps2) for field, r in found.items()}
+    motion, story = shaken(cut, None, found, scaling="PPA", scale_value=1.0, highpass_hz=0.2)
+    (bare,) = story.unfiltered
+    assert bare.scale == motion.scale
+    assert np.array_equal(bare.ax_mps2, found["record"].a_mps2)
+
+
+def test_each_cell_of_the_processing_has_its_part():
+    asked = MotionInput(
+        **row(
+            from_s=1.0,
+            to_s=5.0,
+            baseline="quadratic",
+            highpass_hz=0.2,
+            lowpass_hz=20.0,
+            order=6,
+            new_dt_s=0.0025,
+            pad_s=3.0,
+        )
+    )
+    assert processing_of(asked) == Processing(
+        from_s=1.0,
+        to_s=5.0,
+        baseline=2,
+        highpass_hz=0.2,
+        lowpass_hz=20.0,
+        order=6,
+        dt_s=0.0025,
+        pad_s=3.0,
+    )
+    assert processing_of(MotionInput(**row())) == Processing()
+    degrees = {"none": -1, "mean": 0, "linear": 1, "quadratic": 2, "cubic": 3}
+    for name, degree in degrees.items():
+        assert processing_of(MotionInput(**row(baseline=name))).baseline == degree
+
+
+def test_blank_cells_leave_a_record_as_it_is():
+    record = records()["record"]
+    assert np.array_equal(process(record, Processing()).a_mps2, record.a_mps2)

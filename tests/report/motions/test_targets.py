@@ -1,0 +1,98 @@
+"""Which spectrum a motion is held against, at the roof and on the ground."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.motions.targets import ac156, targets
+from report.sheet.schema import RecordedAt
+from solver.rules.provisions import RULE_SETS
+from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
+
+POINTS = [(0.05, 1.0, 0.5), (0.5, 2.0, 0.8), (4.0, 0.2, 0.1)]
+PERIODS = np.array([0.04, 0.05, 0.3, 0.5, 1.0, 4.0, 5.0])
+
+
+def motion(**changes):
+    return {"id": "M1", "record": "records/m1-x.csv"} | changes
+
+
+def own(*, with_vertical=True):
+    return [
+        {"period_s": t, "horizontal_g": h, "vertical_g": v if with_vertical else None}
+        for t, h, v in reversed(POINTS)
+    ]
+
+
+def test_at_the_roof_the_target_is_that_of_the_rule_set():
+    found = targets(stand_in.project())
+    rules = RULE_SETS["SEAOC PV1-2012"]
+    across = ac156_horizontal(rules, s_ds_g=1.566, z_over_h=1.0)
+    upward = ac156_vertical(s_ds_g=1.566)
+    inside = PERIODS[PERIODS <= 10.0]
+    assert found.roof.name == "AC156"
+    assert np.array_equal(found.roof.ordinates(inside), across.at(1 / inside))
+    assert np.array_equal(found.vertical.ordinates(inside), upward.at(1 / inside))
+
+
+def test_the_tail_is_chosen_on_the_sheet():
+    data = stand_in.project(target={"tail": "1/T"})
+    rules = RULE_SETS["SEAOC PV1-2012"]
+    wanted = ac156_horizontal(rules, s_ds_g=1.566, z_over_h=1.0, tail=Tail.RECIPROCAL)
+    assert np.array_equal(ac156(data)[0].sa_g, wanted.sa_g)
+    assert np.array_equal(targets(data).roof.at(np.array([0.2])), wanted.at(np.array([0.2])))
+
+
+def test_a_project_of_roof_motions_takes_its_own_spectrum_at_the_roof():
+    found = targets(stand_in.project(spectrum=own()))
+    assert found.roof.name == found.vertical.name == "project's own"
+    for t, across, upward in POINTS:
+        assert found.roof.ordinates(np.array([t])) == pytest.approx([across])
+        assert found.vertical.ordinates(np.array([t])) == pytest.approx([upward])
+
+
+def test_between_points_the_own_spectrum_is_straight_on_log_log_axes_and_nothing_beyond():
+    roof = targets(stand_in.project(spectrum=own())).roof
+    middle = math.sqrt(0.5 * 4.0)
+    assert roof.ordinates(np.array([middle])) == pytest.approx([math.sqrt(2.0 * 0.2)])
+    assert np.isnan(roof.ordinates(PERIODS)).tolist() == [True, *[False] * 5, True]
+
+
+def test_without_a_vertical_of_its_own_that_of_ac156_stays():
+    found = targets(stand_in.project(spectrum=own(with_vertical=False)))
+    assert (found.roof.name, found.vertical.name) == ("project's own", "AC156")
+
+
+def test_with_ground_motions_the_own_spectrum_is_one_of_the_ground():
+    motions = [motion(recorded_at="ground")]
+    found = targets(stand_in.project(spectrum=own(), motions=motions))
+    assert (found.roof.name, found.ground.name) == ("AC156", "project's own")
+    assert found.horizontal(RecordedAt.GROUND) is found.ground
+    assert found.horizontal(RecordedAt.ROOF) is found.roof
+
+
+def test_on_the_ground_the_target_is_the_design_spectrum_of_asce_7():
+    data = stand_in.project(motions=[motion(recorded_at="ground")], target={"t_l_s": 8.0})
+    ground = targets(data).ground
+    s_d1 = 2.0 / 3.0 * 1.7 * 0.70
+    wanted = [1.566, s_d1 / 2.0, s_d1 * 8.0 / 10.0**2]
+    assert ground.ordinates(np.array([0.3, 2.0, 10.0])) == pytest.approx(wanted)
+    assert ground.name == "ASCE 7 design spectrum"
+
+
+@pytest.mark.parametrize("changes", [{}, {"target": {"t_l_s": 8.0}}, {"spectrum": own()}])
+def test_targets_can_be_handed_to_another_process(changes):
+    found = targets(stand_in.project(motions=[motion(recorded_at="ground")], **changes))
+    handed = pickle.loads(pickle.dumps(found))
+    for name in ("roof", "vertical", "ground"):
+        here, there = getattr(found, name), getattr(handed, name)
+        assert np.array_equal(here.ordinates(PERIODS), there.ordinates(PERIODS), equal_nan=True)
+
+
+def test_without_t_l_there_is_no_target_on_the_ground():
+    ground = targets(stand_in.project(motions=[motion(recorded_at="ground")])).ground
+    assert ground.name == ""
+    assert np.isnan(ground.ordinates(PERIODS)).all()

@@ -1,0 +1,108 @@
+"""The example is what its script makes."""
+
+import importlib.util
+
+import numpy as np
+import pytest
+
+from places import ROOT
+from sheets import read_workbook
+from solver.formats import read_record
+from solver.records.spectrum import response_spectrum
+from solver.rules.provisions import RULE_SETS
+from solver.rules.spectra import ac156_horizontal, ac156_vertical
+
+EXAMPLE = ROOT / "projects" / "example"
+
+
+@pytest.fixture(scope="module")
+def make():
+    spec = importlib.util.spec_from_file_location("make", EXAMPLE / "make.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def book():
+    return read_workbook(EXAMPLE)
+
+
+def test_the_workbook_holds_the_project_that_the_script_describes(make, book):
+    expected = make.example().model_dump()
+    found = book.input.model_dump()
+    assert found.keys() == expected.keys()
+    assert dict(flatten(found)) == dict(flatten(expected))
+
+
+def flatten(tree, path=""):
+    """Yield every value of nested dicts and sequences with its path, floats to 9 digits."""
+    if isinstance(tree, dict):
+        for key, value in tree.items():
+            yield from flatten(value, f"{path}/{key}")
+    elif isinstance(tree, (list, tuple)):
+        for index, value in enumerate(tree):
+            yield from flatten(value, f"{path}/{index}")
+    else:
+        yield path, float(f"{tree:.9g}") if isinstance(tree, float) else tree
+
+
+@pytest.fixture(scope="module")
+def records(make):
+    """Return the three records of each motion, as committed."""
+    folder = EXAMPLE / "records"
+    return [
+        [read_record(folder / f"RM{number}-{axis}.csv", units="g") for axis in "xyz"]
+        for number in range(1, make.COUNT + 1)
+    ]
+
+
+@pytest.fixture(scope="module")
+def targets(make):
+    """Return the spectra that x, y and z follow."""
+    across = ac156_horizontal(RULE_SETS["SEAOC PV1-2012"], s_ds_g=make.S_DS_G, z_over_h=1.0)
+    return across, across, ac156_vertical(s_ds_g=make.S_DS_G)
+
+
+def test_the_first_motion_is_made_again_up_to_the_last_digit(make, records, targets):
+    """One of seven keeps the test short; other machines' sines may differ in the last digit."""
+    across, _, upward = ((part.freq_hz, part.sa_g) for part in targets)
+    again = make.make_suite(across, upward, count=1, seed=make.SEED)[0]
+    for made, committed in zip(again.components, records[0], strict=True):
+        assert np.abs(made.a_mps2 - committed.a_mps2).max() <= 3e-5 * 9.80665
+
+
+def test_the_folder_holds_the_motions_and_nothing_else(make):
+    names = {path.name for path in (EXAMPLE / "records").iterdir()}
+    assert names == {f"RM{n}-{axis}.csv" for n in range(1, make.COUNT + 1) for axis in "xyz"}
+
+
+def test_the_workbook_runs_the_records(book, records):
+    for motion, (x, y, z) in zip(book.motions, records, strict=True):
+        assert np.array_equal(motion.ax_mps2, x.a_mps2)
+        assert np.array_equal(motion.ay_mps2, y.a_mps2)
+        assert np.array_equal(motion.az_mps2, z.a_mps2)
+
+
+def test_every_record_keeps_to_the_ac156_spectrum_at_the_roof(records, targets):
+    freq = 0.3 * 2.0 ** (np.arange(82) / 12)
+    for motion in records:
+        for record, target in zip(motion, targets, strict=True):
+            found = response_spectrum(record.a_mps2, record.dt_s, 1 / freq) / 9.80665
+            ratio = found / target.at(freq)
+            assert ratio.min() >= 0.90
+            assert ratio.max() <= 1.30
+            assert ratio.mean() == pytest.approx(1.0, abs=0.05)
+
+
+def test_components_of_all_motions_are_independent(records):
+    together = np.corrcoef([record.a_mps2 for motion in records for record in motion])
+    assert np.abs(together - np.eye(len(together))).max() <= 0.3
+
+
+def test_no_record_leaves_the_roof_moving_or_displaced(records):
+    for motion in records:
+        for record in motion:
+            whole = [round(a) for a in (record.a_mps2 / 9.80665 * 1e5).tolist()]
+            assert whole[0] == whole[-1] == sum(whole) == 0
+            assert sum(n * k for n, k in enumerate(whole)) == 0

@@ -1,0 +1,398 @@
+import datetime as dt
+import io
+import os
+import re
+from dataclasses import replace
+from html import unescape
+
+import numpy as np
+import pytest
+from pypdf import PdfReader
+
+import stand_in
+from places import GOLDEN as GOLDEN_TEXTS
+from report.motions.components import Components
+from report.motions.history import shake
+from report.pages.motions import drifts
+from report.typeset.pdf import lay_out
+from report.words.units import Quantity, pair
+from solver.model import DefectError
+from solver.records.record import Record
+
+GOLDEN = GOLDEN_TEXTS / "package.txt"
+# Pages whose text hangs on nothing but the project: no versions, no hashes.
+GOLDEN_PARTS = (
+    "Structural calculation package",
+    "1 Summary",
+    "3 Inputs",
+    "7 Comparison",
+    "8 Clearances",
+    "9 Limits",
+    "11 Model used",
+)
+
+
+def made(data=None, found=None):
+    return stand_in.package(stand_in.book(data, found))
+
+
+def pages(pdf):
+    return [page.extract_text() for page in PdfReader(io.BytesIO(pdf)).pages]
+
+
+def flat(text):
+    return " ".join(text.split())
+
+
+@pytest.fixture
+def said():
+    """The words of a package, before they are laid out: a tenth of the time."""
+
+    def words(data=None, found=None):
+        html = stand_in.html(stand_in.book(data, found))
+        body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
+        return flat(unescape(body))
+
+    return words
+
+
+def few(count=3, seconds=8.0):
+    return stand_in.motions(count, seconds=seconds)
+
+
+@pytest.fixture(scope="module")
+def pdf():
+    return made()
+
+
+@pytest.fixture(scope="module")
+def texts(pdf):
+    return pages(pdf)
+
+
+@pytest.fixture(scope="module")
+def whole(texts):
+    return flat(" ".join(texts))
+
+
+def test_the_package_has_fifteen_to_twenty_five_pages(texts):
+    assert 15 <= len(texts) <= 25
+
+
+def test_every_page_carries_project_sheet_date_by_checked_revision_and_edition(texts):
+    for count, text in enumerate(texts, start=1):
+        line = flat(text)
+        assert "24-117 Alameda Warehouse" in line
+        assert f"Sheet {count} of {len(texts)}" in line
+        for piece in (
+            "Date 2026-03-05",
+            "By Engineer of record",
+            "Checked —",
+            "Rev. 0",
+            "Code SEAOC PV1-2012",
+            "† verify against the adopted code",
+        ):
+            assert piece in line
+
+
+def test_the_papers_prescriptive_value_is_printed(whole):
+    assert "81.6 in (2070 mm)" in whole
+    assert "2072" not in whole
+
+
+def test_the_text_is_as_it_was(texts):
+    chosen = [text for text in texts if any(part in text for part in GOLDEN_PARTS)]
+    assert len(chosen) >= len(GOLDEN_PARTS)
+    lines = "\n----\n".join(
+        "\n".join(line.rstrip() for line in text.splitlines()) for text in chosen
+    )
+    if "ROOFSLIP_UPDATE_GOLDEN" in os.environ:
+        GOLDEN.write_text(lines + "\n", encoding="utf-8")
+    assert lines + "\n" == GOLDEN.read_text(encoding="utf-8")
+
+
+def test_two_renders_give_the_same_bytes(pdf):
+    assert made() == pdf
+
+
+def test_the_document_says_what_it_is(pdf):
+    reader = PdfReader(io.BytesIO(pdf))
+    assert "24-117 Alameda Warehouse" in reader.metadata.title
+    assert reader.metadata.author == "Engineer of record"
+    assert reader.metadata.creation_date.date() == dt.date(2026, 3, 5)
+    assert reader.trailer["/Root"]["/Lang"] == "en-US"
+    titles = [item.title for item in reader.outline if not isinstance(item, list)]
+    assert "1 Summary" in titles
+    assert "B Records and software" in titles
+
+
+def test_only_shipped_fonts_are_used(pdf):
+    names = set(re.findall(rb"/BaseFont /[A-Z]{6}\+([\w-]+)", pdf))
+    for page in PdfReader(io.BytesIO(pdf)).pages:
+        for font in page["/Resources"]["/Font"].values():
+            names.add(font.get_object()["/BaseFont"].split("+")[1].encode())
+    assert names
+    assert all(name.startswith(b"Source-") for name in names)
+
+
+def test_contents_name_the_sheet_of_each_part(texts):
+    for title in ("1 Summary", "7 Comparison with the prescriptive displacement", "A Input echo"):
+        number, words = title.split(" ", 1)
+        found = re.search(rf"{number}\s*{re.escape(words)}\s*\.*\s*(\d+)", texts[1])
+        assert found, title
+        assert title in flat(texts[int(found[1]) - 1])
+
+
+def test_unverified_values_carry_a_dagger_and_confirmed_ones_do_not(whole):
+    assert "50 % of the prescriptive displacement, PV1-2012 Sec. 9†" in whole
+    assert "60 in × (1.566 − 0.4)" in whole
+    assert "60† in" not in whole
+
+
+def test_what_fails_is_said_on_the_summary(texts):
+    summary = flat(next(text for text in texts if "1 Summary" in text and "Verdict" in text))
+    assert "NG Marked NG: 1 of 3 arrays, 1 of 5 clearances." in summary
+
+
+def test_every_run_and_every_cell_is_listed(texts, whole):
+    for name in ("A1", "A2", "A3"):
+        page = next(text for text in texts if f"Array {name}: every motion" in flat(text))
+        assert all(f"M{k}" in page for k in range(1, 8))
+        assert "Mean" in page
+        assert "Design" in page
+    assert "ab" * 32 in whole
+    assert "5f" * 32 in whole
+
+
+def test_si_comes_first_where_wanted(said):
+    project = stand_in.project().project.model_dump() | {"units_first": "SI"}
+    whole = said(stand_in.project(project=project), few())
+    assert "2070 mm (81.6 in)" in whole
+    assert "81.6 in (2070 mm)" not in whole
+
+
+def test_markup_in_a_field_is_printed_not_obeyed():
+    project = stand_in.project().project.model_dump() | {
+        "name": "<script>alert('x')</script> & " + "Unbreakable" * 40,
+        "client": "<img src='file:///etc/hostname'>",
+        "prepared_by": "W" * 200,
+    }
+    arrays = [
+        stand_in.array("<b>" + "A" * 37, 2.0, mu_report="R" * 500, construction="{{ 7 * 7 }}"),
+    ]
+    edge = stand_in.roof_object("E" * 40, "edge without parapet", 0, 220, -1, 0)
+    data = stand_in.project(
+        project=project,
+        arrays=arrays,
+        objects=[edge],
+        clearances=[stand_in.clearance("<b>" + "A" * 37, "E" * 40, 3.0)],
+    )
+    found = pages(made(data, few()))
+    assert "<script>alert('x')</script>" in flat(found[0])
+    assert "<img src='file:///etc/hostname'>" in flat(found[0])
+    assert "{{ 7 * 7 }}" in flat(" ".join(found))
+    assert all(f"Sheet {n} of {len(found)}" in flat(text) for n, text in enumerate(found, 1))
+
+
+def test_too_few_motions_give_no_value_and_ng(said):
+    whole = said(found=few(2))
+    summary = whole[whole.index("1 Summary Marked") if "1 Summary Marked" in whole else 0 :]
+    for name in ("A1", "A2", "A3"):
+        row = re.search(rf"{name} \d\.\d\d 0\.\d\d (no .*?) (OK|NG) no value NG", summary)
+        assert row, name
+        assert row[1] == "no value no value 81.6 2070 no value no value no value"
+    assert "5 of 5 clearances" in whole
+    assert "too few motions" in whole
+    assert not re.search(r"\bnan\b", whole, re.IGNORECASE)
+
+
+def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time(said):
+    up = np.zeros(800)
+    up[300:400] = -1.4 * stand_in.G
+    lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
+    whole = said(found=(*few(), lifted))
+    assert "motion LIFT, record +: the normal force falls below zero" in whole
+    assert re.search(r"LIFT (no value ){8}— −0\.40 uplift", whole)
+    assert "3 of 3 arrays" in whole
+    assert not re.search(r"\bnan\b", whole, re.IGNORECASE)
+
+
+def test_an_analysis_above_the_prescriptive_value_is_said_and_governs(said):
+    arrays = [stand_in.array("A1", 3.0, mu=0.2)]
+    data = stand_in.project(arrays=arrays, objects=[], clearances=[])
+    whole = said(data, stand_in.motions(3, seconds=30.0))
+    found = re.search(r"more than the prescriptive displacement \((\d\.\d\d) of it", whole)
+    assert float(found[1]) > 1.0
+    assert "3 of 3 PRDs exceed it) and governs" in whole
+
+
+def test_clearances_name_the_direction_whose_displacement_counts(whole):
+    assert "A2, down" in whole
+    assert "A3, up" in whole
+    assert "in its own direction" in whole
+
+
+def test_one_array_without_clearances_or_vertical_motion():
+    level = tuple(stand_in.motion(motion.id, motion.ax_mps2, dt_s=motion.dt_s) for motion in few())
+    data = stand_in.project(arrays=[stand_in.array("A1", 2.0)], objects=[], clearances=[])
+    whole = flat(" ".join(pages(made(data, level))))
+    assert "The workbook gives no clearances" in whole
+    assert "0 of 3 have a vertical component" in whole
+
+
+def test_twelve_arrays_and_many_motions_have_room():
+    arrays = [stand_in.array(f"A{k}", 0.25 * k, x=90 * (k % 4), y=70 * (k // 4)) for k in range(12)]
+    clearances = [stand_in.clearance(f"A{k}", f"A{k + 1}", 3.0) for k in range(11)]
+    data = stand_in.project(arrays=arrays, objects=[], clearances=clearances)
+    found = pages(made(data, few(3, seconds=4.0)))
+    assert sum("every motion in every run" in text for text in found) >= 12
+
+
+def test_thirty_motions_have_room():
+    data = stand_in.project(arrays=[stand_in.array("A1", 2.0)], objects=[], clearances=[])
+    whole = flat(" ".join(pages(made(data, few(30, seconds=3.0)))))
+    assert all(f"M{k} " in whole for k in range(1, 31))
+
+
+def test_overrides_are_printed_with_their_reason(said):
+    override = {"provision": "analysis_floor", "value": 0.8, "reason": "Agreed on 2026-02-10"}
+    whole = said(stand_in.project(overrides=[override]), few())
+    assert "Agreed on 2026-02-10" in whole
+    assert "0.8 †‡" in whole
+    assert "80 % of the prescriptive displacement, PV1-2012 Sec. 9†‡" in whole
+
+
+@pytest.mark.parametrize("edition", ["ASCE 7-16", "ASCE 7-22"])
+def test_other_editions_say_their_own_name_and_clauses(said, edition):
+    site = stand_in.project().site.model_dump() | {"rule_set": edition, "s_ds_g": None}
+    whole = said(stand_in.project(site=site), few())
+    assert f"Code {edition}" in whole
+    assert f"{edition} 13.6.12" in whole
+    assert "PV1" not in whole
+    assert "ASCE 7 Eqs. 11.4-1, 11.4-3" in whole
+
+
+@pytest.mark.parametrize(
+    ("value_m", "text"),
+    [
+        (2.07196, "81.6 in (2070 mm)"),
+        (0.9994, "39.3 in (999 mm)"),
+        (1.0049, "39.6 in (1000 mm)"),
+        (12.345, "486.0 in (12300 mm)"),
+        (-1.2345, "−48.6 in (−1230 mm)"),
+    ],
+)
+def test_displacements_of_a_metre_and_more_print_three_digits(value_m, text):
+    assert pair(value_m, Quantity.DISPLACEMENT) == text
+
+
+def test_a_line_in_the_renderers_log_is_a_defect():
+    with pytest.raises(DefectError, match="unknown property"):
+        lay_out("<p style='colour: red'>x</p>")
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["file:///etc/hostname", "https://example.org/x.png", "shipped:/../pyproject.toml", "x.png"],
+)
+def test_nothing_is_fetched_but_what_is_shipped(address):
+    with pytest.raises(DefectError):
+        lay_out(f"<img src='{address}'>")
+
+
+def ground(name="G1", **changes):
+    """A ground motion that went through a building of 0.5 s, with its story."""
+    (given,) = stand_in.motions(1, seconds=8.0, peak_g=0.5)
+    asked = {"id": name, "record": "x", "recorded_at": "ground"}
+    data = stand_in.project(
+        motions=[asked | changes], building={"period_s": 0.5}, target={"t_l_s": 8.0}
+    )
+    components = {
+        field: Record(name=field, dt_s=given.dt_s, a_mps2=a)
+        for field, a in (("record", given.ax_mps2), ("vertical", given.az_mps2))
+    }
+    prepared = Components(files=(), records=components, unfiltered=components)
+    ((motion, story),) = shake(data, [prepared])
+    return data, motion, story
+
+
+def words_of(data, motion, story):
+    book = stand_in.book(data, (motion,) * 3).having(prepared=(story,) * 3)
+    html = stand_in.html(book)
+    return flat(unescape(re.sub(r"<style.*?</style>|<[^>]+>", " ", html)))
+
+
+def test_the_way_from_ground_to_roof_is_said_with_its_numbers():
+    data, motion, story = ground()
+    whole = words_of(data, motion, story)
+    assert "4.3 From ground to roof" in whole
+    assert "4.4 Response spectra" in whole
+    assert "one storey; period 0.5 s; damping 5 % of critical." in whole
+    assert "The array's mass is neglected" in whole
+    assert "vertical motion passes unchanged" in whole
+    roof = story.roof["horizontal"]
+    peaks = f"{roof.ground_peak_mps2 / stand_in.G:.3f} {roof.roof_peak_mps2 / stand_in.G:.3f}"
+    assert f"G1 record {peaks}" in whole
+    assert "those of the ground through the building of part 4" in whole
+    assert "Ground, horizontal: pseudo-acceleration" in whole
+    assert "the design response spectrum of ASCE 7" in whole
+    assert "0.793 g" in whole
+
+
+def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
+    data, motion, story = ground(highpass_hz=0.2)
+    half = replace(motion, ax_mps2=0.5 * motion.ax_mps2)
+    whole = words_of(data, half, story)
+    assert "Periods beyond the high-pass corner: PRD of array" in whole
+    row = re.search(r"G1 0\.2 5 ([\d.]+) \d+ ([\d.]+) \d+ (−?\d+)", whole)
+    assert row
+    with_it, without = float(row[1]), float(row[2])
+    assert without > with_it
+    assert float(row[3]) == pytest.approx(100 * (without - with_it) / without, abs=2)
+
+
+def test_drift_is_marked_from_ten_millimetres_on():
+    base = stand_in.motions(1, seconds=8.0)[0]
+    still = stand_in.story(base)
+    for end_m, is_marked in ((0.0099, False), (-0.0101, True)):
+        found = replace(still.measures["horizontal"], final_displacement_m=end_m)
+        level = {name: replace(m, final_displacement_m=0.0) for name, m in still.measures.items()}
+        story = replace(still, measures=level | {"horizontal": found})
+        assert drifts(story) is is_marked
+
+
+def still(given):
+    """The story of a motion that ends where it began, at rest."""
+    found = stand_in.story(given)
+    level = {
+        name: replace(one, final_displacement_m=0.0, final_velocity_mps=0.0)
+        for name, one in found.measures.items()
+    }
+    return replace(found, measures=level)
+
+
+@pytest.mark.parametrize("done", ["as recorded", "high-pass 0.1 Hz"])
+def test_what_was_done_is_one_sentence_where_nothing_was_done_and_a_table_else(done):
+    book = stand_in.book(found=few())
+    first, *others = map(still, book.motions)
+    stories = (replace(first, done=done), *others)
+    html = stand_in.html(book.having(prepared=stories))
+    is_said = "At the end no component moves faster than 0.00 in/s or lies farther than 0.00 in"
+    assert (is_said in html) == (done == "as recorded")
+    assert ("Processing, and what is left" in html) == (done != "as recorded")
+
+
+def test_the_projects_own_spectrum_takes_the_place_of_ac156(said):
+    rows = [{"period_s": t, "horizontal_g": a, "vertical_g": a} for t, a in ((0.03, 2), (10, 1))]
+    whole = said(stand_in.project(spectrum=rows), few())
+    assert "Target at the roof: the project's own spectrum" in whole
+    assert "Target, project's own [g]" in whole
+    assert "1.6 × 1.566" not in whole
+    assert "0.67 × 1.566" not in whole
+
+
+def test_notes_of_the_reading_are_printed_once_for_a_motion():
+    book = stand_in.book(found=few())
+    noted = tuple(replace(row, notes=("uneven times resampled",)) for row in book.records)
+    html = stand_in.html(book.having(records=noted))
+    assert html.count("<li>Motion M1: uneven times resampled.</li>") == 1

@@ -1,0 +1,185 @@
+"""The page on the models: which answered, why, and what was left out."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.pages import model
+from report.pages.checks import troubles
+from report.pages.parts import PackageData, Wide
+from report.sheet.schema import Direction
+from solver.sliding.least_model import Rung
+from solver.sliding.tipping import Supports, tipping
+from solver.sliding.uplift import uplift
+
+
+def scene(found=None, **changes):
+    book = stand_in.book(
+        stand_in.project(objects=[], clearances=[], **changes),
+        found or stand_in.motions(3, seconds=8.0),
+    )
+    return PackageData(assessment=stand_in.assessed(book))
+
+
+def alone(motions):
+    return tuple(replace(motion, ay_mps2=np.empty(0)) for motion in motions)
+
+
+def texts(row):
+    return [cell.text if isinstance(cell, Wide) else str(cell) for cell in row.cells]
+
+
+FOUR = [
+    stand_in.array("A1", 1.0, mu=0.5, model="one axis"),
+    stand_in.array("A2", 1.0, mu=0.5, x=120),
+    stand_in.array("A3", 1.0, mu=0.5, y=90, mu_fast=0.6, mu_rate_s_per_m=10.0, mu_static=0.55),
+]
+
+
+@pytest.fixture(scope="module")
+def usual():
+    return scene(arrays=FOUR)
+
+
+def test_each_array_has_its_model_its_runs_and_its_reason(usual):
+    rows = [texts(row) for row in model.page(usual)["table"].rows]
+    assert [row[1] for row in rows] == [
+        "1, one axis",
+        "3, two axes with vertical",
+        "4, two axes, friction by speed",
+    ]
+    assert {row[2] for row in rows} == {"12 of 12"}
+    assert rows[0][5] == "asked for in the workbook"
+    why = r"without the second component a displacement changes by \d+ mm, over \d(\.\d)? mm"
+    assert re.fullmatch(why, rows[1][5])
+    assert rows[2][3] == "0.55"
+    assert all(re.fullmatch("below 10⁻[¹²³⁴⁵⁶⁷⁸⁹⁰]+ mm", row[6]) for row in rows)
+
+
+def test_the_demand_is_the_largest_of_the_runs(usual):
+    for row, found in zip(model.page(usual)["table"].rows, usual.assessment.arrays, strict=True):
+        demands = [r.solution.friction_demand for m in found.motions for r in m.runs]
+        assert texts(row)[4] == f"{max(demands):.2f}"
+
+
+def test_a_model_that_was_asked_for_is_told_what_the_needed_one_gives(usual):
+    rows = {row.cells[0]: texts(row) for row in model.page(usual)["left_out"].rows}
+    asked, free, tested = usual.assessment.arrays
+    change = max(
+        abs(more.governing.result.prd_m - run.governing.result.prd_m)
+        for run, more in zip(asked.motions, free.motions, strict=True)
+    )
+    assert rows["A1"][2] == f"{change / 0.0254:.1f}"
+    grown = max(free.design_m - asked.design_m, 0.0)
+    assert rows["A1"][4] == f"{grown / 0.0254:.1f}"
+    assert rows["A1"][1] == "What two axes with vertical add"
+    assert rows["A1"][-1].startswith("exact: run both ways")
+    assert rows["A2"][1:3] == ["Friction by speed", "not known"]
+    assert rows["A3"][1] == "Nothing that the workbook gives"
+    assert tested.analysis.value_m < free.analysis.value_m
+
+
+def test_a_model_that_is_not_enough_is_ng():
+    found = scene(
+        stand_in.motions(3, seconds=12.0),
+        arrays=[stand_in.array("A1", 2.0, mu=0.3, model="one axis")],
+        options={"peer_reviewed": True},
+    )
+    item = found.assessment.arrays[0]
+    assert item.chosen_towards_m(Direction.ANY) > 1.1 * item.design_m
+    (text,) = model.page(found)["troubles"]
+    assert text.startswith("Array A1: the model asked for, one axis, gives")
+    assert not found.assessment.ok
+    assert not found.assessment.array_ok(item)
+
+
+def test_a_vertical_that_was_left_out_has_its_exact_effect():
+    gentle = tuple(
+        replace(m, az_mps2=m.az_mps2 * 1e-3) for m in alone(stand_in.motions(3, seconds=8.0))
+    )
+    for m in gentle:
+        m.az_mps2.setflags(write=False)
+    found = scene(gentle, arrays=[stand_in.array("A1", 1.0, mu=0.5)])
+    item = found.assessment.arrays[0]
+    solutions = [run.solution for m in item.motions for run in m.runs]
+    assert {one.rung for one in solutions} == {Rung.ONE_AXIS}
+    (row,) = model.page(found)["left_out"].rows
+    effect = max(one.next_effect_m for one in solutions)
+    assert 0.0 < effect < 2e-3
+    assert texts(row)[1] == "Vertical shaking"
+    assert texts(row)[3] == f"{1e3 * effect:.0f}" or effect < 1e-3
+    assert texts(row)[-1] == "exact: run both ways"
+
+
+def test_where_nothing_slips_nothing_is_left_out():
+    still = tuple(replace(motion, scale=1e-3) for motion in stand_in.motions(3, seconds=4.0))
+    page = model.page(scene(still, arrays=[stand_in.array("A1", 1.0)]))
+    assert texts(page["table"].rows[0])[1] == "0, no slip"
+    assert texts(page["left_out"].rows[0])[1] == "Nothing: it never slips"
+
+
+def test_the_eight_combinations_and_the_worst_of_them_are_named(usual):
+    page = model.page(usual)
+    assert "eight combinations" in page["combinations"]
+    assert "four are run" in page["combinations"]
+    for found, text in zip(usual.assessment.arrays, page["sentences"][:3], strict=True):
+        worst = found.worst
+        assert f"{worst.motion.id}, {worst.governing.heading.name}, with PRD" in text
+    assert "0.500 at a crawl, 0.600 at speed, rate 10.0 s/m, 0.550 at rest" in page["sentences"][2]
+    assert "no bound" in page["sentences"][3]
+    assert page["sentences"][3].startswith("Array A3: its friction falls as it begins to move")
+    assert sum("no bound" in text for text in page["sentences"]) == 1
+    single = model.page(scene(alone(stand_in.motions(3, seconds=4.0))))
+    assert "No motion has a second horizontal component" in single["combinations"]
+    assert "with both components most displacements are larger" in single["combinations"]
+
+
+def test_a_block_that_leaves_the_roof_has_no_error_and_no_limit_of_demand():
+    up = np.zeros(800)
+    up[300:400] = -1.4 * stand_in.G
+    lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
+    page = model.page(scene((*stand_in.motions(3, seconds=4.0), lifted)))
+    rows = [texts(row) for row in page["table"].rows]
+    assert any(row[4] == "no limit" and row[6] == "no value" for row in rows)
+    assert "leaves the roof" in " ".join(page["sentences"])
+    assert not re.search(r"\bnan\b", " ".join(map(str, rows)))
+
+
+def test_an_array_that_keeps_flat_says_so_with_its_ratios(usual):
+    rows = [texts(row) for row in model.page(usual)["stability"].rows]
+    for row, found in zip(rows[:2], usual.assessment.arrays[:2], strict=True):
+        capacity = 0.5 * found.array.support_spacing_m / found.array.cg_height_m
+        held = min(found.tipping.demand, found.array.mu) / capacity
+        assert found.tipping.held_ratio == pytest.approx(held, rel=1e-12)
+        runs = [run for motion in found.motions for run in motion.runs]
+        assert found.tipping.demand == max(run.solution.friction_demand for run in runs)
+        assert found.uplift.n_min_g == min(uplift(run.scene).n_min_g for run in runs)
+        supports = Supports(
+            height_m=found.array.cg_height_m, spacing_m=found.array.support_spacing_m
+        )
+        assert found.tipping.ratio == max(tipping(run.scene, supports).ratio for run in runs)
+        assert row[4] == f"{capacity:.2f}"
+        assert row[2] == "none"
+        assert ">OK<" in row[7]
+
+
+def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
+    tall = stand_in.array("A1", 0.5, cg_height_m=0.9, support_spacing_m=0.5)
+    data = stand_in.project(arrays=[tall], clearances=[])
+    made = stand_in.book(data, stand_in.motions(3, seconds=6.0))
+    found = PackageData(assessment=stand_in.assessed(made))
+    assert found.assessment.arrays[0].tipping.ratio > 1.0
+    assert not found.assessment.ok
+    assert not found.assessment.array_ok(found.assessment.arrays[0])
+    assert "begins to tip" in " ".join(troubles(found))
+    assert ">NG<" in texts(model.page(found)["stability"].rows[0])[7]
+
+
+def test_the_least_normal_force_is_that_of_the_whole_motion_where_the_vertical_is_left_out(usual):
+    asked, text = usual.assessment.arrays[0], model.page(usual)["sentences"][0]
+    modelled = min(run.result.n_min_g for m in asked.motions for run in m.runs)
+    assert asked.uplift.n_min_g < modelled
+    assert f"Least normal force {asked.uplift.n_min_g:.2f} m g" in text

@@ -1,0 +1,163 @@
+"""results.json, and that files appear complete or not at all."""
+
+import json
+import math
+import os
+
+import pytest
+
+import stand_in
+from report.results.json import results_json
+from report.results.publish import publish
+from report.sheet.schema import Direction
+from solver.model import InputError
+
+
+@pytest.fixture(scope="module")
+def document():
+    book = stand_in.book()
+    return json.loads(results_json(stand_in.assessed(book)))
+
+
+def test_json_holds_what_was_assessed_in_si(document):
+    book = stand_in.book()
+    assessment = stand_in.assessed(book)
+    assert [array["design_m"] for array in document["arrays"]] == [
+        item.design_m for item in assessment.arrays
+    ]
+    assert document["arrays"][0]["prescriptive_m"] == pytest.approx(1.166**2 * 60 * 0.0254)
+    assert len(document["arrays"][1]["runs"]) == 28
+    assert document["clearances"][4]["required_m"] == assessment.clearances[4].required_m
+    assert document["ok"] is assessment.ok
+    assert document["s_ds_g"] == 1.566
+
+
+def test_json_holds_the_model_of_each_run_and_the_peaks_in_each_direction(document):
+    assessment = stand_in.assessed(stand_in.book())
+    array, item = document["arrays"][2], assessment.arrays[2]
+    for direction in Direction:
+        found = array["directions"][direction]
+        assert found["design_m"] == item.design_towards_m(direction)
+        peaks = [motion[f"{direction}_m"] for motion in array["peaks"]]
+        assert found["mean_m"] == pytest.approx(sum(peaks) / len(peaks))
+    run, solution = array["runs"][0], item.motions[0].runs[0].solution
+    assert (run["rung"], run["model"]) == (3, "two axes with vertical")
+    assert (run["reason"], run["error_m"]) == (solution.reason, solution.result.error_m)
+    assert run["across_m"] == solution.result.across_m
+    assert run["next_effect_m"] is None
+    gap = document["clearances"][3]
+    assert gap["governing_direction"] == "up"
+    assert gap["design_m"] == item.design_towards_m(Direction.UP)
+
+
+def test_json_holds_rows_of_linked_blocks_with_their_runs():
+    data = stand_in.project(links=[stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)])
+    book = stand_in.book(data, stand_in.motions(3, seconds=8.0))
+    found, document = (
+        stand_in.assessed(book),
+        json.loads(results_json(stand_in.assessed(book))),
+    )
+    (item,), (row,) = found.linked, document["linked"]
+    assert (row["array"], row["mus"], row["damping_ratio"]) == ("A2", [0.4, 0.5], 0.05)
+    assert (row["ratio"], row["estimated_m"]) == (item.ratio, item.estimated_m)
+    assert row["design_m"] == document["arrays"][1]["design_m"]
+    assert row["rigid_is_enough"] is item.is_rigid_enough
+    assert len(row["runs"]) == 12
+    assert tuple(row["runs"][5]["prd_m"]) == item.motions[1].runs[1].row.prd_m
+    assert max(run["link_force_n"] for run in row["runs"]) == row["link_force_n"]
+    check_units(document)
+
+
+def test_every_number_in_json_says_its_unit_or_has_none(document):
+    check_units(document)
+
+
+def check_units(document):
+    units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2", "_hz", "_percent")
+    plain = {
+        "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
+        "f_v", "storeys", "slope_value", "found", "limit", "scale_value", "value",
+        "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
+        "left_out_share", "mu_slow", "mu_fast", "mu_static", "rung", "next_rung", "friction_demand",
+        "demand", "capacity", "held_ratio", "sliding_ratio", "times", "mus", "ratio",
+        "damping_ratio",
+    }  # fmt: skip
+
+    def walk(value, key=""):
+        if isinstance(value, dict):
+            for name, item in value.items():
+                walk(item, name)
+        elif isinstance(value, list):
+            for item in value:
+                walk(item, key)
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
+            assert key.endswith(units) or key in plain, key
+
+    walk(document)
+
+
+def test_a_missing_value_is_null_in_json():
+    book = stand_in.book(found=stand_in.motions(2))
+    document = json.loads(results_json(stand_in.assessed(book)))
+    assert document["arrays"][0]["design_m"] is None
+    assert document["clearances"][0]["required_m"] is None
+    assert document["clearances"][0]["ok"] is False
+    assert document["ok"] is False
+
+
+def test_files_are_published_together(tmp_path):
+    publish({"a.txt": b"1", "b.txt": b"2"}, tmp_path / "out")
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a.txt", "b.txt"]
+    publish({"a.txt": b"3", "b.txt": b"4"}, tmp_path / "out")
+    assert (tmp_path / "out" / "a.txt").read_bytes() == b"3"
+
+
+def test_a_locked_file_changes_nothing_and_is_named(tmp_path, monkeypatch):
+    publish({"a.txt": b"old a"}, tmp_path)
+    replace = os.replace
+
+    def locked(source, target):
+        if str(target).endswith("c.txt"):
+            raise PermissionError(13, "Permission denied")
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", locked)
+    with pytest.raises(InputError, match=r"c\.txt: cannot be replaced .*close it"):
+        publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+    assert (tmp_path / "a.txt").read_bytes() == b"old a"
+
+
+def test_a_folder_in_the_place_of_a_file_is_told(tmp_path):
+    (tmp_path / "a.txt").mkdir()
+    with pytest.raises(InputError, match=r"a\.txt: cannot be replaced"):
+        publish({"a.txt": b"1"}, tmp_path)
+    assert (tmp_path / "a.txt").is_dir()
+
+
+def test_a_folder_that_cannot_be_made_is_told(tmp_path):
+    (tmp_path / "out").write_text("a file")
+    with pytest.raises(InputError, match=r"out: cannot be written .*--out"):
+        publish({"a.txt": b"1"}, tmp_path / "out")
+
+
+def test_a_full_disk_leaves_the_old_package(tmp_path, monkeypatch):
+    publish({"a.txt": b"old"}, tmp_path)
+
+    def full(self, data):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.write_bytes", full)
+    with pytest.raises(InputError, match="No space left"):
+        publish({"a.txt": b"new"}, tmp_path)
+    assert [p.read_bytes() for p in tmp_path.iterdir()] == [b"old"]
+
+
+def test_infinite_demand_over_no_room_is_null():
+    data = stand_in.project(clearances=[stand_in.clearance("A1", "RTU-1", 0.0)])
+    book = stand_in.book(data)
+    assessment = stand_in.assessed(book)
+    assert math.isinf(assessment.clearances[0].demand_capacity)
+    document = json.loads(results_json(assessment))
+    assert document["clearances"][0]["demand_capacity"] is None
+    assert document["clearances"][0]["ok"] is False

@@ -1,0 +1,197 @@
+"""results.xlsx: its formulas, computed here by a few lines of their own, give its values."""
+
+import io
+import re
+
+import openpyxl
+import pytest
+
+import stand_in
+from report.assessment.spectra import spectra
+from report.results.xlsx import results_xlsx
+from report.sheet.schema import Direction
+
+
+def xlsx(assessment):
+    return results_xlsx(assessment, spectra(assessment))
+
+
+def made(book):
+    content = xlsx(stand_in.assessed(book))
+    formulas, values = (
+        openpyxl.load_workbook(io.BytesIO(content), data_only=flag) for flag in (False, True)
+    )
+    return formulas, values
+
+
+def compute(book, sheet, cell):
+    """Evaluate a cell of a workbook: only what the result formulas use."""
+    value = book[sheet][cell].value
+    if not (isinstance(value, str) and value.startswith("=")):
+        return value
+
+    def reference(match):
+        where = match["sheet"] or sheet
+        return repr(compute(book, where, match["cell"].replace("$", "")))
+
+    def cells(match):
+        where = match["sheet"] or sheet
+        block = book[where][f"{match['first']}:{match['last']}"]
+        return ",".join(repr(compute(book, where, c.coordinate)) for row in block for c in row)
+
+    cell = r"\$?[A-Z]{1,2}\$?\d+"
+    text = re.sub(rf"(?:(?P<sheet>\w+)!)?(?P<first>{cell}):(?P<last>{cell})", cells, value[1:])
+    text = re.sub(rf"(?:(?P<sheet>\w+)!)?(?P<cell>{cell})\b", reference, text)
+    text = re.sub(r"(?<![<>])=(?!=)", "==", text).replace("^", "**")
+    functions = {
+        "MAX": max,
+        "COUNT": lambda *items: len(items),
+        "AVERAGE": lambda *items: sum(items) / len(items),
+        "IF": lambda test, yes, no: yes if test else no,
+    }
+    return eval(text, {"__builtins__": {}}, functions)
+
+
+SITE = stand_in.project().site.model_dump()
+CASES = {
+    "PV1": {},
+    "PV1, low category": {"site": SITE | {"sdc": "C", "s_ds_g": 0.45}},
+    "ASCE 7-16": {"site": SITE | {"rule_set": "ASCE 7-16", "risk_category": "III", "i_e": 1.25}},
+    "peer reviewed": {"options": {"peer_reviewed": True, "statistic": "1.1 x largest"}},
+    "a row of linked blocks": {
+        "links": [stand_in.links("A1", "0.40, 0.50", 50), stand_in.links("A3", "0.55, 0.55", 50)],
+        "options": {"peer_reviewed": True},
+    },
+    "a row beside a model that is asked for": {
+        "arrays": [stand_in.array("A1", 0.5, model="one axis")],
+        "clearances": [],
+        "links": [stand_in.links("A1", "0.40, 0.50", 50)],
+    },
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_formula_gives_the_value_written_with_it(case):
+    formulas, values = made(stand_in.book(stand_in.project(**CASES[case])))
+    checked = 0
+    for sheet in formulas:
+        for row in sheet.iter_rows():
+            for cell in row:
+                if cell.data_type == "f":
+                    cached = values[sheet.title][cell.coordinate].value
+                    found = compute(formulas, sheet.title, cell.coordinate)
+                    if not isinstance(cached, str):
+                        cached = pytest.approx(cached, rel=1e-12, abs=1e-12)
+                    assert found == cached, cell
+                    checked += 1
+    assert checked > 50
+
+
+def test_what_links_change_follows_from_their_runs():
+    data = stand_in.project(**CASES["a row of linked blocks"])
+    formulas, values = made(stand_in.book(data))
+    first, second = stand_in.assessed(stand_in.book(data)).linked
+    rows = list(values["LinkRuns"].iter_rows(min_row=2, values_only=True))
+    assert len(rows) == 2 * 28
+    assert rows[0][5] == pytest.approx(first.motions[0].runs[0].prd_m / 0.0254)
+    assert rows[0][7].split(", ")[0] == f"{first.motions[0].runs[0].row.prd_m[0] / 0.0254:.2f}"
+    sheet = values["Links"]
+    assert [sheet[f"{c}5"].value for c in "ALO"] == [
+        "A1", pytest.approx(first.estimated_m / 0.0254), "NG",
+    ]  # fmt: skip
+    assert [sheet[f"{c}6"].value for c in "AO"] == ["A3", "OK"]
+    assert formulas["Links"]["I6"].value == "=H6/G6"
+    assert formulas["Links"]["M6"].value == "=Design!N7"
+    assert sheet["L6"].value == pytest.approx(second.found.design_m / 0.0254)
+
+
+def test_without_rows_of_linked_blocks_the_book_has_no_sheet_of_them():
+    formulas, _ = made(stand_in.book())
+    assert not {"Links", "LinkRuns"} & set(formulas.sheetnames)
+
+
+def test_a_row_without_a_value_is_ng_in_the_book():
+    data = stand_in.project(links=[stand_in.links("A1", "0.40, 0.50", 50)])
+    _, values = made(stand_in.book(data, stand_in.motions(2, seconds=8.0)))
+    assert [values["Links"][f"{c}5"].value for c in "ALO"] == ["A1", "no value", "NG"]
+
+
+def test_the_prescriptive_value_is_a_live_formula():
+    formulas, values = made(stand_in.book())
+    assert formulas["Design"]["F5"].value == "=MAX(C5*D5*MAX(B5-0.4,0)^2,E5)"
+    assert values["Design"]["F5"].value == pytest.approx(81.573, abs=5e-4)
+
+
+def test_a_clearance_follows_from_the_runs_through_its_direction():
+    book = stand_in.book(stand_in.project(options={"peer_reviewed": True}))
+    formulas, values = made(book)
+    gap = stand_in.assessed(book).clearances[3]
+    assert (gap.governing_array, gap.governing_direction) == ("A3", Direction.UP)
+    assert values["Clearances"]["E8"].value == "A3, up"
+    source = formulas["Clearances"]["F8"].value
+    row = re.fullmatch(r"=Directions!\$H\$(\d+)", source)[1]
+    head = [cell.value for cell in formulas["Directions"][4]]
+    assert (values["Directions"][f"A{row}"].value, values["Directions"][f"B{row}"].value) == (
+        "A3",
+        "up",
+    )
+    assert values["Directions"][f"H{row}"].value == pytest.approx(gap.design_m / 0.0254)
+    assert head[7] == "Design [in]"
+    peaks = re.fullmatch(
+        r"=AVERAGE\(Peaks!D(\d+):D(\d+)\)", formulas["Directions"][f"C{row}"].value
+    )
+    assert int(peaks[2]) - int(peaks[1]) == 6
+    assert formulas["Peaks"][f"D{peaks[1]}"].value.startswith("=MAX(Runs!")
+
+
+def test_the_model_of_every_run_is_listed():
+    _, values = made(stand_in.book())
+    head, first, *_ = values["Runs"].iter_rows(values_only=True)
+    assert first[head.index("Model")] == "3, two axes with vertical"
+    assert "without the second component" in first[head.index("Why")]
+    assert first[head.index("Across [in]")] > 0.0
+
+
+def test_without_a_value_the_book_says_so_and_ng():
+    _, values = made(stand_in.book(found=stand_in.motions(2)))
+    assert values["Design"]["N5"].value == "no value"
+    assert values["Clearances"]["I5"].value == "no value"
+    assert values["Clearances"]["M5"].value == "NG"
+
+
+def test_text_that_looks_like_a_formula_stays_text():
+    data = stand_in.project(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
+    formulas, _ = made(stand_in.book(data))
+    for sheet, cell in (("Design", "A5"), ("Runs", "A2")):
+        assert (formulas[sheet][cell].value, formulas[sheet][cell].data_type) == ("=1+1", "s")
+
+
+def test_every_run_is_listed():
+    _, values = made(stand_in.book())
+    rows = list(values["Runs"].iter_rows(min_row=2, values_only=True))
+    assert len(rows) == 3 * 7 * 4
+    assert sum(row[4] == "yes" for row in rows) == 3 * 7
+
+
+def test_the_spectrum_of_every_motion_is_listed_by_component():
+    _, values = made(stand_in.book())
+    head = [cell.value for cell in values["Spectra"][1]]
+    assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
+    assert len(head) == 1 + 3 * 8
+    assert "Transverse, M7 [g]" in head
+
+
+def test_two_runs_give_the_same_bytes():
+    book = stand_in.book()
+    assessment = stand_in.assessed(book)
+    assert xlsx(assessment) == xlsx(assessment)
+    created = openpyxl.load_workbook(io.BytesIO(xlsx(assessment))).properties.created
+    assert created.date() == book.input.project.date
+
+
+def test_what_was_done_to_each_component_is_listed():
+    _, values = made(stand_in.book())
+    head, *rows = values["Motions"].iter_rows(values_only=True)
+    assert len(rows) == 7 * 3
+    assert rows[1][:5] == ("M1", "transverse", "roof", "as recorded", "as recorded")
+    assert rows[0][head.index("PGA [g]")] == pytest.approx(1.7)

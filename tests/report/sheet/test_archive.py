@@ -1,0 +1,267 @@
+"""Files that are no workbook, or meant to harm, are refused by what they are, and at no cost."""
+
+import contextlib
+import io
+import os
+import zipfile
+
+import pytest
+from openpyxl import DEFUSEDXML
+
+from report.sheet import archive
+from report.sheet.archive import open_book
+from sheets import edit, make, problems, read_workbook
+from solver.model import InputError
+
+SAVE_AS = "save it as .xlsx (Excel Workbook)"
+REOPEN = "open it in Excel or LibreOffice and save it again"
+OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600)
+
+
+def zipped(**members: bytes | str) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, data in members.items():
+            file.writestr(name, data)
+    return buffer.getvalue()
+
+
+def rewritten(path, name, change):
+    """Change one part of a workbook as bytes; a part that is not there is empty before."""
+    with zipfile.ZipFile(path) as file:
+        members = {item: file.read(item) for item in file.namelist()}
+    members[name] = change(members.get(name, b""))
+    path.write_bytes(zipped(**members))
+    return path
+
+
+def sheet_part(path, title):
+    with zipfile.ZipFile(path) as file:
+        return dict(archive._parts(file))[title]
+
+
+def test_workbooks_are_parsed_with_entities_switched_off():
+    assert DEFUSEDXML
+
+
+@pytest.mark.parametrize(
+    ("content", "line"),
+    [
+        (b"", "empty file; start again from a fresh workbook (roofslip new)"),
+        (b"name,number\n", f"not a workbook, or cut short; {REOPEN}"),
+        (b"PK\x03\x04" + bytes(50), f"not a workbook, or cut short; {REOPEN}"),
+        (OLE, f"an old Excel workbook (.xls) by its content; {SAVE_AS}"),
+        (
+            OLE + "EncryptedPackage".encode("utf-16-le"),
+            "locked with a password; save it without one",
+        ),
+        (zipped(), f"a zip archive, but not a workbook; {SAVE_AS}"),
+        (zipped(**{"a.txt": "a"}), f"a zip archive, but not a workbook; {SAVE_AS}"),
+        (
+            zipped(mimetype="x", **{"content.xml": "<a/>"}),
+            f"an OpenDocument sheet (.ods) by its content; {SAVE_AS}",
+        ),
+        (
+            zipped(**{"xl/workbook.bin": b"x"}),
+            f"a binary Excel workbook (.xlsb) by its content; {SAVE_AS}",
+        ),
+    ],
+)
+def test_what_is_no_workbook_by_its_content_is_told_for_what_it_is(tmp_path, content, line):
+    path = tmp_path / "input.xlsx"
+    path.write_bytes(content)
+    assert problems(path) == (line,)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("input.xls", "an old Excel workbook (.xls)"),
+        ("input.XLSM", "a workbook with macros (.XLSM)"),
+        ("input.ods", "an OpenDocument sheet (.ods)"),
+        ("input.csv", "a text file (.csv)"),
+        ("input.pdf", "not a workbook by its name (.pdf)"),
+        ("input", "not a workbook by its name (no extension)"),
+    ],
+)
+def test_what_is_no_workbook_by_its_name_is_refused(tmp_path, name, kind):
+    path = make(tmp_path).rename(tmp_path / name)
+    assert problems(path) == (f"{kind}; {SAVE_AS}",)
+
+
+def test_macros_under_another_name_are_refused(tmp_path):
+    path = rewritten(make(tmp_path), "xl/vbaProject.bin", lambda old: b"macro")
+    assert problems(path) == (f"a workbook with macros; {SAVE_AS}",)
+
+
+def test_a_macro_workbook_by_its_types_is_refused(tmp_path):
+    path = rewritten(
+        make(tmp_path),
+        "[Content_Types].xml",
+        lambda old: old.replace(b"spreadsheetml.sheet.main", b"sheet.macroEnabled.main"),
+    )
+    assert problems(path) == (f"a workbook with macros; {SAVE_AS}",)
+
+
+def test_what_is_not_there_is_told(tmp_path):
+    wanted = "give a workbook, or a folder that holds input.xlsx"
+    assert problems(tmp_path / "none.xlsx") == (f"no such file; {wanted}",)
+    assert problems(tmp_path) == (f"no such file; {wanted}",)
+    os.mkfifo(tmp_path / "input.xlsx")
+    assert problems(tmp_path) == (f"not a file; {wanted}",)
+
+
+def test_a_file_cut_short_is_told(tmp_path):
+    path = make(tmp_path)
+    path.write_bytes(path.read_bytes()[:-2000])
+    assert problems(path) == (f"not a workbook, or cut short; {REOPEN}",)
+
+
+def test_a_file_with_flipped_bytes_is_told(tmp_path):
+    path = make(tmp_path)
+    data = bytearray(path.read_bytes())
+    data[200:240] = bytes(40)
+    path.write_bytes(data)
+    assert problems(path)[0].endswith(REOPEN)
+
+
+def test_every_cut_and_every_flip_is_read_or_refused_but_never_crashes(tmp_path):
+    path = make(tmp_path)
+    data = path.read_bytes()
+    step = len(data) // 25
+    for at in range(step, len(data), step):
+        path.write_bytes(data[:at] + bytes([data[at] ^ 0x55]) + data[at + 1 :])
+        with contextlib.suppress(InputError):
+            read_workbook(path)
+
+
+def test_a_zip_bomb_is_refused_by_its_directory(tmp_path):
+    path = rewritten(make(tmp_path), "xl/media/zeros.bin", lambda old: bytes(60_000_000))
+    assert problems(path)[0].startswith("unpacks to 60 MB, over 100 MB in all or 50 MB in one")
+
+
+def test_a_part_that_packs_too_well_is_refused(tmp_path):
+    path = rewritten(make(tmp_path), "xl/media/zeros.bin", lambda old: bytes(40_000_000))
+    assert problems(path) == (f"unpacks to over 200 times its size; {REOPEN}",)
+
+
+def test_a_directory_that_lies_about_a_size_gains_nothing(tmp_path):
+    path = rewritten(make(tmp_path), "xl/sharedStrings.xml", lambda old: old + b" " * 10_000_000)
+    data = path.read_bytes()
+    with zipfile.ZipFile(path) as file:
+        stated = file.getinfo("xl/sharedStrings.xml").file_size.to_bytes(4, "little")
+    path.write_bytes(data.replace(stated, (1000).to_bytes(4, "little")))
+    assert problems(path)[0].startswith("damaged at xl/sharedStrings.xml")
+
+
+def test_a_workbook_of_too_many_parts_is_refused(tmp_path):
+    path = make(tmp_path)
+    with zipfile.ZipFile(path, "a") as file:
+        for number in range(2000):
+            file.writestr(f"xl/part{number}", "")
+    assert problems(path)[0].startswith("made of 2")
+
+
+def test_a_workbook_larger_than_any_input_is_refused(tmp_path):
+    path = tmp_path / "input.xlsx"
+    with path.open("wb") as file:
+        file.truncate(101_000_000)
+    assert problems(path) == ("larger than 100 MB; keep records in files beside it",)
+
+
+LAUGHS = b"""<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;">]>"""
+OUTSIDE = b"""<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a SYSTEM "file:///etc/passwd">]>"""
+
+
+@pytest.mark.parametrize("declaration", [LAUGHS, OUTSIDE, OUTSIDE.decode().encode("utf-16")])
+@pytest.mark.parametrize("part", ["xl/sharedStrings.xml", "xl/styles.xml", "xl/odd.bin"])
+def test_xml_entities_are_refused(tmp_path, declaration, part):
+    end = "<x>&a;</x>".encode("utf-16-le" if declaration[0] > 127 else "utf-8")
+    path = rewritten(make(tmp_path), part, lambda old: declaration + end)
+    assert problems(path) == (f"declares XML entities at {part}, as no workbook does",)
+
+
+def test_damaged_xml_is_told_by_its_part(tmp_path):
+    path = rewritten(make(tmp_path), "xl/styles.xml", lambda old: old[:-50])
+    assert problems(path) == (f"damaged at xl/styles.xml; {REOPEN}",)
+
+
+def test_an_unknown_encoding_is_told_by_its_part(tmp_path):
+    path = rewritten(
+        make(tmp_path), "xl/styles.xml", lambda old: b'<?xml version="1.0" encoding="none"?><a/>'
+    )
+    assert problems(path) == (f"damaged at xl/styles.xml; {REOPEN}",)
+
+
+def test_a_workbook_that_openpyxl_cannot_read_is_told(tmp_path):
+    path = rewritten(make(tmp_path), "xl/styles.xml", lambda old: b"<styleSheet/>")
+    (line,) = problems(path)
+    assert line.startswith("damaged (")
+    assert line.endswith(REOPEN)
+
+
+def test_a_value_in_the_last_cell_of_a_table_sheet_is_told_at_once(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Arrays"].__setitem__("XFD1048576", 1))
+    assert problems(path) == (
+        "Arrays!XFD1048576: holds something more than 2000 rows below the headings; clear it",
+        "Arrays!XFD1048576: holds something beyond column GR; clear it",
+    )
+
+
+def test_a_value_in_the_last_cell_of_another_sheet_is_left_alone(tmp_path):
+    def change(book):
+        book.create_sheet("Notes")["XFD1048576"] = 1
+
+    assert read_workbook(edit(make(tmp_path), change)).motions
+
+
+def test_a_value_far_below_single_fields_is_left_alone(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Site"].__setitem__("XFD1048576", 1))
+    assert read_workbook(path).motions
+
+
+@pytest.mark.parametrize(
+    "xml",
+    [
+        b'<mergeCells count="1"><mergeCell ref="A30:XFD1048576"/></mergeCells>',
+        b'<mergeCells count="1"><mergeCell ref="A:XFD"/></mergeCells>',
+        b'<hyperlinks><hyperlink ref="A30:XFD1048576" location="x"/></hyperlinks>',
+    ],
+)
+def test_a_range_over_a_whole_sheet_is_refused_before_it_is_made(tmp_path, xml):
+    path = make(tmp_path)
+    part = sheet_part(path, "Site")
+    rewritten(path, part, lambda old: old.replace(b"<dataValidations", xml + b"<dataValidations"))
+    (line,) = problems(path)
+    assert line.startswith(f"{part}: merged cells or links over A")
+
+
+def test_a_workbook_of_too_many_cells_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(archive, "MAX_CELLS", 500)
+    assert problems(make(tmp_path))[0].endswith("over 500 cells; keep records in files beside it")
+
+
+def test_a_table_that_claims_the_whole_sheet_costs_nothing(tmp_path):
+    def change(book):
+        book["Arrays"].tables["arrays_table"].ref = "B7:O1048576"
+
+    assert read_workbook(edit(make(tmp_path), change)).motions
+
+
+def test_a_name_that_leads_nowhere_is_looked_up_by_its_label(tmp_path):
+    def change(book):
+        book.defined_names["project_name"].attr_text = "Project!#REF!"
+        book.defined_names["site_i_e"].attr_text = "Gone!$B$5"
+        book.defined_names["site_s_1_g"].attr_text = "Site!$A:$XFD"
+        book.defined_names["site_sdc"].attr_text = "Site!$B$0"
+        book.defined_names["site_storeys"].attr_text = '"'
+
+    assert read_workbook(edit(make(tmp_path), change)).input.project.name == "Alameda Warehouse"
+
+
+def test_formulas_make_the_book_be_read_twice_and_only_they(tmp_path):
+    book = open_book(make(tmp_path))
+    assert book.typed is book.computed
+    path = edit(make(tmp_path), lambda book: book["Project"].__setitem__("H5", "=1+1"))
+    book = open_book(path)
+    assert book.typed is not book.computed

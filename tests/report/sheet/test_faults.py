@@ -1,0 +1,470 @@
+"""What is wrong with an input is told by cell: what was found, and what would do."""
+
+import datetime as dt
+
+import pytest
+from openpyxl import Workbook
+
+from sheets import edit, make, problems, read_workbook
+
+# Sheet, cell, what is typed there, and the line that comes of it.
+SINGLE_CELLS = [
+    ("Arrays", "E8", "abc", "friction coefficient is 'abc'; give a number from 0 to 1.5"),
+    ("Arrays", "E8", 1.7, "friction coefficient is 1.7; give a number from 0 to 1.5"),
+    ("Arrays", "E8", -0.1, "friction coefficient is -0.1; give a number from 0 to 1.5"),
+    ("Arrays", "E8", "0,45", "friction coefficient is '0,45'; write 0.45"),
+    ("Arrays", "E8", ",45", "friction coefficient is ',45'; write 0.45"),
+    ("Arrays", "H8", "42,000", "weight is '42,000'; write 42000, without a comma"),
+    ("Arrays", "H8", 0, "weight is 0; give a number of more than 0 [lb]"),
+    ("Arrays", "H8", "42 kip", "weight is '42 kip'; give a number of more than 0 [lb]"),
+    ("Arrays", "E8", None, "friction coefficient is missing; give a number from 0 to 1.5"),
+    ("Arrays", "E8", "  ", "friction coefficient is missing; give a number from 0 to 1.5"),
+    ("Arrays", "E8", "nan", "friction coefficient is 'nan'; give a number from 0 to 1.5"),
+    ("Arrays", "E8", "1e999", "friction coefficient is '1e999'; give a number from 0 to 1.5"),
+    ("Arrays", "E8", "0_4", "friction coefficient is '0_4'; give a number from 0 to 1.5"),
+    ("Arrays", "E8", "٠.٤", "friction coefficient is '٠.٤'; give a number from 0 to 1.5"),
+    (
+        "Arrays",
+        "E8",
+        True,
+        "friction coefficient is TRUE, a truth value; give a number from 0 to 1.5",
+    ),
+    (
+        "Arrays",
+        "C8",
+        dt.datetime(2024, 5, 3),
+        "slope is a date or time (2024-05-03); give a number of 0 or more, formatted as a number",
+    ),
+    (
+        "Arrays",
+        "C8",
+        dt.time(2, 30),
+        "slope is a date or time (02:30:00); give a number of 0 or more, formatted as a number",
+    ),
+    ("Arrays", "E8", "#DIV/0!", "friction coefficient is #DIV/0!; correct it"),
+    ("Arrays", "E8", "#N/A", "friction coefficient is #N/A; correct it"),
+    (
+        "Arrays",
+        "E8",
+        "=0.4+0.05",
+        "friction coefficient is a formula with no saved value (=0.4+0.05); open the workbook in"
+        " Excel or LibreOffice and save it",
+    ),
+    ("Arrays", "D8", "deg", "slope unit is 'deg'; choose degrees, percent or in/12"),
+    ("Arrays", "B8", "A" * 41, "ID is 'A{40}'; give a text of at most 40 characters"),
+    ("Arrays", "B8", None, "ID is missing; give a text of at most 40 characters"),
+    (
+        "Arrays",
+        "F8",
+        "x" * 2001,
+        "friction test report is 2001 characters long; give a text of at most 2000 characters",
+    ),
+    (
+        "Project",
+        "B6",
+        dt.datetime(2024, 3, 5),
+        "project number is 2024-03-05, which is no text; format the cell as text and type it again",
+    ),
+    (
+        "Project",
+        "B5",
+        "A_x0007_B",
+        "project name is 'A?B', with control characters; type it again",
+    ),
+    ("Project", "B11", "3/5/26", "date is '3/5/26'; give a date such as 2026-03-05"),
+    ("Project", "B11", True, "date is TRUE; give a date such as 2026-03-05"),
+    ("Site", "B15", 1.5, "storeys is 1.5; give a whole number from 1 to 200"),
+    ("Site", "B15", 0, "storeys is 0; give a whole number from 1 to 200"),
+    (
+        "Site",
+        "B5",
+        "ASCE 7-10",
+        "rule set is 'ASCE 7-10'; choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22",
+    ),
+    ("Site", "B13", 7, "S_DS is 7; give a number of more than 0 to 5 [g]"),
+    ("Motions", "G8", 0, "time step is 0; give a number of more than 0 to 1 [s]"),
+    ("Motions", "G8", -0.01, "time step is -0.01; give a number of more than 0 to 1 [s]"),
+    ("Options", "B6", "maybe", "analysis is peer reviewed is 'maybe'; choose Yes or No"),
+]
+
+
+@pytest.mark.parametrize(("sheet", "cell", "value", "line"), SINGLE_CELLS)
+def test_a_cell_is_named_with_what_it_holds_and_what_would_do(tmp_path, sheet, cell, value, line):
+    path = edit(make(tmp_path), lambda book: book[sheet].__setitem__(cell, value))
+    assert f"{sheet}!{cell}: {line.replace('A{40}', 'A' * 41)}" in problems(path)
+
+
+# Cells that are changed together, and all the lines that come of it.
+CONTRADICTIONS = [
+    (
+        {"Arrays!B9": "a1", "Clearances!C8": "RTU-1"},
+        [
+            "Arrays!B9: ID is 'a1', as at Arrays!B8; give each its own",
+            "Clearances!B10: array is 'A2', which is not in Arrays; give one of A1, a1",
+            "Clearances!B11: array is 'A2', which is not in Arrays; give one of A1, a1",
+            "Clearances!B12: array is 'A2', which is not in Arrays; give one of A1, a1",
+        ],
+    ),
+    (
+        {"Objects!B9": "A1", "Clearances!C11": "S", "Clearances!E11": 9},
+        ["Objects!B9: ID is 'A1', as at Arrays!B8; give each its own"],
+    ),
+    ({"Motions!B10": "m1"}, ["Motions!B10: ID is 'm1', as at Motions!B8; give each its own"]),
+    (
+        {"Clearances!C10": "rtu-1"},
+        ["Clearances!C10: object is 'rtu-1', which is not in Objects or Arrays; write 'RTU-1'?"],
+    ),
+    (
+        {"Clearances!C10": "chimney"},
+        [
+            "Clearances!C10: object is 'chimney', which is not in Objects or Arrays; give one of"
+            " RTU-1, OLD, N, S, A1, A2"
+        ],
+    ),
+    (
+        {"Clearances!B9": "RTU-1"},
+        ["Clearances!B9: array is 'RTU-1', which is not in Arrays; give one of A1, A2"],
+    ),
+    (
+        {"Clearances!C8": "A1"},
+        ["Clearances!C8: object is 'A1', the array itself; give an object or another array"],
+    ),
+    (
+        {"Clearances!C11": "RTU-1", "Clearances!E11": 50},
+        [
+            "Clearances!B11: array is 'A2', with the same object and direction as at"
+            " Clearances!B10; keep one"
+        ],
+    ),
+    (
+        {"Clearances!E10": 61},
+        [
+            "Clearances!E10: provided is 61.0 in (1549 mm), but the plan leaves 60.0 in (1524 mm)"
+            " between A2 and RTU-1; give no more, or correct the rectangles"
+        ],
+    ),
+    (
+        {"Objects!G8": 70},
+        [
+            "Clearances!E10: provided is 60.0 in (1524 mm), but A2 and RTU-1 overlap in plan;"
+            " correct their rectangles"
+        ],
+    ),
+    (
+        {"Site!B6": "IV", "Site!B7": 1.25},
+        ["Site!B7: importance factor I_e is 1.25; give at least 1.5 for risk category IV"],
+    ),
+    (
+        {"Site!B14": "C"},
+        [
+            "Site!B14: seismic design category is 'C'; S_DS = 1.566 g in risk category II needs D"
+            " or more severe (ASCE 7 Table 11.6-1)"
+        ],
+    ),
+    (
+        {"Site!B9": 0.75},
+        [
+            "Site!B14: seismic design category is 'D'; S_1 = 0.75 g in risk category II needs E or"
+            " more severe (ASCE 7 section 11.6)"
+        ],
+    ),
+    ({"Site!B13": None}, ["Site!B13: S_DS is missing; give S_DS, or both S_S and F_a"]),
+    (
+        {"Site!B13": None, "Site!B8": 1.97},
+        ["Site!B11: F_a is missing; give S_DS, or both S_S and F_a"],
+    ),
+    (
+        {"Site!B13": None, "Site!B11": 1.2},
+        ["Site!B8: S_S is missing; give S_DS, or both S_S and F_a"],
+    ),
+    (
+        {"Site!B8": 1.97, "Site!B11": 1.2},
+        [
+            "Site!B13: S_DS is 1.566 g, but 2/3 F_a S_S is 1.5760 g; leave one of them blank, or"
+            " correct it"
+        ],
+    ),
+    ({"Arrays!C8": 45}, ["Arrays!C8: slope is 45 degrees; give 0 to less than 45 degrees"]),
+    ({"Arrays!C9": 120}, ["Arrays!C9: slope is 120 percent; give 0 to less than 100 percent"]),
+    (
+        {"Arrays!P8": 0.5},
+        ["Arrays!Q8: friction rate is missing; give friction at speed with its rate, or neither"],
+    ),
+    (
+        {"Arrays!Q9": 20, "Arrays!R9": 0.4},
+        [
+            "Arrays!P9: friction at speed is missing; give friction at speed with its rate, or"
+            " neither",
+            "Arrays!R9: static friction is 0.4; give the friction coefficient, 0.45, or more",
+        ],
+    ),
+    (
+        {"Arrays!P8": 0.5, "Arrays!Q8": 20, "Arrays!S8": "one axis"},
+        [
+            "Arrays!S8: model is 'one axis', which leaves friction by speed out; leave it at"
+            " choose, or blank friction at speed and static"
+        ],
+    ),
+    (
+        {"Objects!D10": None},
+        ["Objects!D10: height is missing; give the parapet's height above the roof"],
+    ),
+    (
+        {"Objects!F8": None},
+        ["Objects!F8: x to is missing; give all four sides of the rectangle, or none"],
+    ),
+    (
+        {"Arrays!L8": 20},
+        ["Arrays!L8: x to is 20.00 ft (6.10 m); give more than x from, 20.00 ft (6.10 m)"],
+    ),
+    (
+        {"Objects!H8": 70},
+        ["Objects!H8: y to is 70.00 ft (21.34 m); give more than y from, 80.00 ft (24.38 m)"],
+    ),
+    (
+        {"Project!B13": "SI", "Arrays!N8": 10},
+        ["Arrays!N8: y to is 3.05 m (10.00 ft); give more than y from, 4.57 m (15.00 ft)"],
+    ),
+    ({"Motions!I9": None}, ["Motions!I9: factor or PPA is missing; give the factor"]),
+    ({"Motions!I10": None}, ["Motions!I10: factor or PPA is missing; give the PPA in g"]),
+    (
+        {"Motions!D8": "records/x.csv"},
+        ["Motions!D8: transverse record is 'records/x.csv', as the horizontal one; give its own"],
+    ),
+    (
+        {"Motions!H8": "target spectrum", "Motions!I8": 2},
+        [
+            "Motions!I8: factor or PPA is 2, but scaling is 'target spectrum'; choose another"
+            " scaling or leave it blank"
+        ],
+    ),
+    (
+        {"Motions!M8": 1.5, "Motions!N8": 1.5},
+        ["Motions!N8: keep to is 1.5 s; give more than keep from, 1.5 s"],
+    ),
+    (
+        {"Motions!P8": 20, "Motions!Q8": 20},
+        ["Motions!Q8: low-pass corner is 20 Hz; give more than the high-pass corner, 20 Hz"],
+    ),
+    (
+        {"Motions!L9": "ground"},
+        ["Building!B6: period T1 is missing; give it, or a structure type: Motions!L9 is 'ground'"],
+    ),
+    (
+        {"Building!B7": 0.3},
+        ["Building!B7: period T2 is 0.3 s; give period T1 with it, or leave it blank"],
+    ),
+    (
+        {"Building!B6": 0.2, "Building!B7": 0.3},
+        ["Building!B7: period T2 is 0.3 s; give at most period T1, 0.2 s, or leave it blank"],
+    ),
+    (
+        {"Building!B6": 0.2, "Motions!L9": "ground", "Site!B15": 101},
+        [
+            "Site!B15: storeys is 101; ground motions reach the roof of at most 100, give motions"
+            " of the roof"
+        ],
+    ),
+    (
+        {"Spectrum!B8": 1, "Spectrum!C8": 1},
+        ["Spectrum!B7: one row is given; give at least two, or none"],
+    ),
+    (
+        {f"Spectrum!{c}{r}": 1 for r in (8, 9) for c in "BC"},
+        ["Spectrum!B9: period is 1 s, as at Spectrum!B8; give each once"],
+    ),
+    (
+        {f"Spectrum!{c}{r}": r for r in (8, 9) for c in "BC"} | {"Spectrum!D8": 1},
+        ["Spectrum!D9: vertical is missing; give it in every row, or in none"],
+    ),
+    (
+        {f"Spectrum!{c}{r}": r for r in (8, 9) for c in "BC"} | {"Motions!H8": "target spectrum"},
+        [
+            "Spectrum!B7: periods reach from 8 to 9 s, but motions are scaled over 0.2 to 5 s; add"
+            " rows, or change the scaling periods"
+        ],
+    ),
+    (
+        {"Options!B15": 5},
+        ["Options!B16: scaling periods to is 5 s; give more than scaling periods from, 5 s"],
+    ),
+    (
+        {"Motions!H8": "target spectrum", "Motions!P8": 0.5},
+        [
+            "Motions!P8: high-pass corner is 0.5 Hz, a period of 2 s, but the motion is scaled up"
+            " to periods of 5 s; lower one of them"
+        ],
+    ),
+    (
+        {"Motions!H8": "target spectrum", "Motions!L8": "ground", "Building!B6": 0.5},
+        [
+            "Site!B12: F_v is missing; Motions!H8 scales a ground motion to the design spectrum,"
+            " which needs S_1, F_v and T_L",
+            "Options!B14: long-period transition T_L is missing; Motions!H8 scales a ground motion"
+            " to the design spectrum, which needs S_1, F_v and T_L",
+        ],
+    ),
+    (
+        {"Options!B14": 0.5, "Site!B12": 1.7},
+        [
+            "Options!B14: long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS ="
+            " 0.507 s"
+        ],
+    ),
+    (
+        {"Motions!I8": 2},
+        [
+            "Motions!I8: factor or PPA is 2, but scaling is 'as recorded'; choose another scaling"
+            " or leave it blank"
+        ],
+    ),
+    (
+        {f"Options!{c}27": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
+        ["Options!B27: provision is 'parapet_height_in', as at Options!B26; keep one"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("changes", "lines"), CONTRADICTIONS)
+def test_contradictions_are_told_at_the_cell_to_change(tmp_path, changes, lines):
+    assert list(problems(edit(make(tmp_path), typed(changes)))) == lines
+
+
+def typed(changes):
+    def change(book: Workbook) -> None:
+        for address, value in changes.items():
+            sheet, cell = address.split("!")
+            book[sheet][cell] = value
+
+    return change
+
+
+def test_an_unknown_provision_is_told_with_those_there_are(tmp_path):
+    path = edit(make(tmp_path), typed({"Options!B26": "parapet"}))
+    (line,) = problems(path)
+    assert line.startswith("Options!B26: provision is 'parapet'; choose one of prescriptive_fac")
+
+
+def test_every_error_comes_at_once_in_the_order_of_the_sheets(tmp_path):
+    changes = {
+        "Motions!C8": "records/none.csv",
+        "Arrays!E9": "abc",
+        "Project!B5": None,
+        "Site!B14": "C",
+        "Arrays!C8": 50,
+        "Clearances!E10": 61,
+        "Objects!D8": "tall",
+    }
+    addresses = [line.split(": ")[0] for line in problems(edit(make(tmp_path), typed(changes)))]
+    assert addresses == [
+        "Project!B5",
+        "Site!B14",
+        "Arrays!C8",
+        "Arrays!E9",
+        "Objects!D8",
+        "Clearances!E10",
+        "Motions!C8",
+    ]
+
+
+def test_a_percentage_is_no_number_of_percent(tmp_path):
+    def change(book):
+        book["Arrays"]["C9"] = 0.05
+        book["Arrays"]["C9"].number_format = "0.0%"
+
+    assert problems(edit(make(tmp_path), change)) == (
+        "Arrays!C9: slope is a percentage (5%, which Excel holds as 0.05); give a number of 0 or"
+        " more, formatted as a number",
+    )
+
+
+@pytest.mark.parametrize(("key", "noun"), [("arrays", "array"), ("motions", "motion")])
+def test_at_least_one_row_is_needed(tmp_path, key, noun):
+    changes = {"clearances": [], key: []}
+    assert problems(make(tmp_path, **changes)) == (
+        f"{key.title()}!B7: no {noun} is given; fill at least one row",
+    )
+
+
+def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent(tmp_path):
+    changes = typed({"Clearances!E10": 60.49, "Clearances!E8": 121.19, "Clearances!E11": 4000})
+    assert read_workbook(edit(make(tmp_path), changes)).input.clearances
+
+
+def test_a_clearance_to_an_array_of_unreadable_plan_is_not_judged(tmp_path):
+    assert problems(edit(make(tmp_path), typed({"Arrays!L9": "abc"}))) == (
+        "Arrays!L9: x to is 'abc'; give a number [ft]",
+    )
+
+
+def test_a_sheet_that_is_gone_is_told_once(tmp_path):
+    path = edit(make(tmp_path), lambda book: book.remove(book["Arrays"]))
+    assert problems(path) == (
+        "Arrays: the sheet is missing: no table arrays_table and no row of its headings; copy it"
+        " from a fresh workbook (roofslip new)",
+    )
+
+
+def test_a_single_field_that_is_gone_is_told_by_name_and_label(tmp_path):
+    def change(book):
+        del book.defined_names["project_number"]
+        book["Project"]["A6"] = None
+
+    assert problems(edit(make(tmp_path), change)) == (
+        "Project: project number is not there (no name project_number and no label 'Project"
+        " number'); copy it from a fresh workbook (roofslip new)",
+    )
+
+
+def test_a_heading_that_is_gone_is_told(tmp_path):
+    path = edit(make(tmp_path), typed({"Arrays!E7": "Grip"}))
+    assert problems(path) == (
+        "Arrays!B7: heading 'Friction coefficient' is missing; copy it from a fresh workbook"
+        " (roofslip new)",
+    )
+
+
+def test_an_optional_column_may_be_taken_out(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].delete_cols(11))
+    book = read_workbook(path)
+    assert [motion.source for motion in book.input.motions] == ["", "", ""]
+
+
+def test_an_optional_column_that_was_renamed_is_told_not_ignored(tmp_path):
+    path = edit(make(tmp_path), typed({"Motions!E7": "Vertical file"}))
+    assert problems(path) == (
+        "Motions!B7: heading 'Vertical record' is missing; copy it from a fresh workbook"
+        " (roofslip new)",
+    )
+
+
+def test_a_heading_that_is_there_twice_is_told(tmp_path):
+    path = edit(make(tmp_path), typed({"Arrays!P7": "Slope"}))
+    assert problems(path) == ("Arrays!P7: heading 'Slope' is there twice; keep one",)
+
+
+@pytest.mark.parametrize(
+    ("cell", "heading", "line"),
+    [
+        ("I7", "CG height", "unit of CG height is missing; write one of in, ft, mm, cm, m"),
+        ("I7", "CG height [yd]", "unit of CG height is 'yd'; write one of in, ft, mm, cm, m"),
+        ("H7", "Weight [t]", "unit of weight is 't'; write one of lb, kip, N, kN, kg"),
+        ("O7", "Downslope direction [rad]", "unit of downslope direction is 'rad'; write one of"),
+        ("E7", "Friction coefficient [%]", "unit of friction coefficient is '%'; write one of"),
+    ],
+)
+def test_a_heading_must_name_a_unit_that_fits(tmp_path, cell, heading, line):
+    (found,) = problems(edit(make(tmp_path), typed({f"Arrays!{cell}": heading})))
+    assert found.startswith(f"Arrays!{cell}: {line}")
+
+
+def test_the_unit_of_a_single_field_must_fit(tmp_path):
+    assert problems(edit(make(tmp_path), typed({"Site!C16": "yd", "Site!C17": None}))) == (
+        "Site!C16: unit of structure height h is 'yd'; write one of in, ft, mm, cm, m",
+        "Site!C17: unit of height of the array z is missing; write one of in, ft, mm, cm, m",
+    )
+
+
+def test_merged_cells_in_a_table_are_told(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Arrays"].merge_cells("F8:F9"))
+    assert problems(path) == ("Arrays!F8:F9: cells are merged; unmerge them",)

@@ -1,0 +1,159 @@
+"""Rows of linked blocks in the workbook: how they are read, and what is told of bad ones."""
+
+import math
+
+import pytest
+from openpyxl import load_workbook
+from pydantic import ValidationError
+
+from report.sheet.schema import Links, UnitsFirst, coefficients
+from sheets import INCH, LB, edit, make, problems, project, read_workbook
+from solver.sliding.row import MOST_STEPS, least_steps
+
+G = 9.80665
+WANTED = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45, 0.50"
+
+
+def links(array="A1", friction="0.40, 0.45, 0.50", lb_in=5000, **changes):
+    stiffness = {"stiffness_n_per_m": lb_in * LB / INCH}
+    return {"array": array, "friction": friction, **stiffness} | changes
+
+
+@pytest.fixture
+def path(tmp_path):
+    return make(tmp_path, links=[links(damping_ratio=0.02), links("A2")])
+
+
+def arrays(**changes):
+    first, second = (array.model_dump() for array in project().arrays)
+    return [first | changes, second]
+
+
+def test_a_row_is_read_in_the_units_of_the_sheet(tmp_path):
+    for units in UnitsFirst:
+        path = make(tmp_path / str(units), units, links=[links(damping_ratio=0.02)])
+        cell = load_workbook(path)["Links"]["D8"].value
+        assert cell == pytest.approx(5000 if units is UnitsFirst.US else 5 * LB / INCH)
+        (found,) = read_workbook(path).input.links
+        assert found.mus == (0.4, 0.45, 0.5)
+        assert found.stiffness_n_per_m == pytest.approx(5000 * LB / INCH)
+        assert found.damping_ratio == 0.02
+
+
+def test_a_workbook_without_the_sheet_asks_for_no_row(path):
+    assert read_workbook(edit(path, lambda book: book.remove(book["Links"]))).input.links == ()
+
+
+def test_the_blocks_share_the_weight_and_the_damping_is_that_of_one_block_on_one_link():
+    row = Links(**links(damping_ratio=0.02)).row(42000 * LB)
+    mass, k = 42000 * LB / G / 3, 5000 * LB / INCH
+    assert row.mus == (0.4, 0.45, 0.5)
+    assert row.weights == (1 / 3,) * 3
+    assert row.stiffness_per_s2 == pytest.approx(k / mass)
+    assert row.damping_per_s == pytest.approx(2 * 0.02 * math.sqrt(k * mass) / mass)
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("0.40, 0.45", (0.4, 0.45)),
+        (" .4 ,0.45,1.5", (0.4, 0.45, 1.5)),
+        (", ".join(["0.0"] * 20), (0.0,) * 20),
+    ],
+)
+def test_coefficients_stand_between_commas(text, found):
+    assert coefficients(text) == found
+
+
+NO_LISTS = [
+    "0.40", "0.40; 0.45", "0,40, 0,45", "0,1, 0,1", "0.4, 0.45,", "0.4 0.45", "0.4, x", "-0.4, 0.5",
+    "0.4, 1.6", "0.4, nan", "٠.٤, 0.5", "1e-1, 0.5", ", ".join(["0.4"] * 21),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", NO_LISTS)
+def test_what_is_no_list_of_coefficients_is_told(tmp_path, text):
+    assert coefficients(text) == ()
+    path = make(tmp_path, links=[links(), links("A2")])
+    edit(path, lambda book: book["Links"].__setitem__("C9", text))
+    assert problems(path) == (f"Links!C9: friction of blocks is '{text}'; {WANTED}",)
+    with pytest.raises(ValidationError, match="2 to 20 blocks"):
+        Links(**links(friction=text))
+
+
+CELLS = [
+    ("B8", "a1", "array is 'a1', which is not in Arrays; write 'A1'?"),
+    ("B8", "RTU-1", "array is 'RTU-1', which is not in Arrays; give one of A1, A2"),
+    ("B8", None, "array is missing; give a text of at most 40 characters"),
+    ("B9", "A1", "array is 'A1', as at Links!B8; keep one"),
+    ("C8", None, "friction of blocks is missing; give a text of at most 200 characters"),
+    (
+        "C8",
+        "0.4," * 51,
+        "friction of blocks is 204 characters long; give a text of at most 200 characters",
+    ),
+    (
+        "C8",
+        "0.50, 0.55",
+        "friction of blocks is '0.50, 0.55', all above the 0.45 at Arrays!E8; give coefficients"
+        " that reach it, or change it",
+    ),
+    (
+        "C9",
+        "0.40, 0.42",
+        "friction of blocks is '0.40, 0.42', all below the 0.45 at Arrays!E9; give coefficients"
+        " that reach it, or change it",
+    ),
+    ("D8", 0, "link stiffness is 0; give a number of more than 0 [lb/in]"),
+    ("D8", "inf", "link stiffness is 'inf'; give a number of more than 0 [lb/in]"),
+    ("D7", "Link stiffness [psi]", "unit of link stiffness is 'psi'; write one of lb/in, kip/in,"),
+    ("E8", 1.1, "link damping is 1.1; give a number from 0 to 1"),
+    ("E8", -0.1, "link damping is -0.1; give a number from 0 to 1"),
+]
+
+
+@pytest.mark.parametrize(("cell", "value", "line"), CELLS)
+def test_a_cell_is_named_with_what_it_holds_and_what_would_do(path, cell, value, line):
+    found = problems(edit(path, lambda book: book["Links"].__setitem__(cell, value)))
+    assert any(one.startswith(f"Links!{cell}: {line}") for one in found), found
+
+
+def test_everything_is_told_at_once(path):
+    def change(book):
+        for cell, value in (("B8", "A7"), ("C8", "0.4"), ("E9", 2)):
+            book["Links"][cell] = value
+
+    assert [line.split(":")[0] for line in problems(edit(path, change))] == [
+        "Links!B8", "Links!C8", "Links!E9",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "friction", [{"mu_fast": 0.5, "mu_rate_s_per_m": 20.0}, {"mu_static": 0.5}]
+)
+def test_a_row_takes_one_coefficient_for_each_block(tmp_path, friction):
+    path = make(tmp_path, arrays=arrays(**friction), links=[links(), links("A2")])
+    assert problems(path) == (
+        "Links!B8: array is 'A1', whose friction is not one coefficient; blank its friction at"
+        " speed and static friction, or take this row out",
+    )
+
+
+def test_links_of_arrays_that_cannot_be_found_are_not_told_twice(path):
+    (line,) = problems(edit(path, lambda book: book.remove(book["Arrays"])))
+    assert line.startswith("Arrays: the sheet is missing")
+
+
+def test_links_that_are_too_stiff_to_follow_are_told_with_what_would_do(tmp_path):
+    path = make(tmp_path, links=[links(lb_in=1e16, damping_ratio=1.0), links("A2", lb_in=1e300)])
+    first, second = problems(path)
+    assert first.startswith("Links!D8: link stiffness is 1e+16 lb/in (1.8e+15 kN/m), too much to")
+    assert second.startswith("Links!D9: link stiffness is 1e+300 lb/in")
+    for cell, line in (("D8", first), ("D9", second)):
+        most = float(line.split("give ")[1].split(" lb/in")[0])
+        edit(path, lambda book, cell=cell, most=most: book["Links"].__setitem__(cell, most))
+    book = read_workbook(path)
+    seconds = sum(len(m.headings) * m.dt_s * len(m.ax_mps2) for m in book.motions)
+    for one in book.input.links:
+        steps = least_steps(one.row(42000 * LB), seconds)
+        assert 0.9 * MOST_STEPS < steps <= MOST_STEPS

@@ -1,0 +1,668 @@
+"""Reading an input workbook: the same project comes back, however the sheets were arranged."""
+
+import datetime as dt
+import hashlib
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from openpyxl import load_workbook
+from openpyxl.utils import get_column_letter, range_boundaries
+from openpyxl.worksheet.formula import ArrayFormula
+
+from places import DATA
+from report.sheet import schema
+from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.template import write_template
+from sheets import FT, edit, make, problems, project, read_workbook
+
+DATA = DATA
+
+
+def same(found: ProjectInput, wanted: ProjectInput) -> bool:
+    """Whether two inputs agree, numbers to the rounding of a cell."""
+    return _same(found.model_dump(), wanted.model_dump())
+
+
+def _same(a, b):
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(_same(a[k], b[k]) for k in a)
+    if isinstance(a, tuple | list):
+        return len(a) == len(b) and all(map(_same, a, b))
+    if isinstance(a, float) and isinstance(b, float):
+        return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)
+    return a == b
+
+
+@pytest.fixture(params=list(UnitsFirst))
+def path(request, tmp_path):
+    return make(tmp_path, request.param)
+
+
+def test_a_project_is_read_as_it_was_written(path):
+    assert same(read_workbook(path).input, project())
+
+
+def test_a_folder_stands_for_its_input(path):
+    book = read_workbook(path.parent)
+    assert book.path == path
+    assert book.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+texts = st.text(
+    st.characters(codec="utf-8", exclude_categories=["Cc", "Cs", "Cn", "Zs", "Zl", "Zp"]),
+    min_size=1,
+    max_size=12,
+)
+lengths = st.floats(0.01, 1000)
+
+
+@st.composite
+def inputs(draw):
+    """Projects of any values that the checks let pass."""
+    base = project()
+    array = base.arrays[0].model_dump()
+    names = draw(st.lists(texts, min_size=1, max_size=3, unique_by=str.casefold))
+    arrays = [
+        array
+        | {
+            "id": name,
+            "slope_value": draw(st.floats(0, 11.9)),
+            "slope_unit": draw(st.sampled_from(schema.SlopeUnit)),
+            "mu": draw(st.floats(0, 1.5)),
+            "weight_n": draw(st.floats(1, 1e7)),
+            "cg_height_m": draw(lengths),
+            "x_to_m": array["x_from_m"] + draw(lengths),
+            "construction": draw(texts),
+        }
+        for name in names
+    ]
+    motion = base.motions[0].model_dump() | {
+        "scaling": draw(st.sampled_from(["factor", "PPA"])),
+        "scale_value": draw(st.floats(0.01, 100)),
+        "polarity": draw(st.sampled_from(schema.Polarity)),
+        "source": draw(st.just("") | texts),
+    }
+    head = base.project.model_dump() | {
+        "name": draw(texts),
+        "date": draw(st.dates(dt.date(2000, 1, 2), dt.date(2100, 1, 1))),
+        "units_first": draw(st.sampled_from(UnitsFirst)),
+    }
+    changes = {"project": head, "arrays": arrays, "motions": [motion], "clearances": []}
+    return project(**changes, objects=[])
+
+
+@settings(
+    max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(data=inputs(), units=st.sampled_from(UnitsFirst))
+def test_whatever_passes_comes_back_from_the_workbook(tmp_path, data, units):
+    path = make(tmp_path)
+    write_template(path, units=units, example=data)
+    assert same(read_workbook(path).input, data)
+
+
+# What people do to a workbook. openpyxl moves neither names nor tables, so they are moved here as
+# Excel does.
+
+
+def shift(book, title, rows):
+    """Insert rows at the top of a sheet."""
+    sheet = book[title]
+    sheet.insert_rows(1, rows)
+    for table in sheet.tables.values():
+        left, top, right, bottom = range_boundaries(table.ref)
+        first, last = (get_column_letter(column) for column in (left, right))
+        table.ref = f"{first}{top + rows}:{last}{bottom + rows}"
+    for name in book.defined_names.values():
+        sheet_name, cell = name.attr_text.split("!")
+        if sheet_name.strip("'") == title:
+            _, column, row = cell.split("$")
+            name.attr_text = f"{sheet_name}!${column}${int(row) + rows}"
+
+
+def rename(book, old, new):
+    book[old].title = new
+    for name in book.defined_names.values():
+        name.attr_text = name.attr_text.replace(f"'{old}'!", f"'{new}'!")
+
+
+def swap(book, title, first, second, rows):
+    """Exchange two columns of a table."""
+    sheet = book[title]
+    table = next(iter(sheet.tables.values()))
+    for row in rows:
+        a, b = sheet[f"{first}{row}"], sheet[f"{second}{row}"]
+        a.value, b.value = b.value, a.value
+        a.number_format, b.number_format = b.number_format, a.number_format
+    i, j = (ord(c) - ord("B") for c in (first, second))
+    columns = table.tableColumns
+    columns[i].name, columns[j].name = columns[j].name, columns[i].name
+
+
+def move_table(book, title, columns, rows):
+    sheet = book[title]
+    table = next(iter(sheet.tables.values()))
+    sheet.move_range(table.ref, rows=rows, cols=columns)
+    left, top, right, bottom = range_boundaries(table.ref)
+    first, last = (get_column_letter(column + columns) for column in (left, right))
+    table.ref = f"{first}{top + rows}:{last}{bottom + rows}"
+
+
+def forget_tables(book):
+    for sheet in book.worksheets:
+        for name in list(sheet.tables):
+            del sheet.tables[name]
+
+
+def forget_names(book):
+    for name in list(book.defined_names):
+        del book.defined_names[name]
+
+
+def leave_blank_rows(book):
+    sheet = book["Arrays"]
+    sheet.move_range("B9:O9", rows=7)
+
+
+def type_below_the_table(book):
+    sheet = book["Arrays"]
+    sheet.move_range("B9:O9", rows=30)
+
+
+def hide_headings(book):
+    book["Arrays"].tables["arrays_table"].headerRowCount = 0
+
+
+CHANGES = {
+    "a table without heading row": hide_headings,
+    "rows inserted above": lambda book: [shift(book, s, 3) for s in ("Site", "Arrays", "Project")],
+    "sheets renamed": lambda book: [rename(book, s, f"My {s}") for s in ("Site", "Arrays")],
+    "sheets reordered": lambda book: book.move_sheet("Motions", -5),
+    "sheets hidden": lambda book: setattr(book["Arrays"], "sheet_state", "hidden"),
+    "columns reordered": lambda book: swap(book, "Arrays", "C", "H", range(7, 11)),
+    "table moved": lambda book: move_table(book, "Arrays", 4, 10),
+    "tables forgotten": forget_tables,
+    "names forgotten": forget_names,
+    "blank rows between": leave_blank_rows,
+    "rows typed below the table": type_below_the_table,
+    "heading in capitals": lambda book: book["Arrays"].__setitem__(
+        "E7", " FRICTION\ncoefficient *"
+    ),
+    "choices in capitals": lambda book: book["Arrays"].__setitem__("D8", " Degrees "),
+    "numbers as text": lambda book: book["Arrays"].__setitem__("E8", " 0.45 "),
+    "a date as text": lambda book: book["Project"].__setitem__("B11", "2026-03-05"),
+    "a number as a text": lambda book: book["Project"].__setitem__("B12", 1),
+    "a truth value for a yes": lambda book: book["Options"].__setitem__("B6", True),
+    "notes beside the table": lambda book: book["Arrays"].__setitem__("V9", "ask the client"),
+    "notes far to the right": lambda book: book["Arrays"].__setitem__("GR9", "ask the client"),
+    "a name in other capitals": lambda book: setattr(
+        book["Arrays"].tables["arrays_table"], "displayName", "ARRAYS_TABLE"
+    ),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_arrangement_does_not_matter(tmp_path, change):
+    assert same(read_workbook(edit(make(tmp_path), change)).input, project())
+
+
+def test_units_of_headings_and_cells_are_followed(tmp_path):
+    def change(book):
+        book["Arrays"]["I7"], book["Arrays"]["I8"], book["Arrays"]["I9"] = "CG height [mm]", 250, 1
+        book["Arrays"]["H7"], book["Arrays"]["H8"] = "Weight [kg]", 1000
+        book["Site"]["C16"], book["Site"]["B16"] = "m", 12
+
+    data = read_workbook(edit(make(tmp_path), change)).input
+    assert data.arrays[0].cg_height_m == pytest.approx(0.25)
+    assert data.arrays[0].weight_n == pytest.approx(9806.65)
+    assert data.site.structure_height_m == pytest.approx(12)
+    assert data.site.roof_height_m == pytest.approx(36 * FT)
+
+
+def test_a_blank_choice_takes_its_default(tmp_path):
+    def change(book):
+        book["Options"]["B5"] = book["Options"]["B6"] = book["Motions"]["J9"] = None
+
+    book = read_workbook(edit(make(tmp_path), change))
+    assert book.input.options == schema.Options()
+    assert book.input.motions[1].polarity is schema.Polarity.BOTH
+    assert ("B5", "", "rule set (default)") in [
+        (row.cell, row.typed, row.value) for row in book.echo if row.sheet == "Options"
+    ]
+
+
+def test_a_heading_that_is_not_ours_is_named_in_the_echo(tmp_path):
+    def change(book):
+        book["Arrays"]["T7"], book["Arrays"]["T8"] = "Colour", "black"
+
+    book = read_workbook(edit(make(tmp_path), change))
+    (row,) = [row for row in book.echo if row.value.startswith("not an input")]
+    assert (row.sheet, row.cell, row.label) == ("Arrays", "T7", "column 'Colour'")
+
+
+def test_every_cell_is_echoed_with_what_was_typed_and_what_was_taken(path):
+    book = read_workbook(path)
+    rows = {(row.sheet, row.cell): row for row in book.echo}
+    weight = rows["Arrays", "H8"]
+    assert (weight.label, weight.value) == ("Weight", "186825 N")
+    assert (weight.typed, weight.unit) in [("42000", "lb"), ("186.825307841", "kN")]
+    assert rows["Site", "B9"].value == "0.7 g"
+    assert rows["Objects", "D9"].value == "—"
+    assert rows["Options", "B6"].value == "Yes"
+    fields = [(row.sheet, row.cell) for row in book.echo]
+    assert len(fields) == len(set(fields))
+
+
+# Formulas: openpyxl saves none of their values, so LibreOffice saved these.
+
+
+def test_a_workbook_saved_by_libreoffice_reads_the_same(tmp_path):
+    path = make(tmp_path)
+    path.write_bytes((DATA / "saved-by-libreoffice.xlsx").read_bytes())
+    assert same(read_workbook(path).input, project())
+
+
+def test_formulas_count_with_their_saved_values_and_are_marked_in_the_echo(tmp_path):
+    path = make(tmp_path)
+    path.write_bytes((DATA / "saved-by-libreoffice.xlsx").read_bytes())
+    rows = {(row.sheet, row.cell): row.typed for row in read_workbook(path).echo}
+    assert rows["Arrays", "E8"] == "=0.4+0.05 → 0.45"
+    assert rows["Arrays", "E9"] == "=E8 → 0.45"
+
+
+def test_an_array_formula_without_value_is_told_like_any_other(tmp_path):
+    formula = ArrayFormula("E8", "=SUM(C8:C9*0)")
+    path = edit(make(tmp_path), lambda book: book["Arrays"].__setitem__("E8", formula))
+    assert problems(path)[0].startswith(
+        "Arrays!E8: friction coefficient is a formula with no saved value (=SUM(C8:C9*0));"
+    )
+
+
+# Motions.
+
+
+def test_motions_are_scaled_and_signed_as_asked(tmp_path):
+    book = read_workbook(make(tmp_path))
+    m1, m2, m3 = book.motions
+    assert [m.id for m in book.motions] == ["M1", "M2", "M3"]
+    assert (m1.scale, m1.signs, m1.has_vertical, m1.source) == (1.0, (1, -1), True, "made")
+    assert (m2.scale, m2.signs, m2.has_vertical) == (2.0, (-1,), False)
+    assert m3.signs == (1,)
+    assert m3.scale * np.abs(m3.ax_mps2).max() == pytest.approx(1.5 * 9.80665, rel=1e-12)
+    assert (m1.dt_s, m3.dt_s) == (0.01, 0.02)
+
+
+def test_motions_are_read_only(tmp_path):
+    for motion in read_workbook(make(tmp_path)).motions:
+        assert not motion.ax_mps2.flags.writeable
+        assert not motion.az_mps2.flags.writeable
+
+
+def test_a_transverse_record_is_run_beside_the_horizontal_one(tmp_path):
+    motions = [motion.model_dump() for motion in project().motions]
+    motions[0] |= {"transverse": "records/y.csv"}
+    path = make(tmp_path, motions=motions)
+    (path.parent / "records" / "y.csv").write_text("0.1\n" * 200)
+    book = read_workbook(path)
+    m1, m2, _ = book.motions
+    assert np.allclose(m1.ay_mps2, 0.980665)
+    assert [heading.name for heading in m1.headings] == [
+        "record +",
+        "record −",
+        "transverse +",
+        "transverse −",
+    ]
+    assert [heading.name for heading in m2.headings] == ["record −"]
+    assert [r.component for r in book.records[:3]] == ["horizontal", "transverse", "vertical"]
+    assert not m2.ay_mps2.flags.writeable
+
+
+def test_records_are_listed_with_their_hashes(tmp_path):
+    path = make(tmp_path)
+    records = read_workbook(path).records
+    assert [(r.motion_id, r.component, r.name) for r in records] == [
+        ("M1", "horizontal", "records/x.csv"),
+        ("M1", "vertical", "records/z.csv"),
+        ("M2", "horizontal", "records/x.csv"),
+        ("M3", "horizontal", "records/x.csv"),
+    ]
+    data = (path.parent / "records" / "z.csv").read_bytes()
+    assert records[1].sha256 == hashlib.sha256(data).hexdigest()
+    assert records[1].npts == 200
+    assert records[1].peak_g == pytest.approx(0.25, abs=1e-4)
+
+
+def test_names_of_records_may_have_the_slashes_of_windows(tmp_path):
+    path = edit(make(tmp_path), lambda b: b["Motions"].__setitem__("C8", "records\\x.csv"))
+    assert len(read_workbook(path).motions) == 3
+
+
+def pasted(values, header="North", name="Pasted!North"):
+    """Return an edit that pastes a column and lets M2 use it."""
+
+    def change(book):
+        sheet = book.create_sheet("Pasted")
+        sheet["B1"] = "from the laboratory"
+        sheet["B3"] = header
+        for row, value in enumerate(values, start=4):
+            sheet.cell(row, 2).value = value
+        book["Motions"]["C9"] = name
+
+    return change
+
+
+@pytest.mark.parametrize("name", ["Pasted!North", "pasted!north", "'Pasted'!North"])
+def test_a_pasted_column_is_a_record(tmp_path, name):
+    book = read_workbook(edit(make(tmp_path), pasted([0.1, "0.2", -0.3, 0], name=name)))
+    assert book.motions[1].ax_mps2 == pytest.approx(np.array([0.1, 0.2, -0.3, 0]) * 9.80665)
+    assert book.records[2].name == name
+    assert book.records[2].npts == 4
+
+
+PASTED = "Motions!C9: horizontal record:"
+
+
+@pytest.mark.parametrize(
+    ("change", "lines"),
+    [
+        (pasted([0.1, "abc", 0.2]), [f"{PASTED} Pasted!B5 is 'abc'; give a number"]),
+        (pasted([0.1, "nan", 0.2]), [f"{PASTED} Pasted!B5 is 'nan'; give a number"]),
+        (pasted([0.1, "0,2", 0.2]), [f"{PASTED} Pasted!B5 is '0,2'; write 0.2"]),
+        (pasted([0.1, "#N/A", 0.2]), [f"{PASTED} Pasted!B5 is #N/A; correct it"]),
+        (
+            pasted([0.1, None, 0.2]),
+            [f"{PASTED} Pasted!B5 is blank, with values below; close the gap"],
+        ),
+        (
+            pasted(["x"] * 8),
+            [
+                *(f"{PASTED} Pasted!B{row} is 'x'; give a number" for row in range(4, 9)),
+                f"{PASTED} ... and 3 more cells",
+            ],
+        ),
+        (
+            pasted([0.1, 0.2], header="East"),
+            [
+                f"{PASTED} sheet 'Pasted' has no heading 'North' in its first 10 rows; write it"
+                " above the column"
+            ],
+        ),
+        (
+            pasted([0.1, 0.2], name="Elsewhere!North"),
+            [
+                f"{PASTED} 'Elsewhere!North' names no sheet of this workbook; write Sheet!Header,"
+                " or a file"
+            ],
+        ),
+        (
+            lambda book: (
+                pasted([0.1, 0.2])(book),
+                book["Motions"].__setitem__("G9", None),
+            ),
+            [f"{PASTED} 'Pasted!North' is a pasted column; give its time step"],
+        ),
+        (
+            lambda book: (
+                pasted([0.1, 0.2])(book),
+                book["Pasted"].__setitem__("D2", "North"),
+            ),
+            [f"{PASTED} heading 'North' is at Pasted!D2 and Pasted!B3; give each its own"],
+        ),
+        (
+            lambda book: (
+                pasted([0.1, 0.2])(book),
+                book["Pasted"].__setitem__("B300000", 1),
+            ),
+            [
+                f"{PASTED} Pasted!B300000 holds something more than 200,000 rows below the heading;"
+                " clear it, or give the record as a file"
+            ],
+        ),
+    ],
+)
+def test_a_pasted_column_is_refused_by_its_cell(tmp_path, change, lines):
+    assert list(problems(edit(make(tmp_path), change))) == lines
+
+
+WITHIN = "give a file within the workbook's folder, such as records/m1-x.csv"
+
+
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("records/none.csv", f"'records/none.csv' is not there; {WITHIN}"),
+        ("records", f"'records' is no file; {WITHIN}"),
+        ("/etc/hostname", f"'/etc/hostname' leads out of the workbook's folder; {WITHIN}"),
+        ("../x.csv", f"'../x.csv' leads out of the workbook's folder; {WITHIN}"),
+        ("..\\x.csv", f"'../x.csv' leads out of the workbook's folder; {WITHIN}"),
+        ("C:\\x.csv", f"'C:/x.csv' leads out of the workbook's folder; {WITHIN}"),
+        ("\\\\host\\x", f"'//host/x' leads out of the workbook's folder; {WITHIN}"),
+        ("link.csv", f"'link.csv' leads out of the workbook's folder by a link; {WITHIN}"),
+        ("loop.csv", f"'loop.csv' cannot be found; {WITHIN}"),
+        ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
+        ("pipe.csv", f"'pipe.csv' is no file; {WITHIN}"),
+        ("big.csv", "'big.csv' has 65 MB; at most 64 MB do"),
+        ("input.xlsx", "input.xlsx: not a text file; give the text of a record"),
+    ],
+)
+def test_a_record_must_be_a_file_within_the_folder(tmp_path, name, line):
+    folder = tmp_path / "job"
+    path = edit(make(folder), lambda book: book["Motions"].__setitem__("C9", name))
+    (tmp_path / "outside.csv").write_text("0.1\n0.2\n")
+    (folder / "link.csv").symlink_to(tmp_path / "outside.csv")
+    (folder / "loop.csv").symlink_to(folder / "loop.csv")
+    os_pipe(folder / "pipe.csv")
+    with (folder / "big.csv").open("wb") as file:
+        file.truncate(65_000_000)
+    assert problems(path) == (f"Motions!C9: horizontal record: {line}",)
+
+
+def os_pipe(path):
+    import os
+
+    os.mkfifo(path)
+
+
+def test_a_bad_line_of_a_record_is_told_with_its_file_and_number(tmp_path):
+    path = make(tmp_path)
+    (path.parent / "records" / "z.csv").write_text("0.1\nabc\n0.2\n")
+    assert problems(path) == ("Motions!E8: vertical record: z.csv:2: found 'abc'; give a number",)
+
+
+def test_components_of_different_length_or_step_do_not_go_together(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("G8", None))
+    for name, step, count in (("x", 0.01, 50), ("z", 0.02, 40)):
+        text = "".join(f"{i * step:.2f},0.1\n" for i in range(count))
+        (path.parent / "records" / f"{name}.csv").write_text(text)
+    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}9", None) for c in "BCDEFGHIJ"])
+    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}10", None) for c in "BCDEFGHIJ"])
+    assert problems(path) == (
+        "Motions!E8: vertical record has a time step of 0.02 s, the horizontal one 0.01 s; give"
+        " both the same",
+        "Motions!E8: vertical record has 40 samples, the horizontal one 50; give both the same, or"
+        " keep to 0.39 s at most",
+    )
+
+
+def test_components_that_end_apart_go_together_up_to_where_both_are_kept(tmp_path):
+    path = make(tmp_path)
+    for name, count in (("x", 200), ("z", 196)):
+        (path.parent / "records" / f"{name}.csv").write_text("0.1\n-0.2\n" * (count // 2))
+    assert problems(path) == (
+        "Motions!E8: vertical record has 196 samples, the horizontal one 200; give both the same,"
+        " or keep to 1.95 s at most",
+    )
+    book = read_workbook(edit(path, lambda b: b["Motions"].__setitem__("N8", 1.95)))
+    assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 196
+
+
+CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
+    f"{0.01 * i:.2f},{0.1 * i},{0.2 * i},{0.3 * i}\n" for i in range(5)
+)
+
+
+@pytest.mark.parametrize("names", [("East", "north", " UP "), ("1", "2", "3")])
+def test_channels_of_one_file_are_components(tmp_path, names):
+    path = make(tmp_path)
+    (path.parent / "records" / "all.csv").write_text(CHANNELS)
+
+    def change(book):
+        sheet = book["Motions"]
+        for column, name in zip("CDE", names, strict=True):
+            sheet[f"{column}8"] = f"records/all.csv | {name}"
+        sheet["F8"] = sheet["G8"] = None  # the file says its units and times
+
+    book = read_workbook(edit(path, change))
+    first = book.motions[0]
+    for a, slope in zip(
+        (first.ax_mps2, first.ay_mps2, first.az_mps2), (0.1, 0.2, 0.3), strict=True
+    ):
+        assert a == pytest.approx(slope * 9.80665 * np.arange(5))
+    assert book.records[1].name == f"records/all.csv | {names[1]}".strip()
+    assert book.records[1].format == "text"
+
+
+def test_a_channel_that_is_not_named_or_not_there_is_told_with_the_names(tmp_path):
+    path = make(tmp_path)
+    (path.parent / "records" / "all.csv").write_text(CHANNELS)
+
+    def change(book):
+        sheet = book["Motions"]
+        sheet["C8"], sheet["E8"] = "records/all.csv", "records/all.csv | Down"
+        sheet["F8"] = sheet["G8"] = None
+
+    names = "give one by name or number: 1 East; 2 North; 3 Up"
+    assert problems(edit(path, change)) == (
+        f"Motions!C8: horizontal record: all.csv: found several channels; {names}",
+        f"Motions!E8: vertical record: all.csv: channel 'Down' is not there; {names}",
+    )
+
+
+def test_units_that_neither_file_nor_sheet_says_are_asked_for(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("F8", "from file"))
+    found = problems(path)
+    assert [line.split(": ")[0] for line in found] == ["Motions!C8", "Motions!E8"]
+    assert all("give units, one of" in line for line in found)
+
+
+def test_a_file_that_says_other_units_than_the_sheet_is_told(tmp_path):
+    path = make(tmp_path)
+    (path.parent / "records" / "all.csv").write_text(CHANNELS)
+
+    def change(book):
+        sheet = book["Motions"]
+        sheet["C8"], sheet["E8"] = "records/all.csv | 1", None
+        sheet["F8"] = "cm/s2"
+
+    (line,) = problems(edit(path, change))
+    assert line.startswith("Motions!C8: horizontal record: all.csv:1: the file is in g but units")
+
+
+def test_gals_of_a_pasted_column_are_cm_s2(tmp_path):
+    def change(book):
+        pasted([100.0, -200.0])(book)
+        book["Motions"]["F9"] = "gal"
+
+    assert read_workbook(edit(make(tmp_path), change)).motions[1].ax_mps2.tolist() == [1.0, -2.0]
+
+
+def test_records_are_processed_as_their_row_asks(tmp_path):
+    def change(book):
+        sheet = book["Motions"]
+        for cell, value in {"M8": 0.5, "N8": 1.5, "O8": "mean", "S8": 0.005, "T8": 1}.items():
+            sheet[cell] = value
+
+    book = read_workbook(edit(make(tmp_path), change))
+    first = book.motions[0]
+    x = np.loadtxt(book.path.parent / "records" / "x.csv")[50:151] * 9.80665
+    level = x - x.mean()
+    assert first.dt_s == 0.005
+    assert first.ax_mps2[:201:2] == pytest.approx(level)
+    assert not first.ax_mps2[201:].any()
+    assert len(first.ax_mps2) == len(first.az_mps2) == 201 + 200
+    assert book.prepared[0].done.startswith("cut to 0.5 s to 1.5 s; mean removed")
+    assert book.prepared[0].unfiltered == ()
+
+
+def test_a_high_pass_keeps_the_motion_without_it_for_comparison(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("P8", 2.0))
+    book = read_workbook(path)
+    (bare,) = book.prepared[0].unfiltered
+    assert bare.ax_mps2 == pytest.approx(np.loadtxt(path.parent / "records/x.csv") * 9.80665)
+    assert not np.allclose(book.motions[0].ax_mps2[: len(bare.ax_mps2)], bare.ax_mps2)
+
+
+def test_processing_that_does_not_fit_a_record_is_told(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("Q8", 60))
+    (line,) = problems(path)
+    assert line.startswith("Motions!C8: horizontal record: x.csv: low-pass corner is 60 Hz; give")
+
+
+def test_a_ground_motion_comes_out_at_the_roof(tmp_path):
+    def change(book):
+        book["Motions"]["L8"], book["Building"]["B6"] = "ground", 0.5
+
+    book = read_workbook(edit(make(tmp_path), change))
+    at_roof, story = book.motions[0], book.prepared[0]
+    assert story.roof["horizontal"].building.periods_s[0] == 0.5
+    assert np.array_equal(at_roof.ax_mps2, story.roof["horizontal"].a_mps2)
+    assert book.prepared[1].roof == {}
+
+
+def test_a_workbook_without_the_sheets_of_later_versions_is_read(tmp_path):
+    def change(book):
+        for title in ("Building", "Spectrum"):
+            book.remove(book[title])
+        for name in [n for n in book.defined_names if n.startswith(("target_", "building_"))]:
+            del book.defined_names[name]
+        for row in range(9, 17):
+            book["Options"][f"A{row}"] = None
+
+    data = read_workbook(edit(make(tmp_path), change)).input
+    assert same(data, project())
+
+
+def test_silence_cannot_be_scaled_to_a_peak(tmp_path):
+    path = make(tmp_path)
+    (path.parent / "records" / "x.csv").write_text("0\n0\n0\n")
+    assert "Motions!C10: horizontal record is all zeros; a PPA cannot scale it" in problems(path)
+
+
+@pytest.mark.parametrize(
+    ("scaling", "goal"), [("PPA", "a PPA"), ("target spectrum", "a target spectrum")]
+)
+def test_a_part_that_is_silent_cannot_be_scaled_either(tmp_path, scaling, goal):
+    path = make(tmp_path)
+    (path.parent / "records" / "x.csv").write_text("0.1\n" * 100 + "0\n" * 100)
+
+    def change(book):
+        sheet = book["Motions"]
+        sheet["H8"], sheet["I8"], sheet["M8"] = scaling, 1 if scaling == "PPA" else None, 1.5
+
+    assert problems(edit(path, change)) == (
+        f"Motions!C8: horizontal record is all zeros; {goal} cannot scale it",
+    )
+
+
+def test_records_are_looked_at_even_where_their_row_has_other_faults(tmp_path):
+    def change(book):
+        book["Motions"]["B9"] = None
+        book["Motions"]["F9"] = "furlongs"
+        book["Motions"]["C9"] = "records/none.csv"
+
+    assert [line.split(":")[0] for line in problems(edit(make(tmp_path), change))] == [
+        "Motions!B9",
+        "Motions!C9",
+        "Motions!F9",
+    ]
+
+
+def test_the_workbook_on_disk_is_never_changed(tmp_path):
+    path = make(tmp_path)
+    before = path.read_bytes()
+    read_workbook(path)
+    assert path.read_bytes() == before
+    assert load_workbook(path)

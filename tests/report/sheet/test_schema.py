@@ -1,0 +1,207 @@
+"""The models of the input, and how their fields are taken apart."""
+
+import datetime as dt
+import math
+
+import pytest
+from pydantic import ValidationError
+
+from report.sheet.checks import gap_m, least_sdc
+from report.sheet.fields import Bounds, YesNo, entries
+from report.sheet.schema import (
+    PROVISION_KEYS,
+    SECTIONS,
+    Array,
+    MotionInput,
+    Project,
+    ProjectInput,
+    Rectangle,
+    RiskCategory,
+    RuleSetName,
+    Sdc,
+    Site,
+    SlopeUnit,
+    slope_rad,
+)
+from report.words.units import LENGTHS, WEIGHTS, Quantity
+from sheets import INCH, project
+from solver.formats import UNIT_CHOICES
+from solver.rules.provisions import OVERRIDABLE
+
+SITE = {
+    "rule_set": "ASCE 7-16",
+    "risk_category": "II",
+    "i_e": 1.0,
+    "sdc": "D",
+    "storeys": 1,
+    "structure_height_m": 10.0,
+    "roof_height_m": 10.0,
+}
+
+
+def entry(model, name):
+    return next(item for item in entries(model) if item.name == name)
+
+
+def test_every_field_of_every_section_has_its_cell():
+    for section in SECTIONS:
+        assert [item.name for item in entries(section.model)] == list(section.model.model_fields)
+
+
+def test_every_section_is_a_part_of_the_project_input():
+    assert [section.key for section in SECTIONS] == list(ProjectInput.model_fields)
+
+
+def test_labels_within_a_section_differ_so_that_headings_find_their_field():
+    for section in SECTIONS:
+        labels = [item.cell.label.casefold() for item in entries(section.model)]
+        assert len(labels) == len(set(labels))
+        assert not any(set("[]*!") & set(label) for label in labels)
+
+
+def test_input_messages_fit_into_excel():
+    for section in SECTIONS:
+        for item in entries(section.model):
+            assert len(item.cell.help) <= 200
+            assert len(",".join(item.choices)) <= 255
+            assert not any("," in choice for choice in item.choices)
+
+
+def test_record_units_are_those_that_records_are_read_in():
+    assert entry(MotionInput, "units").choices == ("from file", *UNIT_CHOICES)
+
+
+def test_provisions_to_override_are_those_of_the_solver():
+    assert PROVISION_KEYS is OVERRIDABLE
+
+
+def test_a_field_tells_its_kind_its_need_and_its_range():
+    mu = entry(Array, "mu")
+    assert (mu.kind, mu.is_required, mu.bounds.words()) == (float, True, "0 to 1.5")
+    assert mu.spoken == "friction coefficient"
+    assert entry(Array, "mu_rate_s_per_m").bounds.words() == "more than 0 to 1000"
+    client = entry(Project, "client")
+    assert (client.kind, client.is_required, client.default, client.max_length) == (
+        str,
+        False,
+        "",
+        2000,
+    )
+    assert entry(Array, "weight_n").quantity is Quantity.WEIGHT
+    assert entry(Project, "date").kind is dt.date
+
+
+def test_a_field_that_may_be_blank_keeps_the_range_behind_it():
+    step = entry(MotionInput, "dt_s")
+    assert (step.kind, step.is_required, step.bounds.words()) == (float, False, "more than 0 to 1")
+
+
+def test_a_yes_or_no_is_chosen_by_these_words():
+    options = next(section for section in SECTIONS if section.key == "options")
+    assert entry(options.model, "peer_reviewed").choices == tuple(YesNo)
+
+
+@pytest.mark.parametrize(
+    ("bounds", "words"),
+    [
+        (Bounds(), ""),
+        (Bounds(low=0), "0 or more"),
+        (Bounds(low=0, excludes_low=True), "more than 0"),
+        (Bounds(high=3), "at most 3"),
+        (Bounds(high=3, excludes_high=True), "less than 3"),
+        (Bounds(low=1, high=2), "1 to 2"),
+        (Bounds(low=1, high=2, excludes_low=True), "more than 1 to 2"),
+        (Bounds(low=1, high=2, excludes_high=True), "1 to less than 2"),
+    ],
+)
+def test_ranges_are_said_in_words(bounds, words):
+    assert bounds.words() == words
+
+
+def test_ranges_are_said_in_the_unit_of_the_sheet():
+    assert Bounds(low=0, high=10 * INCH).words(INCH) == "0 to 10"
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "degrees"),
+    [
+        (3.0, SlopeUnit.DEGREES, 3.0),
+        (5.0, SlopeUnit.PERCENT, 2.8624052261117479),
+        (0.25, SlopeUnit.IN_PER_12, 1.1934894239820351),
+        (0.0, SlopeUnit.PERCENT, 0.0),
+    ],
+)
+def test_slopes_become_angles(value, unit, degrees):
+    assert math.degrees(slope_rad(value, unit)) == pytest.approx(degrees, rel=1e-12)
+
+
+def test_s_ds_is_two_thirds_of_f_a_s_s_unrounded():
+    assert Site(**SITE, s_s_g=1.313, f_a=1.2).s_ds == pytest.approx(1.0504, abs=1e-12)
+
+
+def test_s_ds_that_is_given_stays_as_given():
+    assert Site(**SITE, s_s_g=1.313, f_a=1.2, s_ds_g=1.05).s_ds == 1.05
+
+
+def test_a_site_without_s_ds_is_refused():
+    with pytest.raises(ValidationError, match="give S_DS, or S_S and F_a"):
+        Site(**SITE, s_s_g=1.313)
+
+
+def test_records_of_the_input_are_frozen_and_take_nothing_else():
+    site = Site(**SITE, s_ds_g=1.0)
+    with pytest.raises(ValidationError):
+        site.i_e = 1.5
+    with pytest.raises(ValidationError):
+        Site(**SITE, s_ds_g=1.0, colour="red")
+    with pytest.raises(ValidationError):
+        Site(**SITE, s_ds_g=math.nan)
+
+
+def test_rectangles_come_with_arrays_and_with_objects_that_have_all_sides():
+    data = project()
+    assert data.arrays[0].rectangle.x_to_m == pytest.approx(30.48)
+    assert data.objects[1].rectangle is None
+    assert data.objects[0].rectangle.y_from_m == pytest.approx(24.384)
+    assert data.site.rule_set is RuleSetName.PV1_2012
+
+
+# ASCE 7-16 Table 11.6-1 and the sentences on S_1 in section 11.6.
+@pytest.mark.parametrize(
+    ("s_ds_g", "risk_category", "s_1_g", "least"),
+    [
+        (0.166, "II", None, "A"),
+        (0.167, "II", None, "B"),
+        (0.33, "III", None, "C"),
+        (0.50, "I", 0.74, "D"),
+        (1.50, "II", 0.75, "E"),
+        (0.166, "IV", None, "A"),
+        (0.167, "IV", None, "C"),
+        (0.33, "IV", None, "D"),
+        (0.50, "IV", None, "D"),
+        (0.50, "IV", 0.75, "F"),
+    ],
+)
+def test_design_category_follows_the_table(s_ds_g, risk_category, s_1_g, least):
+    assert least_sdc(s_ds_g, RiskCategory(risk_category), s_1_g) is Sdc(least)
+
+
+@pytest.mark.parametrize(
+    ("other", "gap"),
+    [
+        ((3, 4, 0, 1), 2.0),
+        ((0, 1, 4, 5), 3.0),
+        ((4, 5, 5, 6), 5.0),
+        ((-3, -1, 0, 1), 1.0),
+        ((1, 2, 0, 1), 0.0),
+        ((0.5, 2, 0.25, 2), -0.5),
+    ],
+)
+def test_gaps_are_measured_between_nearest_points(other, gap):
+    assert gap_m(Rectangle(0, 1, 0, 1), Rectangle(*other)) == pytest.approx(gap)
+
+
+def test_units_of_the_input_have_their_legal_sizes():
+    assert LENGTHS == {"in": 0.0254, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+    assert WEIGHTS["lb"] == pytest.approx(0.45359237 * 9.80665, rel=1e-15)
+    assert WEIGHTS["kip"] == pytest.approx(1000 * WEIGHTS["lb"])

@@ -1,0 +1,248 @@
+"""The command that makes suites: its files, its table, and what it refuses."""
+
+import hashlib
+import json
+import math
+import re
+
+import numba
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from openpyxl import Workbook
+
+from report.cli.main import main
+from report.suite import files
+from report.suite.inputs import ac156_targets, read_seeds
+from solver.formats import read_record
+from solver.model import InputError
+from solver.records.spectrum import response_spectrum
+from solver.rules.provisions import RULE_SETS
+from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
+
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
+)
+
+AC156 = ("--sds", 1.2, "--code", "asce7-16")
+G = 9.80665
+
+
+def run(*words):
+    return CliRunner().invoke(main, ["motion", "suite", *map(str, words)])
+
+
+def refused(*words):
+    done = run(*words)
+    assert done.exit_code == 2, done.output
+    return done.output
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Return the folder and the output of a suite of two motions."""
+    folder = tmp_path_factory.mktemp("made") / "suite"
+    done = run(folder, *AC156, "--count", 2, "--seed", 5)
+    assert done.exit_code == 0, done.output
+    return folder, done.output
+
+
+@pytest.fixture(scope="module")
+def document(made):
+    return json.loads((made[0] / "suite.json").read_text())
+
+
+def records(folder, motion):
+    return [read_record(folder / f"motion-{motion:02d}-{axis}.csv", units="g") for axis in "xyz"]
+
+
+def test_every_file_is_written_and_nothing_else(made):
+    names = {f"motion-0{k}-{axis}.csv" for k in (1, 2) for axis in "xyz"}
+    assert {path.name for path in made[0].iterdir()} == names | {"suite.json", "suite.png"}
+    assert (made[0] / "suite.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_files_hold_what_suite_json_says_of_them(made, document):
+    freq_hz = 0.3 * 2.0 ** (np.arange(82) / 12.0)
+    assert document["seed"] == 5
+    assert document["envelope_s"] == [5.0, 20.0, 5.0]
+    for k, motion in enumerate(document["motions"], start=1):
+        found = records(made[0], k)
+        assert motion["id"] == f"motion-0{k}"
+        together = np.corrcoef([record.a_mps2 for record in found])
+        said = [motion[f"correlation_{pair}"] for pair in ("xy", "xz", "yz")]
+        assert said == pytest.approx([together[0, 1], together[0, 2], together[1, 2]], rel=1e-9)
+        assert max(map(abs, said)) <= 0.3
+        for record, part in zip(found, motion["components"], strict=True):
+            path = made[0] / part["file"]
+            assert part["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+            corners = document["target"]["vertical" if part["component"] == "z" else "horizontal"]
+            log_target = np.interp(
+                np.log(freq_hz), np.log(corners["freq_hz"]), np.log(corners["sa_g"])
+            )
+            psa = response_spectrum(record.a_mps2, record.dt_s, 1.0 / freq_hz) / G
+            ratio = psa / np.exp(log_target)
+            # The file has the end of the band, 33.3 Hz, besides.
+            assert part["least_ratio"] <= ratio.min() * (1 + 1e-9)
+            assert part["greatest_ratio"] >= ratio.max() * (1 - 1e-9)
+            assert part["mean_ratio"] == pytest.approx(ratio.mean(), abs=0.002)
+            assert part["least_ratio"] >= 0.90
+            assert part["greatest_ratio"] <= 1.30
+            assert part["pga_g"] == pytest.approx(np.abs(record.a_mps2).max() / G, rel=1e-12)
+            assert part["final_velocity_mps"] == part["final_displacement_m"] == 0.0
+            assert part["grew_from"] == "noise"
+
+
+def test_the_target_is_that_of_the_code(document):
+    target = document["target"]
+    across = ac156_horizontal(RULE_SETS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0)
+    assert target["horizontal"]["sa_g"] == across.sa_g.tolist()
+    assert target["vertical"]["sa_g"] == ac156_vertical(s_ds_g=1.2).sa_g.tolist()
+    assert (target["code"], target["s_ds_g"], target["z_over_h"]) == ("ASCE 7-16", 1.2, 1.0)
+    assert (target["tail"], target["tail_rule"]) == ("AC156", Tail.AC156.sentence)
+
+
+def test_the_table_says_target_tail_seed_and_how_each_component_keeps(made):
+    lines = made[1].splitlines()
+    assert "AC156 with ASCE 7-16, S_DS 1.2 g, z/h 1: A_FLX 1.92 g, A_RIG 1.44 g" in made[1]
+    assert "tail: below 1.3 Hz (beyond 0.77 s) the line of AC156" in made[1]
+    rows = [line for line in lines if re.search(r" [xyz]  \d", line)]
+    assert len(rows) == 6
+    assert all("noise" in row for row in rows)
+    assert "6 of 6 components within 0.90 to 1.30 of the target, mean within 5 %" in made[1]
+    assert lines[-1].endswith("suite: 6 records, suite.json, suite.png; seed 5")
+
+
+def test_the_same_seed_gives_the_same_bytes_whatever_the_count(made, tmp_path):
+    done = run(tmp_path, *AC156, "--count", 1, "--seed", 5)
+    assert done.exit_code == 0
+    for axis in "xyz":
+        name = f"motion-01-{axis}.csv"
+        assert (tmp_path / name).read_bytes() == (made[0] / name).read_bytes()
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert run(tmp_path, *AC156, "--count", 1, "--seed", 5).exit_code == 0
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_motions_of_an_older_suite_are_not_left_beside_the_new_ones(made):
+    output = refused(made[0], *AC156, "--count", 1)
+    assert "motion-02-x.csv and 2 others of an older suite would be left" in output
+
+
+def test_records_seed_the_motions(made, tmp_path):
+    x, y, z = (made[0] / f"motion-01-{axis}.csv" for axis in "xyz")
+    other = made[0] / "motion-02-x.csv"
+    words = (tmp_path / "a", *AC156, "--tail", "1/T", "--count", 2)
+    done = run(*words, "--records", f"{x},{y},{z}", other)
+    assert done.exit_code == 0, done.output
+    document = json.loads((tmp_path / "a" / "suite.json").read_text())
+    first, second = (
+        [part["grew_from"] for part in motion["components"]] for motion in document["motions"]
+    )
+    assert first == [x.name, y.name, z.name]
+    assert second == [other.name, *[f"{other.name}, phases drawn"] * 2]
+    assert document["seed_records"][3] == {
+        "file": str(other),
+        "sha256": hashlib.sha256(other.read_bytes()).hexdigest(),
+    }
+    assert document["target"]["tail"] == "1/T"
+    assert "beyond 0.77 s (below 1.3 Hz) 1/T" in done.output
+    # The option may be repeated as well.
+    again = run(tmp_path / "b", *words[1:], "--records", f"{x},{y},{z}", "--records", other)
+    assert again.exit_code == 0
+    assert (tmp_path / "b" / "suite.json").read_bytes() == (
+        tmp_path / "a" / "suite.json"
+    ).read_bytes()
+
+
+def columns(path, heading):
+    t = 0.01 * np.arange(1000)
+    waves = [np.sin(k * t) * np.exp(-0.1 * t) for k in (7.0, 9.0, 20.0, 30.0)]
+    rows = np.column_stack([t, *waves[: heading.count(",")]])
+    body = "\n".join(",".join(f"{value:.6f}" for value in row) for row in rows)
+    path.write_text(f"{heading}\n{body}\n")
+    return path
+
+
+def test_a_vertical_among_three_channels_seeds_z(tmp_path):
+    path = columns(tmp_path / "site.V2", "time_s,UP_g,N10E_g,S80E_g")
+    (group,) = read_seeds([str(path)], units="g", dt_s=math.nan).groups
+    assert ["UP" in record.name for record in group] == [False, False, True]
+    assert all(record.name.startswith("site.V2, ") for record in group)
+    lone = [columns(tmp_path / f"{name}.csv", "time_s,a_g") for name in ("Z", "X", "Y")]
+    (group,) = read_seeds([",".join(map(str, lone))], units="g", dt_s=math.nan).groups
+    assert [record.name for record in group] == ["X.csv", "Y.csv", "Z.csv"]
+
+
+def test_too_many_channels_and_every_bad_file_are_told(tmp_path):
+    path = columns(tmp_path / "many.csv", "time_s,a_g,b_g,c_g,d_g")
+    with pytest.raises(InputError) as caught:
+        read_seeds([str(path), "none.csv", "a.csv,b.csv"], units="g", dt_s=math.nan)
+    found = caught.value.problems
+    assert "many.csv: found 4 channels; give one, two or three" in found[0]
+    assert found[1].startswith("none.csv: no such file")
+    assert found[2].startswith("a.csv: no such file")
+
+
+def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
+    workbook = Workbook()
+    workbook.active.title = "Site"
+    for row in [("T [s]", "horizontal [g]"), (0.02, 0.5), (0.1, 1.0), (0.6, 1.0), (5.0, 0.12)]:
+        workbook.active.append(row)
+    workbook.save(tmp_path / "book.xlsx")
+    words = (tmp_path / "suite", "--target", f"{tmp_path / 'book.xlsx'}!Site", "--count", 1)
+    assert "book.xlsx!Site: has no vertical; add a column vertical [g], or give --sds" in refused(
+        *words
+    )
+    assert not (tmp_path / "suite").exists()
+    done = run(*words, "--sds", 0.9)
+    assert done.exit_code == 0, done.output
+    assert "target: book.xlsx!Site, 4 points to a period of 5 s" in done.output
+    document = json.loads((tmp_path / "suite" / "suite.json").read_text())
+    assert document["target"]["horizontal"]["sa_g"] == [0.12, 1.0, 1.0, 0.5]
+    assert document["target"]["vertical"]["sa_g"][1] == pytest.approx(0.67 * 0.9)
+    assert document["target"]["vertical_source"] == "AC156"
+    workbook.active["C1"] = "vertical [g]"
+    for row in range(2, 6):
+        workbook.active.cell(row, 3, 0.4)
+    workbook.save(tmp_path / "book.xlsx")
+    assert run(*words).exit_code == 0
+    document = json.loads((tmp_path / "suite" / "suite.json").read_text())
+    assert document["target"]["vertical"]["sa_g"] == [0.4] * 4
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ((), "no target; give --sds and --code, or --target"),
+        (("--sds", 1.0), "no target"),
+        (("--sds", 0.0, "--code", "pv1"), "S_DS is 0 g; give a number above 0, at most 5"),
+        (("--sds", "inf", "--code", "pv1"), "S_DS is inf g"),
+        (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "z/h is 1.5; give a number from 0"),
+        (("--sds", 1.0, "--code", "pv1", "--zh", "nan"), "z/h is nan"),
+        (("--sds", 1.0, "--code", "ibc"), "Invalid value for '--code'"),
+        ((*AC156, "--count", 0), "Invalid value for '--count'"),
+        ((*AC156, "--seed", -1), "Invalid value for '--seed'"),
+        ((*AC156, "stray.csv"), "'stray.csv' belongs to nothing; write --records before files"),
+        ((*AC156, "--records", "none.csv"), "none.csv: no such file"),
+        (("--target", "none.csv"), "none.csv: no such file"),
+    ],
+)
+def test_what_is_missing_or_impossible_is_told(tmp_path, words, expected):
+    assert expected in refused(tmp_path / "suite", *words)
+    assert not (tmp_path / "suite").exists()
+
+
+def test_a_folder_that_cannot_be_written_is_told(tmp_path):
+    (tmp_path / "file").write_text("")
+    assert "cannot be written" in refused(tmp_path / "file", *AC156, "--count", 1)
+
+
+def test_a_miss_is_counted(made, monkeypatch):
+    monkeypatch.setattr(files, "LEAST", 1.5)
+    targets = ac156_targets("pv1", s_ds_g=1.2, z_over_h=1.0, tail=Tail.AC156)
+    from solver.synthesis import SuiteMotion
+
+    x, y, z = records(made[0], 1)
+    motion = SuiteMotion(x=x, y=y, z=z, seeds=("noise",) * 3)
+    assert "0 of 3 components within 1.50" in files.suite_table([motion], targets)[-1]

@@ -1,0 +1,185 @@
+"""Target spectra that people bring: sheets and csv, and everything that can be wrong with them."""
+
+import math
+
+import numpy as np
+import pytest
+from openpyxl import Workbook
+
+from report.suite.target_table import MAX_ROWS, read_target
+from solver.model import InputError
+
+ROWS = [("Period [s]", "Horizontal [g]", "Vertical [g]")] + [
+    (period, 1.0 / (1.0 + period), 0.5) for period in (0.02, 0.1, 0.5, 1.0, 4.0)
+]
+
+
+def book(tmp_path, rows, *, title="Target", others=("Notes",)):
+    workbook = Workbook()
+    sheet = workbook.active
+    sheet.title = title
+    for row in rows:
+        sheet.append(row)
+    for name in others:
+        workbook.create_sheet(name)
+    path = tmp_path / "spectra.xlsx"
+    workbook.save(path)
+    return path
+
+
+def text(tmp_path, content):
+    path = tmp_path / "target.csv"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return str(path)
+
+
+def problems(named):
+    with pytest.raises(InputError) as caught:
+        read_target(str(named))
+    return caught.value.problems
+
+
+def test_a_sheet_is_read_by_its_headings_in_any_order_of_rows_and_columns(tmp_path):
+    title = ("Site-specific", None, None, None)
+    rows = [title, ("note", "Vertical (g)", "T [s]", "SA [g]")]
+    rows += [("x", row[2], row[0], row[1]) for row in ROWS[3:] + ROWS[1:3]]
+    found = read_target(f"{book(tmp_path, rows)}!target")
+    assert found.source == "spectra.xlsx!Target"
+    period = np.array([4.0, 1.0, 0.5, 0.1, 0.02])
+    assert found.freq_hz == pytest.approx(1.0 / period, rel=1e-12)
+    assert found.horizontal_g == pytest.approx(1.0 / (1.0 + period), rel=1e-12)
+    assert found.vertical_g.tolist() == [0.5] * 5
+    assert found.has_vertical
+    assert found.vertical[0] is found.horizontal[0]
+
+
+def test_the_only_sheet_needs_no_name(tmp_path):
+    assert read_target(str(book(tmp_path, ROWS, others=()))).source == "spectra.xlsx!Target"
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_csv_of_frequencies_is_read_without_a_vertical(tmp_path, separator):
+    lines = ["frequency_hz,horizontal_g", "0.1,0.2", "", "1.3,2", "33.3,1.2"]
+    content = "\ufeff" + "\r\n".join(lines).replace(",", separator)
+    found = read_target(text(tmp_path, content))
+    assert found.freq_hz.tolist() == [0.1, 1.3, 33.3]
+    assert found.horizontal_g.tolist() == [0.2, 2.0, 1.2]
+    assert not found.has_vertical
+
+
+def test_every_bad_cell_is_told_by_its_address(tmp_path):
+    rows = [list(row) for row in ROWS]
+    rows[1][1] = "1,5"
+    rows[2][2] = None
+    rows[3][0] = 0
+    rows[4][1] = True
+    rows[5][2] = 250
+    assert problems(f"{book(tmp_path, rows)}!Target") == (
+        "Target!A4: period is 0; give a number from 0.001 to 1000 [s]",
+        "Target!B2: horizontal is '1,5'; write 1.5",
+        "Target!B5: horizontal is TRUE, a truth value; give a number above 0 [g]",
+        "Target!C3: vertical is blank; give a number above 0",
+        "Target!C6: vertical is 250; give a number from 1e-06 to 100 [g]",
+    )
+
+
+def test_lines_of_csv_are_told_by_their_number(tmp_path):
+    content = "frequency [Hz],horizontal [g]\n0.1,0.2\n1,x\n50\n"
+    assert problems(text(tmp_path, content)) == (
+        "target.csv:3: horizontal is 'x'; give a number above 0 [g]",
+        "target.csv:4: horizontal is blank; give a number above 0",
+    )
+
+
+@pytest.mark.parametrize(
+    ("heading", "expected"),
+    [
+        ("period [ms],horizontal [g]", "target.csv:1: is 'period [ms]'; give period [s]"),
+        ("period [s],horizontal [m/s2]", "is 'horizontal [m/s2]'; give horizontal [g]"),
+        ("period [s],sa [g],sa [g]", "target.csv:1: a second horizontal; give one"),
+        ("period,frequency,sa", "both frequency and period; give one of them"),
+        ("a,b", "target.csv: no row of headings in the first 10 rows; give frequency [Hz]"),
+        ("period [s],vertical [g]", "no row of headings"),
+    ],
+)
+def test_headings_that_cannot_be_told_are_refused(tmp_path, heading, expected):
+    found = problems(text(tmp_path, heading + "\n0.01,1,1\n5,1,1\n"))
+    assert any(expected in problem for problem in found)
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("", "has no rows of numbers; give at least 2"),
+        ("0.1,1\n", "has 1 row of numbers; give at least 2"),
+        ("0.1,1\n50,1\n50,2\n", "50 Hz (0.02 s) is there twice"),
+        ("0.5,1\n50,1\n", "reaches from 0.5 to 50 Hz; give 0.3 to 33.3 Hz (periods from 0.03"),
+        ("0.1,1\n20,1\n", "reaches from 0.1 to 20 Hz"),
+    ],
+)
+def test_a_table_too_short_is_refused(tmp_path, body, expected):
+    (found,) = problems(text(tmp_path, "frequency [Hz],horizontal [g]\n" + body))
+    assert expected in found
+
+
+def test_periods_printed_to_two_decimals_reach_the_band(tmp_path):
+    found = read_target(text(tmp_path, "period [s],horizontal [g]\n0.03,1\n3.33,0.3\n"))
+    assert found.freq_hz.tolist() == [1 / 3.33, 1 / 0.03]
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("!Nothing", "spectra.xlsx: has no sheet 'Nothing'; give one of 'Target', 'Notes'"),
+        ("", "spectra.xlsx: has 2 sheets; write spectra.xlsx!Sheet, one of 'Target', 'Notes'"),
+        ("!Notes", "spectra.xlsx!Notes: no row of headings"),
+    ],
+)
+def test_a_sheet_that_is_not_there_is_told(tmp_path, name, expected):
+    (found,) = problems(f"{book(tmp_path, ROWS)}{name}")
+    assert expected in found
+
+
+def test_formulas_never_computed_are_told(tmp_path):
+    rows = [list(row) for row in ROWS]
+    rows[1][1] = "=1+1"
+    (found,) = problems(f"{book(tmp_path, rows)}!Target")
+    assert found.startswith("Target!B2: horizontal ")
+    assert "=1+1" in found
+
+
+def test_far_away_cells_and_long_files_are_refused(tmp_path):
+    path = book(tmp_path, [*ROWS, *[(None,)] * (MAX_ROWS + 10), (1.0,)])
+    (found,) = problems(f"{path}!Target")
+    assert f"Target!A{MAX_ROWS + 17}: holds something beyond row" in found
+    long = "period,sa\n" + "1,1\n" * (MAX_ROWS + 10)
+    assert f"give at most {MAX_ROWS} rows" in problems(text(tmp_path, long))[0]
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        (b"\x00\x01", "not a text file"),
+        (b"period,sa\n\xff\xfe", "cannot be read as text"),
+        (b'period,"sa\n', "not csv"),
+        (b"x" * 1_000_001, "larger than 1 MB"),
+    ],
+)
+def test_what_is_no_table_is_told(tmp_path, content, expected):
+    assert expected in problems(text(tmp_path, content))[0]
+
+
+def test_what_is_no_workbook_is_told(tmp_path):
+    path = tmp_path / "spectra.xlsx"
+    path.write_bytes(b"PK nonsense")
+    assert "not a workbook, or cut short" in problems(f"{path}!Target")[0]
+    assert "no such file" in problems(tmp_path / "none.csv")[0]
+    assert "no such file" in problems(f"{tmp_path / 'none.xlsx'}!Target")[0]
+
+
+def test_between_its_rows_a_target_is_straight_on_log_log_axes(tmp_path):
+    from solver.synthesis import target_sa_g
+
+    found = read_target(text(tmp_path, "frequency,sa\n0.1,0.1\n100,10\n"))
+    between = target_sa_g(found.horizontal, np.array([math.sqrt(10.0)]))
+    assert between == pytest.approx([1.0], rel=1e-12)

@@ -1,0 +1,201 @@
+"""Modes of uniform buildings, against finite elements, many digits and textbook values."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+import scipy.linalg
+
+from solver.building.beam import beam_modes, floor_stiffness, storey_modes
+from solver.model import InputError
+
+ALPHAS = [0.0, 0.3, 1.0, 2.0, 5.0, 12.5, 30.0, 200.0]
+
+
+def finite_elements(alpha0, heights, count=48):
+    """Period ratios and factors of the first four modes by cubic elements, consistent masses."""
+    size = 1.0 / count
+    bending = np.array(
+        [
+            [12, 6 * size, -12, 6 * size],
+            [6 * size, 4 * size**2, -6 * size, 2 * size**2],
+            [-12, -6 * size, 12, -6 * size],
+            [6 * size, 2 * size**2, -6 * size, 4 * size**2],
+        ]
+    )
+    shear = np.array(
+        [
+            [36, 3 * size, -36, 3 * size],
+            [3 * size, 4 * size**2, -3 * size, -(size**2)],
+            [-36, -3 * size, 36, -3 * size],
+            [3 * size, -(size**2), -3 * size, 4 * size**2],
+        ]
+    )
+    mass = np.array(
+        [
+            [156, 22 * size, 54, -13 * size],
+            [22 * size, 4 * size**2, 13 * size, -3 * size**2],
+            [54, 13 * size, 156, -22 * size],
+            [-13 * size, -3 * size**2, -22 * size, 4 * size**2],
+        ]
+    )
+    stiff, heavy = np.zeros((2, 2 * count + 2, 2 * count + 2))
+    for k in range(0, 2 * count, 2):
+        stiff[k : k + 4, k : k + 4] += bending / size**3 + alpha0**2 * shear / (30 * size)
+        heavy[k : k + 4, k : k + 4] += mass * size / 420
+    rigid = np.tile([1.0, 0.0], count + 1)
+    gains = (heavy @ rigid)[2:]
+    stiff, heavy = stiff[2:, 2:], heavy[2:, 2:]
+    squares, shapes = scipy.linalg.eigh(stiff, heavy)
+    gains = gains @ shapes
+    at = [2 * round(x * count) - 2 for x in heights]
+    return np.sqrt(squares[0] / squares[:4]), (gains[:4, None] * shapes[at].T[:4])
+
+
+@pytest.mark.parametrize("alpha0", ALPHAS[:-2])
+def test_modes_agree_with_finite_elements(alpha0):
+    heights = [0.25, 0.5, 0.75, 1.0]
+    found = beam_modes(alpha0, 4, heights)
+    ratios, factors = finite_elements(alpha0, heights)
+    np.testing.assert_allclose(found.period_ratios, ratios, rtol=2e-5)
+    np.testing.assert_allclose(found.factors, factors, atol=2e-6)
+
+
+@pytest.mark.parametrize("alpha0", ALPHAS[:-1])
+@pytest.mark.parametrize("n", [1, 2, 7])
+def test_modes_solve_their_equation_to_rounding(alpha0, n):
+    """Shape, frequency and participation with 40 digits, from the boundary conditions alone."""
+    found = beam_modes(alpha0, n, [0.37, 1.0])
+    with mpmath.workdps(40):
+        a = mpmath.mpf(alpha0)
+        gammas = [_root(a, k) for k in (1, n)]
+        gamma, first = gammas[1], gammas[0]
+        beta = mpmath.sqrt(gamma**2 + a**2)
+        ratio = first * mpmath.sqrt(first**2 + a**2) / (gamma * beta)
+        matrix = _conditions(gamma, beta, a)
+        c, d = -matrix[0, 1], matrix[0, 0]
+
+        def shape(x):
+            one = mpmath.sin(gamma * x) - gamma / beta * mpmath.sinh(beta * x)
+            return c * one + d * (mpmath.cosh(beta * x) - mpmath.cos(gamma * x))
+
+        nodes, weights = np.polynomial.legendre.leggauss(40)
+        at = (np.arange(4)[:, None] + 0.5 * (1.0 + nodes)).ravel() / 4.0
+        values = [shape(mpmath.mpf(x)) for x in at]
+        shares = np.tile(weights, 4) / 8.0
+        whole = sum(w * v for w, v in zip(shares, values, strict=True))
+        squared = sum(w * v * v for w, v in zip(shares, values, strict=True))
+        factors = [float(whole / squared * shape(mpmath.mpf(x))) for x in (0.37, 1.0)]
+    np.testing.assert_allclose(found.period_ratios[-1], float(ratio), rtol=1e-12)
+    np.testing.assert_allclose(found.factors[-1], factors, rtol=1e-11)
+
+
+def _conditions(gamma, beta, a):
+    """No moment and no shear at the top, of the two shapes that are clamped at the base."""
+    s, c = mpmath.sin(gamma), mpmath.cos(gamma)
+    sh, ch = mpmath.sinh(beta), mpmath.cosh(beta)
+    return mpmath.matrix(
+        [
+            [-(gamma**2) * s - gamma * beta * sh, beta**2 * ch + gamma**2 * c],
+            [
+                -(gamma**3) * c - gamma * beta**2 * ch - a**2 * gamma * (c - ch),
+                beta**3 * sh - gamma**3 * s - a**2 * (beta * sh + gamma * s),
+            ],
+        ]
+    )
+
+
+def _root(a, n):
+    def condition(gamma):
+        beta = mpmath.sqrt(gamma**2 + a**2)
+        matrix = _conditions(gamma, beta, a)
+        return matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
+
+    low, high = (n - 1) * mpmath.pi + mpmath.mpf("1e-6"), n * mpmath.pi
+    assert condition(low) * condition(high) < 0
+    for _ in range(130):
+        middle = (low + high) / 2
+        same = condition(middle) * condition(low) > 0
+        low, high = (middle, high) if same else (low, middle)
+    return low
+
+
+def test_a_beam_that_only_bends_has_the_textbook_values():
+    found = beam_modes(0.0, 4)
+    gamma = np.array([1.8751040687, 4.6940911330, 7.8547574382, 10.9955407349])
+    np.testing.assert_allclose(1.0 / found.period_ratios, (gamma / gamma[0]) ** 2, rtol=1e-9)
+    np.testing.assert_allclose(found.factors[:, 0], [1.5660, -0.8679, 0.5089, -0.3638], atol=1e-4)
+
+
+def test_a_beam_that_only_shears_has_odd_ratios_and_sines():
+    found = beam_modes(math.inf, 5, [0.5, 1.0])
+    odd = np.array([1.0, 3.0, 5.0, 7.0, 9.0])
+    signs = np.array([1.0, -1.0, 1.0, -1.0, 1.0])
+    np.testing.assert_allclose(1.0 / found.period_ratios, odd, rtol=1e-14)
+    np.testing.assert_allclose(found.factors[:, 1], 4.0 / math.pi * signs / odd, rtol=1e-14)
+    assert found.factors[0, 0] == pytest.approx(4.0 / math.pi * math.sin(math.pi / 4))
+
+
+def test_much_shear_stiffness_comes_near_the_shear_beam():
+    near, limit = beam_modes(1000.0, 6), beam_modes(math.inf, 6)
+    np.testing.assert_allclose(near.period_ratios, limit.period_ratios, rtol=1e-3)
+    np.testing.assert_allclose(near.factors, limit.factors, rtol=2e-3)
+
+
+@pytest.mark.parametrize("alpha0", [*ALPHAS, math.inf])
+def test_factors_of_all_modes_sum_to_one_at_any_height(alpha0):
+    sums = np.cumsum(beam_modes(alpha0, 4000, [0.4, 1.0]).factors, axis=0)
+    np.testing.assert_allclose(sums[-1], 1.0, atol=1e-3)
+
+
+@pytest.mark.parametrize("storeys", [1, 2, 3, 8, 40, 100])
+def test_a_shear_building_of_storeys_has_its_closed_form(storeys):
+    found = storey_modes(math.inf, storeys)
+    angle = (2 * np.arange(1, storeys + 1) - 1) * math.pi / (2 * storeys + 1)
+    frequency = np.sin(angle / 2)
+    np.testing.assert_allclose(found.period_ratios, frequency[0] / frequency, rtol=1e-9)
+    floors = np.arange(1, storeys + 1)
+    shapes = np.sin(angle[:, None] * floors)
+    expected = shapes.sum(axis=1) * shapes[:, -1] / (shapes**2).sum(axis=1)
+    np.testing.assert_allclose(found.factors[:, 0], expected, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("alpha0", [0.0, 3.0, math.inf])
+def test_many_storeys_become_the_beam_at_first_order_or_better(alpha0):
+    beam = beam_modes(alpha0, 3)
+    off = [np.abs(storey_modes(alpha0, n).factors[:3] - beam.factors).max() for n in (20, 40, 80)]
+    assert off[2] < 0.04
+    assert off[0] / off[1] > 1.75
+    assert off[1] / off[2] > 1.85
+
+
+@pytest.mark.parametrize("alpha0", [0.0, 3.0, math.inf])
+def test_one_storey_is_a_plain_oscillator(alpha0):
+    found = storey_modes(alpha0, 1)
+    assert found.period_ratios == pytest.approx([1.0])
+    assert found.factors == pytest.approx(np.array([[1.0]]))
+
+
+def test_floors_bend_as_a_cantilever_under_a_load_at_its_top():
+    loads = np.zeros(6)
+    loads[-1] = 1.0
+    x = np.arange(1, 7) / 6
+    bent = np.linalg.solve(floor_stiffness(0.0, 6), loads)
+    np.testing.assert_allclose(bent, x**2 * (3.0 - x) / 6.0, rtol=1e-9)
+    sheared = np.linalg.solve(floor_stiffness(math.inf, 6), loads)
+    np.testing.assert_allclose(sheared, x, rtol=1e-12)
+
+
+@pytest.mark.parametrize("alpha0", [-0.1, 1001.0, math.nan, -math.inf])
+def test_a_stiffness_ratio_out_of_range_is_refused(alpha0):
+    with pytest.raises(InputError, match="give 0 to 1000, or infinite"):
+        beam_modes(alpha0, 3)
+    with pytest.raises(InputError, match="give 0 to 1000, or infinite"):
+        storey_modes(alpha0, 3)
+
+
+@pytest.mark.parametrize("storeys", [0, -1, 101])
+def test_storeys_out_of_range_are_refused(storeys):
+    with pytest.raises(InputError, match="whole number from 1 to 100"):
+        storey_modes(1.0, storeys)

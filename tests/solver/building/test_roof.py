@@ -1,0 +1,357 @@
+"""From ground to roof, against matrix exponentials, all floors at once and closed forms."""
+
+import math
+from itertools import pairwise
+
+import numba
+import numpy as np
+import pytest
+import scipy.linalg
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solver.building.beam import floor_stiffness
+from solver.building.roof import (
+    FINENESS,
+    MOST_STEPS,
+    RESTING_SHARE,
+    absolute_accelerations,
+    building_of_modes,
+    building_of_periods,
+    lengthened,
+    roof_motion,
+    shaking_to_roof,
+    to_roof,
+)
+from solver.building.structure import BEAM_MODES
+from solver.model import InputError
+
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="records take minutes without compiled kernels"
+)
+
+
+@pytest.fixture(scope="module")
+def ground(noise):
+    return noise[:1200].copy()
+
+
+def stepped(system, load, a, dt, rows):
+    """Answer of x' = A x + B a(t) to straight lines between samples, by one matrix exponential."""
+    n = len(system)
+    whole = np.zeros((n + 2, n + 2))
+    whole[:n, :n], whole[:n, n] = system * dt, load * dt
+    whole[n, n + 1] = 1.0
+    move = scipy.linalg.expm(whole)
+    x, found = np.zeros(n), [np.zeros(len(rows))]
+    for before, now in pairwise(a):
+        x = move[:n, :n] @ x + move[:n, n] * before + move[:n, n + 1] * (now - before)
+        found.append(rows @ x)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("zeta", [0.0, 0.01, 0.05, 0.6])
+@pytest.mark.parametrize("period_s", [0.004, 0.02, 0.3, 2.0, 60.0])
+def test_an_oscillator_agrees_with_the_matrix_exponential(ground, period_s, zeta):
+    w, dt = 2.0 * math.pi / period_s, 0.01
+    system = np.array([[0.0, 1.0], [-(w**2), -2.0 * zeta * w]])
+    rows = np.array([[-(w**2), -2.0 * zeta * w]])
+    expected = stepped(system, np.array([0.0, -1.0]), ground, dt, rows)[:, 0]
+    found = absolute_accelerations(ground, dt, [period_s], [zeta])[:, 0]
+    assert np.abs(found - expected).max() < 1e-10 * np.abs(expected).max()
+
+
+def test_a_step_gives_the_closed_form():
+    dt, w, zeta = 0.01, 7.0, 0.03
+    t = np.arange(800) * dt
+    found = absolute_accelerations(np.ones(800), dt, [2 * math.pi / w], [zeta])[:, 0]
+    kappa = math.sqrt(1.0 - zeta**2)
+    wave = np.cos(kappa * w * t) - zeta / kappa * np.sin(kappa * w * t)
+    np.testing.assert_allclose(found, 1.0 - np.exp(-zeta * w * t) * wave, atol=1e-13)
+
+
+def test_without_damping_energy_stays_after_the_shaking():
+    dt, a = 0.01, np.append(np.sin(np.arange(300) * 0.07), np.zeros(700))
+    w = 2.0 * math.pi / 0.8
+    free = absolute_accelerations(a, dt, [0.8], [0.0])[301:, 0]
+    # For u'' = -w^2 u the slope of the acceleration, over w, is the other part of the energy.
+    slope = (free[2:] - free[:-2]) / (2.0 * math.sin(w * dt))
+    np.testing.assert_allclose(
+        free[1:-1] ** 2 + slope**2, (free[1] ** 2 + slope[0] ** 2), rtol=1e-9
+    )
+
+
+@pytest.mark.parametrize(("alpha0", "storeys"), [(math.inf, 1), (math.inf, 4), (0.0, 3), (2.5, 6)])
+def test_a_roof_agrees_with_the_equations_of_all_floors_at_once(ground, alpha0, storeys):
+    """K and M of the floors, damping of the same ratio in every mode, no modes superposed."""
+    zeta, period_s, dt = 0.04, 0.7, 0.01
+    stiff = floor_stiffness(alpha0, storeys)
+    squares = np.linalg.eigvalsh(stiff)
+    stiff = stiff * (2.0 * math.pi / period_s) ** 2 / squares[0]
+    damp = 2.0 * zeta * scipy.linalg.sqrtm(stiff).real
+    none, one = np.zeros((storeys, storeys)), np.eye(storeys)
+    system = np.block([[none, one], [-stiff, -damp]])
+    load = np.concatenate([np.zeros(storeys), -np.ones(storeys)])
+    rows = np.hstack([-stiff, -damp])[-1:]
+    expected = stepped(system, load, ground, dt, rows)[:, 0]
+    building = building_of_periods([period_s], damping=[zeta], alpha0=alpha0, storeys=storeys)
+    assert to_roof(ground, dt, building, share=0.0).n_modes == storeys
+    found = roof_motion(ground, dt, building, share=0.0)[:1200]
+    assert np.abs(found - expected)[1:].max() < 1e-8 * np.abs(expected).max()
+
+
+def test_a_steady_wave_is_passed_with_the_textbook_transmissibility():
+    dt, period_s, zeta = 0.002, 0.5, 0.1
+    building = building_of_periods([period_s], damping=[zeta], storeys=1)
+    for ratio in (0.3, 0.9, 1.0, 1.5, 3.0):
+        w = ratio * 2.0 * math.pi / period_s
+        t = np.arange(round(20.0 / dt)) * dt
+        roof = roof_motion(np.sin(w * t), dt, building, share=0.0)[: t.size]
+        last = roof[-int(2.0 * math.pi / w / dt) - 2 :]
+        damped = (2.0 * zeta * ratio) ** 2
+        expected = math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped))
+        assert np.abs(last).max() == pytest.approx(expected, rel=1e-3)
+
+
+def apart(one, other):
+    """Largest difference over the time that both have."""
+    n = min(one.size, other.size)
+    return np.abs(one[:n] - other[:n]).max()
+
+
+def slowest(building, count):
+    """The first modes of a building, as those of another one."""
+    return building_of_modes(
+        building.periods_s[:count].tolist(),
+        building.damping[:count].tolist(),
+        building.roof_factors[:count].tolist(),
+    )
+
+
+def test_as_few_modes_as_keep_the_rest_under_the_share(ground):
+    building = building_of_periods([1.2], alpha0=5.0)
+    every = to_roof(ground, 0.01, building, share=0.0)
+    whole = roof_motion(ground, 0.01, building, share=0.0)
+    assert every.n_modes == BEAM_MODES
+    assert every.left_out_share == every.next_share == 0.0
+    counts = []
+    for share in (0.3, 0.1, 0.05, 0.01):
+        found = to_roof(ground, 0.01, building, share=share)
+        off = apart(roof_motion(ground, 0.01, building, share=share), whole)
+        assert off <= 1.001 * found.left_out_share * every.roof_peak_mps2
+        assert found.left_out_share <= share
+        assert found.next_share == found.shares[found.n_modes]
+        counts.append(found.n_modes)
+        # One mode fewer would leave more out than that, seen at the ground's samples alone.
+        fewer = slowest(building, found.n_modes - 1)
+        less = roof_motion(ground, 0.01, fewer, share=0.0)
+        assert apart(less, whole) > 0.9 * share * every.roof_peak_mps2
+    assert counts == sorted(counts)
+    assert len(set(counts)) == len(counts)
+
+
+@pytest.mark.parametrize(("period_s", "storeys"), [(0.3, 3), (0.5, 5), (0.8, 8)])
+def test_what_is_left_out_is_seen_between_the_samples_too(noise, period_s, storeys):
+    # The modes left out swing fastest: their peaks are missed at the samples.
+    ground, building = noise[::3], building_of_periods([period_s], storeys=storeys)
+    found = to_roof(ground, 0.03, building, share=0.1)
+    at = np.arange(16 * (ground.size - 1) + 1) / 16
+    finer = to_roof(np.interp(at, np.arange(ground.size), ground), 0.03 / 16, building, share=0.1)
+    assert found.left_out_share == pytest.approx(finer.left_out_share, rel=0.012)
+
+
+def test_a_stiff_building_takes_the_ground_to_the_roof(ground):
+    found = to_roof(ground, 0.01, building_of_periods([0.002], storeys=1))
+    assert found.n_modes == 0
+    np.testing.assert_array_equal(found.a_mps2[:1200], ground)
+    assert 0.0 < found.next_share == found.left_out_share < 0.05
+
+
+def test_a_still_ground_gives_a_still_roof():
+    found = to_roof(np.zeros(50), 0.01, building_of_periods([1.0]))
+    assert found.a_mps2.tolist() == [0.0] * 50
+    assert (found.n_modes, found.pad_s, found.roof_peak_mps2) == (0, 0.0, 0.0)
+    assert not found.shares.any()
+
+
+def test_the_motion_goes_on_until_the_building_rests(ground):
+    building = building_of_periods([1.5], damping=[0.02], storeys=5)
+    found = to_roof(ground, 0.01, building)
+    longer = to_roof(lengthened(ground, 20000), 0.01, building)
+    n = found.a_mps2.size
+    assert found.pad_s == pytest.approx((n - 1200) * 0.01)
+    np.testing.assert_allclose(longer.a_mps2[:n], found.a_mps2, atol=1e-12)
+    assert np.abs(longer.a_mps2[n:]).max() <= RESTING_SHARE * found.roof_peak_mps2
+    assert np.abs(found.a_mps2[-2:]).max() <= 1.1 * RESTING_SHARE * found.roof_peak_mps2
+    assert found.a_mps2.size > 2000  # 40 s at this period and damping
+
+
+def test_a_ground_that_is_still_long_before_its_end_is_not_lengthened(ground):
+    found = to_roof(lengthened(ground, 9000), 0.01, building_of_periods([0.5]))
+    assert found.a_mps2.size == 8999 * round(0.01 / found.dt_s) + 1
+    assert found.pad_s == 0.0
+
+
+def test_the_step_is_refined_where_the_roof_would_swing_between_samples(ground):
+    """One storey of 0.12 s under a record of 0.02 s: as if the record itself had more samples."""
+    a, building = ground[::2], building_of_periods([0.12], storeys=1)
+    found = to_roof(a, 0.02, building)
+    steps = 4
+    assert found.dt_s == pytest.approx(0.02 / steps)
+    n = (a.size - 1) * steps + 1
+    fine = np.interp(np.arange(16 * (a.size - 1) + 1) / 16, np.arange(a.size), a)
+    true = roof_motion(fine, 0.02 / 16, building)
+    np.testing.assert_allclose(found.a_mps2[:n], true[: fine.size : 4], atol=1e-12)
+    # What straight lines between its samples miss, and what those of the record would.
+    t = np.arange(fine.size)
+    peak = np.abs(true).max()
+    missed = np.abs(np.interp(t, t[::4], found.a_mps2[:n]) - true[: t.size]).max()
+    coarse = np.abs(np.interp(t, t[::16], true[: t.size : 16]) - true[: t.size]).max()
+    assert missed < 0.015 * peak
+    assert coarse > 0.04 * peak
+    np.testing.assert_array_equal(roof_motion(a, 0.02, building), found.a_mps2[::steps])
+
+
+@pytest.mark.parametrize(
+    ("period_s", "dt_s", "steps"),
+    [(0.5, 0.01, 1), (0.2, 0.01, 1), (0.19, 0.01, 2), (0.1, 0.08, 16)],
+)
+def test_a_period_has_twenty_samples_or_an_interval_sixteen_steps(ground, period_s, dt_s, steps):
+    found = to_roof(ground, dt_s, building_of_periods([period_s], storeys=1), share=0.0)
+    assert dt_s / found.dt_s == pytest.approx(steps)
+    assert found.dt_s <= period_s / FINENESS * (1.0 + 1e-9)
+    assert steps <= MOST_STEPS
+
+
+def test_all_components_have_one_step_and_one_length(ground):
+    vertical = 0.5 * ground[:1000]
+    slow, fast = (building_of_periods([t], storeys=1) for t in (2.0, 0.15))
+    found = shaking_to_roof([ground, ground[::-1]], vertical, 0.01, [slow, fast])
+    assert found.dt_s == pytest.approx(0.005)
+    sizes = {found.vertical_mps2.size, *(one.a_mps2.size for one in found.horizontal)}
+    assert len(sizes) == 1
+    for one, a, building in zip(
+        found.horizontal, (ground, ground[::-1]), (slow, fast), strict=True
+    ):
+        assert one.dt_s == found.dt_s
+        assert one.pad_s == pytest.approx((one.a_mps2.size - 2399) * 0.005)
+        alone = roof_motion(a, 0.01, building)
+        np.testing.assert_allclose(one.a_mps2[::2][: alone.size - 1], alone[:-1], atol=1e-12)
+    np.testing.assert_array_equal(found.vertical_mps2[: 2 * 1000 : 2], vertical)
+    assert not found.vertical_mps2[2 * 1000 :].any()
+    np.testing.assert_allclose(
+        found.vertical_mps2[1:1999:2], 0.5 * (vertical[1:] + vertical[:-1]), atol=1e-15
+    )
+
+
+def test_without_vertical_there_is_none_at_the_roof(ground):
+    found = shaking_to_roof([ground], [], 0.01, [building_of_periods([0.5])])
+    assert found.vertical_mps2.size == 0
+
+
+def test_nothing_is_added_where_nothing_is_needed(ground):
+    a = lengthened(ground, 9000)
+    found = shaking_to_roof([a], a, 0.01, [building_of_periods([0.5], storeys=1)])
+    assert found.vertical_mps2.size == found.horizontal[0].a_mps2.size == 9000
+    np.testing.assert_array_equal(found.vertical_mps2, a)
+
+
+@settings(max_examples=20, deadline=None)
+@given(
+    period_s=st.floats(0.05, 6.0),
+    factor=st.floats(0.01, 100.0),
+    alpha0=st.sampled_from([0.0, 1.0, 8.0, math.inf]),
+    storeys=st.sampled_from([0, 1, 2, 12]),
+)
+def test_twice_the_ground_is_twice_the_roof(ground, period_s, factor, alpha0, storeys):
+    building = building_of_periods([period_s], alpha0=alpha0, storeys=storeys)
+    one, other = (roof_motion(f * ground, 0.01, building) for f in (1.0, -factor))
+    np.testing.assert_allclose(other, -factor * one, atol=1e-9 * factor)
+
+
+def test_arrays_are_read_only_and_nothing_given_is_changed(ground):
+    before = ground.copy()
+    found = to_roof(ground, 0.01, building_of_periods([1.0]))
+    np.testing.assert_array_equal(ground, before)
+    given = building_of_modes(own := np.array([0.5]), [0.05], [1.0])
+    own[0] = 2.0
+    assert given.periods_s.tolist() == [0.5]
+    for array in (found.a_mps2, found.shares, found.building.periods_s):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+    assert found.ground_peak_mps2 == np.abs(ground).max()
+    assert found.roof_peak_mps2 == np.abs(found.a_mps2).max()
+
+
+def test_given_periods_are_kept_and_higher_ones_follow_the_last():
+    building = building_of_periods([1.0, 0.4], damping=[0.03, 0.05, 0.08])
+    np.testing.assert_allclose(building.periods_s[:4], [1.0, 0.4, 0.4 * 3 / 5, 0.4 * 3 / 7])
+    assert building.damping[:4].tolist() == [0.03, 0.05, 0.08, 0.08]
+    assert building.periods_s.size == BEAM_MODES
+    assert "period 1, 0.4 s; damping 3, 5, 8 % of critical" in building.words
+
+
+def test_a_building_has_no_more_modes_than_storeys():
+    building = building_of_periods([1.0, 0.4, 0.2], damping=[0.03, 0.05, 0.06], storeys=2)
+    assert building.periods_s.tolist() == [1.0, 0.4]
+    assert building.damping.tolist() == [0.03, 0.05]
+    assert building.roof_factors.sum() == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("alpha0", "storeys", "words"),
+    [
+        (math.inf, 0, "uniform, in shear;"),
+        (0.0, 4, "4 equal storeys, in bending;"),
+        (3.0, 0, "in shear and bending with a lateral stiffness ratio of 3;"),
+        (3.0, 1, "one storey;"),
+    ],
+)
+def test_a_building_says_how_it_was_made(alpha0, storeys, words):
+    assert words in building_of_periods([1.0], alpha0=alpha0, storeys=storeys).words
+
+
+def test_modes_of_an_analysis_are_taken_as_they_are():
+    building = building_of_modes([0.8, 0.3], [0.05, 0.05], [1.3, -0.4])
+    assert building.roof_factors.tolist() == [1.3, -0.4]
+    assert building.words == "2 modes as given, roof factors adding up to 0.900"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"periods_s": [0.0]}, "period: found 0.0 s; give above 0 to 10 s"),
+        ({"periods_s": [11.0]}, "period: found 11.0 s"),
+        ({"periods_s": [math.nan]}, "period: found nan s"),
+        ({"periods_s": [0.4, 1.0]}, "give the longest first"),
+        ({"periods_s": []}, "at least one period"),
+        ({"periods_s": [1.0], "damping": [5.0]}, "damping: found 5.0; give a fraction"),
+        ({"periods_s": [1.0], "damping": []}, "one damping"),
+        ({"periods_s": [1.0], "alpha0": -1.0}, "lateral stiffness ratio: found -1.0"),
+        ({"periods_s": [1.0], "storeys": 101}, "storeys: found 101"),
+        ({"periods_s": [1.0], "storeys": -1}, "0 for a beam"),
+    ],
+)
+def test_what_cannot_be_a_building_is_refused(arguments, said):
+    with pytest.raises(InputError, match=said):
+        building_of_periods(**arguments)
+
+
+def test_modes_that_do_not_match_are_refused():
+    for factors in ([1.3], [1.3, math.nan]):
+        with pytest.raises(InputError, match="a period, a damping and a roof factor for each"):
+            building_of_modes([0.8, 0.3], [0.05, 0.05], factors)
+
+
+@pytest.mark.parametrize(
+    ("a", "dt_s", "share", "said"),
+    [
+        ([1.0], 0.01, 0.05, "two or more finite numbers"),
+        ([1.0, math.inf], 0.01, 0.05, "two or more finite numbers"),
+        ([1.0, 2.0], 0.0, 0.05, "time step"),
+        ([1.0, 2.0], 0.01, 1.0, "share of modes"),
+    ],
+)
+def test_what_cannot_be_a_motion_is_refused(a, dt_s, share, said):
+    with pytest.raises(InputError, match=said):
+        to_roof(a, dt_s, building_of_periods([1.0]), share=share)

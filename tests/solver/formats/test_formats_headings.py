@@ -1,0 +1,143 @@
+"""Headings and units. Oracle: the meaning of each, typed by hand."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from solver.formats.headings import Kind, parse, remark, settled, step_in, units_in, words
+from solver.records.record import UNITS
+from solver.records.units import UNIT_CHOICES, is_other_unit, unit_size
+
+G = 9.80665
+
+
+@pytest.mark.parametrize(
+    ("text", "size"),
+    [
+        ("g", G),
+        ("G", G),
+        ("g/10", G / 10),
+        ("%g", G / 100),
+        ("mg", G / 1000),
+        ("gal", 0.01),
+        ("Gals", 0.01),
+        ("m/s2", 1.0),
+        ("m/s/s", 1.0),
+        ("m/s**2", 1.0),
+        ("m/s^2", 1.0),
+        ("m/s²", 1.0),
+        ("m/sec/sec", 1.0),
+        ("m s-2", 1.0),
+        ("m·s⁻²", 1.0),
+        ("m_s2", 1.0),
+        ("mps2", 1.0),
+        ("CM/SEC/SEC", 0.01),
+        ("cm/sec2", 0.01),
+        ("mm/s/s", 0.001),
+        ("ft/s2", 0.3048),
+        ("in/s2", 0.0254),
+    ],
+)
+def test_spellings_of_a_unit_have_its_size(text: str, size: float) -> None:
+    assert unit_size(text) == pytest.approx(size, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "cm", "cm/s", "s", "volt", "counts", "km/s2", "gallon", "ms2"]
+)
+def test_other_words_are_no_acceleration(text: str) -> None:
+    assert math.isnan(unit_size(text))
+
+
+def test_units_to_choose_from_are_those_of_records_and_gal() -> None:
+    assert (*UNITS, "gal") == UNIT_CHOICES
+    assert [is_other_unit(text) for text in ("cm", "CM/SEC", "m/s", "in", "g", "s")] == [
+        True,
+        True,
+        True,
+        True,
+        False,
+        False,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "kind", "unit"),
+    [
+        ("t", "t", Kind.TIME, ""),
+        ("t_s", "t", Kind.TIME, "s"),
+        ("Time (sec)", "Time", Kind.TIME, "sec"),
+        ("time_ms", "time", Kind.TIME, "ms"),
+        ("elapsed [s]", "elapsed", Kind.TIME, "s"),
+        ("Zeit", "Zeit", Kind.TIME, ""),
+        ("chan_s", "chan_s", Kind.UNSAID, ""),
+        ("acc_g", "acc", Kind.ACCELERATION, "g"),
+        ("acc_x_cm/s2", "acc_x", Kind.ACCELERATION, "cm/s2"),
+        ("a_m_s2", "a", Kind.ACCELERATION, "m_s2"),
+        ("EW [cm/s2]", "EW", Kind.ACCELERATION, "cm/s2"),
+        ('"Acc (gal)"', "Acc", Kind.ACCELERATION, "gal"),
+        ("a in gal", "a", Kind.ACCELERATION, "gal"),
+        ("[g]", "", Kind.ACCELERATION, "g"),
+        ("vel_cm/s", "vel", Kind.OTHER, "cm/s"),
+        ("d [in]", "d", Kind.OTHER, "in"),
+        ("plug_in", "plug_in", Kind.UNSAID, ""),
+        ("NS", "NS", Kind.UNSAID, ""),
+        ("acc [filtered]", "acc [filtered]", Kind.UNSAID, ""),
+        ("acc g", "acc g", Kind.UNSAID, ""),
+    ],
+)
+def test_a_heading_says_name_kind_and_unit(text: str, name: str, kind: Kind, unit: str) -> None:
+    heading = parse(text)
+    assert (heading.name, heading.kind, heading.unit) == (name, kind, unit)
+    assert heading.seconds == (0.001 if unit == "ms" else 1.0)
+
+
+def test_words_keep_their_brackets() -> None:
+    assert words("Time [s] Acc (cm/s2) NS", None) == ["Time [s]", "Acc (cm/s2)", "NS"]
+    assert words("t;a b;c", ";") == ["t", "a b", "c"]
+
+
+def test_a_remark_names_columns_only_where_it_begins_with_time() -> None:
+    prose = "t_s,acc_g  San Francisco, 575 Market, 42nd floor"
+    assert [heading.name for heading in remark(prose, ",", 2)] == ["t", "acc"]
+    assert remark("made by hand, long ago", ",", 2) == []
+    assert remark("t_s", ",", 2) == []
+    assert remark("t_s", None, 1) == []
+
+
+def test_a_letter_g_is_a_unit_only_where_all_state_one() -> None:
+    assert [h.unit for h in settled([*map(parse, ("t", "ch_f", "ch_g"))])] == ["", "", ""]
+    assert [h.unit for h in settled([*map(parse, ("t", "ch_gal", "ch_g"))])] == ["", "gal", "g"]
+
+
+@pytest.mark.parametrize(
+    ("line", "units"),
+    [
+        ("units: cm/s2", ["cm/s2"]),
+        ("Units = gal, dt = 0.01", ["gal"]),
+        ("accelerations in units of g.", ["g"]),
+        ("a in m/s², north", ["m/s²"]),
+        ("roof acceleration [g]", ["g"]),
+        ("acc_gal", ["gal"]),
+        ("in the north [roof]", []),
+        ("units unknown", []),
+    ],
+)
+def test_prose_may_state_units(line: str, units: list[str]) -> None:
+    assert list(dict.fromkeys(units_in(line))) == units
+
+
+@pytest.mark.parametrize(
+    ("line", "step"),
+    [
+        ("dt = 0.005 s", ("0.005", 1.0)),
+        ("dt_s: 5e-3", ("5e-3", 1.0)),
+        ("DT[s]=.01", (".01", 1.0)),
+        ("time step: 5 ms", ("5", 0.001)),
+        ("width = 3", ("", 1.0)),
+    ],
+)
+def test_prose_may_state_a_time_step(line: str, step: tuple[str, float]) -> None:
+    assert step_in(line) == step

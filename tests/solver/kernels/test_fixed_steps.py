@@ -1,0 +1,58 @@
+"""Fixed steps in two axes: they tend to the solver's motion, and are told apart at a stop."""
+
+import math
+import os
+
+import numpy as np
+import pytest
+
+from solver.kernels import fixed_steps
+from solver.sliding import two_axes
+from solver.verification.plane_scipy import samples_of
+from solver.verification.rungs import stopped_scene
+from uncompiled import assert_every_line_runs
+
+
+def run(scene, substeps, holds):
+    rows = samples_of(scene)
+    return fixed_steps.slide_fixed(rows, scene.dt_s, math.cos(scene.slope_rad), substeps, holds)
+
+
+@pytest.mark.parametrize("holds", [True, False])
+def test_the_error_falls_with_the_step(holds):
+    scene = stopped_scene()
+    found = two_axes.run(scene)
+    coarse, fine = (abs(run(scene, count, holds)[0] - found.prd_m) for count in (4, 1000))
+    assert fine < 0.2 * coarse
+    assert fine < 0.01 * found.prd_m
+
+
+def test_a_held_block_rests_and_one_without_a_rule_for_rest_chatters_and_drifts():
+    scene = stopped_scene()
+    found = two_axes.run(scene)
+    place = found.residual_m, found.residual_across_m
+    _, x, y, speed = run(scene, 10, True)
+    assert speed == 0.0
+    assert math.dist((x, y), place) < 0.01 * found.prd_m
+    _, x, y, speed = run(scene, 10, False)
+    assert speed > 1e-4
+    assert math.dist((x, y), place) > 0.1 * found.prd_m
+
+
+def test_a_pushed_block_at_rest_starts_with_what_friction_leaves():
+    rows = np.array([[3.0, 4.0, 2.0]] * 3)
+    prd, x, y, speed = fixed_steps.slide_fixed(rows, 0.1, 1.0, 1, True)
+    assert speed == pytest.approx(3.0 * 0.2)
+    assert (x, y) == pytest.approx((0.6 * 0.06, 0.8 * 0.06))
+    assert prd == pytest.approx(0.06)
+
+
+def test_a_free_block_at_rest_feels_no_friction_in_its_first_step():
+    rows = np.array([[3.0, 4.0, 2.0]] * 2)
+    _, _, _, speed = fixed_steps.slide_fixed(rows, 0.1, 1.0, 1, False)
+    assert speed == pytest.approx(0.5)
+
+
+@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+def test_every_line_is_run_with_the_compiler_off(tmp_path):
+    assert_every_line_runs("solver/kernels/fixed_steps.py", __file__, tmp_path)

@@ -1,0 +1,111 @@
+"""The kernels with the compiler off: the same bits, and every line run."""
+
+import math
+import os
+from itertools import product
+
+import numpy as np
+import pytest
+
+from solver.kernels import one_axis, oscillator
+from uncompiled import assert_every_line_runs
+
+G = 10.0
+
+
+def readonly(values):
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+# Horizontal samples, vertical samples, sine of the slope, friction, chosen so that together they
+# reach every line: pulses, reversals, dips to zero, equal samples, no friction, free sliding.
+SCENES = [
+    ([0.0, 4.0, 4.0, -8.0, 0.0, 0.0], [], 0.0, 0.2),
+    ([-4.0, 0.5, -8.0], [], 0.0, 0.2),
+    ([-4.0, 2.0, 2.0, -8.0], [], 0.0, 0.2),
+    ([2.0, 2.0, 2.0, -2.0, -2.0], [], 0.0, 0.2),
+    ([3.0, -3.0, 3.0, 3.0, -9.0, 5.0], [], 0.0, 0.0),
+    ([0.0, 0.0, 0.0, 0.0], [], 0.3, 0.1),
+    ([0.0, -6.0, 6.0, -6.0, 0.0, 0.0], [0.0, 2.0, -3.0, 1.0, 0.0, 0.0], 0.1, 0.4),
+    ([0.0, 0.0, -30.0, 0.0], [], 0.5, 0.4),
+    ([-30.0, 0.0, 0.0], [], 0.5, 0.4),
+    ([0.0, -20.0, 0.0, 12.0, 0.0], [], -0.6, 0.3),
+    # The speed comes down to touch zero at the vertex, within a rounding.
+    ([-4.0, 0.0, -4.0, -4.0], [], 0.0, 0.2),
+    ([0.0, -3.0, 1.0, -3.0, -3.0], [], 0.0, 0.1),
+    # Self-locking: no push can send it up the slope.
+    ([0.0, 8.0, 9.0, 0.0], [], 0.8, 1.5),
+    ([0.0, 8.0, 9.0, 0.0], [], 0.6, 0.75),
+    # The speed dips within an interval and stays above zero.
+    ([-8.0, -1.0, -8.0, 0.0], [], 0.0, 0.2),
+]
+
+
+def cosine(sn):
+    return float(np.sqrt(1.0 - sn * sn))
+
+
+def quiet_then_shaken(n):
+    """Long rest, a shock in its middle, long rest: whole blocks of samples to pass over."""
+    record = np.zeros(n)
+    record[n // 2 : n // 2 + 6] = [2.0, -6.0, -6.0, 5.0, 5.0, 0.0]
+    return record
+
+
+LONG = [
+    (quiet_then_shaken(1200), [], 0.05, 0.3),
+    (quiet_then_shaken(1200), 0.2 * quiet_then_shaken(1200), 0.05, 0.3),
+    (np.zeros(300), [], 0.4, 0.1),
+]
+
+
+def run_all(compiled):
+    """Return the outcome of every scene by every kernel, compiled or as plain Python."""
+    exact, fill, normal, bounds, sweep, peaks, oscillations = (
+        f if compiled else getattr(f, "py_func", f)
+        for f in (
+            one_axis.slide_exact,
+            one_axis.fill_history,
+            one_axis.least_normal,
+            one_axis.bounds,
+            one_axis.sweep_exact,
+            oscillator.peaks,
+            oscillator.histories,
+        )
+    )
+    found = []
+    for (horizontal, vertical, sn, mu), scale in product(SCENES + LONG, (1.0, 0.0)):
+        ax, cs = readonly(horizontal), cosine(sn)
+        az = readonly(vertical) if len(vertical) else None
+        x, z = bounds(ax), bounds(az) if az is not None else None
+        run = exact(ax, az, x, z, 0.25, sn, cs, mu, G, scale, None)
+        events = np.full((2 * run[5] + 1, 3), np.nan)
+        again = exact(ax, az, x, z, 0.25, sn, cs, mu, G, scale, events)
+        assert run == again
+        history = np.full((2, ax.size), np.nan)
+        fill(ax, az, 0.25, sn, cs, mu, G, scale, events[: run[6]], history)
+        found += [*run, *events.ravel(), *history.ravel()]
+        found += normal(ax, az, x, z, 0.25, sn, cs, G, scale)
+        out, scene = np.empty((1, 4)), np.array([[math.asin(sn), mu, scale]])
+        sweep(ax, az, x, z, 0.25, G, scene, out)
+        found += out.ravel().tolist()
+        for omega in (1e-6, 1e-2, 1.0, 50.0):
+            peak, at = np.empty(1), np.empty(1, dtype=np.int64)
+            peaks(ax, 0.25, np.array([omega]), 0.05, peak, at)
+            found += [peak[0], at[0]]
+        roofs = np.full((ax.size, 3), np.nan)
+        oscillations(ax, 0.25, readonly([0.0, 1e-2, 50.0]), readonly([0.05, 0.0, 0.3]), roofs)
+        found += roofs.ravel().tolist()
+    return np.array(found, dtype=float)
+
+
+def test_compiled_and_plain_kernels_give_the_same_bits():
+    np.testing.assert_array_equal(run_all(compiled=True), run_all(compiled=False))
+
+
+@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
+    assert_every_line_runs("solver/kernels/one_axis.py", __file__, tmp_path)
+    assert_every_line_runs("solver/kernels/oscillator.py", __file__, tmp_path / "oscillator")

@@ -1,0 +1,110 @@
+"""The rival methods with the compiler off: the same bits, and every line run."""
+
+import os
+
+import numpy as np
+import pytest
+
+from solver.kernels import rivals
+from uncompiled import assert_every_line_runs
+
+G = 10.0
+
+
+def readonly(values):
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+# Horizontal samples, vertical samples, sine of the slope, friction, chosen so that together they
+# reach every line: pulses, reversals, equal samples, no friction, free sliding, long rests.
+SCENES = [
+    ([0.0, 4.0, 4.0, -8.0, 0.0, 0.0], [], 0.0, 0.2),
+    ([-4.0, 0.5, -8.0], [], 0.0, 0.2),
+    ([2.0, 2.0, 2.0, -2.0, -2.0], [], 0.0, 0.2),
+    ([3.0, -3.0, 3.0, 3.0, -9.0, 5.0], [], 0.0, 0.0),
+    ([0.0, 0.0, 0.0, 0.0], [], 0.3, 0.1),
+    ([0.0, -6.0, 6.0, -6.0, 0.0, 0.0], [0.0, 2.0, -3.0, 1.0, 0.0, 0.0], 0.1, 0.4),
+    ([0.0, -20.0, 0.0, 12.0, 0.0], [], -0.6, 0.3),
+    ([0.0, 0.0, 0.0, -9.0, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0, 0.0], [], 0.1, 0.3),
+]
+
+# Sub-steps and (omega h)^2 of a link, sound and not.
+SUBSTEPS = 5
+STEPS = (0.3, 1.0, 4.4, 90.0)
+
+
+def cosine(sn):
+    return float(np.sqrt(1.0 - sn * sn))
+
+
+def run_all(compiled):
+    """Return the outcome of every scene by every kernel, compiled or as plain Python."""
+    constant, linear, link = (
+        f if compiled else getattr(f, "py_func", f)
+        for f in (rivals.slide_constant, rivals.slide_linear, rivals.slide_link)
+    )
+    dt, found = 0.25, []
+    for horizontal, vertical, sn, mu in SCENES:
+        scene = readonly(horizontal), readonly(vertical), dt, sn, cosine(sn), mu, G, 1.0, SUBSTEPS
+        runs = [(constant, (False,)), (constant, (True,)), (linear, ())]
+        for squared in STEPS:
+            k = squared / (dt / SUBSTEPS) ** 2
+            runs += [(link, (k, False)), (link, (k, True))]
+        for follow, more in runs:
+            history = np.full((2, len(horizontal)), np.nan)
+            outcome = follow(*scene, *more, history)
+            np.testing.assert_array_equal(outcome, follow(*scene, *more, np.empty((2, 0))))
+            found += [*outcome, *history.ravel()]
+    return np.array(found, dtype=float)
+
+
+def test_compiled_and_plain_rivals_give_the_same_bits():
+    np.testing.assert_array_equal(run_all(compiled=True), run_all(compiled=False))
+
+
+@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+def test_every_line_of_the_rivals_is_run_with_the_compiler_off(tmp_path):
+    assert_every_line_runs("solver/kernels/rivals.py", __file__, tmp_path)
+
+
+def follow_the_equations(ax, dt, theta, mu, g, substeps):
+    """The paper's algorithm in its own variables and order; u and its rate at the samples."""
+    sn, cs, tn = np.sin(theta), np.cos(theta), np.tan(theta)
+    step = dt / substeps
+    v_p = u_p = v_x = u_x = dv = dv_before = 0.0  # Eq. 19
+    found = [(0.0, 0.0)]
+    for i in range(len(ax) - 1):
+        for j in range(substeps):
+            a_p = ax[i] + (ax[i + 1] - ax[i]) * (j / substeps)
+            slow = dv == 0.0 or dv * dv_before < 0.0
+            # Eqs. 6, 8, 9
+            if slow and abs(a_p * cs - g * sn) < mu * abs(g * cs + a_p * sn):
+                v_x, a_x, dv = v_p, a_p, 0.0
+            else:
+                a_k = sn - mu * np.sign(dv) * cs  # Eq. 13
+                b_k = cs + mu * np.sign(dv) * sn  # Eq. 15
+                c_k = g + a_p * tn  # Eq. 16
+                a_x = c_k / (a_k * tn + b_k) * a_k  # Eqs. 17, 18
+            u_p += v_p * step + 0.5 * a_p * step * step
+            v_p += a_p * step
+            u_x += v_x * step + 0.5 * a_x * step * step
+            v_x += a_x * step
+            dv_before, dv = dv, v_x - v_p
+        found.append((u_x - u_p, dv))
+    return np.array(found).T
+
+
+@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="longer than the lines need")
+@pytest.mark.parametrize(("degrees", "mu"), [(0, 0.3), (4, 0.5), (-7, 0.2), (30, 0.5), (2, 0.0)])
+def test_constant_acceleration_gives_the_numbers_of_the_papers_equations(noise, degrees, mu):
+    theta, ax = np.radians(degrees), readonly(noise)
+    expected = follow_the_equations(noise, 0.01, theta, mu, G, 4)
+    history = np.full((2, ax.size), np.nan)
+    found = rivals.slide_constant(
+        ax, readonly([]), 0.01, np.sin(theta), np.cos(theta), mu, G, 1.0, 4, False, history
+    )
+    scale = np.abs(expected[0]).max()
+    np.testing.assert_allclose(np.cos(theta) * history, expected, rtol=0, atol=1e-11 * scale)
+    assert max(found[1], -found[2]) * np.cos(theta) >= scale * (1 - 1e-11)

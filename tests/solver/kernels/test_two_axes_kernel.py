@@ -1,0 +1,127 @@
+"""The kernels of two axes with the compiler off: the same bits, and every line run."""
+
+import math
+import os
+
+import numpy as np
+import pytest
+
+from solver.kernels import one_axis, two_axes
+from uncompiled import assert_every_line_runs
+
+G = 10.0
+
+
+def readonly(values):
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def wave(seed, n):
+    return np.random.default_rng(seed).normal(0.0, 4.0, n).round(3)
+
+
+QUIET = np.concatenate([np.zeros(40), wave(1, 8), np.zeros(40)])
+FALLS = (0.3, -0.1, 5.0, 0.42)
+GROWS = (0.3, 0.1, 5.0, 0.2)
+
+# Along, across, vertical, sine of the slope, friction, law: chosen so that together they reach
+# every line.
+SCENES = [
+    (wave(2, 30), wave(3, 30), [], 0.0, 0.2, None),
+    (wave(4, 30), wave(5, 30), 0.2 * wave(6, 30), 0.1, 0.3, None),
+    (wave(2, 20), wave(3, 20), [], 0.0, 1.0, GROWS),
+    (wave(4, 20), wave(5, 20), 0.1 * wave(6, 20), 0.05, 1.0, FALLS),
+    (QUIET, -QUIET[::-1], [], 0.05, 0.3, None),
+    (QUIET, -QUIET[::-1], 0.2 * QUIET, 0.05, 0.3, None),
+    (wave(7, 10), wave(8, 10), [], 0.0, 0.0, None),
+    ([0.0, -5.0, -5.0, 9.0, 9.0, -3.0, 0.0, 0.0], np.zeros(8), [], 0.0, 0.2, None),
+    ([0.0, -5.0, -5.0, 9.0, 9.0, -3.0, 0.0, 0.0], 1e-12 * wave(9, 8), [], 0.0, 0.2, None),
+    ([0.0, -1.5, -2.2, -1.5, 0.0, 0.0], [0.0, -1.7, 0.0, 1.7, 0.0, 0.0], [], 0.0, 0.2, None),
+    # No drive where it stops, and none where it begins: weight and shaking vanish together.
+    ([-6.0, -6.0, 0.0, 0.0, 0.0], [1.0, 2.0, 0.0, 0.0, 0.0], [], 0.0, 0.2, None),
+    ([0.0, 0.0, -4.0], [0.0, 0.0, 3.0], [-10.0, -10.0, -9.0], 0.0, 0.2, None),
+    # A stop and a slip within one step.
+    ([-2.0, 5.0, 0.0, -1.0, 1.0, 5.0], [3.0, -4.0, 6.0, 2.0, 2.0, 0.0], [], 0.0, 0.2, None),
+    # A normal force that vanishes, and one so small that the series of w is soon not the speed.
+    ([0.0, 1.0, -1.0], [0.0, -0.3, 0.4], [0.0, -10.0, -10.0], 0.0, 0.2, None),
+    # A slip that hardly begins, and one that does not begin at all.
+    ([0.0, -2.0001, -2.0002, -1.9, 0.0], [0.0, 0.001, 0.0, 0.0, 0.0], [], 0.0, 0.2, None),
+    ([0.0, -1.2, -1.6, 0.0], [0.0, -1.6, -1.2, 0.0], [], 0.0, 0.2, None),
+]
+
+
+def run_all(compiled):
+    """Return the outcome of every scene, compiled or as plain Python."""
+    slide = (
+        two_axes.slide_plane
+        if compiled
+        else getattr(two_axes.slide_plane, "py_func", two_axes.slide_plane)
+    )
+    found = []
+    for along, across, vertical, sn, mu, law in SCENES:
+        ax, ay = readonly(along), readonly(across)
+        az = readonly(vertical) if len(vertical) else None
+        bounds = [None if a is None else one_axis.bounds(a) for a in (ax, ay, az)]
+        for step, most in ((1e-6, 12), (1e-13, 20)):
+            top, end = np.empty(6), np.empty(4)
+            settings = (0.05, sn, math.sqrt(1.0 - sn * sn), mu, G, 1.0, step, most, 2000, law)
+            nothing = np.empty((0, 4)), np.empty((4, 0))
+            run = slide(ax, ay, az, *bounds, *settings, *nothing, top, end)
+            events, history = np.full((run[3], 4), np.nan), np.full((4, ax.size), np.nan)
+            again = slide(ax, ay, az, *bounds, *settings, events, history, top, end)
+            assert again == run
+            found += [*run, *top, *end, *events.ravel(), *history.ravel()]
+    return np.array(found, dtype=float)
+
+
+def test_compiled_and_plain_kernels_give_the_same_bits():
+    np.testing.assert_array_equal(run_all(compiled=True), run_all(compiled=False))
+
+
+def given_up(ax, most_steps, dt=0.05):
+    """Return how a run ends that has no answer."""
+    ax = readonly(ax)
+    x = one_axis.bounds(ax)
+    settings = (dt, 0.0, 1.0, 0.2, G, 1.0, 1e-6, 12, most_steps, None)
+    nothing = np.empty((0, 4)), np.empty((4, 0))
+    with np.errstate(all="ignore"):
+        return two_axes.slide_plane(
+            ax, ax, None, x, x, None, *settings, *nothing, np.empty(6), np.empty(4)
+        )
+
+
+def test_a_run_without_an_answer_says_why():
+    assert given_up(wave(2, 30), 2000)[0] == two_axes.FOLLOWED
+    assert given_up(wave(2, 30), 5)[0] == two_axes.TOO_MANY_STEPS
+    assert given_up([0.0, 1e300, -1e300, 0.0], 2000)[0] == two_axes.NOT_FINITE
+    assert given_up(wave(2, 30), 2000, dt=1e200)[0] == two_axes.NOT_FINITE
+
+
+def test_the_blocks_passed_over_are_those_of_the_bounds():
+    assert two_axes.SHIFT == one_axis.SHIFT
+
+
+def test_blocks_passed_over_change_nothing():
+    ax, ay = readonly(QUIET), readonly(-QUIET[::-1])
+    x, y = one_axis.bounds(ax), one_axis.bounds(ay)
+    # All of a record but its peak, which rounding is told from.
+    least_and_greatest = np.array([[-99.0], [99.0]])
+    wide = [least_and_greatest * np.ones_like(bounds) for bounds in (x, y)]
+    for one, bounds in zip(wide, (x, y), strict=True):
+        one[:, -1] = bounds[:, -1]
+    found = []
+    for bounds in ((x, y), wide):
+        top, end = np.empty(6), np.empty(4)
+        run = two_axes.slide_plane(
+            ax, ay, None, *bounds, None, 0.05, 0.1, 0.99, 0.3, G, 1.0, 1e-9, 16, 2000, None,
+            np.empty((0, 4)), np.empty((4, 0)), top, end,
+        )  # fmt: skip
+        found.append([*run, *top, *end])
+    assert found[0] == found[1]
+
+
+@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
+    assert_every_line_runs("solver/kernels/two_axes.py", __file__, tmp_path)

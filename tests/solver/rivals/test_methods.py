@@ -1,0 +1,486 @@
+"""Every method against closed forms and the exact one: its order, its limits, where it fails."""
+
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import solver
+from solver.model import InputError, Status
+from solver.rivals import regularized
+from solver.rivals.methods import METHODS, link_frequency
+from solver.sliding.checked import slide, slide_history
+from solver.verification import problems
+
+G = 9.80665
+STEPPED = ("paper", "linear", "adaptive")
+LINKS = ("penalty-explicit", "penalty-implicit")
+SCENES = [(0, 0.2), (0, 0.4), (4, 0.3), (-4, 0.3), (7, 0.5), (2, 0.15)]
+
+
+def trapezoid(peak, dt, plateau_steps, rest_steps):
+    """A pulse with ramps of one interval, then rest."""
+    return np.concatenate([[0.0], np.full(plateau_steps + 1, peak), np.zeros(rest_steps)])
+
+
+def errors(record, dt, method, *, scenes=SCENES, **parameters):
+    """Largest error of the PRD and the residual over the PRD, for each scene."""
+    found = []
+    for degrees, mu in scenes:
+        scene = {"slope_rad": math.radians(degrees), "mu": mu}
+        exact = slide(record, dt, **scene)
+        other = slide(record, dt, **scene, method=method, **parameters)
+        off = other.prd_m - exact.prd_m, other.residual_m - exact.residual_m
+        found.append(max(map(abs, off)) / exact.prd_m)
+    return np.array(found)
+
+
+def link_at(radians, dt, substeps):
+    """Parameters of a link with omega h = radians."""
+    return {"stiffness_per_m": (radians * substeps / dt) ** 2 / G, "substeps": substeps}
+
+
+# The registry
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_method_states_its_facts(name):
+    method = METHODS[name]
+    assert method.name == name
+    assert all(text.strip() for text in (method.title, method.invalid_when, method.source))
+    assert method.invalid_when.endswith(".")
+    assert (method.knob in method.parameters) is bool(method.sweep)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_method_runs_with_its_defaults_and_over_its_sweep(name):
+    pulse = trapezoid(-0.5 * G, 0.02, 5, 20)
+    default = slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name)
+    assert default.prd_m > 0.0
+    method = METHODS[name]
+    for value in method.sweep:
+        some = method.settings(value, 0.02, G)
+        assert some.keys() == method.parameters.keys()
+        assert some[method.knob] == value
+        found = slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name, **some)
+        assert found.status is not Status.DIVERGED
+    assert default == slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name, **method.parameters)
+
+
+def test_a_sweep_ends_finer_than_it_begins(noise):
+    record = noise[500:1100]
+    for method in METHODS.values():
+        ends = [method.settings(value, 0.01, G) for value in method.sweep[::5]]
+        if ends and method.name != "regularised":
+            coarse, *_, fine = (errors(record, 0.01, method.name, **some).max() for some in ends)
+            assert fine < 0.1 * coarse
+
+
+def test_the_mapping_is_public_and_cannot_be_changed():
+    assert solver.METHODS is METHODS
+    with pytest.raises(TypeError):
+        METHODS["euler"] = METHODS["exact"]
+
+
+def test_scipy_is_loaded_only_when_it_is_needed():
+    code = "import sys, solver; sys.exit('scipy.integrate' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+# Closed forms
+
+CEILINGS = {
+    "exact": 1e-12,
+    "paper": 0.01,
+    "linear": 1e-4,
+    "adaptive": 0.01,
+    "penalty-explicit": 0.005,
+    "penalty-implicit": 0.005,
+    "regularised": 0.01,
+}
+FINE = {
+    "regularised": {"velocity_mps": 1e-3, "tolerance": 1e-6},
+    **dict.fromkeys(LINKS, link_at(0.5, 0.01, 100)),
+}
+
+
+@pytest.mark.parametrize("name", CEILINGS)
+def test_a_ramped_pulse_on_a_flat_roof_is_met_within_the_ceiling(name):
+    dt, plateau = 0.01, 20
+    expected = problems.pulse_travel(0.4 * G, 0.1 * G, plateau * dt, dt)
+    ax = trapezoid(0.4 * G, dt, plateau, 150)
+    found = slide(ax, dt, slope_rad=0.0, mu=0.1, method=name, **FINE.get(name, {}))
+    assert found.prd_m == pytest.approx(expected, rel=CEILINGS[name])
+    assert found.up_m == pytest.approx(expected, rel=CEILINGS[name])
+    assert found.status is Status.OK
+
+
+@pytest.mark.parametrize("vertical", [-0.3, 0.3])
+@pytest.mark.parametrize("name", [name for name in CEILINGS if METHODS[name].takes_vertical])
+def test_a_ramped_pulse_on_a_slope_with_vertical_shaking_is_met(name, vertical):
+    slope, dt, plateau = math.radians(5), 0.01, 30
+    drive, resist = problems.slope_pulse(slope, 0.4, 0.6, vertical, G)
+    ax, az = (trapezoid(a * G, dt, plateau, 150) for a in (-0.6, vertical))
+    expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
+    scene = {"slope_rad": slope, "mu": 0.4, "az_mps2": az}
+    found = slide(ax, dt, **scene, method=name, **FINE.get(name, {}))
+    assert found.down_m == pytest.approx(expected, rel=CEILINGS[name])
+
+
+@pytest.mark.parametrize("name", ["paper", "linear", "penalty-explicit", "penalty-implicit"])
+def test_the_steady_harmonic_travels_as_far_each_half_cycle(name):
+    dt = 1 / 200
+    t = np.arange(40 * 200 + 1) * dt
+    ax = 0.5 * G * np.sin(2 * np.pi * t)
+    history = slide_history(ax, dt, slope_rad=0, mu=0.2, method=name, **FINE.get(name, {}))
+    last = history.u_m[-201:]
+    assert np.ptp(last) == pytest.approx(problems.harmonic_travel(0.5, 0.2, 1.0, G), rel=0.005)
+
+
+@pytest.mark.parametrize(
+    ("degrees", "mu", "amplitude", "vertical", "off"),
+    [
+        (7, 0.2, 1.0, 0.0, -0.05),
+        (5, 0.4, 0.6, 0.0, -0.10),
+        (10, 0.5, 0.8, 0.0, -0.20),
+        (5, 0.4, 0.6, -0.3, -0.48),
+        (5, 0.4, 0.6, 0.3, 0.74),
+    ],
+)
+def test_a_frozen_normal_force_is_off_by_its_closed_form(degrees, mu, amplitude, vertical, off):
+    slope, dt, plateau = math.radians(degrees), 0.01, 30
+    sn, cs = math.sin(slope), math.cos(slope)
+    drive, resist = problems.slope_pulse(slope, mu, amplitude, vertical, G)
+    true = problems.pulse_travel(drive, resist, plateau * dt, dt) * cs
+    frozen_drive, frozen_resist = (amplitude * cs + vertical * sn) * G, (mu * cs - sn) * G
+    frozen = problems.pulse_travel(frozen_drive, frozen_resist, plateau * dt, dt) * cs
+    ax, az = (trapezoid(a * G, dt, plateau, 3000) for a in (-amplitude, vertical))
+    found = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, method="frozen-normal")
+    assert found.down_m == pytest.approx(frozen, rel=1e-12)
+    assert found.down_m / true - 1 == pytest.approx(off, abs=0.01)
+
+
+def test_a_frozen_normal_force_is_exact_on_a_flat_roof_without_vertical_shaking(noise):
+    exact, frozen = (
+        slide_history(noise, 0.01, slope_rad=0.0, mu=0.3, method=name)
+        for name in ("exact", "frozen-normal")
+    )
+    assert frozen.result.prd_m == pytest.approx(exact.result.prd_m, rel=1e-12)
+    assert np.abs(frozen.u_m - exact.u_m).max() <= 1e-12 * exact.result.prd_m
+
+
+# Formal orders
+
+
+@pytest.mark.parametrize("name", STEPPED)
+def test_the_onset_of_a_slip_is_met_at_the_formal_order(name):
+    # Friction is passed at a third of the first interval: a third of a sub-step for all powers of
+    # four, so that the error is not changed by where the onset falls.
+    ax = np.array([0.0, -0.9, -0.9, -0.9]) * G
+    exact = slide(ax, 0.3, slope_rad=0.0, mu=0.3).residual_m
+    off = [
+        abs(slide(ax, 0.3, slope_rad=0.0, mu=0.3, method=name, substeps=p).residual_m - exact)
+        for p in (64, 256, 1024)
+    ]
+    orders = np.log(np.array(off[:-1]) / off[1:]) / math.log(4)
+    assert orders == pytest.approx([METHODS[name].order] * 2, abs=0.05)
+
+
+@pytest.mark.parametrize("name", ["paper", "adaptive", *LINKS])
+def test_a_lasting_slip_is_met_at_the_formal_order(name):
+    t = np.arange(41) * 0.05
+    ax = -2 * np.sin(3 * t) - t
+    scene = {"slope_rad": math.radians(30), "mu": 0.1}
+    exact = slide(ax, 0.05, **scene).residual_m
+    off = [
+        abs(slide(ax, 0.05, **scene, method=name, substeps=p).residual_m - exact)
+        for p in (8, 16, 32)
+    ]
+    orders = np.log2(np.array(off[:-1]) / off[1:])
+    assert orders == pytest.approx([METHODS[name].order] * 2, abs=0.05)
+
+
+def test_linear_acceleration_follows_a_lasting_slip_to_rounding():
+    t = np.arange(41) * 0.05
+    ax, scene = -2 * np.sin(3 * t) - t, {"slope_rad": math.radians(30), "mu": 0.1}
+    exact, found = (
+        slide(ax, 0.05, **scene, method="exact"),
+        slide(ax, 0.05, **scene, method="linear", substeps=1),
+    )
+    assert found.prd_m == pytest.approx(exact.prd_m, rel=1e-13)
+
+
+# Stick and slip: an envelope over scenes and neighbouring numbers of sub-steps, and a ceiling.
+
+
+@pytest.mark.parametrize(
+    ("name", "ceilings"),
+    [("paper", (0.13, 0.03, 0.008)), ("linear", (0.012, 0.003, 0.0008))],
+)
+def test_errors_in_stick_and_slip_fall_at_first_order_below_a_ceiling(noise, name, ceilings):
+    found = []
+    for p, ceiling in zip((16, 64, 256), ceilings, strict=True):
+        near = [p - p // 8, p, p + p // 8]
+        found.append(np.max([errors(noise, 0.01, name, substeps=q) for q in near]))
+        assert found[-1] < ceiling
+    # Reversals without a rest hold linear acceleration to first order too.
+    assert math.log(found[0] / found[-1], 16) == pytest.approx(1.0, abs=0.25)
+
+
+def test_linear_acceleration_is_the_better_one_at_the_same_sub_steps(noise):
+    for p in (8, 32, 128):
+        ratios = errors(noise, 0.01, "paper", substeps=p) / errors(
+            noise, 0.01, "linear", substeps=p
+        )
+        assert np.median(ratios) > 5
+
+
+@pytest.mark.parametrize("degrees", [0, 4, -7, 30])
+@pytest.mark.parametrize("p", [1, 7, 64])
+def test_small_steps_only_in_slip_give_the_papers_numbers_to_the_last_bit(noise, degrees, p):
+    scene = {"slope_rad": math.radians(degrees), "mu": 0.35, "substeps": p}
+    one, other = (
+        slide_history(noise, 0.01, **scene, method=name) for name in ("paper", "adaptive")
+    )
+    assert one.result == other.result
+    np.testing.assert_array_equal(one.u_m, other.u_m)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.integers(-6, 6).map(lambda k: 0.5 * k), min_size=2, max_size=12),
+    st.sampled_from([0.0, 0.25, 0.5]),
+    st.sampled_from([0.0, math.atan(0.25), 0.1]),
+)
+def test_small_steps_only_in_slip_skip_nothing_that_moves(values, mu, slope):
+    scene = {"slope_rad": slope, "mu": mu, "g_mps2": 2.0, "substeps": 4}
+    one, other = (slide(values, 0.5, **scene, method=name) for name in ("paper", "adaptive"))
+    np.testing.assert_array_equal(
+        [one.prd_m, one.residual_m, one.t_prd_s, one.n_stops],
+        [other.prd_m, other.residual_m, other.t_prd_s, other.n_stops],
+    )
+
+
+@pytest.mark.parametrize("name", LINKS)
+def test_errors_of_a_link_fall_with_its_stiffness_below_a_ceiling(noise, name):
+    ceilings = {1e4: 0.2, 1e5: 0.03, 1e6: 0.005, 1e7: 0.002}
+    for stiffness, ceiling in ceilings.items():
+        some = METHODS[name].settings(stiffness, 0.01, G)
+        assert errors(noise, 0.01, name, **some).max() < ceiling
+
+
+def test_real_records_are_met_by_every_stepping_method(real_records):
+    ax, dt = real_records["Kobe_Japan_1995_KJM-000"]
+    ceilings = {"paper": 0.01, "linear": 0.003, **dict.fromkeys(LINKS, 0.01)}
+    for name, ceiling in ceilings.items():
+        assert errors(ax, dt, name, scenes=[(0, 0.3), (-4, 0.1), (4, 0.4)]).max() < ceiling
+
+
+# Links
+
+
+def test_the_limits_of_the_papers_link_are_two_and_0_64_milliseconds():
+    # 100 and 1000 N/mm on a weight of 1 N.
+    limits_ms = [2000 / link_frequency(k, G) for k in (1e5, 1e6)]
+    assert limits_ms == pytest.approx([2.02, 0.64], abs=0.005)
+
+
+@pytest.mark.parametrize("stiffness", [1e5, 1e6])
+def test_the_explicit_link_is_sound_below_its_limit_and_diverged_beyond(noise, stiffness):
+    limit = 2 / link_frequency(stiffness, G)
+    some = {"method": "penalty-explicit", "stiffness_per_m": stiffness, "substeps": 5}
+    for degrees, mu in SCENES:
+        scene = {"slope_rad": math.radians(degrees), "mu": mu} | some
+        assert slide(noise, 5 * 0.95 * limit, **scene).status is not Status.DIVERGED
+        assert slide(noise, 5 * 1.05 * limit, **scene).status is Status.DIVERGED
+
+
+def test_a_diverged_run_gives_no_number(noise):
+    some = link_at(2.5, 0.01, 10)
+    history = slide_history(noise, 0.01, slope_rad=0.0, mu=0.4, method="penalty-explicit", **some)
+    result = history.result
+    assert result.status is Status.DIVERGED
+    assert "no displacement" in result.status.sentence
+    values = (result.prd_m, result.residual_m, result.down_m, result.up_m, result.t_prd_s)
+    assert all(map(math.isnan, values))
+    assert math.isnan(result.end_speed_mps)
+    assert not math.isnan(result.n_min_g)
+    assert np.isnan(history.u_m).all()
+    assert np.isnan(history.v_mps).all()
+
+
+def test_a_ratchet_on_a_steep_roof_is_told_from_slip(noise):
+    # Beyond its limit the link creeps down, slip by slip, without ever slipping to and fro.
+    record, scene = 0.02 * noise, {"slope_rad": math.radians(30), "mu": 0.8}
+    assert slide(record, 0.01, **scene).prd_m == 0.0
+    for radians in (2.1, 3.0, 40.0):
+        some = link_at(radians, 0.01, 4)
+        found = slide(record, 0.01, **scene, method="penalty-explicit", **some)
+        assert found.status is Status.DIVERGED
+
+
+@pytest.mark.parametrize("name", LINKS)
+def test_numbers_beyond_the_finite_are_diverged(name):
+    pulse = trapezoid(-4.0, 0.01, 5, 20)
+    found = slide(pulse, 0.01, slope_rad=0.0, mu=0.2, method=name, stiffness_per_m=1e308)
+    assert found.status is Status.DIVERGED
+
+
+@pytest.mark.parametrize("radians", [0.4, 1.0, 1.6])
+@pytest.mark.parametrize("substeps", [1, 8])
+def test_the_implicit_link_converges_up_to_1_6_radians_a_step(noise, radians, substeps):
+    for degrees, mu in SCENES:
+        scene = {"slope_rad": math.radians(degrees), "mu": mu}
+        some = link_at(radians, 0.01, substeps)
+        found = slide(noise, 0.01, **scene, method="penalty-implicit", **some)
+        assert found.status is not Status.DIVERGED
+
+
+def test_the_implicit_link_goes_to_and_fro_between_stick_and_slip_beyond_3_1_radians(noise):
+    statuses = [
+        slide(
+            noise,
+            0.01,
+            slope_rad=math.radians(degrees),
+            mu=mu,
+            method="penalty-implicit",
+            **link_at(3.1, 0.01, 8),
+        ).status
+        for degrees, mu in SCENES
+    ]
+    assert statuses == [Status.DIVERGED] * len(SCENES)
+
+
+@pytest.mark.parametrize("name", LINKS)
+def test_a_link_in_balance_with_gravity_stays_where_it_is(name):
+    found = slide(np.zeros(200), 0.01, slope_rad=0.1, mu=0.4, method=name)
+    assert found.prd_m < 1e-15
+    assert (found.status, found.n_stops) == (Status.OK, 0)
+
+
+def test_a_block_that_slides_freely_needs_no_link():
+    slope = math.radians(7)
+    expected = problems.free_slide_travel(slope, 0.1, 2.0, G) * math.cos(slope)
+    for name in LINKS:
+        found = slide(np.zeros(201), 0.01, slope_rad=slope, mu=0.1, method=name)
+        assert found.down_m == pytest.approx(expected, rel=1e-10)
+        assert found.status is Status.SLIDING_AT_END
+
+
+# Regularised friction
+
+
+def test_regularised_friction_creeps_where_the_block_should_stick():
+    slope, mu, velocity = math.radians(4), 0.3, 0.001
+    scene = {"slope_rad": slope, "mu": mu}
+    still = np.zeros(400)
+    assert slide(still, 0.01, **scene).prd_m == 0.0
+    creep = velocity * math.atanh(math.tan(slope) / mu) * 3.99 * math.cos(slope)
+    for tolerance in (1e-4, 1e-6):
+        some = {"velocity_mps": velocity, "tolerance": tolerance}
+        found = slide(still, 0.01, **scene, method="regularised", **some)
+        assert found.down_m == pytest.approx(creep, rel=0.01)
+        assert found.status is Status.OK
+
+
+def test_no_tolerance_mends_what_a_large_velocity_spoils(noise):
+    record, scenes = noise[500:1100], SCENES[:4:3]
+
+    def off(v, tolerance):
+        some = {"velocity_mps": v, "tolerance": tolerance}
+        return errors(record, 0.01, "regularised", scenes=scenes, **some).max()
+
+    loose, tight, slow = off(0.02, 1e-3), off(0.02, 1e-6), off(0.002, 1e-4)
+    assert tight > 0.5 * loose
+    assert slow < 0.25 * tight
+
+
+def test_a_tighter_tolerance_comes_closer_to_its_own_limit():
+    t = np.arange(201) * 0.01
+    ax = 4.0 * np.sin(2 * np.pi * t)
+    scene = {"slope_rad": 0.0, "mu": 0.2, "method": "regularised", "velocity_mps": 0.05}
+    limit = slide(ax, 0.01, **scene, tolerance=1e-11).residual_m
+    off = [
+        abs(slide(ax, 0.01, **scene, tolerance=e).residual_m - limit) for e in (1e-3, 1e-5, 1e-7)
+    ]
+    assert off[1] < 0.5 * off[0]
+    assert off[2] < 0.5 * off[1]
+
+
+def test_a_stalled_run_is_given_up(monkeypatch, noise):
+    monkeypatch.setattr(regularized, "EVALUATIONS", 200)
+    found = slide(noise, 0.01, slope_rad=0.0, mu=0.3, method="regularised")
+    assert found.status is Status.DIVERGED
+
+
+def test_without_scipy_the_regularised_method_says_what_to_install(monkeypatch, noise):
+    monkeypatch.setitem(sys.modules, "scipy.integrate", None)
+    with pytest.raises(InputError, match=r"install roofslip\[verify\]"):
+        slide(noise, 0.01, slope_rad=0.0, mu=0.3, method="regularised")
+
+
+# One signature
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_history_ends_where_the_result_says_and_follows_the_exact_one(noise, name):
+    record = noise[600:1000]
+    scene, some = {"slope_rad": 0.0, "mu": 0.2}, FINE.get(name, {})
+    exact = slide_history(record, 0.01, **scene)
+    found = slide_history(record, 0.01, **scene, method=name, **some)
+    assert found.result == slide(record, 0.01, **scene, method=name, **some)
+    assert found.u_m[-1] == pytest.approx(found.result.residual_m, rel=1e-9)
+    assert np.abs(found.u_m - exact.u_m).max() < 0.05 * exact.result.prd_m
+    assert bool(found.events) is (name == "exact")
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_uplift_gives_no_number_by_any_method(name):
+    ax = [0.0, 0.0, -40.0, 0.0]
+    found = slide(ax, 0.1, slope_rad=math.radians(30), mu=0.5, g_mps2=10.0, method=name)
+    assert found.status is Status.UPLIFT
+    assert math.isnan(found.prd_m)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_vertical_shaking_is_taken_or_refused_as_the_method_says(noise, name):
+    record, vertical = noise[600:900], 0.3 * noise[900:1200]
+    scene = {"slope_rad": 0.03, "mu": 0.3, "az_mps2": vertical}
+    if METHODS[name].takes_vertical:
+        assert slide(record, 0.01, **scene, method=name).prd_m > 0.0
+    else:
+        with pytest.raises(InputError, match=f"'{name}' takes horizontal shaking only"):
+            slide(record, 0.01, **scene, method=name)
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "message"),
+    [
+        ("exact", {"substeps": 4}, "'exact' has no parameter 'substeps'; it has none"),
+        ("paper", {"step": 4}, "'paper' has no parameter 'step'; it has substeps"),
+        (
+            "penalty-explicit",
+            {"stiffness": 1e4},
+            "has no parameter 'stiffness'; it has stiffness_per_m, substeps",
+        ),
+        ("linear", {"substeps": 1.5}, "substeps is 1.5; give a whole number of 1 or more"),
+        ("linear", {"substeps": math.inf}, "substeps is inf; give a whole number"),
+        ("linear", {"substeps": "8"}, "substeps is '8'; give a whole number"),
+        ("penalty-implicit", {"stiffness_per_m": 0.0}, "stiffness_per_m is 0.0; give a finite"),
+        ("regularised", {"velocity_mps": math.nan}, "velocity_mps is nan; give a finite"),
+        ("regularised", {"tolerance": 1.0}, "tolerance is 1.0; give a number from 1e-13 to 0.1"),
+    ],
+)
+def test_parameters_at_fault_raise_the_input_error(name, parameters, message):
+    with pytest.raises(InputError, match=message):
+        slide([0.0, 1.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, method=name, **parameters)
+
+
+def test_whole_numbers_of_any_kind_are_sub_steps(noise):
+    scene = {"slope_rad": 0.0, "mu": 0.3, "method": "linear"}
+    one, *others = (slide(noise, 0.01, **scene, substeps=p) for p in (8, 8.0, np.int64(8)))
+    assert others == [one, one]

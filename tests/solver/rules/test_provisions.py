@@ -1,0 +1,196 @@
+"""Code rules against published permit calculations and the paper."""
+
+import math
+
+import numpy as np
+import pytest
+
+from solver.model import InputError
+from solver.rules.provisions import (
+    RULE_SETS,
+    Basis,
+    Neighbour,
+    analysis_checks,
+    analysis_value,
+    array_checks,
+    parapet_qualifies,
+    prescriptive_checks,
+    prescriptive_displacement,
+    required_separation,
+)
+from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
+
+PV1, A16, A22 = (RULE_SETS[name] for name in ("SEAOC PV1-2012", "ASCE 7-16", "ASCE 7-22"))
+INCH = 0.0254
+
+
+def prescriptive_in(rules, s_ds, sdc="D", importance=1.0):
+    found = prescriptive_displacement(rules, s_ds_g=s_ds, sdc=sdc, importance=importance)
+    return found.value_m / INCH
+
+
+def test_the_papers_example_gives_81_6_inches_and_2070_mm():
+    value = prescriptive_in(PV1, 1.566)
+    assert f"{value:.1f}" == "81.6"
+    assert float(f"{value * 25.4:.3g}") == 2070
+
+
+@pytest.mark.parametrize(
+    ("rules", "s_ds", "sdc", "importance", "inches"),
+    [
+        (PV1, 0.70, "D", 1.0, 6.0),
+        (PV1, 2.00, "C", 1.0, 6.0),
+        (PV1, 1.00, "D", 1.0, 21.6),
+        (PV1, 1.00, "D", 1.5, 21.6),
+        (PV1, 0.30, "D", 1.0, 6.0),
+        (A16, 1.00, "D", 1.0, 24.0),
+        (A16, 1.00, "D", 1.25, 27.0),
+        (A16, 1.40, "D", 1.0, 60.0),
+        (A22, 1.40, "D", 1.0, 60.0),
+        (PV1, 1.40, "D", 1.0, 60.0),
+    ],
+)
+def test_the_prescriptive_displacement_of_worked_values(rules, s_ds, sdc, importance, inches):
+    assert prescriptive_in(rules, s_ds, sdc, importance) == pytest.approx(inches, rel=1e-12)
+
+
+def test_a_permit_sheet_is_reproduced_with_full_precision_kept():
+    s_ds = 2 / 3 * 1.2 * 1.313
+    delta = prescriptive_displacement(A16, s_ds_g=s_ds, sdc="D", importance=1.0).value_m
+    assert f"{s_ds:.4f}" == "1.0504"
+    assert f"{delta / INCH:.1f}" == "25.4"
+    feet = [
+        f"{required_separation(A16, kind, design_m=delta, importance=1.0) / 0.3048:.2f}"
+        for kind in (Neighbour.LIKE, Neighbour.FIXED, Neighbour.PARAPET, Neighbour.EDGE)
+    ]
+    assert feet == ["1.06", "2.12", "2.12", "4.23"]
+
+
+def test_the_importance_factor_enters_once_in_each_rule_set():
+    for rules in (PV1, A16):
+        delta = prescriptive_displacement(rules, s_ds_g=1.4, sdc="D", importance=1.25).value_m
+        found = required_separation(rules, Neighbour.UNLIKE, design_m=delta, importance=1.25)
+        assert found == pytest.approx(1.25 * 60 * INCH, rel=1e-12)
+
+
+def test_an_edge_without_parapet_needs_at_least_four_feet_in_asce_7():
+    for rules, expected in ((PV1, 0.2), (A16, 4 * 0.3048)):
+        found = required_separation(rules, Neighbour.EDGE, design_m=0.1, importance=1.0)
+        assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_without_a_design_displacement_there_is_no_separation():
+    for kind in Neighbour:
+        assert math.isnan(required_separation(A16, kind, design_m=math.nan, importance=1.0))
+
+
+@pytest.mark.parametrize(
+    ("count", "basis", "expected"),
+    [
+        (7, Basis.MEAN_FACTORED, 1.1 * 0.4),
+        (6, Basis.LARGEST_FACTORED, 1.1 * 0.6),
+        (3, Basis.LARGEST_FACTORED, 1.1 * 0.3),
+    ],
+)
+def test_the_statistic_follows_the_number_of_motions(count, basis, expected):
+    found = analysis_value(PV1, [0.1 * k for k in range(1, count + 1)])
+    assert found.basis is basis
+    assert found.value_m == pytest.approx(expected, rel=1e-12)
+
+
+def test_two_motions_or_a_missing_peak_give_no_value():
+    assert analysis_value(PV1, [0.1, 0.2]).basis is Basis.TOO_FEW
+    assert math.isnan(analysis_value(PV1, [0.1, 0.2]).value_m)
+    for peaks in ([0.1, math.nan, 0.2], [math.nan, 0.1, 0.2]):
+        assert math.isnan(analysis_value(PV1, peaks).value_m)
+        assert math.isnan(analysis_value(PV1, peaks).largest_m)
+
+
+def test_a_plain_mean_needs_eleven_motions():
+    assert analysis_value(A16, [0.1] * 10, Basis.MEAN).basis is Basis.TOO_FEW
+    assert analysis_value(A16, [0.1] * 11, Basis.MEAN).value_m == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(
+    ("rules", "slope_rad", "ok"),
+    [
+        (PV1, math.radians(3.0), True),
+        (PV1, math.radians(3.001), False),
+        (A16, math.atan(0.05), True),
+        (A16, math.atan(0.0501), False),
+    ],
+)
+def test_a_slope_equal_to_the_limit_passes(rules, slope_rad, ok):
+    assert prescriptive_checks(rules, slope_rad=slope_rad, mu=0.6)[0].ok is ok
+
+
+def test_friction_required_rises_with_slope_in_asce_7():
+    limits = [
+        prescriptive_checks(A16, slope_rad=math.atan(rise), mu=0.4)[1].limit
+        for rise in (0.0, 0.03, 0.05)
+    ]
+    assert limits == pytest.approx([0.4, 0.4, 0.414], rel=1e-12)
+
+
+def test_a_check_of_nan_never_passes():
+    assert not prescriptive_checks(PV1, slope_rad=math.nan, mu=math.nan)[0].ok
+    assert not prescriptive_checks(PV1, slope_rad=0.0, mu=math.nan)[1].ok
+    assert not analysis_checks(PV1, slope_rad=0.0, n_motions=2)[1].ok
+
+
+def test_low_profile_is_the_lesser_of_36_inches_and_half_the_support():
+    limits = [
+        array_checks(PV1, cg_height_m=0.3, support_spacing_m=spacing)[0].limit / INCH
+        for spacing in (40 * INCH, 100 * INCH)
+    ]
+    assert limits == pytest.approx([20.0, 36.0], rel=1e-12)
+
+
+def test_a_parapet_must_clear_the_roof_and_the_centre_of_gravity():
+    found = [
+        parapet_qualifies(PV1, parapet_height_m=top * INCH, cg_height_m=cg * INCH)
+        for top, cg in ((24, 18), (23.9, 10), (24, 18.1), (30, 20))
+    ]
+    assert found == [True, False, False, True]
+
+
+def test_an_override_replaces_one_number_and_keeps_its_reason():
+    changed = PV1.overridden({"prescriptive_minimum_in": (12.0, "county amendment")})
+    assert prescriptive_in(changed, 0.5) == pytest.approx(12.0)
+    assert changed.values["prescriptive_minimum_in"].reason == "county amendment"
+    assert prescriptive_in(PV1, 0.5) == pytest.approx(6.0)
+    with pytest.raises(InputError, match="provision is 'nonsense'"):
+        PV1.overridden({"nonsense": (1.0, "")})
+
+
+def test_the_ac156_spectrum_is_straight_on_log_axes():
+    spectrum = ac156_horizontal(A16, s_ds_g=1.0, z_over_h=1.0)
+    freq = np.array([0.1, 0.2, 0.5, 1, 1.3, 8.3, 10, 15, 20, 33.3, 50])
+    expected = [
+        0.1600, 0.2981, 0.6786, 1.2642, 1.6, 1.6, 1.5394, 1.4155, 1.3336, 1.2, 1.2,
+    ]  # fmt: skip
+    assert spectrum.at(freq) == pytest.approx(expected, abs=6e-5)
+
+
+def test_ac156_accelerations_at_the_roof_of_published_sites():
+    found = ac156_horizontal(A16, s_ds_g=1.26, z_over_h=1.0)
+    assert [round(v, 2) for v in found.sa_g[[1, 3]]] == [2.02, 1.51]
+    edition_22 = ac156_horizontal(A22, s_ds_g=1.0, z_over_h=1.0)
+    assert edition_22.sa_g[[1, 3]] == pytest.approx([1.6, 0.4 * 3.5 / 1.3], rel=1e-12)
+    assert ac156_horizontal(A22, s_ds_g=1.0, z_over_h=0.0).sa_g[[1, 3]].tolist() == [1.0, 0.4]
+    assert ac156_vertical(s_ds_g=1.0).sa_g[[1, 3]] == pytest.approx([0.67, 0.27], rel=1e-12)
+
+
+def test_the_reciprocal_tail_falls_as_one_over_the_period_beyond_0_77_s():
+    for of in (
+        lambda tail: ac156_horizontal(A16, s_ds_g=1.0, z_over_h=1.0, tail=tail),
+        lambda tail: ac156_vertical(s_ds_g=1.0, tail=tail),
+    ):
+        line, reciprocal = of(Tail.AC156), of(Tail.RECIPROCAL)
+        period = np.array([1.0, 2.0, 5.0, 10.0])
+        flexible = line.sa_g[1]
+        assert reciprocal.at(1 / period) == pytest.approx(flexible / 1.3 / period, rel=1e-12)
+        assert line.at(1 / period[-1:]) == pytest.approx(0.1 * flexible, rel=1e-12)
+        assert np.array_equal(reciprocal.sa_g[1:], line.sa_g[1:])
+    assert "1/T" in Tail.RECIPROCAL.sentence
+    assert "line of AC156" in Tail.AC156.sentence

@@ -1,0 +1,465 @@
+"""The solver against closed forms, high-precision arithmetic, its own symmetries and the paper."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+import oracle
+import solver
+from solver.model import EventKind, Friction, InputError, Status
+from solver.sliding.checked import slide, slide_history
+from solver.verification import problems
+
+G = 9.81
+FIELDS = ("prd_m", "residual_m", "down_m", "up_m")
+
+
+def trapezoid(peak, dt, plateau_steps, rest_steps):
+    """A pulse with ramps of one interval, then rest."""
+    return np.concatenate([[0.0], np.full(plateau_steps + 1, peak), np.zeros(rest_steps)])
+
+
+def assert_agrees(found, exact, tolerance=1e-12, floor_m=1e-3):
+    """Relative to the PRD, and to a millimetre below it."""
+    scale = max(float(exact.prd), floor_m)
+    for field, name in zip(FIELDS, ("prd", "residual", "down", "up"), strict=True):
+        error = abs(float(getattr(found, field) - getattr(exact, name)))
+        assert error <= min(tolerance * scale, found.error_m), (field, error / scale)
+
+
+# Closed forms
+
+
+@pytest.mark.parametrize(("amplitude", "mu", "duration"), [(0.4, 0.1, 0.2), (1.0, 0.4, 0.1)])
+def test_a_ramped_pulse_on_a_flat_roof_is_met_to_rounding(amplitude, mu, duration):
+    dt, plateau = duration / 20, 20
+    expected = problems.pulse_travel(amplitude * G, mu * G, plateau * dt, dt)
+    found = slide(trapezoid(amplitude * G, dt, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
+    assert found.status is Status.OK
+    assert found.prd_m == pytest.approx(expected, rel=1e-12)
+    assert found.residual_m == pytest.approx(-expected, rel=1e-12)
+    assert (found.down_m, found.n_stops) == (0.0, 1)
+
+
+@pytest.mark.parametrize("vertical", [0.0, -0.3, 0.3])
+@pytest.mark.parametrize(("degrees", "mu", "amplitude"), [(5, 0.4, 0.6), (10, 0.5, 0.8)])
+def test_a_ramped_pulse_on_a_slope_is_met_to_rounding(degrees, mu, amplitude, vertical):
+    slope, dt, plateau = math.radians(degrees), 0.01, 30
+    drive, resist = problems.slope_pulse(slope, mu, amplitude, vertical, G)
+    ax = trapezoid(-amplitude * G, dt, plateau, 900)
+    az = trapezoid(vertical * G, dt, plateau, 900)
+    expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
+    found = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, g_mps2=G)
+    assert found.down_m == pytest.approx(expected, rel=1e-12)
+    assert found.up_m == 0.0
+
+
+def test_a_short_ramp_comes_near_the_rectangular_pulse():
+    errors = []
+    for steps in (30, 300, 3000):
+        dt = 0.3 / steps
+        ax = trapezoid(-0.5 * G, dt, steps - 1, 5 * steps)
+        found = slide(ax, dt, slope_rad=0.0, mu=0.2, g_mps2=G).prd_m
+        errors.append(abs(found - 0.331087) / 0.331087)
+    # First order in the ramp: its share of the pulse, halved.
+    assert errors == pytest.approx([0.4 / 30, 0.4 / 300, 0.4 / 3000], rel=0.05)
+
+
+@pytest.mark.parametrize(("amplitude", "mu", "freq"), [(0.5, 0.2, 1.0), (0.8, 0.4, 2.0)])
+def test_the_sampled_half_sine_converges_at_second_order(amplitude, mu, freq):
+    expected = problems.half_sine_travel(amplitude, mu, freq, G)
+    errors = []
+    for steps in (100, 200, 400):
+        dt = 0.5 / freq / steps
+        pulse = amplitude * G * np.sin(2 * np.pi * freq * np.arange(steps + 1) * dt)
+        ax = np.concatenate([pulse, np.zeros(20 * steps)])
+        errors.append(abs(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m - expected))
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert orders == pytest.approx([2.0, 2.0], abs=0.05)
+
+
+def test_the_steady_harmonic_travels_as_far_each_half_cycle():
+    dt = 1 / 2000
+    t = np.arange(80 * 2000 + 1) * dt
+    history = slide_history(0.5 * G * np.sin(2 * np.pi * t), dt, slope_rad=0.0, mu=0.2, g_mps2=G)
+    stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
+    expected = problems.harmonic_travel(0.5, 0.2, 1.0, G)
+    assert abs(stops[-1] - stops[-2]) == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_block_on_a_still_roof_steeper_than_friction_slides_freely():
+    found = slide(np.zeros(201), 0.01, slope_rad=math.radians(7), mu=0.1, g_mps2=G)
+    expected = problems.free_slide_travel(math.radians(7), 0.1, 2.0, G)
+    assert found.down_m == pytest.approx(expected * math.cos(math.radians(7)), rel=1e-12)
+    assert found.status is Status.SLIDING_AT_END
+
+
+@pytest.mark.parametrize(
+    ("degrees", "mu"),
+    [
+        (degrees, mu)
+        for degrees in (-7, -2, 0, 0.5, 4, 7, 30)
+        for mu in (0.05, 0.4, 1.0)
+        if mu > math.tan(math.radians(abs(degrees)))
+    ],
+)
+def test_slip_begins_just_beyond_the_yield_accelerations(degrees, mu):
+    slope = math.radians(degrees)
+    for limit in problems.yield_accelerations(slope, mu, G):
+        for factor, moves in ((1 - 1e-12, False), (1 + 1e-9, True)):
+            ax = np.array([0.0, limit * factor, 0.0])
+            found = slide(ax, 0.5, slope_rad=slope, mu=mu, g_mps2=G)
+            assert (found.n_stops > 0) is moves
+
+
+def test_a_self_locked_block_never_moves_up_the_slope():
+    ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
+    found = slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G)
+    assert (found.prd_m, found.status) == (0.0, Status.OK)
+
+
+# High precision
+
+SLOPES = (-7.0, 0.0, 0.5, 4.0, 7.0)
+FRICTIONS = (0.0, 0.1, 0.5, 0.8)
+
+
+def grid():
+    """Every slope with every friction coefficient, the scale cycling through."""
+    scales = itertools.cycle((0.3, 1.0, 2.0))
+    return [(*pair, next(scales)) for pair in itertools.product(SLOPES, FRICTIONS)]
+
+
+@pytest.mark.parametrize("name", ["Kobe_Japan_1995_KJM-000", "Northridge_1994_RRS-228"])
+@pytest.mark.parametrize("with_vertical", [False, True])
+def test_real_records_agree_with_forty_digits(real_records, name, with_vertical):
+    ax, dt = real_records[name]
+    other = real_records[name[:-3] + {"000": "090", "228": "318"}[name[-3:]]][0]
+    size = min(ax.size, other.size)
+    ax, az = ax[:size], 0.4 * other[:size] if with_vertical else None
+    for degrees, mu, scale in grid()[:: 2 if with_vertical else 1]:
+        slope = math.radians(degrees)
+        found = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, scale=scale)
+        if found.status is Status.UPLIFT:
+            continue
+        assert_agrees(found, oracle.slide(ax, dt, slope_rad=slope, mu=mu, az=az, scale=scale))
+
+
+def test_noise_agrees_with_forty_digits(noise):
+    for degrees, mu, scale in grid()[::3]:
+        slope = math.radians(degrees)
+        found = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale)
+        assert_agrees(found, oracle.slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale))
+
+
+# Whole and half multiples of the yield value on a flat roof: equal samples, samples at yield,
+# zeros, double roots and several reversals come up all the time.
+lattice = st.lists(
+    st.integers(-6, 6).map(lambda k: 0.5 * k), min_size=2, max_size=12
+)  # fmt: skip
+anything = st.lists(st.floats(-30.0, 30.0, allow_subnormal=False), min_size=2, max_size=12)
+blocks = st.tuples(
+    st.sampled_from([0.0, 0.25, 0.5, 1.0]), st.sampled_from([0.0, math.atan(0.25), 0.1])
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.one_of(lattice, anything), blocks, st.sampled_from([0.01, 0.25, 1.0]))
+@example([0.0, 1.5, 0.0, 0.0, 1e-38], (0.25, 0.0), 0.01)
+def test_any_short_record_agrees_with_forty_digits_to_the_allowance(values, block, dt):
+    mu, slope = block
+    found = slide(values, dt, slope_rad=slope, mu=mu, g_mps2=2.0)
+    if found.status is Status.UPLIFT:
+        return
+    exact = oracle.slide(values, dt, slope_rad=slope, mu=mu, g=2.0)
+    for field, name in zip(FIELDS, ("prd", "residual", "down", "up"), strict=True):
+        # A stop missed or found at a touching point changes nothing but by rounding.
+        assert abs(float(getattr(found, field) - getattr(exact, name))) <= found.error_m + 1e-30
+
+
+def test_records_of_every_kind_agree_with_forty_digits():
+    """Quiet stretches, equal and zero samples, steep slopes, no friction, any sign of the scale."""
+    rng = np.random.default_rng(3)
+    compared = 0
+    for _ in range(120):
+        size = rng.integers(2, 400)
+        ax = rng.normal(size=size) * rng.choice([2.0, 8.0, 20.0])
+        ax[rng.random(size) < rng.choice([0.0, 0.7, 0.97])] = 0.0
+        az = rng.normal(size=size) * 2.0 if rng.random() < 0.4 else None
+        scene = {
+            "slope_rad": rng.choice([0.0, 0.05, -0.12, 0.3, -0.3, 1.2]),
+            "mu": rng.choice([0.0, 0.1, 0.3, 0.8, 1.5]),
+            "scale": rng.choice([1.0, -1.0, 0.3, -2.0, 0.0]),
+        }
+        dt = rng.choice([0.005, 0.02, 0.3])
+        found = slide(ax, dt, az_mps2=az, **scene)
+        if found.status is not Status.UPLIFT:
+            exact = oracle.slide(ax, dt, az=az, **scene)
+            assert_agrees(found, exact, floor_m=1e-9)
+            compared += 1
+    assert compared > 60
+
+
+def test_a_speed_that_dips_to_zero_within_an_interval_stops_there():
+    # The push falls from 3 to -1 about friction and rises again: zero inside, moving at the end.
+    ax = [-4.0, 0.5, -8.0]
+    found = slide_history(ax, 1.0, slope_rad=0.0, mu=0.2, g_mps2=10.0)
+    exact = oracle.slide(ax, 1.0, slope_rad=0.0, mu=0.2, g=10.0)
+    assert_agrees(found.result, exact)
+    dip = slide_history([-4.0, 2.0, 2.0, -8.0], 1.0, slope_rad=0.0, mu=0.2, g_mps2=10.0)
+    assert [event.kind for event in dip.events[:3]] == [
+        EventKind.SLIP,
+        EventKind.STOP,
+        EventKind.SLIP,
+    ]
+
+
+# Symmetries
+
+
+@settings(max_examples=60, deadline=None)
+@given(anything, blocks)
+def test_the_mirrored_scene_gives_the_mirrored_motion_to_the_last_bit(values, scene):
+    mu, slope = scene
+    one = slide(values, 0.1, slope_rad=slope, mu=mu)
+    other = slide([-v for v in values], 0.1, slope_rad=-slope, mu=mu)
+    assert one.status is other.status
+    if one.status is not Status.UPLIFT:
+        assert (one.prd_m, one.down_m, one.up_m) == (other.prd_m, other.up_m, other.down_m)
+        assert one.residual_m == -other.residual_m
+
+
+def test_samples_added_on_the_straight_lines_change_nothing(noise):
+    finer = np.interp(np.arange(2 * noise.size - 1) / 2, np.arange(noise.size), noise)
+    one = slide(noise, 0.01, slope_rad=0.05, mu=0.3)
+    other = slide(finer, 0.005, slope_rad=0.05, mu=0.3)
+    assert other.prd_m == pytest.approx(one.prd_m, rel=1e-12)
+    assert other.n_stops == one.n_stops
+
+
+def test_gravity_and_record_scaled_together_scale_the_displacement(noise):
+    one = slide(noise, 0.01, slope_rad=0.05, mu=0.3, g_mps2=9.8)
+    other = slide(noise, 0.01, slope_rad=0.05, mu=0.3, g_mps2=19.6, scale=2.0)
+    assert other.prd_m == pytest.approx(2 * one.prd_m, rel=1e-12)
+
+
+def test_work_done_by_friction_and_gravity_balances_the_relative_energy(noise):
+    slope, mu = 0.05, 0.3
+    history = slide_history(noise, 0.01, slope_rad=slope, mu=mu)
+    # Fine sums on the cubic motion: a second way to the same numbers, at the order of the sum.
+    t = np.arange(0, history.t_s[-1], 1e-4)
+    a = np.interp(t, history.t_s, noise)
+    v = np.interp(t, history.t_s, history.v_mps) / math.cos(slope)
+    normal = 9.80665 * math.cos(slope) + a * math.sin(slope)
+    drive = 9.80665 * math.sin(slope) - a * math.cos(slope)
+    power = drive * v - mu * normal * np.abs(v)
+    assert power.sum() * 1e-4 == pytest.approx(0.0, abs=0.01 * (mu * normal * abs(v)).sum() * 1e-4)
+
+
+# History
+
+
+def test_the_history_ends_where_the_result_says_and_passes_through_its_events(noise):
+    history = slide_history(noise, 0.01, slope_rad=0.03, mu=0.25)
+    result = history.result
+    assert result == slide(noise, 0.01, slope_rad=0.03, mu=0.25)
+    assert history.u_m[-1] == result.residual_m
+    stops = [event for event in history.events if event.kind is EventKind.STOP]
+    assert len(stops) == result.n_stops
+    assert max(abs(event.u_m) for event in stops) == result.prd_m
+    assert any(event.t_s == result.t_prd_s for event in stops)
+    kinds = [event.kind for event in history.events]
+    assert all(one is not other for one, other in itertools.pairwise(kinds))
+    assert np.abs(history.u_m).max() <= result.prd_m
+
+
+def test_a_history_at_rest_is_zero_with_no_events():
+    history = slide_history([0.0, 1.0, 0.0], 0.1, slope_rad=0.0, mu=0.5)
+    assert history.events == ()
+    assert not history.u_m.any()
+    assert not history.v_mps.any()
+
+
+# The paper
+
+
+def test_the_papers_algorithm_converges_to_the_exact_one(noise):
+    exact = slide(noise, 0.01, slope_rad=math.radians(4), mu=0.3)
+    errors = [
+        abs(
+            slide(
+                noise, 0.01, slope_rad=math.radians(4), mu=0.3, method="paper", substeps=p
+            ).residual_m
+            - exact.residual_m
+        )
+        / abs(exact.residual_m)
+        for p in (16, 256, 4096)
+    ]
+    assert errors[0] < 0.1
+    assert errors[1] < 0.01
+    assert errors[2] < 0.001
+
+
+def test_physical_check_1_a_shock_knocks_a_resting_block_loose():
+    still = slide(np.zeros(100), 0.01, slope_rad=math.radians(30), mu=1.0)
+    assert still.prd_m == 0.0
+    shock = np.concatenate([np.zeros(50), np.full(10, -6.0), np.zeros(200)])
+    assert slide(shock, 0.01, slope_rad=math.radians(30), mu=1.0).down_m > 0.01
+
+
+def test_physical_check_3_slopes_of_opposite_sign_give_different_histories(noise):
+    one, other = (slide(noise, 0.01, slope_rad=math.radians(d), mu=0.4, scale=1.5) for d in (4, -4))
+    assert one.prd_m != other.prd_m
+
+
+@pytest.mark.parametrize("method", ["exact", "paper"])
+def test_physical_check_4_free_sliding_begins_at_mu_equal_tan_theta(method):
+    slope = math.radians(0.5)
+    slides, rests = (
+        slide(np.zeros(500), 0.01, slope_rad=slope, mu=f * math.tan(slope), method=method)
+        for f in (0.999, 1.000001)
+    )
+    assert slides.prd_m > 0.0
+    assert rests.prd_m == 0.0
+
+
+def test_a_history_by_the_papers_algorithm_samples_the_same_motion(noise):
+    history = slide_history(noise, 0.01, slope_rad=0.05, mu=0.3, method="paper", substeps=64)
+    exact = slide_history(noise, 0.01, slope_rad=0.05, mu=0.3)
+    assert history.u_m[-1] == history.result.residual_m
+    assert np.abs(history.u_m - exact.u_m).max() < 0.05 * exact.result.prd_m
+
+
+# Uplift and bad input
+
+
+@pytest.mark.parametrize("method", ["exact", "paper"])
+def test_a_negative_normal_force_gives_the_time_and_no_displacement(method):
+    ax = np.array([0.0, 0.0, -40.0, 0.0])
+    found = slide(ax, 0.1, slope_rad=math.radians(30), mu=0.5, g_mps2=10.0, method=method)
+    assert found.status is Status.UPLIFT
+    assert all(math.isnan(getattr(found, field)) for field in FIELDS)
+    # N = 10 cos 30 - 400 (t - 0.1) sin 30 = 0
+    assert found.t_uplift_s == pytest.approx(0.1 + math.cos(math.radians(30)) / 20, rel=1e-12)
+    assert found.n_min_g == pytest.approx(math.cos(math.radians(30)) - 2.0, rel=1e-12)
+
+
+def test_vertical_shaking_alone_can_lift_the_block():
+    found = slide([0.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, az_mps2=[0.0, -10.0], g_mps2=9.8)
+    assert found.status is Status.UPLIFT
+    history = slide_history([0.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, az_mps2=[-10.0, 0.0])
+    assert history.result.t_uplift_s == 0.0
+    assert np.isnan(history.u_m).all()
+
+
+def law(**changes):
+    """A law of friction by speed, with changes."""
+    values = {"mu_slow": 0.2, "mu_fast": 0.3, "rate_s_per_m": 20.0, "mu_static": 0.2}
+    return Friction(**(values | changes))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"ax_mps2": [0.0, math.nan]}, r"ax_mps2\[1\] is nan"),
+        ({"ax_mps2": [0.0]}, r"ax_mps2 has shape \(1,\)"),
+        ({"ax_mps2": [[0.0, 1.0]]}, r"ax_mps2 has shape \(1, 2\)"),
+        ({"ax_mps2": ["a", "b"]}, "ax_mps2 is of type <U1; give a sequence of accelerations"),
+        ({"ax_mps2": [[0.0], [1.0, 2.0]]}, "ax_mps2 is not a row of real numbers"),
+        ({"ax_mps2": [10**400, 0]}, "ax_mps2 is of type object"),
+        ({"ax_mps2": [True, False, True]}, "ax_mps2 is of type bool"),
+        ({"ax_mps2": [1.0, 2.0j, 0.0]}, "ax_mps2 is of type complex128"),
+        ({"ax_mps2": np.array(["2020", "2021"], "datetime64[s]")}, "ax_mps2 is of type datetime64"),
+        ({"ax_mps2": np.ma.array([0.0, 1.0, 2.0], mask=[0, 1, 0])}, "ax_mps2 has masked samples"),
+        ({"dt_s": "0.01"}, "dt_s is '0.01'; give a number of seconds above 0"),
+        ({"dt_s": True}, "dt_s is True"),
+        ({"dt_s": 10**400}, r"dt_s is 10+\.\.\.; give"),
+        ({"mu": "0.3"}, "mu is '0.3'; give a friction coefficient of 0 or more"),
+        ({"mu": 0.3 + 0.0j}, r"mu is \(0.3\+0j\)"),
+        ({"scale": 1e308}, "are beyond floating point; give another scale"),
+        ({"dt_s": 5e-324}, "are beyond floating point"),
+        ({"dt_s": 1e200}, "are beyond floating point"),
+        ({"mu": law(mu_slow=-0.1)}, "mu_slow is -0.1; give a friction coefficient of 0 or more"),
+        ({"mu": law(rate_s_per_m=math.nan)}, "rate_s_per_m is nan; give a number of s/m"),
+        ({"mu": law(mu_static=0.1)}, "mu_static is 0.1; give mu_slow, 0.2, or more"),
+        ({"mu": law(), "method": "paper"}, "method is 'paper'; two axes and friction by speed"),
+        ({"mu": law(), "tolerance": 1.0}, "tolerance is 1.0; give a number from 1e-10 to 0.01"),
+        ({"az_mps2": [0.0, 0.0]}, r"az_mps2 has shape \(2,\)"),
+        ({"az_mps2": [0.0, math.inf, 0.0]}, r"az_mps2\[1\] is inf"),
+        ({"dt_s": 0.0}, "dt_s is 0.0"),
+        ({"dt_s": math.nan}, "dt_s is nan"),
+        ({"mu": -0.1}, "mu is -0.1"),
+        ({"mu": math.nan}, "mu is nan"),
+        ({"slope_rad": math.pi / 2}, "slope_rad is 1.57"),
+        ({"slope_rad": math.nan}, "slope_rad is nan"),
+        ({"scale": math.inf}, "scale is inf"),
+        ({"g_mps2": 0.0}, "g_mps2 is 0.0"),
+        ({"method": "euler"}, "method is 'euler'"),
+        ({"substeps": 0, "method": "paper"}, "substeps is 0"),
+        ({"az_mps2": [0.0, 0.0, 0.0], "method": "paper"}, "horizontal shaking only"),
+    ],
+)
+def test_arguments_at_fault_raise_the_input_error(change, message):
+    arguments = {"ax_mps2": [0.0, 1.0, 0.0], "dt_s": 0.1, "slope_rad": 0.0, "mu": 0.5} | change
+    with pytest.raises(InputError, match=message):
+        slide(arguments.pop("ax_mps2"), arguments.pop("dt_s"), **arguments)
+
+
+def test_all_faults_are_named_at_once():
+    with pytest.raises(InputError) as raised:
+        slide([0.0], -1.0, slope_rad=9.0, mu=-1.0)
+    assert len(raised.value.problems) == 4
+
+
+# Friction by speed, and the public scene
+
+
+def test_slide_takes_a_law_of_friction_by_speed(noise):
+    found = slide(noise, 0.01, slope_rad=0.03, mu=law(), tolerance=1e-8)
+    constant = [slide(noise, 0.01, slope_rad=0.03, mu=mu).prd_m for mu in (0.2, 0.3)]
+    assert constant[0] > found.prd_m > constant[1]
+    assert found.across_m == 0.0
+    assert found.error_m <= 1e-8 * found.prd_m
+    history = slide_history(noise, 0.01, slope_rad=0.03, mu=law(), tolerance=1e-8)
+    assert history.result == found
+    assert solver.solve(solver.scene(noise, 0.01, slope_rad=0.03, mu=law())).result.prd_m == (
+        pytest.approx(found.prd_m, rel=1e-6)
+    )
+
+
+def test_a_law_that_is_constant_is_one_coefficient(noise):
+    same = law(mu_fast=0.2)
+    assert slide(noise, 0.01, slope_rad=0.03, mu=same) == slide(noise, 0.01, slope_rad=0.03, mu=0.2)
+    assert slide(noise, 0.01, slope_rad=0.0, mu=same, method="paper").prd_m > 0.0
+
+
+def test_a_scene_is_checked_and_solved(noise):
+    about = {"slope_rad": 0.03, "mu": 0.3, "scale": 1.2}
+    one = solver.scene(noise, 0.01, ay_mps2=-noise, **about)
+    assert solver.solve(one).result.prd_m == pytest.approx(
+        slide(noise, 0.01, ay_mps2=-noise, **about).prd_m, rel=1e-12
+    )
+    with pytest.raises(InputError) as raised:
+        solver.scene(noise, "0.01", slope_rad=0.03, mu=law(mu_static=0.0), ay_mps2=[True])
+    assert len(raised.value.problems) == 4
+
+
+def test_a_result_that_is_not_finite_is_a_status(noise, monkeypatch):
+    # The border lets nothing pass that could do it: so the border is taken away.
+    monkeypatch.setattr("solver.sliding.checked._overflow", lambda scene: [])
+    found = slide(noise, 1e200, slope_rad=0.0, mu=0.2)
+    assert found.status is Status.DIVERGED
+    assert math.isnan(found.prd_m)
+    both = slide([0.0, 5.0, -5.0], 1e-320, slope_rad=0.0, mu=0.2, ay_mps2=[0.0, 1.0, 0.0])
+    assert both.status is Status.DIVERGED
+    assert math.isnan(both.error_m)
+
+
+def test_methods_that_are_not_exact_state_no_error(noise):
+    assert math.isnan(slide(noise, 0.01, slope_rad=0.0, mu=0.2, method="paper").error_m)
+    exact = slide(noise, 0.01, slope_rad=0.0, mu=0.2)
+    assert 0.0 < exact.error_m < 1e-11

@@ -1,0 +1,372 @@
+"""A row of blocks, against closed forms, one block, one rigid array, energy and SciPy."""
+
+import itertools
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from solver.model import InputError, Scene, Status, coulomb
+from solver.sliding import one_axis
+from solver.sliding import row as rows
+from solver.sliding.row import Row, row_history, slide_row
+
+G = 10.0
+EMPTY = np.empty(0)
+HELD = 50.0
+"""A coefficient of friction that nothing overcomes."""
+
+
+def readonly(values):
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def shaking(seed, peak_g, seconds=10.0, dt=0.01):
+    """Noise of periods from 0.2 to 3 s, from rest to rest."""
+    rng = np.random.default_rng(seed)
+    n = round(seconds / dt)
+    freq = np.fft.rfftfreq(n, dt)
+    wave = np.fft.irfft(((freq > 0.3) & (freq < 5.0)) * np.exp(2j * np.pi * rng.random(freq.size)))
+    wave = wave[:n] * np.sin(np.pi * np.arange(n) / n)
+    return readonly(wave * peak_g * G / np.abs(wave).max())
+
+
+def scene(ax, az=EMPTY, *, dt=0.01, slope=0.05):
+    return Scene(
+        ax_mps2=readonly(ax),
+        ay_mps2=EMPTY,
+        az_mps2=readonly(az),
+        dt_s=dt,
+        slope_rad=slope,
+        friction=coulomb(0.9),
+        scale=1.0,
+        g_mps2=G,
+    )
+
+
+def shaken(seed, slope=0.05):
+    return scene(shaking(seed, 1.0), shaking(seed + 50, 0.3), slope=slope)
+
+
+def constant(a, seconds, dt=0.01):
+    """A roof that is pushed up-slope with `a`, so that the blocks are driven down by it."""
+    return scene(np.full(round(seconds / dt) + 1, -a), dt=dt, slope=0.0)
+
+
+# One block
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("slope", [0.0, 0.05, -0.1])
+@pytest.mark.parametrize("mu", [0.0, 0.2, 0.5])
+def test_a_row_of_one_block_is_the_block_with_vertical_shaking(seed, slope, mu):
+    one = shaken(seed, slope)
+    found = slide_row(one, Row(mus=(mu,), stiffness_per_s2=1e3))
+    exact = one_axis.run(replace(one, friction=coulomb(mu)))
+    assert found.prd_m[0] == pytest.approx(exact.prd_m, rel=1e-9)
+    assert found.residual_m[0] == pytest.approx(exact.residual_m, rel=1e-9, abs=1e-9 * exact.prd_m)
+    assert (found.down_m[0], found.up_m[0]) == pytest.approx((exact.down_m, exact.up_m), rel=1e-9)
+    assert abs(found.prd_m[0] - exact.prd_m) <= found.error_m < 1e-9
+    assert (found.n_stops, found.status) == (exact.n_stops, exact.status)
+    assert found.rigid == exact
+    assert found.stretch_m == found.link_force == 0.0
+
+
+def test_a_row_of_one_block_is_the_block_on_real_records(real_records):
+    for record, dt in real_records.values():
+        one = scene(record * (G / np.abs(record).max()), dt=dt)
+        found = slide_row(one, Row(mus=(0.4,), stiffness_per_s2=1.0))
+        assert found.prd_m[0] == pytest.approx(found.rigid.prd_m, rel=1e-12)
+
+
+# Rigid limits
+
+
+@pytest.mark.parametrize("stiffness", [0.0, 1.0, 1e3, 1e6])
+@pytest.mark.parametrize("shares", [(), (0.1, 0.2, 0.3, 0.4)])
+def test_blocks_of_equal_friction_move_as_one_whatever_their_links(stiffness, shares):
+    one = shaken(1)
+    found = slide_row(
+        one, Row(mus=(0.4,) * 4, stiffness_per_s2=stiffness, damping_per_s=2.0, shares=shares)
+    )
+    assert found.prd_m == pytest.approx((found.rigid.prd_m,) * 4, rel=1e-9)
+    assert found.stretch_m == found.link_force == 0.0
+    assert found.rigid.prd_m == one_axis.run(replace(one, friction=coulomb(0.4))).prd_m
+
+
+@pytest.mark.parametrize("shares", [(), (0.5, 0.2, 0.3)])
+@pytest.mark.parametrize("seed", [2, 3])
+def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
+    """The difference falls at least with the root of the stiffness, the stretch with it.
+
+    Links ring with the speed F / sqrt(k) when a block stops or slips, F the friction that they
+    share out; over a second of sliding that is the envelope.
+    """
+    mus, one = (0.25, 0.55, 0.4), shaken(seed)
+    aways, stretches, shared = [], [], G * (0.55 - 0.4)
+    for stiffness in (1e2, 1e4, 1e6, 1e8):
+        links = Row(
+            mus=mus, stiffness_per_s2=stiffness, damping_per_s=0.2 * stiffness**0.5, shares=shares
+        )
+        found = slide_row(one, links)
+        away = max(abs(prd - found.rigid.prd_m) for prd in found.prd_m)
+        assert away <= 1.0 * shared / math.sqrt(stiffness)
+        assert abs(found.flexibility_m) <= away
+        aways.append(away)
+        stretches.append(found.stretch_m)
+    assert aways[3] < 1e-2 * aways[0]
+    assert max(stretches[i + 1] / stretches[i] for i in (1, 2)) < 0.02
+    mean = sum(m * w for m, w in zip(mus, shares or (1 / 3,) * 3, strict=True))
+    rigid = one_axis.run(replace(one, friction=coulomb(mean)))
+    assert found.rigid.prd_m == pytest.approx(rigid.prd_m, rel=1e-12)
+
+
+def test_without_links_each_block_goes_by_itself():
+    one, mus = shaken(4), (0.2, 0.5, 0.35)
+    found = slide_row(one, Row(mus=mus, stiffness_per_s2=0.0))
+    alone = [one_axis.run(replace(one, friction=coulomb(mu))).prd_m for mu in mus]
+    assert found.prd_m == pytest.approx(alone, rel=1e-9)
+    assert found.stretch_m > 0.0
+    assert found.link_force == 0.0
+
+
+# Closed forms
+
+
+@pytest.mark.parametrize("k", [30.0, 400.0, 1e5])
+def test_a_block_without_friction_on_a_held_one_swings_about_its_weight_by_the_spring(k):
+    a = 2.0
+    found = slide_row(constant(a, 3.0), Row(mus=(HELD, 0.0), stiffness_per_s2=k))
+    assert found.prd_m == pytest.approx((0.0, 2.0 * a / k), rel=1e-12)
+    assert found.residual_m[1] == pytest.approx(
+        a / k * (1.0 - math.cos(3.0 * math.sqrt(k))), rel=1e-9
+    )
+    assert found.stretch_m == pytest.approx(2.0 * a / k, rel=1e-12)
+    assert found.link_force == pytest.approx(2.0 * a / G, rel=1e-12)
+
+
+def test_a_dashpot_alone_lets_a_block_reach_a_steady_speed():
+    a, c, t = 2.0, 3.0, 2.0
+    found = slide_row(
+        constant(a, t), Row(mus=(HELD, 0.0), stiffness_per_s2=0.0, damping_per_s=c)
+    )  # fmt: skip
+    way = a / c * (t - (1.0 - math.exp(-c * t)) / c)
+    assert found.residual_m == pytest.approx((0.0, way), rel=1e-12)
+    assert found.link_force == pytest.approx(a / G * (1.0 - math.exp(-c * t)), rel=1e-12)
+    assert found.status is Status.SLIDING_AT_END
+
+
+@pytest.mark.parametrize(("a", "mu"), [(5.0, 0.03), (5.0, 0.11), (5.0, 0.24), (5.0, 0.26)])
+def test_friction_ends_a_swing_after_as_many_reversals_as_the_closed_form_has(a, mu):
+    """Each half swing ends 2 mu g / k nearer to a / k, until the spring holds no longer."""
+    k, place, n_stops, side = 100.0, 0.0, 0, 1.0
+    while abs(a - k * place) > mu * G:
+        place = 2.0 * (a - side * mu * G) / k - place
+        side, n_stops = -side, n_stops + 1
+    found = slide_row(constant(a, 8.0), Row(mus=(HELD, mu), stiffness_per_s2=k))
+    assert found.residual_m[1] == pytest.approx(place, rel=1e-11)
+    assert found.prd_m[1] == pytest.approx(2.0 * (a - mu * G) / k, rel=1e-12)
+    assert (found.n_stops, found.status) == (n_stops, Status.OK)
+
+
+def test_a_block_too_steep_to_rest_by_itself_comes_to_rest_on_its_link():
+    slope, mu, k = 0.3, 0.1, 50.0
+    one = scene(np.zeros(1001), slope=slope)
+    found = slide_row(one, Row(mus=(HELD, mu), stiffness_per_s2=k))
+    a, hold = G * math.sin(slope), mu * G * math.cos(slope)
+    assert found.status is Status.OK
+    assert found.prd_m[1] == pytest.approx(math.cos(slope) * 2.0 * (a - hold) / k, rel=1e-12)
+    assert one_axis.run(replace(one, friction=coulomb(mu))).status is Status.SLIDING_AT_END
+
+
+def test_a_block_without_friction_that_nothing_pushes_rests():
+    found = slide_row(scene(np.zeros(100), slope=0.0), Row(mus=(0.0, 0.4), stiffness_per_s2=10.0))
+    assert (found.status, found.prd_m, found.n_stops) == (Status.OK, (0.0, 0.0), 0)
+    pushed = scene([0.0, 0.0, -1.0, 1.0, 0.0, 0.0], dt=0.1, slope=0.0)
+    found = slide_row(pushed, Row(mus=(0.0, HELD, 0.0), stiffness_per_s2=10.0))
+    assert found.status is Status.SLIDING_AT_END
+    assert found.prd_m[0] == pytest.approx(found.prd_m[2], rel=1e-12)
+
+
+# Symmetry, invariance, energy
+
+
+MIXED = Row(mus=(0.3, 0.5, 0.3, 0.2), stiffness_per_s2=2e3, damping_per_s=5.0,
+            shares=(0.2, 0.2, 0.2, 0.4))  # fmt: skip
+
+
+def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
+    one = shaken(5)
+    mirrored = replace(one, ax_mps2=readonly(-one.ax_mps2), slope_rad=-one.slope_rad)
+    other = replace(MIXED, mus=MIXED.mus[::-1], shares=MIXED.shares[::-1])
+    found, seen = slide_row(one, MIXED), slide_row(mirrored, other)
+    assert seen.prd_m == found.prd_m[::-1]
+    assert seen.residual_m == tuple(-u for u in found.residual_m[::-1])
+    assert (seen.down_m, seen.up_m) == (found.up_m[::-1], found.down_m[::-1])
+    assert (seen.stretch_m, seen.n_stops) == (found.stretch_m, found.n_stops)
+
+
+def test_blocks_that_mirror_each_other_without_a_slope_stop_and_slip_together():
+    """Every event of one end is one of the other at the same time."""
+    one = scene(shaking(6, 1.0), slope=0.0)
+    row = Row(mus=(0.3, 0.3, 0.6, 0.6, 0.3, 0.3), stiffness_per_s2=1e3)
+    history = row_history(one, row)
+    np.testing.assert_allclose(history, history[::-1], rtol=0.0, atol=1e-11)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("damping", [0.0, 5.0, 300.0])
+@pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
+def test_work_is_what_friction_dampers_speed_and_springs_have(seed, damping, k):
+    row = replace(MIXED, stiffness_per_s2=k, damping_per_s=damping)
+    energy = slide_row(shaken(seed), row).energy
+    assert abs(energy.defect) < 1e-11 * energy.work
+    assert energy.friction > 0.0
+    assert (energy.dampers > 0.0) == (damping > 0.0)
+    assert min(energy.kinetic, energy.springs, energy.dampers) >= 0.0
+
+
+@pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
+@pytest.mark.parametrize("seed", range(4))
+def test_samples_put_between_samples_change_no_more_than_the_bound(seed, k):
+    one, row = shaken(seed), replace(MIXED, stiffness_per_s2=k)
+    at = np.arange(3 * one.ax_mps2.size - 2) / 3.0
+    finer = replace(
+        one,
+        ax_mps2=readonly(np.interp(at, np.arange(one.ax_mps2.size), one.ax_mps2)),
+        az_mps2=readonly(np.interp(at, np.arange(one.ax_mps2.size), one.az_mps2)),
+        dt_s=one.dt_s / 3.0,
+    )
+    found, again = slide_row(one, row), slide_row(finer, row)
+    assert found.error_m < 1e-8 * max(found.prd_m)
+    changes = np.subtract(again.prd_m + again.residual_m, found.prd_m + found.residual_m)
+    assert np.abs(changes).max() <= found.error_m + again.error_m
+    assert again.stretch_m == pytest.approx(found.stretch_m, rel=1e-7)
+    assert again.link_force == pytest.approx(found.link_force, rel=1e-7)
+
+
+# SciPy, written apart: horizontal record, springs by place, events by SciPy
+
+
+def by_scipy(one, row):
+    """Places of the blocks at the samples, by an adaptive solver stopped at every event."""
+    n, dt = len(row.mus), one.dt_s
+    mus, mass = np.array(row.mus), np.array(row.weights) * n
+    grid = np.arange(one.ax_mps2.size) * dt
+    vertical = one.az_mps2 if one.az_mps2.size else np.zeros(grid.size)
+    sn, cs = math.sin(one.slope_rad), math.cos(one.slope_rad)
+
+    def normal(t):
+        return (G + np.interp(t, grid, vertical)) * cs + np.interp(t, grid, one.ax_mps2) * sn
+
+    def pull(t, y):
+        s, w = y[:n], y[n:]
+        tension = row.stiffness_per_s2 * np.diff(s) + row.damping_per_s * np.diff(w)
+        drive = (G + np.interp(t, grid, vertical)) * sn - np.interp(t, grid, one.ax_mps2) * cs
+        return drive + (np.append(tension, 0.0) - np.append(0.0, tension)) / mass
+
+    def rate(t, y, sigma):
+        w = np.where(sigma == 0.0, 0.0, y[n:])
+        return np.append(w, np.where(sigma == 0.0, 0.0, pull(t, y) - sigma * mus * normal(t)))
+
+    def watch(i, side):
+        def moving(t, y, sigma):
+            return sigma[i] * y[n + i] if sigma[i] != 0.0 and side > 0.0 else 1.0
+
+        def resting(t, y, sigma):
+            return mus[i] * normal(t) - side * pull(t, y)[i] if sigma[i] == 0.0 else 1.0
+
+        for event in (moving, resting):
+            event.terminal, event.direction = True, -1.0
+        return moving, resting
+
+    events = [event for i in range(n) for side in (1.0, -1.0) for event in watch(i, side)]
+    y, sigma, places = np.zeros(2 * n), np.zeros(n), [np.zeros(n)]
+    for start, end in itertools.pairwise(grid):
+        t = start
+        while t < end:
+            run = solve_ivp(
+                rate, (t, end), y, "DOP853", events=events, args=(sigma,), rtol=1e-12,
+                atol=1e-14, max_step=dt / 8,
+            )  # fmt: skip
+            t, y = run.t[-1], run.y[:, -1]
+            if run.status != 1:
+                break
+            for number in (k for k, times in enumerate(run.t_events) if times.size):
+                i, side = number // 4, 1.0 if number % 4 < 2 else -1.0
+                if number % 2:
+                    sigma[i] = side
+                else:
+                    y[n + i] = 0.0
+                    push = pull(t, y)[i]
+                    sigma[i] = np.sign(push) if abs(push) > mus[i] * normal(t) else 0.0
+        places.append(y[:n])
+    return np.array(places).T * cs
+
+
+@pytest.mark.parametrize(
+    ("mus", "shares", "k", "c"),
+    [
+        ((0.3, 0.5), (), 40.0, 0.0),
+        ((0.3, 0.5), (0.7, 0.3), 400.0, 4.0),
+        ((0.2, 0.6, 0.35), (0.5, 0.2, 0.3), 150.0, 1.0),
+    ],
+)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_an_adaptive_solver_stopped_at_every_event_gives_the_same_motion(mus, shares, k, c, seed):
+    rng = np.random.default_rng(seed)
+    ax = np.concatenate([[0.0], rng.normal(0.0, 6.0, 24), [0.0, 0.0]])
+    az = np.concatenate([[0.0], rng.normal(0.0, 1.5, 24), [0.0, 0.0]])
+    one = scene(ax, az, dt=0.1, slope=0.08)
+    row = Row(mus=mus, stiffness_per_s2=k, damping_per_s=c, shares=shares)
+    history = row_history(one, row)
+    assert slide_row(one, row).n_stops >= 10
+    np.testing.assert_allclose(history, by_scipy(one, row), rtol=0.0, atol=1e-11)
+
+
+# Results and refusals
+
+
+def test_a_history_ends_where_the_result_does_and_never_leaves_its_peaks():
+    one, found = shaken(7), slide_row(shaken(7), MIXED)
+    history = row_history(one, MIXED)
+    assert history.shape == (4, one.ax_mps2.size)
+    np.testing.assert_allclose(history[:, -1], found.residual_m, rtol=0.0, atol=1e-15)
+    assert (history.max(axis=1) <= np.array(found.down_m) + 1e-15).all()
+    assert (-history.min(axis=1) <= np.array(found.up_m) + 1e-15).all()
+    np.testing.assert_allclose(np.abs(history).max(axis=1), found.prd_m, rtol=0.01)
+
+
+def test_where_the_row_lifts_off_it_gives_no_number():
+    one = scene(shaking(1, 1.0), 6.0 * shaking(2, 0.5))
+    found = slide_row(one, MIXED)
+    assert found.status is found.rigid.status is Status.UPLIFT
+    assert np.isnan([*found.prd_m, found.stretch_m, found.link_force, found.error_m]).all()
+    assert np.isnan(row_history(one, MIXED)).all()
+
+
+def test_a_row_that_is_given_up_gives_no_number(monkeypatch):
+    monkeypatch.setattr(rows, "_MOST_EVENTS", 0)
+    found = slide_row(shaken(1), MIXED)
+    assert found.status is Status.DIVERGED
+    assert np.isnan(found.prd_m).all()
+    assert found.rigid.status is Status.OK
+
+
+def test_every_fault_of_a_row_is_named():
+    bad = Row(mus=(-0.1, 0.3), stiffness_per_s2=math.inf, damping_per_s=-1.0, shares=(1.0,))
+    with pytest.raises(InputError) as caught:
+        slide_row(shaken(1), bad)
+    assert [line.split()[0] for line in caught.value.problems] == [
+        "mus", "stiffness_per_s2", "damping_per_s", "shares",
+    ]  # fmt: skip
+    with pytest.raises(InputError, match="mus is empty"):
+        slide_row(shaken(1), Row(mus=(), stiffness_per_s2=1.0))
+    with pytest.raises(InputError, match="add up to 1"):
+        slide_row(shaken(1), replace(MIXED, shares=(0.2, 0.2, 0.2, 0.2)))
+    with pytest.raises(InputError, match="softer links"):
+        slide_row(shaken(1), replace(MIXED, stiffness_per_s2=1e16))

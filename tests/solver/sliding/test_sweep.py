@@ -1,0 +1,78 @@
+"""Sweeps give what single runs give, to the last bit."""
+
+import math
+
+import numba
+import numpy as np
+import pytest
+
+from solver.model import InputError, Status
+from solver.sliding.checked import slide
+from solver.sliding.sweep import STATUSES, order_alike, sweep
+
+SLOPES = [-0.5, -0.05, 0.0, 0.07]
+FRICTIONS = [0.0, 0.02, 0.3]
+SCALES = [0.0, 0.7, 2.0]
+
+
+@pytest.mark.parametrize("with_vertical", [False, True])
+def test_a_sweep_is_every_single_run(noise, with_vertical):
+    az = 0.3 * noise[::-1] if with_vertical else None
+    found = sweep(noise, 0.01, slopes_rad=SLOPES, mus=FRICTIONS, scales=SCALES, az_mps2=az)
+    assert found.prd_m.shape == found.status.shape == (4, 3, 3)
+    seen = set()
+    for (i, slope), (j, mu), (k, scale) in (
+        (a, b, c)
+        for a in enumerate(SLOPES)
+        for b in enumerate(FRICTIONS)
+        for c in enumerate(SCALES)
+    ):
+        one = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale, az_mps2=az)
+        np.testing.assert_array_equal(found.prd_m[i, j, k], one.prd_m)
+        np.testing.assert_array_equal(found.residual_m[i, j, k], one.residual_m)
+        assert STATUSES[found.status[i, j, k]] is one.status
+        seen.add(one.status)
+    assert {Status.OK, Status.SLIDING_AT_END} <= seen
+
+
+def test_uplift_is_a_hole_with_its_status():
+    found = sweep([0.0, -40.0, 0.0], 0.1, slopes_rad=[0.5, 0.0], mus=[0.4], scales=[1.0])
+    assert np.isnan(found.prd_m[0, 0, 0])
+    assert STATUSES[found.status[0, 0, 0]] is Status.UPLIFT
+    assert np.isfinite(found.prd_m[1, 0, 0])
+
+
+def test_the_number_of_threads_changes_nothing(noise):
+    before = numba.get_num_threads()
+    found = []
+    try:
+        for threads in (1, before):
+            numba.set_num_threads(threads)
+            found.append(sweep(noise, 0.01, slopes_rad=SLOPES, mus=FRICTIONS, scales=SCALES).prd_m)
+    finally:
+        numba.set_num_threads(before)
+    np.testing.assert_array_equal(*found)
+
+
+def test_progress_runs_up_to_one(noise):
+    shares = []
+    sweep(noise, 0.01, slopes_rad=SLOPES, mus=0.3, scales=1.0, progress=shares.append)
+    assert shares == [0.25, 0.5, 0.75, 1.0]
+
+
+def test_every_value_at_fault_is_named():
+    with pytest.raises(InputError) as raised:
+        sweep([0.0, math.nan], 0.0, slopes_rad=[2.0], mus=[-0.1], scales=[])
+    text = str(raised.value)
+    for name in ("ax_mps2[1]", "dt_s", "slopes_rad has 2.0", "mus has -0.1", "scales has shape"):
+        assert name in text
+
+
+def test_scenes_that_yield_alike_are_neighbours():
+    scenes = np.array([(s, m, k) for s in SLOPES for m in FRICTIONS for k in SCALES])
+    order = order_alike(scenes)
+    assert sorted(order) == list(range(len(scenes)))
+    down = [(s, m, k) for s, m, k in scenes[order] if s * k > 0.0]
+    yields_at = [math.tan(math.atan(mu) - slope) / scale for slope, mu, scale in down]
+    assert len(down) > 4
+    assert yields_at == sorted(yields_at)

@@ -1,0 +1,138 @@
+"""Friction that depends on speed, and more at rest: closed forms, SciPy, and back to Coulomb's."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_two_axes import G, places, readonly, scene, shaking
+
+import plane_oracle
+from solver.model import Friction, coulomb
+from solver.sliding.two_axes import follow, follow_history
+
+GROWING = Friction(mu_slow=0.2, mu_fast=0.35, rate_s_per_m=20.0, mu_static=0.2)
+FALLING = Friction(mu_slow=0.35, mu_fast=0.2, rate_s_per_m=20.0, mu_static=0.35)
+HELD = Friction(mu_slow=0.25, mu_fast=0.25, rate_s_per_m=0.0, mu_static=0.32)
+BOTH = Friction(mu_slow=0.3, mu_fast=0.22, rate_s_per_m=10.0, mu_static=0.36)
+
+
+def law_of(friction):
+    drop = friction.mu_fast - friction.mu_slow
+    return lambda w: friction.mu_fast - drop * math.exp(-friction.rate_s_per_m * w)
+
+
+@pytest.mark.parametrize("friction", [GROWING, FALLING])
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_under_a_constant_push_the_speed_follows_its_closed_form(friction, turn):
+    # w' = A + B exp(-r w) is linear in exp(r w).
+    push, r, dt = 5.0, friction.rate_s_per_m, 0.01
+    a = push - G * friction.mu_fast
+    b = G * (friction.mu_fast - friction.mu_slow)
+    t = np.arange(60) * dt
+    speed = np.log((1.0 + b / a) * np.exp(r * a * t) - b / a) / r
+    along = -push * np.ones(60)
+    block = scene(math.cos(turn) * along, math.sin(turn) * along, dt, friction=friction)
+    samples, _ = follow_history(block, follow(block, 1e-10))
+    assert np.hypot(samples[2], samples[3]) == pytest.approx(speed, rel=1e-10, abs=1e-14)
+
+
+def test_what_holds_more_at_rest_lets_go_at_once():
+    rise, dt = 20.0, 0.02
+    ramp = -rise * np.arange(15) * dt
+    block = scene(ramp, 0.0 * ramp, dt, friction=HELD)
+    samples, events = follow_history(block, follow(block))
+    begins = HELD.mu_static * G / rise
+    assert events[0].t_s == pytest.approx(begins, rel=1e-12)
+    late = np.maximum(np.arange(15) * dt - begins, 0.0)
+    speed = (HELD.mu_static - HELD.mu_slow) * G * late + 0.5 * rise * late**2
+    assert samples[2] == pytest.approx(speed, rel=1e-10, abs=1e-14)
+
+
+@pytest.mark.parametrize("transverse", [0.0, 1.0])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_as_the_difference_vanishes_it_is_coulombs_friction(transverse, sign):
+    ax, ay, az = shaking(9)
+    block = scene(ax, transverse * ay, 0.01, degrees=3.0, friction=0.3, az=az)
+    alone, changes = places(follow(block, 1e-8)), []
+    for part in (1e-3, 1e-5):
+        law = Friction(
+            mu_slow=0.3, mu_fast=0.3 + sign * part, rate_s_per_m=15.0, mu_static=0.3 + part
+        )
+        changes.append(np.abs(places(follow(replace(block, friction=law), 1e-8)) - alone).max())
+    assert changes[0] < 0.05 * alone[0]
+    assert 1e-3 < changes[1] / changes[0] < 0.1
+    none = Friction(mu_slow=0.3, mu_fast=0.3, rate_s_per_m=15.0, mu_static=0.3)
+    assert none.is_constant
+    assert places(follow(replace(block, friction=none), 1e-8)).tolist() == alone.tolist()
+
+
+@pytest.mark.parametrize("friction", [GROWING, FALLING, HELD, BOTH])
+def test_it_is_as_scipy_follows_it(friction):
+    ax, ay, az = shaking(12, n=45, dt=0.04, peak=5.0)
+    block = scene(ax, ay, 0.04, degrees=2.0, friction=friction, az=az)
+    exact = plane_oracle.slide(
+        ax,
+        ay,
+        0.04,
+        slope_rad=block.slope_rad,
+        mu=law_of(friction),
+        mu_static=friction.mu_static,
+        az=az,
+        g=G,
+    )
+    theirs = (exact.prd, exact.x_max, -exact.x_min, exact.y_max, -exact.y_min, *exact.end)
+    assert exact.n_stops > 2
+    for tolerance in (1e-3, 1e-6, 1e-9):
+        found = follow(block, tolerance)
+        error = np.abs(places(found) - theirs).max()
+        assert error <= found.error_m + 1e-10 * exact.prd
+        assert error <= (tolerance + 1e-10) * exact.prd
+        assert found.n_stops == exact.n_stops
+
+
+@pytest.mark.parametrize("rate", [30.0, 1e3, 1e5])
+@pytest.mark.parametrize("seed", range(6))
+def test_friction_that_turns_within_a_step_is_seen(rate, seed):
+    # Far above its turn the exponential is nothing, and no term of a series tells that it comes.
+    friction = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=rate, mu_static=0.2)
+    waves = [np.sign(wave) * 3.0 for wave in shaking(seed, n=50, dt=0.1)[:2]]
+    fine = np.arange(49 * 16 + 1) / 16
+    more = [np.interp(fine, np.arange(50), wave) for wave in waves]
+    one = follow(scene(*waves, 0.1, friction=friction), 1e-8)
+    two = follow(scene(*more, 0.1 / 16, friction=friction), 1e-8)
+    assert one.prd_m > 0.03
+    assert np.abs(places(one) - places(two)).max() <= one.error_m + two.error_m
+
+
+@pytest.mark.parametrize("rate", [1.0, 30.0, 200.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_stop_under_a_constant_push_counts_the_friction_of_its_speed(rate, seed):
+    friction = Friction(mu_slow=0.4, mu_fast=0.6, rate_s_per_m=rate, mu_static=0.4)
+    waves = [np.where(np.abs(w) > 4.0, 8.0 * np.sign(w), 0.0) for w in shaking(seed, 50, 0.1)[:2]]
+    fine = np.arange(49 * 16 + 1) / 16
+    more = [np.interp(fine, np.arange(50), wave) for wave in waves]
+    one = follow(scene(*waves, 0.1, friction=friction), 1e-10)
+    two = follow(scene(*more, 0.1 / 16, friction=friction), 1e-10)
+    assert one.n_stops > 2
+    assert np.abs(places(one) - places(two)).max() <= one.error_m + two.error_m
+
+
+def test_friction_between_two_constants_slides_between_their_ways():
+    ax, ay, _ = shaking(11)
+    found = [
+        follow(scene(ax, ay, 0.01, friction=friction)).prd_m
+        for friction in (coulomb(GROWING.mu_fast), GROWING, coulomb(GROWING.mu_slow))
+    ]
+    assert found == sorted(found)
+
+
+def test_without_friction_at_a_crawl_nothing_sticks():
+    law = Friction(mu_slow=0.0, mu_fast=0.3, rate_s_per_m=5.0, mu_static=0.0)
+    a = readonly([0.0, -1e-3, 0.0, 0.0, 0.0])
+    found = follow(scene(a, 0.0 * a, 0.1, friction=law))
+    # At a crawl friction is a dashpot: the speed is what is left of every push.
+    t = np.linspace(0.0, 0.4, 40_001)
+    left = -np.interp(t, np.arange(5) * 0.1, a) * np.exp(-0.3 * 5.0 * G * (0.4 - t))
+    assert found.end_mps[0] == pytest.approx(left.sum() * 1e-5, rel=1e-3)
+    assert found.n_stops == 0

@@ -1,0 +1,85 @@
+"""Uplift, against lines drawn by hand and a fine grid."""
+
+import math
+
+import numpy as np
+import pytest
+
+from solver.model import Scene, Status, coulomb
+from solver.sliding import one_axis
+from solver.sliding.uplift import uplift
+
+G = 10.0
+
+
+def scene(az_g, *, ax_g=None, slope=0.0, dt=0.1):
+    ax = np.zeros(len(az_g)) if ax_g is None else G * np.array(ax_g)
+    az = G * np.array(az_g, dtype=np.float64)
+    for record in (ax, az):
+        record.setflags(write=False)
+    return Scene(
+        ax_mps2=ax,
+        ay_mps2=np.empty(0),
+        az_mps2=az,
+        dt_s=dt,
+        slope_rad=slope,
+        friction=coulomb(0.5),
+        scale=1.0,
+        g_mps2=G,
+    )
+
+
+def test_a_triangle_below_zero_is_seen_with_its_times_and_depth():
+    found = uplift(scene([0.0, 0.0, -3.0, 0.0, 0.0]))
+    assert found.lifts
+    assert found.n_min_g == -2.0
+    assert found.t_min_s == 0.2
+    assert found.t_first_s == pytest.approx(0.1 + 0.1 / 3.0, rel=1e-15)
+    assert found.duration_s == pytest.approx(0.4 / 3.0, rel=1e-15)
+    assert found.times == 1
+
+
+def test_two_dips_and_one_that_lasts_are_added():
+    found = uplift(scene([0.0, -2.0, 0.0, -2.0, -2.0, 0.0]))
+    assert found.times == 2
+    assert found.duration_s == pytest.approx(0.05 * 4 + 0.1, rel=1e-14)
+    assert found.t_min_s == 0.1
+
+
+def test_a_record_that_begins_below_zero_lifts_at_once():
+    found = uplift(scene([-2.0, 0.0, -1.5]))
+    assert (found.t_first_s, found.times) == (0.0, 2)
+    assert found.duration_s == pytest.approx(0.05 + 0.1 / 3.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("az_g", [[0.0, 0.5, -0.99], [0.0, -1.0, 0.0], [-1.0, -1.0, -1.0]])
+def test_a_normal_force_of_zero_or_more_is_no_uplift(az_g):
+    found = uplift(scene(az_g))
+    assert not found.lifts
+    assert (found.duration_s, found.times) == (0.0, 0)
+    assert math.isnan(found.t_first_s)
+    assert found.n_min_g == pytest.approx(1.0 + min(az_g), abs=1e-15)
+
+
+def test_without_a_vertical_record_a_steep_roof_can_lift():
+    """N = g cos(theta) + ax sin(theta)."""
+    one = scene([0.0, 0.0, 0.0], ax_g=[0.0, -2.0, 0.0], slope=math.radians(45.0))
+    found = uplift(one)
+    assert found.n_min_g == pytest.approx(-math.sqrt(0.5), rel=1e-15)
+    assert found.duration_s == pytest.approx(0.1, rel=1e-14)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_it_agrees_with_what_the_solver_refuses_and_with_a_fine_grid(seed):
+    rng = np.random.default_rng(seed)
+    one = scene(rng.normal(0.0, 0.6, 60), ax_g=rng.normal(0.0, 0.6, 60), slope=0.2)
+    found, refused = uplift(one), one_axis.run(one)
+    assert refused.status is Status.UPLIFT
+    assert found.n_min_g == pytest.approx(refused.n_min_g, rel=1e-13)
+    assert found.t_first_s == pytest.approx(refused.t_uplift_s, rel=1e-13)
+    fine = np.linspace(0.0, 5.9, 590_001)
+    at = np.arange(60) * 0.1
+    ax, az = np.interp(fine, at, one.ax_mps2), np.interp(fine, at, one.az_mps2)
+    below = (G + az) * math.cos(0.2) + ax * math.sin(0.2) < 0.0
+    assert found.duration_s == pytest.approx(below.mean() * 5.9, abs=1e-3)
+    assert found.times == np.count_nonzero(below[1:] & ~below[:-1]) + below[0]

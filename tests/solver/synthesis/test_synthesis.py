@@ -1,0 +1,257 @@
+"""Made motions. Oracles: an oscillator in modal form, whole-number sums, the code's own corners."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+import pytest
+from scipy import signal
+
+from solver.formats import read_record
+from solver.model import Floats, InputError
+from solver.records.record import Record, write_record
+from solver.synthesis import (
+    SuiteMotion,
+    Target,
+    make_suite,
+    spectrum_fit,
+    suite,
+    synthesise,
+    target,
+    target_sa_g,
+)
+
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
+)
+
+G = 9.80665
+SEEDS = range(10)
+BAND = 0.3 * 2.0 ** (np.arange(82) / 12.0)
+
+
+def corners(flexible_g: float, rigid_g: float) -> Target:
+    sa_g = np.array([0.1 * flexible_g, flexible_g, flexible_g, rigid_g])
+    return np.array([0.1, 1.3, 8.3, 33.3]), sa_g
+
+
+HORIZONTAL, VERTICAL = corners(1.6 * 1.566, 1.2 * 1.566), corners(0.67 * 1.566, 0.27 * 1.566)
+
+
+def rng(seed: int) -> np.random.Generator:
+    return np.random.Generator(np.random.PCG64(seed))
+
+
+def finer(record: Record, steps: int) -> Record:
+    """Put samples between each two, on the straight lines."""
+    coarse = np.arange(len(record.a_mps2))
+    at = np.arange((coarse.size - 1) * steps + 1) / steps
+    fine = np.interp(at, coarse, record.a_mps2)
+    return Record(name=record.name, dt_s=record.dt_s / steps, a_mps2=fine)
+
+
+def modal_psa_g(record: Record, freq_hz: Floats) -> Floats:
+    """5 % damped spectrum by one complex mode: q' = s q - a, u = Im(q) / w_d, exact per step.
+
+    Peaks at 40 places of a period or more, by powers of two of the record's own steps.
+    """
+    steps = np.maximum(2.0 ** np.ceil(np.log2(40.0 * record.dt_s * freq_hz)), 1.0)
+    every = steps.max() // steps
+    record = finer(record, int(steps.max()))
+    omega = 2.0 * np.pi * freq_hz
+    damped = omega * np.sqrt(1.0 - 0.05**2)
+    s = -0.05 * omega + 1j * damped
+    h = record.dt_s
+    turn = np.exp(s * h)
+    held = (turn - 1.0) / s
+    ramped = (held - h) / (s * h)
+    q, peak = np.zeros_like(s), np.zeros_like(omega)
+    for i, (now, then) in enumerate(pairwise(record.a_mps2), start=1):
+        q = turn * q - now * held - (then - now) * ramped
+        peak = np.maximum(peak, np.where(i % every == 0, np.abs(q.imag), 0.0))
+    return omega**2 * peak / damped / G
+
+
+def counts(record: Record) -> list[int]:
+    """Samples in whole hundred-thousandths of g."""
+    return [round(a) for a in (record.a_mps2 / G * 1e5).tolist()]
+
+
+@pytest.fixture(scope="module")
+def suites() -> list[SuiteMotion]:
+    return [make_suite(HORIZONTAL, VERTICAL, count=1, seed=seed)[0] for seed in SEEDS]
+
+
+@pytest.fixture(scope="module")
+def components(suites: Any) -> list[tuple[Record, Target]]:
+    targets = HORIZONTAL, HORIZONTAL, VERTICAL
+    return [pair for motion in suites for pair in zip(motion.components, targets, strict=True)]
+
+
+class TestSuite:
+    def test_every_component_of_ten_seeds_keeps_to_its_target(self, components: Any) -> None:
+        # The fit itself is held against another way in `TestFit`.
+        for record, wanted in components:
+            fit = spectrum_fit(record, wanted)
+            assert fit.least >= 0.90
+            assert fit.greatest <= 1.30
+            assert 0.95 <= fit.mean <= 1.05
+
+    def test_long_periods_follow_the_target_roughly(self, components: Any) -> None:
+        freq_hz = np.geomspace(0.1, 0.3, 15)
+        for record, wanted in components[:6]:
+            ratio = modal_psa_g(record, freq_hz) / target_sa_g(wanted, freq_hz)
+            assert ratio.min() >= 0.8
+            assert ratio.max() <= 1.2
+
+    def test_velocity_and_displacement_end_at_zero_exactly(self, components: Any) -> None:
+        # Straight lines between samples that begin and end at zero: velocity is proportional to
+        # the sum of the samples, displacement to the sum of their moments about the end.
+        for record, _ in components:
+            whole = counts(record)
+            assert whole[0] == whole[-1] == 0
+            assert sum(whole) == 0
+            assert sum(n * k for n, k in enumerate(whole)) == 0
+
+    def test_the_ground_does_not_wander_beyond_the_longest_period_asked_for(
+        self, components: Any
+    ) -> None:
+        for record, (freq_hz, sa_g) in components:
+            velocity = np.cumsum(record.a_mps2) * record.dt_s
+            displacement = np.cumsum(velocity) * record.dt_s
+            longest = sa_g[0] * G / (2.0 * np.pi * freq_hz[0]) ** 2
+            assert np.abs(displacement).max() < longest
+
+    def test_the_peak_acceleration_is_the_rigid_one(self, components: Any) -> None:
+        for record, (_, sa_g) in components:
+            assert np.abs(record.a_mps2).max() / G == pytest.approx(sa_g[-1], rel=0.3)
+
+    def test_components_of_a_motion_are_independent(self, suites: Any) -> None:
+        for motion in suites:
+            together = np.corrcoef([record.a_mps2 for record in motion.components])
+            xy, xz, yz = together[0, 1], together[0, 2], together[1, 2]
+            assert motion.correlations == pytest.approx((xy, xz, yz), rel=1e-9)
+            assert max(map(abs, motion.correlations)) <= 0.3
+
+    def test_motions_last_thirty_seconds_and_are_strong_for_twenty(self, components: Any) -> None:
+        for record, _ in components:
+            assert (record.dt_s, len(record.a_mps2)) == (0.005, 6001)
+            energy = np.cumsum(record.a_mps2**2)
+            strong = np.searchsorted(energy, [0.05 * energy[-1], 0.95 * energy[-1]])
+            assert 16.0 < 0.005 * (strong[1] - strong[0]) < 24.0
+            assert energy[400] < 0.02 * energy[-1] > energy[-1] - energy[-401]
+
+    def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites: Any) -> None:
+        again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=3)
+        for one, other in zip(again[0].components, suites[3].components, strict=True):
+            assert np.array_equal(one.a_mps2, other.a_mps2)
+        names = [record.name for record in again[1].components]
+        assert names == ["motion-02-x", "motion-02-y", "motion-02-z"]
+        assert not np.array_equal(again[1].x.a_mps2, again[0].x.a_mps2)
+
+    def test_other_seeds_give_other_motions(self, suites: Any) -> None:
+        first, second = suites[:2]
+        assert abs(np.corrcoef(first.x.a_mps2, second.x.a_mps2)[0, 1]) < 0.3
+
+    def test_what_is_written_is_what_was_checked(self, suites: Any, tmp_path: Path) -> None:
+        for record in suites[0].components:
+            path = tmp_path / f"{record.name}.csv"
+            write_record(path, record)
+            back = read_record(path, units="g")
+            assert back.dt_s == record.dt_s
+            assert np.array_equal(back.a_mps2, record.a_mps2)
+            assert path.stat().st_size < 100_000
+            assert not record.a_mps2.flags.writeable
+
+    @pytest.mark.parametrize(("count", "seed"), [(0, 1), (1, -1)])
+    def test_impossible_counts_and_seeds_are_refused(self, count: int, seed: int) -> None:
+        with pytest.raises(InputError, match="give at least 1 and at least 0"):
+            make_suite(HORIZONTAL, VERTICAL, count=count, seed=seed)
+
+
+class TestSynthesis:
+    @pytest.mark.parametrize(("dt_s", "duration_s"), [(0.01, 20.0), (0.0025, 12.0), (0.005, 60.0)])
+    def test_a_long_period_tail_is_met_at_other_samplings(
+        self, dt_s: float, duration_s: float
+    ) -> None:
+        # 1/T beyond 0.77 s, then flat and falling.
+        tail = np.array([0.1, 1.0 / 0.77, 8.3, 33.3]), np.array([0.077, 1.0, 1.0, 0.75])
+        record = synthesise(tail, rng=rng(1), dt_s=dt_s, duration_s=duration_s, name="tail")
+        assert len(record.a_mps2) == round(duration_s / dt_s) + 1
+        ratio = modal_psa_g(record, BAND) / target_sa_g(tail, BAND)
+        assert 0.9 <= ratio.min() <= ratio.max() <= 1.3
+
+    def test_a_target_that_begins_above_the_band_is_flat_below(self) -> None:
+        flat = np.array([2.0, 20.0]), np.array([1.0, 1.0])
+        record = synthesise(flat, rng=rng(1), dt_s=0.01, duration_s=20.0, name="flat")
+        assert modal_psa_g(record, BAND[:24]) == pytest.approx(1.0, abs=0.1)
+
+    def test_a_motion_like_another_is_drawn_again(self) -> None:
+        how: dict[str, Any] = {"dt_s": 0.01, "duration_s": 12.0, "name": "x"}
+        first = synthesise(HORIZONTAL, rng=rng(1), **how)
+        assert np.array_equal(synthesise(HORIZONTAL, rng=rng(1), **how).a_mps2, first.a_mps2)
+        second = synthesise(HORIZONTAL, rng=rng(1), unlike=(first,), **how)
+        assert abs(np.corrcoef(first.a_mps2, second.a_mps2)[0, 1]) <= 0.3
+
+    def test_a_target_out_of_reach_is_told(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setattr(suite, "DRAWS", 2)
+        monkeypatch.setattr(target, "LEAST", 1.5)
+        with pytest.raises(
+            InputError,
+            match=r"x: 2 motions of 12 s all miss .*, the nearest having 0\.9\d to 1\.\d\d of it",
+        ):
+            synthesise(HORIZONTAL, rng=rng(1), dt_s=0.01, duration_s=12.0, name="x")
+
+    @pytest.mark.parametrize(
+        ("how", "expected"),
+        [
+            ({"target": ([1.0], [1.0])}, "as many accelerations as frequencies"),
+            ({"target": ([1.0, 2.0], [1.0, 1.0, 1.0])}, "as many accelerations as frequencies"),
+            ({"target": ([2.0, 1.0], [1.0, 1.0])}, "give rising frequencies above 0"),
+            ({"target": ([0.0, 1.0], [1.0, 1.0])}, "give rising frequencies above 0"),
+            ({"target": ([1.0, 2.0], [1.0, -1.0])}, "give accelerations above 0"),
+            ({"target": ([1.0, 2.0], [1.0, np.nan])}, "give accelerations above 0"),
+            ({"dt_s": 0.02}, "time step dt is 0.02; give 0.001 to 0.01 s"),
+            ({"duration_s": 5.0}, "duration is 5.0; give from 10 s to 60,000 time steps"),
+            ({"duration_s": np.inf}, "duration is inf; give from 10 s"),
+        ],
+    )
+    def test_impossible_arguments_are_refused(self, how: dict[str, Any], expected: str) -> None:
+        usual: dict[str, Any] = {"target": HORIZONTAL, "dt_s": 0.005, "duration_s": 30.0}
+        with pytest.raises(InputError, match=expected):
+            synthesise(**(usual | how), rng=rng(1), name="x")
+
+
+class TestFit:
+    def test_the_target_is_straight_on_log_log_axes(self) -> None:
+        # AC156 with A_FLX = 1.6 and A_RIG = 1.2, worked by hand.
+        freq_hz = np.array([0.05, 0.1, 0.2, 0.5, 1.0, 1.3, 8.3, 10.0, 15.0, 20.0, 33.3, 60.0])
+        worked = [0.16, 0.16, 0.2981, 0.6786, 1.2642, 1.6, 1.6, 1.5394, 1.4155, 1.3336, 1.2, 1.2]
+        assert target_sa_g(corners(1.6, 1.2), freq_hz) == pytest.approx(worked, abs=6e-5)
+
+    def test_a_fit_compares_the_spectrum_with_the_target_over_the_band(self, suites: Any) -> None:
+        fit = spectrum_fit(suites[0].x, HORIZONTAL)
+        assert fit.freq_hz[:-1] == pytest.approx(BAND, rel=1e-12)
+        assert fit.freq_hz[-1] == 33.3
+        achieved = modal_psa_g(suites[0].x, fit.freq_hz)
+        assert fit.achieved_g == pytest.approx(achieved, rel=1e-9)
+        ratio = achieved / target_sa_g(HORIZONTAL, fit.freq_hz)
+        assert fit.ratio == pytest.approx(ratio, rel=1e-9)
+        found = fit.least, fit.mean, fit.greatest
+        assert found == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-9)
+
+    def test_scipy_finds_the_same_spectrum_by_a_state_space_model(self, suites: Any) -> None:
+        # The step of these is a 40th of a period or less: peaks are looked for at samples alone.
+        record, freq_hz = suites[4].y, np.array([0.1, 0.3, 0.9, 2.7, 4.9])
+        t = record.dt_s * np.arange(len(record.a_mps2))
+        found = []
+        for omega in 2.0 * np.pi * freq_hz:
+            # Input minus the acceleration, output omega^2 times the displacement.
+            oscillator = signal.lti([omega**2], [1.0, 0.1 * omega, omega**2])
+            found.append(np.abs(signal.lsim(oscillator, -record.a_mps2, t)[1]).max() / G)
+        fit = spectrum_fit(record, HORIZONTAL, freq_hz)
+        assert fit.achieved_g == pytest.approx(found, rel=1e-6)

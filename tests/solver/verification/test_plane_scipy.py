@@ -1,0 +1,46 @@
+"""SciPy in two axes: the careful reference against one axis; what general solvers do at a stop."""
+
+import math
+from dataclasses import replace
+
+import numba
+import numpy as np
+import pytest
+
+from solver.model import coulomb
+from solver.sliding import one_axis
+from solver.verification import plane_scipy
+from solver.verification.rungs import stopped_scene
+from solver.verification.scenes import Case
+from solver.verification.triples import own_triples, readonly
+
+pytest.importorskip("scipy")
+pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+
+
+@pytest.mark.parametrize("slope_deg", [0.0, 4.0])
+def test_the_reference_is_the_exact_motion_where_there_is_one_axis(slope_deg):
+    part = own_triples(True)[0].cut(41)
+    scene = part.scene(Case(slope_deg, 0.5, 1.0), coulomb(0.5), second=False)
+    exact = one_axis.run_history(scene)
+    x, y = plane_scipy.reference(replace(scene, ay_mps2=readonly(0.0 * scene.ax_mps2)))
+    assert exact.result.n_stops > 0
+    np.testing.assert_allclose(x, exact.u_m, rtol=0.0, atol=1e-11 * exact.result.prd_m)
+    np.testing.assert_allclose(y, 0.0, atol=1e-20)
+
+
+def test_regularised_friction_creeps_as_its_closed_form_says():
+    scene, v0 = stopped_scene(), 1e-3
+    found = plane_scipy.regularised(scene, "Radau", v0, 1e-6)
+    share = 2.0 / (0.4 * scene.g_mps2)
+    assert found.followed
+    assert found.end_speed_mps == pytest.approx(v0 * math.atanh(share), rel=1e-4)
+
+
+def test_a_general_solver_does_not_get_past_the_jump_of_friction(monkeypatch):
+    monkeypatch.setattr(plane_scipy, "EVALUATIONS", 5000)
+    found = plane_scipy.regularised(stopped_scene(), "DOP853", 0.0, 1e-6)
+    assert not found.followed
+    assert found.evaluations > 5000
+    assert math.isnan(found.prd_m)
+    assert math.isnan(found.end_m[0])

@@ -1,0 +1,92 @@
+"""Rung against rung: ratios of what the solver gives, small and lifted runs counted apart."""
+
+import math
+from dataclasses import replace
+
+import numba
+import numpy as np
+import pytest
+
+from solver.sliding.checked import slide
+from solver.verification import rung_study
+from solver.verification.rung_evidence import (
+    HELD,
+    LEAST_M,
+    OVER_SLOW,
+    OVER_STATIC,
+    SECOND,
+    SOFT,
+    STIFF,
+    WORST,
+    RungChange,
+)
+from solver.verification.triples import own_triples, readonly
+
+pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+
+
+@pytest.fixture(scope="module")
+def study():
+    return rung_study.study(own_triples(True), quick=True)
+
+
+def test_every_run_is_counted(study):
+    assert study.n_runs == 2 * 2 * 2 * 4
+    for one in study.changes[:8]:
+        count = study.n_runs // 4 if one.name == WORST else study.n_runs
+        assert one.ratios.size + one.n_small + (study.n_uplift if one.name != WORST else 0) == count
+        assert np.all(np.diff(one.ratios) >= 0.0)
+
+
+def test_a_ratio_is_that_of_two_slides(study):
+    (triple,) = own_triples(True)
+    scene = {"slope_rad": 0.0, "mu": 0.3, "scale": triple.scale_to(1.5)}
+    one = slide(triple.x_mps2, triple.dt_s, az_mps2=triple.z_mps2, **scene)
+    two = slide(triple.x_mps2, triple.dt_s, ay_mps2=triple.y_mps2, az_mps2=triple.z_mps2, **scene)
+    assert min(one.prd_m, two.prd_m) > LEAST_M
+    ratio = two.prd_m / one.prd_m
+    assert np.abs(study.named(SECOND).ratios - ratio).min() == pytest.approx(0.0, abs=1e-9)
+
+
+def test_one_axis_underestimates_and_friction_that_rises_with_speed_slides_less(study):
+    assert study.named(SECOND).median > 1.0
+    assert study.named(WORST).median > 1.0
+    assert study.named(OVER_SLOW).median < 1.0
+    assert study.largest_error <= 1e-6
+
+
+def test_friction_at_rest_changes_less_than_the_same_friction_throughout(study):
+    held, over_static = study.named(HELD), study.named(OVER_STATIC)
+    assert held.ratios.size + held.n_small == study.n_runs
+    assert abs(held.median - 1.0) < 0.1
+    assert over_static.median > 1.5
+
+
+def test_a_row_is_compared_with_a_rigid_array_of_its_mean_friction(study):
+    stiff, soft = study.named(STIFF), study.named(SOFT)
+    assert stiff.ratios.size + stiff.n_small == study.n_runs // 8
+    assert 1.0 < stiff.median < 1.1
+    assert 1.0 < soft.median < 1.1
+    assert rung_study.row_of(0.4, 1e-3, 9.81).mean_mu == pytest.approx(0.4)
+
+
+def test_lifted_runs_are_counted_and_not_compared():
+    (triple,) = own_triples(True)
+    lifting = replace(triple, z_mps2=readonly(20.0 * triple.z_mps2))
+    study = rung_study.study((lifting,), quick=True)
+    assert study.n_uplift == study.n_runs
+    assert all(one.ratios.size == 0 and math.isnan(one.median) for one in study.changes)
+    assert math.isnan(study.largest_error)
+
+
+def test_percentiles_and_the_share_above_one():
+    change = RungChange(name="x", ratios=np.array([0.5, 1.5, 2.0]), n_small=0, most_m=0.0)
+    assert (change.median, change.at(0.0), change.at(100.0)) == (1.5, 0.5, 2.0)
+    assert change.share_above_one == pytest.approx(2.0 / 3.0)
+
+
+def test_rungs_are_timed_against_the_first():
+    found = rung_study.times(own_triples(True)[0])
+    assert found[0].ratio == 1.0
+    assert len({one.title for one in found}) == 5
+    assert all(one.ratio == pytest.approx(one.seconds / found[0].seconds) for one in found)

@@ -1,0 +1,54 @@
+"""Checks of the models: all pass, and what is wrong fails; a motion that lifts is left out."""
+
+from dataclasses import replace
+
+import numba
+import pytest
+
+from solver.sliding import two_axes
+from solver.verification import rungs
+from solver.verification.triples import own_triples, readonly
+
+pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return list(rungs.rung_checks(own_triples(True), quick=True))
+
+
+def test_every_check_passes(rows):
+    assert len(rows) >= 25
+    assert [row for row in rows if not row.passed] == []
+    assert {row.section for row in rows} == {rungs.SECTION}
+
+
+def test_each_rung_is_chosen_once(rows):
+    assert [row.found for row in rows if row.quantity == "Rung chosen"] == [0, 1, 2, 3, 4]
+
+
+def test_every_tolerance_is_met_against_scipy(rows):
+    pytest.importorskip("scipy")
+    met = [row for row in rows if row.problem.startswith("Tolerance of")]
+    assert [row.tolerance for row in met] == [1e-4, 1e-6, 1e-8, 1e-10]
+    assert all(0.0 < row.found <= row.tolerance for row in met)
+
+
+def test_a_solver_that_is_off_by_a_millionth_fails(monkeypatch):
+    true = two_axes.run
+
+    def off(*args):
+        found = true(*args)
+        return replace(found, prd_m=found.prd_m * (1.0 + 1e-6))
+
+    monkeypatch.setattr(two_axes, "run", off)
+    failed = [row for row in rungs.rung_checks(own_triples(True), quick=True) if not row.passed]
+    assert any(row.problem.startswith("Nothing across") for row in failed)
+    assert any(row.problem.startswith("One component turned") for row in failed)
+
+
+def test_a_motion_whose_vertical_lifts_the_block_is_left_out():
+    (triple,) = own_triples(True)
+    lifting = replace(triple, name="lifting", z_mps2=readonly(9.0 * triple.z_mps2))
+    found = rungs.rung_checks((triple, lifting), quick=True)
+    assert not any("lifting" in row.problem for row in found)

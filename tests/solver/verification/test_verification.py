@@ -1,0 +1,220 @@
+"""The verification finds what is right and what is wrong, and its records are complete."""
+
+import dataclasses
+import math
+
+import numba
+import numpy as np
+import pytest
+
+import oracle
+from solver.sliding.checked import slide
+from solver.verification import checks, crosschecks, paper_studies, reference
+from solver.verification.evidence import DesignCurves, percent_off
+from solver.verification.run import verify
+from solver.verification.scenes import near_fault_pulse, own_records, scale_to, shortened
+
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
+)
+
+
+@pytest.fixture(scope="module")
+def found():
+    stages = []
+    return verify([], quick=True, progress=stages.append), stages
+
+
+@pytest.fixture(scope="module")
+def pulse():
+    return near_fault_pulse()
+
+
+def test_a_quick_verification_passes_and_fills_every_part(found):
+    verification, stages = found
+    assert verification.passed
+    assert verification.quick
+    assert verification.records == ("motion-01-x", "near-fault-pulse")
+    assert len(stages) == 11
+    for name in (
+        "checks",
+        "work",
+        "maps",
+        "convergence",
+        "links",
+        "curves",
+        "conditioning",
+        "roofs",
+        "rungs",
+    ):
+        assert len(getattr(verification, name)) > 0, name
+    assert len(verification.convergence) == len(verification.curves) == 2
+    assert [(link.record, link.slope_deg) for link in verification.links] == [
+        (record, slope) for record in verification.records for slope in (0.0, 4.0)
+    ]
+
+
+def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(found):
+    rows = found[0].checks
+    assert {row.section for row in rows} == {
+        "Closed forms",
+        "Physical checks of the paper",
+        "50 digits",
+        "Symmetries",
+        "Methods",
+        "From ground to roof",
+        "Two axes and the choice of model",
+    }
+    assert all(row.source and row.unit and row.tolerance <= 0.025 for row in rows)
+    digits = [row for row in rows if row.section == "50 digits"]
+    assert max(row.error for row in digits) <= 1e-12
+    assert len({(row.problem, row.quantity) for row in digits}) == len(digits)
+
+
+def test_no_two_rows_are_alike(found):
+    names = [(row.section, row.problem, row.quantity) for row in found[0].checks]
+    assert len(set(names)) == len(names)
+
+
+def test_a_solver_that_is_a_millionth_off_fails_the_checks_that_see_it(monkeypatch, pulse):
+    def wrong(*args, **kwargs):
+        right = slide(*args, **kwargs)
+        factor = 1.0 + 1e-6
+        return dataclasses.replace(
+            right,
+            prd_m=factor * right.prd_m,
+            residual_m=factor * right.residual_m,
+            down_m=factor * right.down_m,
+        )
+
+    monkeypatch.setattr(checks, "slide", wrong)
+    monkeypatch.setattr(crosschecks, "slide", wrong)
+    closed = [row for row in checks.closed_forms() if row.tolerance == checks.ROUNDING]
+    assert closed
+    assert not any(row.passed for row in closed)
+    assert not any(row.passed for row in crosschecks.fifty_digits(pulse) if row.expected != 0.0)
+
+
+def test_a_method_without_a_number_fails_its_check(monkeypatch):
+    def lost(*args, **kwargs):
+        return dataclasses.replace(slide(*args, **kwargs), prd_m=math.nan)
+
+    monkeypatch.setattr(crosschecks, "slide", lost)
+    rows = list(crosschecks.rivals())
+    assert len(rows) == len(crosschecks.CEILINGS)
+    assert all(math.isnan(row.error) and not row.passed for row in rows)
+
+
+def test_an_error_is_absolute_where_nothing_is_expected():
+    row = checks.check("a", "b", "c", "d", "m", 0.0, -3e-4, 1e-3)
+    assert (row.error, row.passed) == (3e-4, True)
+    assert checks.check("a", "b", "c", "d", "m", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
+
+
+@pytest.mark.parametrize("with_vertical", [False, True])
+@pytest.mark.parametrize(("degrees", "mu"), [(0, 0.3), (4, 0.2), (-30, 0.1), (7, 0.0)])
+def test_fifty_decimal_digits_agree_with_forty_binary_ones(pulse, degrees, mu, with_vertical):
+    ax = shortened(pulse, 4.0).a_mps2
+    az = 0.3 * ax[::-1] if with_vertical else None
+    scene = {"slope_rad": math.radians(degrees), "mu": mu, "az": az, "scale": 0.7}
+    exact = oracle.slide(ax, 0.01, **scene, g=9.81)
+    scene["az_mps2"] = scene.pop("az")
+    decimal = reference.slide(ax.tolist(), 0.01, **scene, g_mps2=9.81)
+    assert decimal.prd_m == float(exact.prd)
+    assert decimal.residual_m == float(exact.residual)
+
+
+def test_records_of_the_project_are_the_same_every_time_and_read_only():
+    one, other = own_records(True), own_records(True)
+    for a, b in zip(one, other, strict=True):
+        np.testing.assert_array_equal(a.a_mps2, b.a_mps2)
+        assert not a.a_mps2.flags.writeable
+        assert scale_to(a, 1.0) * np.abs(a.a_mps2).max() == pytest.approx(9.80665)
+
+
+def test_errors_in_percent_have_a_floor_of_a_millimetre():
+    off = percent_off(np.array([1.01, 1e-4, math.nan]), np.array([1.0, 0.0, 1.0]))
+    assert off[:2] == pytest.approx([1.0, 10.0])
+    assert math.isnan(off[2])
+
+
+# The paper's figures
+
+
+def test_the_papers_method_converges_at_first_order_under_an_envelope(found):
+    for study in found[0].convergence:
+        assert study.scenarios == 60
+        assert study.substeps == (1, 2, 4, 8, 16, 32, 64, 128, 256)
+        error = study.largest_error_exact_percent
+        # Not smoothly: an event falls differently on each grid.
+        assert (error[3:] < 0.5 * error[:-3]).all()
+        assert 16 < error[0] / error[6] < 1000
+        assert study.largest_error_p256_percent[-1] == 0.0
+        assert study.largest_error_p256_percent[:4] == pytest.approx(error[:4], rel=0.1)
+        assert (study.largest_error_of_prd_percent <= error * (1.0 + 1e-12)).all()
+        assert len(study.worst_cases) == len(study.substeps)
+        assert (study.longest_seconds > 0.0).all()
+
+
+def test_a_single_pulse_has_errors_like_the_papers_own(found):
+    pulse = found[0].convergence[1]
+    assert 0.01 < pulse.largest_error_exact_percent[6] < 1.0  # 0.48 % in the paper
+
+
+def test_the_link_differs_by_about_as_much_as_in_the_paper(found):
+    for link in found[0].links:
+        assert len(link.mus) == (10 if link.slope_deg == 0.0 else 6)
+        assert link.mean_percent < link.worst_percent < 15.0  # 6.78 and 1.69 % in the paper
+        assert link.history_mu in link.mus
+        i = list(link.mus).index(link.history_mu)
+        assert abs(link.history_exact_m[-1]) == link.rrd_exact_m[i]
+        assert abs(link.history_link_m[-1]) == link.rrd_link_m[i]
+        assert (link.prd_exact_m >= link.rrd_exact_m - 1e-15).all()
+
+
+def test_design_curves_are_the_papers_6960_runs(found):
+    curves = found[0].curves[0]
+    assert curves.runs == 6960
+    assert curves.prd_m.shape == (15, 15, 16)
+    record = own_records(True)[0]
+    scale = scale_to(record, curves.ppas_g[15])
+    both = [
+        slide(record.a_mps2, record.dt_s, slope_rad=math.radians(s), mu=curves.mus[2], scale=scale)
+        for s in (-4.0, 4.0)
+    ]
+    assert curves.prd_m[8, 2, 15] == pytest.approx(max(run.prd_m for run in both), rel=1e-9)
+
+
+def test_the_least_friction_is_read_off_between_the_runs():
+    mus = np.array([0.2, 0.4, 0.6, 0.8])
+    prd = np.array([4.0, 1.0, 2.0, 0.0])[None, :, None] * np.array([0.0, 1.0])
+    curves = DesignCurves(
+        record="r",
+        runs=1,
+        seconds=0.0,
+        slopes_deg=np.array([0.0, 2.0]),
+        mus=mus,
+        ppas_g=np.array([0.0, 1.0]),
+        prd_m=np.concatenate([prd, 3.0 * prd]),
+    )
+    assert curves.prd(1.0, 0.5) == pytest.approx([4.0, 1.0, 2.0, 0.0])
+    # From 0.4 to 0.5 it is within 1.5 too, but not from there on.
+    assert curves.least_mu(0.0, 1.0, 1.5) == pytest.approx(0.65)
+    assert curves.least_mu(0.0, 1.0, 5.0) == 0.2
+    assert math.isnan(curves.least_mu(0.0, 1.0, -1.0))
+
+
+def test_studies_of_the_paper_give_the_same_every_time(pulse):
+    one, other = (paper_studies.link_comparison(pulse, 4.0) for _ in range(2))
+    np.testing.assert_array_equal(one.history_link_m, other.history_link_m)
+    assert one.worst_percent == other.worst_percent
+    first, second = (paper_studies.design_curves(pulse) for _ in range(2))
+    np.testing.assert_array_equal(first.prd_m, second.prd_m)
+
+
+def test_a_link_that_never_comes_through_leaves_holes_and_no_error(pulse, monkeypatch):
+    monkeypatch.setattr(paper_studies, "LINK_PER_M", 1e9)
+    link = paper_studies.link_comparison(pulse, 4.0)
+    assert np.isnan(link.prd_link_m).all()
+    assert math.isnan(link.worst_percent)
+    assert math.isnan(link.mean_percent)

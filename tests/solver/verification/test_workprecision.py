@@ -1,0 +1,109 @@
+"""Work against precision: every method, every setting, failures as holes."""
+
+import math
+from types import MappingProxyType
+
+import numba
+import numpy as np
+import pytest
+
+from solver.model import Status
+from solver.rivals.methods import METHODS
+from solver.sliding.checked import slide
+from solver.verification import workprecision
+from solver.verification.scenes import CASES, near_fault_pulse, prepared, scale_to, shortened
+
+pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="timings of compiled kernels")
+
+
+@pytest.fixture(scope="module")
+def record():
+    return shortened(near_fault_pulse(), 5.0)
+
+
+@pytest.fixture(scope="module")
+def points(record):
+    return tuple(workprecision.work_points([record], quick=True))
+
+
+def test_every_method_runs_in_every_case_over_its_settings(points):
+    assert {point.method for point in points} == set(METHODS)
+    for name, method in METHODS.items():
+        mine = [point for point in points if point.method == name]
+        cases = 2 if name == "regularised" else 3
+        assert len({point.scene for point in mine}) == cases
+        wanted = [math.nan] if not method.knob else list(method.sweep[::2])
+        if name == "regularised":
+            wanted = list(method.sweep[:2])
+        np.testing.assert_array_equal([p.setting for p in mine], wanted * cases)
+
+
+def test_the_full_run_takes_every_setting_of_the_sweep(record):
+    for name in ("paper", "penalty-implicit"):
+        method = METHODS[name]
+        found = list(workprecision.settings(method, record, quick=False))
+        assert [value for value, _ in found] == list(method.sweep)
+        assert all(set(parameters) == set(method.parameters) for _, parameters in found)
+
+
+def test_the_exact_method_has_no_error_and_finer_settings_have_less(points):
+    exact = [point for point in points if point.method == "exact"]
+    assert all(point.prd_error_m == point.residual_error_m == 0.0 for point in exact)
+    for name in ("paper", "linear", "penalty-explicit", "penalty-implicit"):
+        median = [
+            np.median([p.prd_error_percent for p in points if (p.method, p.setting) == (name, v)])
+            for v in METHODS[name].sweep[::2]
+        ]
+        assert median[-1] < 0.1 * median[0]
+
+
+def test_every_point_that_came_through_has_a_time(points):
+    assert all(point.seconds > 0.0 for point in points)
+    assert {point.status for point in points} <= {Status.OK, Status.SLIDING_AT_END}
+
+
+def test_a_failed_run_is_a_hole_with_its_status(record, monkeypatch):
+    stiff = MappingProxyType({"stiffness_per_m": 1e8, "substeps": 1})
+    monkeypatch.setattr(workprecision, "settings", lambda *_, **__: [(1e8, stiff)])
+    link = {"penalty-explicit": METHODS["penalty-explicit"]}
+    monkeypatch.setattr(workprecision, "METHODS", link)
+    found = list(workprecision.work_points([record], quick=True))
+    assert len(found) == 3
+    for point in found:
+        assert point.status is Status.DIVERGED
+        assert math.isnan(point.seconds)
+        assert math.isnan(point.prd_error_m)
+        assert math.isnan(point.residual_error_percent)
+
+
+def test_what_is_timed_is_what_is_run(record):
+    for case in CASES:
+        for name in ("exact", "paper", "penalty-implicit"):
+            method = METHODS[name]
+            scene = prepared(record, case)
+            outcome = method.follow(scene, method.parameters, np.empty((2, 0)))
+            found = slide(
+                record.a_mps2,
+                record.dt_s,
+                slope_rad=case.slope_rad,
+                mu=case.mu,
+                scale=scale_to(record, case.ppa_g),
+                method=name,
+            )
+            assert scene.cs * outcome.s_end == found.residual_m
+
+
+def test_results_are_the_same_every_time_but_for_the_seconds(record, points):
+    again = tuple(workprecision.work_points([record], quick=True))
+    for one, other in zip(points, again, strict=True):
+        assert one.prd_error_m == other.prd_error_m
+        assert one.residual_error_percent == other.residual_error_percent
+        assert one.parameters == other.parameters
+
+
+def test_repeats_end_early_where_they_take_long():
+    calls = []
+    workprecision.least_seconds(lambda: calls.append(0), enough_s=0.0)
+    assert len(calls) == 1
+    workprecision.least_seconds(lambda: calls.append(0), enough_s=60.0)
+    assert len(calls) == 1 + workprecision.REPEATS
