@@ -27,31 +27,34 @@ def child(project: Path) -> None:
             laps[clock[1]] = laps.get(clock[1], 0.0) + now - clock[0]
         clock[:] = [now, name]
 
-    stage("read the workbook, with imports")
-    from report.sheet.read import read_workbook
+    stage("read the workbook and its records, with imports")
+    from report.motions.prepare import prepare
+    from report.sheet.read import read
 
-    book = read_workbook(project)
+    sheet = read(project)
+    shaking = prepare(sheet)
     stage("run the motions, compiled code loaded")
     from report.assessment.project import assess
 
-    assessment = assess(book.input, book.motions)
+    assessment = assess(sheet, shaking)
     stage("(the same once more, now that all code is loaded)")
-    solver_s = assess(book.input, book.motions).solver_seconds
-    stage("load what draws and lays out")
-    from report.assessment.evidence import find
-    from report.package.html import load, render, words
-    from report.pages.parts import Scene
+    solver_s = assess(sheet, shaking).solver_seconds
+    stage("spectra, histories, other friction, the governing run by every method")
+    from report.assessment.evidence import support
 
-    load()
-    stage("spectra, histories, the governing run by every method")
-    scene = Scene(data=book.input, assessment=assessment)
-    found = find(book, assessment, scene.governing)
-    package = render(scene, lambda: found, lambda: words(book, scene, found), stage)
+    evidence = support(assessment)
+    stage("pages: charts, words and formulas, with imports")
+    from report.package.html import pages
+
+    html = pages(assessment, evidence)
+    stage("PDF, with imports")
+    from report.typeset.pdf import lay_out
+
+    package = lay_out(html)
     stage("result tables")
-    from report.results.json import results_json
-    from report.results.xlsx import results_xlsx
+    from report.results.tables import tables
 
-    sizes = [len(package), len(results_xlsx(book, assessment)), len(results_json(book, assessment))]
+    sizes = [len(package), *(len(found) for found in tables(assessment, evidence).values())]
     stage("")
     count = sum(len(motion.runs) for item in assessment.arrays for motion in item.motions)
     laps[f"(the solver alone, {count} histories)"] = solver_s
