@@ -75,7 +75,7 @@ def project(**changes: object) -> ProjectInput:
             "site_class": "D",
             "s_ds_g": 1.566,
             "sdc": "D",
-            "storeys": 1,
+            "stories": 1,
             "structure_height_m": 36 * FT,
             "roof_height_m": 36 * FT,
         },
@@ -186,3 +186,18 @@ def problems(path: Path) -> tuple[str, ...]:
     with pytest.raises(InputError) as caught:
         read_workbook(path)
     return caught.value.problems
+
+
+def same(found: ProjectInput, wanted: ProjectInput) -> bool:
+    """Whether two inputs agree, numbers to the rounding of a cell."""
+    return _same(found.model_dump(), wanted.model_dump())
+
+
+def _same(a, b):
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(_same(a[k], b[k]) for k in a)
+    if isinstance(a, tuple | list):
+        return len(a) == len(b) and all(map(_same, a, b))
+    if isinstance(a, float) and isinstance(b, float):
+        return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)
+    return a == b

@@ -109,7 +109,7 @@ def project(**changes) -> ProjectInput:
             "f_v": 1.7,
             "s_ds_g": 1.566,
             "sdc": "D",
-            "storeys": 1,
+            "stories": 1,
             "structure_height_m": 36 * FOOT,
             "roof_height_m": 36 * FOOT,
         },
@@ -204,7 +204,7 @@ def book(data=None, found=None):
         sheet(data),
         Shaking(
             motions=found,
-            prepared=tuple(story(motion) for motion in found),
+            prepared=tuple(prepared(motion) for motion in found),
             records=tuple(
                 RecordFile(
                     motion_id=motion.id,
@@ -229,7 +229,7 @@ def book(data=None, found=None):
     )
 
 
-def story(given, **changes):
+def prepared(given, **changes):
     """What became of a roof motion that was run as recorded."""
     scaled = {
         name: Record(name=given.id, dt_s=given.dt_s, a_mps2=values * given.scale)

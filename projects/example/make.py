@@ -69,7 +69,7 @@ def example() -> ProjectInput:
                 "site_class": "D",
                 "s_ds_g": S_DS_G,
                 "sdc": "D",
-                "storeys": 1,
+                "stories": 1,
                 "structure_height_m": 36 * FOOT,
                 "roof_height_m": 36 * FOOT,
             },

@@ -18,7 +18,7 @@ from solver.model import Heading, Motion, SlideResult, Status
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, RuleSet
 from solver.sliding import least_model, one_axis
-from solver.sliding.row import Row, RowResult, slide_row
+from solver.sliding.row import BlockRow, RowResult, slide_row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +81,7 @@ class LinkedArray:
         As asked for.
     found : ArrayAssessment
         The array as it is designed.
-    row : Row
+    row : BlockRow
     motions : tuple of LinkedMotion
     rigid, linked : AnalysisValue
         Of the one block and of the blocks that go farthest, by the statistic of the array; both
@@ -90,7 +90,7 @@ class LinkedArray:
 
     links: Links
     found: ArrayAssessment
-    row: Row
+    row: BlockRow
     motions: tuple[LinkedMotion, ...]
     rigid: AnalysisValue
     linked: AnalysisValue
@@ -187,11 +187,11 @@ def assess_linked(
     )
 
 
-def _run_motion(array: Array, row: Row, motion: Motion) -> LinkedMotion:
+def _run_motion(array: Array, row: BlockRow, motion: Motion) -> LinkedMotion:
     runs = tuple(_run(array, row, motion, heading) for heading in motion.headings)
     return LinkedMotion(motion=motion, runs=runs)
 
 
-def _run(array: Array, row: Row, motion: Motion, heading: Heading) -> LinkedRun:
+def _run(array: Array, row: BlockRow, motion: Motion, heading: Heading) -> LinkedRun:
     scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
     return LinkedRun(heading=heading, rigid=one_axis.run(scene), row=slide_row(scene, row))

@@ -179,7 +179,7 @@ def _assess(sheet: Sheet, shaking: Shaking, data: ProjectInput, *, hold_models: 
         building_checks=provisions.building_checks(
             rules,
             risk_category=list(type(site.risk_category)).index(site.risk_category) + 1,
-            storeys=site.storeys,
+            stories=site.stories,
         ),
         arrays=arrays,
         clearances=tuple(check_clearance(data, rules, arrays, row) for row in data.clearances),

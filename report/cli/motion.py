@@ -17,7 +17,7 @@ import click
 from report.cli.terminal import UNITS, Progress, input_errors
 
 if TYPE_CHECKING:
-    from report.suite.inputs import Targets
+    from report.suite.inputs import SuiteTargets
     from solver.formats import MotionFile
     from solver.records.record import Record
 
@@ -178,7 +178,7 @@ def suite(
 
 def _targets(
     code: str | None, s_ds_g: float, z_over_h: float, tail: str, target: str | None
-) -> Targets:
+) -> SuiteTargets:
     from report.suite.inputs import ac156_targets, table_targets
     from report.suite.target_table import read_target
     from solver.model import InputError

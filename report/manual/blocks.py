@@ -38,7 +38,7 @@ class Block:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Section:
+class ManualSection:
     """A numbered section of the manual."""
 
     id: str
@@ -46,7 +46,7 @@ class Section:
     blocks: Sequence[Block]
 
 
-def numbered(sections: Sequence[Section]) -> tuple[Part, ...]:
+def numbered(sections: Sequence[ManualSection]) -> tuple[Part, ...]:
     """Return the sections as numbered parts, blocks with a title below them."""
     return tuple(
         Part(

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from report.figures import building as figures
-from report.manual.blocks import Block, Chart, Section, slug
-from report.pages.parts import Column, Picture, Row, Table
+from report.manual.blocks import Block, Chart, ManualSection, slug
+from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.units import G_MPS2, number
 from solver.building.roof import FINENESS, RESTING_SHARE, SHARE
 from solver.verification.building import BY_HEIGHT
@@ -15,9 +15,9 @@ from solver.verification.evidence import RoofComparison, RoofPrediction, Verific
 TITLE = "From ground to roof"
 
 
-def building(found: Verification) -> Section:
+def building(found: Verification) -> ManualSection:
     """Return a block for each building, the made one first."""
-    return Section(
+    return ManualSection(
         id="building",
         title=TITLE,
         blocks=(
@@ -31,7 +31,7 @@ def _model() -> tuple[str, ...]:
     return (
         "Where the motions given are those of the ground, the motion of the roof is computed from "
         "them through an elastic building: a uniform cantilever in shear and bending, or equal "
-        "storeys, with one damping ratio for all modes. Each mode is an oscillator, followed "
+        "stories, with one damping ratio for all modes. Each mode is an oscillator, followed "
         f"exactly; as few are taken as leave out no more than {100 * SHARE:g} % of the roof's peak "
         f"at any instant. The step is refined to {FINENESS} samples in a period of the fastest "
         "mode taken, and the motion goes on after the ground's until the building rests, within "
@@ -84,7 +84,7 @@ def _caption(found: RoofComparison) -> str:
 
 
 def _results(found: RoofComparison) -> tuple[str, ...]:
-    """Say what came out, the least and the greatest ratio of PRD for each prediction."""
+    """UnitFormat what came out, the least and the greatest ratio of PRD for each prediction."""
     if not found.is_recorded:
         return ()
     words = [f"{one.name}: {_span(one, found)}" for one in figures.computed(found)]
@@ -114,16 +114,16 @@ def _properties(found: RoofComparison) -> Table:
     return Table(
         caption="The building, and the roof motion computed for it",
         columns=(
-            Column(head="Building", align="left", share=3.2),
-            Column(head="First period", unit="s", share=1.0),
-            Column(head="Damping", unit="%", share=0.9),
-            Column(head="Stiffness ratio", share=1.0),
-            Column(head="Modes taken", share=0.9),
-            Column(head="Left out", unit="%", share=0.8),
-            Column(head="Peak", unit="g", share=0.8),
-            Column(head="Not explained", unit="%", share=1.1),
+            TableColumn(head="Building", align="left", share=3.2),
+            TableColumn(head="First period", unit="s", share=1.0),
+            TableColumn(head="Damping", unit="%", share=0.9),
+            TableColumn(head="Stiffness ratio", share=1.0),
+            TableColumn(head="Modes taken", share=0.9),
+            TableColumn(head="Left out", unit="%", share=0.8),
+            TableColumn(head="Peak", unit="g", share=0.8),
+            TableColumn(head="Not explained", unit="%", share=1.1),
         ),
-        rows=(Row(cells=cells, kind="total"), *rows),
+        rows=(TableRow(cells=cells, kind="total"), *rows),
         notes=(
             "Stiffness ratio: H √(GA/EI), 0 in bending, large in shear. Left out: what all further "
             "modes change at most, of the roof's peak. Not explained: sum of squares of the "
@@ -133,9 +133,9 @@ def _properties(found: RoofComparison) -> Table:
     )
 
 
-def _property_row(one: RoofPrediction) -> Row:
+def _property_row(one: RoofPrediction) -> TableRow:
     has_building = one.n_modes > 0
-    return Row(
+    return TableRow(
         cells=(
             _name(one),
             number(one.period_s, 2),
@@ -157,11 +157,11 @@ def _bands(found: RoofComparison) -> Table:
     return Table(
         caption=f"Response spectrum, computed over {_was(found)}, by period",
         columns=(
-            Column(head="Building", align="left", share=3.2),
-            *(Column(head=f"{low:g} to {high:g}", unit="s") for low, high in found.bands_s),
+            TableColumn(head="Building", align="left", share=3.2),
+            *(TableColumn(head=f"{low:g} to {high:g}", unit="s") for low, high in found.bands_s),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     _name(one),
                     *(
@@ -185,13 +185,13 @@ def _slips(found: RoofComparison) -> Table:
         caption=f"PRD on a slope of {found.slope_deg:g}°; in brackets over that of the roof as "
         f"{_was(found)}",
         columns=(
-            Column(head="Roof motion", align="left", share=3.2),
-            *(Column(head=f"μ = {mu:g}", unit="mm") for mu in found.mus),
+            TableColumn(head="Roof motion", align="left", share=3.2),
+            *(TableColumn(head=f"μ = {mu:g}", unit="mm") for mu in found.mus),
         ),
         rows=(
-            Row(cells=(f"As {_was(found)}", *peaks), kind="total"),
+            TableRow(cells=(f"As {_was(found)}", *peaks), kind="total"),
             *(
-                Row(
+                TableRow(
                     cells=(
                         _name(one),
                         *(

@@ -11,7 +11,7 @@ from report.manual.blocks import (
     FAIL,
     PASS,
     Block,
-    Section,
+    ManualSection,
     joined,
     percent,
     scientific,
@@ -21,7 +21,7 @@ from report.manual.building import answer
 from report.manual.precision import floor
 from report.manual.rungs import answers
 from report.manual.studies import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT, worst_mm
-from report.pages.parts import Column, Row, Table, verdict
+from report.pages.parts import Table, TableColumn, TableRow, verdict
 from solver.verification.evidence import (
     CheckRow,
     Verification,
@@ -29,10 +29,10 @@ from solver.verification.evidence import (
 )
 
 
-def summary(found: Verification) -> Section:
+def summary(found: Verification) -> ManualSection:
     """Return the page that says whether everything passed, and the figures that count."""
     failed = [row for row in found.checks if not row.passed]
-    return Section(
+    return ManualSection(
         id="summary",
         title="Summary",
         blocks=(
@@ -60,11 +60,11 @@ def _key_figures(found: Verification) -> Table:
     return Table(
         caption="What was found",
         columns=(
-            Column(head="Question", align="left", share=2.6),
-            Column(head="Answer", align="left", share=2.9),
-            Column(head="Section", align="left", share=0.7),
+            TableColumn(head="Question", align="left", share=2.6),
+            TableColumn(head="Answer", align="left", share=2.9),
+            TableColumn(head="ManualSection", align="left", share=0.7),
         ),
-        rows=tuple(Row(cells=cells) for cells in _answers(found)),
+        rows=tuple(TableRow(cells=cells) for cells in _answers(found)),
     )
 
 
@@ -131,15 +131,15 @@ def _by_section(checks: Sequence[CheckRow]) -> Table:
     return Table(
         caption="Checks by section",
         columns=(
-            Column(head="Section", align="left", share=3.0),
-            Column(head="Checks"),
-            Column(head="Passed"),
-            Column(head="Largest error", share=1.4),
-            Column(head="of its tolerance", share=1.4),
-            Column(head="Result", align="center"),
+            TableColumn(head="ManualSection", align="left", share=3.0),
+            TableColumn(head="Checks"),
+            TableColumn(head="Passed"),
+            TableColumn(head="Largest error", share=1.4),
+            TableColumn(head="of its tolerance", share=1.4),
+            TableColumn(head="Result", align="center"),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     name,
                     str(len(rows)),
@@ -163,9 +163,9 @@ def _used(rows: Sequence[CheckRow]) -> str:
     return f"{100.0 * max(shares):.2g} %" if shares else "—"
 
 
-def scope(found: Verification) -> Section:
+def scope(found: Verification) -> ManualSection:
     """Return what is verified, the terms, and the records."""
-    return Section(
+    return ManualSection(
         id="scope",
         title="Scope and terms",
         blocks=(

@@ -12,14 +12,14 @@ from report.figures.scales import power_of_ten
 from report.manual.blocks import (
     Block,
     Chart,
-    Section,
+    ManualSection,
     joined,
     percent,
     scientific,
     seconds,
     slug,
 )
-from report.pages.parts import Column, Picture, Row, Table
+from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import (
@@ -37,7 +37,7 @@ def floor(found: Verification) -> float:
     return max([1e-16, *errors])
 
 
-def work(found: Verification) -> Section:
+def work(found: Verification) -> ManualSection:
     """Return work against precision."""
     least = floor(found)
     scenes = len({(p.record, p.scene) for p in found.work})
@@ -46,7 +46,7 @@ def work(found: Verification) -> Section:
         f" ({_lost(lost)})." if lost else "."
     )
     metres = least * _typical_prd_m(found.work)
-    return Section(
+    return ManualSection(
         id="work",
         title="Work against precision",
         blocks=(
@@ -122,14 +122,14 @@ def _work_table(points: Sequence[WorkPoint]) -> Table:
     return Table(
         caption="Medians and largest errors over the scenes",
         columns=(
-            Column(head="Method", align="left", share=3.6),
-            Column(head="Setting", align="left", share=1.4),
-            Column(head="Time per run", share=1.2),
-            Column(head="Error in PRD", unit="median", share=1.2),
-            Column(head="Error in PRD", unit="largest", share=1.2),
-            Column(head="Error in residual", unit="median", share=1.2),
-            Column(head="Error in residual", unit="largest", share=1.2),
-            Column(head="Failed", share=0.7),
+            TableColumn(head="Method", align="left", share=3.6),
+            TableColumn(head="Setting", align="left", share=1.4),
+            TableColumn(head="Time per run", share=1.2),
+            TableColumn(head="Error in PRD", unit="median", share=1.2),
+            TableColumn(head="Error in PRD", unit="largest", share=1.2),
+            TableColumn(head="Error in residual", unit="median", share=1.2),
+            TableColumn(head="Error in residual", unit="largest", share=1.2),
+            TableColumn(head="Failed", share=0.7),
         ),
         rows=tuple(rows),
         notes=("Of long rows of settings every second one; all are in verification.csv.",),
@@ -137,7 +137,7 @@ def _work_table(points: Sequence[WorkPoint]) -> Table:
     )
 
 
-def _work_row(name: str, points: Sequence[WorkPoint], *, is_first: bool) -> Row:
+def _work_row(name: str, points: Sequence[WorkPoint], *, is_first: bool) -> TableRow:
     good = [p for p in points if not math.isnan(p.seconds)]
     errors: tuple[str, ...] = ("—",) * 4
     if name == "exact":
@@ -146,7 +146,7 @@ def _work_row(name: str, points: Sequence[WorkPoint], *, is_first: bool) -> Row:
         prd = [p.prd_error_percent for p in good]
         residual = [p.residual_error_percent for p in good]
         errors = tuple(percent(float(f(v))) for v in (prd, residual) for f in (np.median, np.max))
-    return Row(
+    return TableRow(
         cells=(
             lettered(METHODS[name].title) if is_first else "",
             _setting(name, points[0].setting),

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from markupsafe import Markup
 
 from report.figures.base import load_fonts
-from report.manual.blocks import Section, numbered
+from report.manual.blocks import ManualSection, numbered
 from report.manual.front import extent, passed, verdict_line
 from report.manual.machine import Machine, this_machine
 from report.manual.sections import sections
@@ -45,7 +45,7 @@ def files(
 
 
 def manual_html(
-    found: Verification, parts: tuple[Section, ...], machine: Machine, date: dt.date
+    found: Verification, parts: tuple[ManualSection, ...], machine: Machine, date: dt.date
 ) -> str:
     """Return the manual before it is laid out."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined

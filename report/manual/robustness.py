@@ -8,7 +8,7 @@ from report.figures import maps
 from report.manual.blocks import (
     Block,
     Chart,
-    Section,
+    ManualSection,
     percent,
 )
 from report.pages.parts import Picture
@@ -17,14 +17,14 @@ from solver.verification.evidence import (
 )
 
 
-def stability(found: Verification) -> Section:
+def stability(found: Verification) -> ManualSection:
     """Return the stability maps with their notes."""
     intro = (
         "Where a method blows up, stalls, or is off: largest error in PRD of the scenes in each "
         "cell. A hatched cell failed: the method gave no number. Where a line is drawn it is the "
         "theoretical limit of the note below."
     )
-    return Section(
+    return ManualSection(
         id="stability",
         title="Stability",
         blocks=[
@@ -51,7 +51,7 @@ def stability(found: Verification) -> Section:
     )
 
 
-def conditioning(found: Verification) -> Section:
+def conditioning(found: Verification) -> ManualSection:
     """Return what a small change of friction does."""
     intro = (
         "Where the answer hangs on the last digits of the friction coefficient, no method can be "
@@ -60,7 +60,7 @@ def conditioning(found: Verification) -> Section:
         "it changes is far more than any error of the exact method: each package states it for its "
         "own arrays."
     )
-    return Section(
+    return ManualSection(
         id="conditioning",
         title="Where no method can help",
         blocks=[

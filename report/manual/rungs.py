@@ -9,9 +9,9 @@ import numpy as np
 
 from report.figures import rungs as figures
 from report.figures.scales import power_of_ten
-from report.manual.blocks import Block, Chart, Section, joined, percent, scientific, seconds
+from report.manual.blocks import Block, Chart, ManualSection, joined, percent, scientific, seconds
 from report.manual.static_friction import block, effect
-from report.pages.parts import Column, Picture, Row, Table
+from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered
 from report.words.units import number
 from solver.verification.evidence import Verification
@@ -30,9 +30,9 @@ from solver.verification.rung_evidence import (
 )
 
 
-def rungs(found: Verification) -> Section:
+def rungs(found: Verification) -> ManualSection:
     """Return the comparison of the models."""
-    return Section(
+    return ManualSection(
         id="rungs",
         title="From one axis to two, and to rows of blocks",
         blocks=tuple(block for one in found.rungs for block in _blocks(one)),
@@ -120,7 +120,7 @@ def _list(values: Sequence[float]) -> str:
 
 
 def _underestimates(study: RungStudy) -> str:
-    """Say plainly what one axis leaves out."""
+    """UnitFormat plainly what one axis leaves out."""
     one, worst = study.named(SECOND), study.named(WORST)
     if not one.ratios.size or not worst.ratios.size:
         return f"No scene slides {1e3 * LEAST_M:g} mm or more in both models."
@@ -179,16 +179,16 @@ def _changes_table(study: RungStudy) -> Table:
     return Table(
         caption="PRD of the fuller model over that of the lesser",
         columns=(
-            Column(head="Step", align="left", share=3.0),
-            Column(head="Runs"),
-            Column(head="Least"),
-            Column(head="10 %"),
-            Column(head="Median"),
-            Column(head="90 %"),
-            Column(head="Largest"),
-            Column(head="Above 1", unit="%"),
-            Column(head="Not counted", share=1.2),
-            Column(head="Largest change", unit="mm", share=1.3),
+            TableColumn(head="Step", align="left", share=3.0),
+            TableColumn(head="Runs"),
+            TableColumn(head="Least"),
+            TableColumn(head="10 %"),
+            TableColumn(head="Median"),
+            TableColumn(head="90 %"),
+            TableColumn(head="Largest"),
+            TableColumn(head="Above 1", unit="%"),
+            TableColumn(head="Not counted", share=1.2),
+            TableColumn(head="Largest change", unit="mm", share=1.3),
         ),
         rows=tuple(_change_row(one) for one in study.changes),
         notes=(
@@ -197,14 +197,14 @@ def _changes_table(study: RungStudy) -> Table:
             "Worst heading: the largest of four headings in two axes over the largest in one. "
             "Friction by speed: rung 4 over rung 3 with the one or the other coefficient. Static "
             "friction: rung 4 over rung 2 or 3 with the kinetic coefficient, at last over rung 3 "
-            "with the static one. Row: rung 5 over rung 2 with the mean coefficient.",
+            "with the static one. TableRow: rung 5 over rung 2 with the mean coefficient.",
         ),
         kind="compact",
     )
 
 
-def _change_row(one: RungChange) -> Row:
-    return Row(
+def _change_row(one: RungChange) -> TableRow:
+    return TableRow(
         cells=(
             one.name,
             str(one.ratios.size),
@@ -249,7 +249,7 @@ def _work_table(points: Sequence[PlaneWork]) -> Table:
         own = [one for one in points if one.method == name]
         shown = own[::2] if len(own) > 3 else own
         rows += [
-            Row(
+            TableRow(
                 cells=(
                     lettered(name) if n == 0 else "",
                     _setting(one.setting),
@@ -263,11 +263,11 @@ def _work_table(points: Sequence[PlaneWork]) -> Table:
     return Table(
         caption="Two axes: steps, or evaluations for SciPy, times and errors",
         columns=(
-            Column(head="Method", align="left", share=3.2),
-            Column(head="Setting", align="left", share=1.2),
-            Column(head="Steps", share=1.0),
-            Column(head="Time per run", share=1.2),
-            Column(head="Error", share=1.2),
+            TableColumn(head="Method", align="left", share=3.2),
+            TableColumn(head="Setting", align="left", share=1.2),
+            TableColumn(head="Steps", share=1.0),
+            TableColumn(head="Time per run", share=1.2),
+            TableColumn(head="Error", share=1.2),
         ),
         rows=tuple(rows),
         notes=("Of long rows of settings every second one.",),
@@ -311,17 +311,17 @@ def _bound_table(found: Sequence[BoundRatios]) -> Table:
     return Table(
         caption="Difference of the two runs of a pair over the sum of their bounds",
         columns=(
-            Column(head="Pairs", align="left", share=2.4),
-            Column(head="Number"),
-            Column(head="That move"),
-            Column(head="Median"),
-            Column(head="99 %"),
-            Column(head="Largest"),
-            Column(head="Above 1"),
-            Column(head="No answer"),
+            TableColumn(head="Pairs", align="left", share=2.4),
+            TableColumn(head="Number"),
+            TableColumn(head="That move"),
+            TableColumn(head="Median"),
+            TableColumn(head="99 %"),
+            TableColumn(head="Largest"),
+            TableColumn(head="Above 1"),
+            TableColumn(head="No answer"),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     one.kind.replace("mu", "μ"),
                     str(one.n_pairs),
@@ -352,14 +352,14 @@ def _stop_table(points: Sequence[StopPoint]) -> Table:
     return Table(
         caption="Two seconds of a block that is stopped and should rest",
         columns=(
-            Column(head="Method", align="left", share=3.4),
-            Column(head="Setting", align="left", share=1.1),
-            Column(head="Steps", share=1.0),
-            Column(head="Error in place", unit="mm", share=1.3),
-            Column(head="Speed left", unit="mm/s", share=1.3),
+            TableColumn(head="Method", align="left", share=3.4),
+            TableColumn(head="Setting", align="left", share=1.1),
+            TableColumn(head="Steps", share=1.0),
+            TableColumn(head="Error in place", unit="mm", share=1.3),
+            TableColumn(head="Speed left", unit="mm/s", share=1.3),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     lettered(one.method),
                     _setting(one.setting),
@@ -388,12 +388,12 @@ def _times_table(found: RungEvidence) -> Table:
     return Table(
         caption=f"Time per run of each rung, {found.times_motion}",
         columns=(
-            Column(head="Rung", align="left", share=3.0),
-            Column(head="Time per run", share=1.2),
-            Column(head="of one axis", share=1.2),
+            TableColumn(head="Rung", align="left", share=3.0),
+            TableColumn(head="Time per run", share=1.2),
+            TableColumn(head="of one axis", share=1.2),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     one.title,
                     seconds(one.seconds),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from report.manual.blocks import Section
+from report.manual.blocks import ManualSection
 from report.manual.building import building
 from report.manual.front import scope, summary
 from report.manual.machine import Machine
@@ -14,7 +14,7 @@ from report.manual.tables import checks, methods, peers, software
 from solver.verification.evidence import Verification
 
 
-def sections(found: Verification, machine: Machine) -> tuple[Section, ...]:
+def sections(found: Verification, machine: Machine) -> tuple[ManualSection, ...]:
     """Return all sections but cover and contents."""
     return (
         summary(found),

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from report.manual.blocks import Block, digits, percent, scientific
-from report.pages.parts import Column, Row, Table
+from report.pages.parts import Table, TableColumn, TableRow
 from report.words.units import number
 from solver.model import Floats
 from solver.verification.rung_evidence import (
@@ -31,7 +31,7 @@ _TELLING = 1e-3
 
 
 def effect(study: RungStudy) -> str:
-    """Say what it does to the PRD, beside the other rungs."""
+    """UnitFormat what it does to the PRD, beside the other rungs."""
     words = (
         "Static above kinetic friction: μ is that in motion, and "
         f"{1.0 / study.slow_share:.4g} μ holds the block until it slips and whenever it has "
@@ -95,14 +95,14 @@ def _difference_table(found: StaticEvidence) -> Table:
     return Table(
         caption="Change of the PRD by static above kinetic friction",
         columns=(
-            Column(head="Static over kinetic", share=1.4),
-            Column(head="One axis", unit="median"),
-            Column(head="One axis", unit="largest"),
-            Column(head="Two axes", unit="median"),
-            Column(head="Two axes", unit="largest"),
+            TableColumn(head="Static over kinetic", share=1.4),
+            TableColumn(head="One axis", unit="median"),
+            TableColumn(head="One axis", unit="largest"),
+            TableColumn(head="Two axes", unit="median"),
+            TableColumn(head="Two axes", unit="largest"),
         ),
         rows=tuple(
-            Row(cells=(f"{1.0 + d.excess:g}", *_middle_and_top(d.one_axis, d.two_axes)))
+            TableRow(cells=(f"{1.0 + d.excess:g}", *_middle_and_top(d.one_axis, d.two_axes)))
             for d in found.differences
         ),
         kind="compact",
@@ -114,14 +114,14 @@ def _fading_table(found: StaticEvidence) -> Table:
     return Table(
         caption="Two axes against one as the second component fades: change of the PRD",
         columns=(
-            Column(head="Second component times", share=1.4),
-            Column(head="One coefficient", unit="median"),
-            Column(head="One coefficient", unit="largest"),
-            Column(head=static, unit="median"),
-            Column(head=static, unit="largest"),
+            TableColumn(head="Second component times", share=1.4),
+            TableColumn(head="One coefficient", unit="median"),
+            TableColumn(head="One coefficient", unit="largest"),
+            TableColumn(head=static, unit="median"),
+            TableColumn(head=static, unit="largest"),
         ),
         rows=tuple(
-            Row(cells=(f"{f.share:g}", *_middle_and_top(f.one_coefficient, f.static_above)))
+            TableRow(cells=(f"{f.share:g}", *_middle_and_top(f.one_coefficient, f.static_above)))
             for f in found.fading
         ),
         kind="compact",
@@ -138,10 +138,10 @@ def _pushed_table(found: StaticEvidence) -> Table:
         f"μ = {JUMPING.mu_slow:g} in motion, {JUMPING.mu_static:g} at rest: distance from its "
         "start after two seconds",
         columns=(
-            Column(head="Push across", unit="m/s²"),
-            Column(head="Distance", unit="mm"),
-            Column(head="Error as the run tells it", unit="mm", share=1.6),
-            Column(head="Distance, friction falling with speed", unit="mm", share=2.2),
+            TableColumn(head="Push across", unit="m/s²"),
+            TableColumn(head="Distance", unit="mm"),
+            TableColumn(head="Error as the run tells it", unit="mm", share=1.6),
+            TableColumn(head="Distance, friction falling with speed", unit="mm", share=2.2),
         ),
         rows=tuple(_pushed_row(one) for one in found.pushed),
         notes=(
@@ -154,8 +154,8 @@ def _pushed_table(found: StaticEvidence) -> Table:
     )
 
 
-def _pushed_row(one: PushedPoint) -> Row:
-    return Row(
+def _pushed_row(one: PushedPoint) -> TableRow:
+    return TableRow(
         cells=(
             digits(one.across_mps2),
             number(1e3 * one.end_m, 2),

@@ -12,12 +12,12 @@ from report.figures import paper
 from report.manual.blocks import (
     Block,
     Chart,
-    Section,
+    ManualSection,
     percent,
     seconds,
     slug,
 )
-from report.pages.parts import Column, Picture, Row, Table
+from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered
 from solver.verification.evidence import (
     Convergence,
@@ -31,10 +31,10 @@ PAPER_WORST_PERCENT, PAPER_MEAN_PERCENT = 6.78, 1.69
 PAPER_READ_OFFS = "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm"
 
 
-def convergence(found: Verification) -> Section:
+def convergence(found: Verification) -> ManualSection:
     """Return the paper's Fig. 5."""
     scenarios = found.convergence[0].scenarios if found.convergence else 0
-    return Section(
+    return ManualSection(
         id="convergence",
         title="The paper's convergence study (Fig. 5)",
         blocks=(
@@ -69,15 +69,15 @@ def _convergence_table(one: Convergence) -> Table:
     return Table(
         caption=f"{one.record}: largest error in the residual, in percent of it and of the PRD",
         columns=(
-            Column(head="P", share=0.6),
-            Column(head="Truth: exact", share=1.2),
-            Column(head=f"Truth: P = {one.substeps[-1]}", share=1.2),
-            Column(head="of the PRD", share=1.2),
-            Column(head="Longest time", share=1.1),
-            Column(head="Worst scenario", align="left", share=2.2),
+            TableColumn(head="P", share=0.6),
+            TableColumn(head="Truth: exact", share=1.2),
+            TableColumn(head=f"Truth: P = {one.substeps[-1]}", share=1.2),
+            TableColumn(head="of the PRD", share=1.2),
+            TableColumn(head="Longest time", share=1.1),
+            TableColumn(head="Worst scenario", align="left", share=2.2),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     str(substeps),
                     percent(float(one.largest_error_exact_percent[index])),
@@ -93,12 +93,12 @@ def _convergence_table(one: Convergence) -> Table:
     )
 
 
-def links(found: Verification) -> Section:
+def links(found: Verification) -> ManualSection:
     """Return the paper's Figs. 6 to 9."""
     by_record = [
         (name, tuple(rows)) for name, rows in groupby(found.links, key=lambda one: one.record)
     ]
-    return Section(
+    return ManualSection(
         id="links",
         title="Comparison with a link (Figs. 6 to 9)",
         blocks=(
@@ -130,7 +130,7 @@ def links(found: Verification) -> Section:
 
 def _link_table(links: Sequence[LinkComparison]) -> Table:
     rows = [
-        Row(
+        TableRow(
             cells=(
                 one.record,
                 f"{one.slope_deg:g}°",
@@ -143,7 +143,7 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
         )
         for one in links
     ]
-    paper_row = Row(
+    paper_row = TableRow(
         cells=(
             "The paper, against SAP 2000, its record",
             "0°",
@@ -158,13 +158,13 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
     return Table(
         caption="Difference in RRD between the exact method and the link",
         columns=(
-            Column(head="Record", align="left", share=3.0),
-            Column(head="θ", share=0.6),
-            Column(head="Runs", share=0.7),
-            Column(head="Worst", share=1.0),
-            Column(head="at μ", share=0.7),
-            Column(head="which is", share=0.9),
-            Column(head="Mean", share=1.0),
+            TableColumn(head="Record", align="left", share=3.0),
+            TableColumn(head="θ", share=0.6),
+            TableColumn(head="Runs", share=0.7),
+            TableColumn(head="Worst", share=1.0),
+            TableColumn(head="at μ", share=0.7),
+            TableColumn(head="which is", share=0.9),
+            TableColumn(head="Mean", share=1.0),
         ),
         rows=(*rows, paper_row),
     )
@@ -176,7 +176,7 @@ def worst_mm(one: LinkComparison) -> float:
     return 1e3 * abs(float(one.rrd_exact_m[at] - one.rrd_link_m[at]))
 
 
-def curves(found: Verification) -> Section:
+def curves(found: Verification) -> ManualSection:
     """Return the paper's Figs. 10 to 12."""
     charts = []
     for one in found.curves:
@@ -200,7 +200,7 @@ def curves(found: Verification) -> Section:
                 ),
             ),
         ]
-    return Section(
+    return ManualSection(
         id="curves",
         title="Design curves (Figs. 10 to 12)",
         blocks=(
@@ -236,7 +236,7 @@ def _read_off_table(found: Verification) -> Table:
         prd = float(np.interp(0.5, one.mus, one.prd(4.0, paper.FIG_12_PPA_G)))
         least = one.least_mu(slope, paper.FIG_12_PPA_G, wanted)
         rows.append(
-            Row(
+            TableRow(
                 cells=(
                     one.record,
                     f"{1e3 * prd:.0f} mm",
@@ -246,15 +246,17 @@ def _read_off_table(found: Verification) -> Table:
                 )
             )
         )
-    paper_row = Row(cells=("The paper, its record", "1000 mm", "0.55", "6,960", "—"), kind="total")
+    paper_row = TableRow(
+        cells=("The paper, its record", "1000 mm", "0.55", "6,960", "—"), kind="total"
+    )
     return Table(
         caption=f"Read-offs at PPA = {paper.FIG_12_PPA_G:g} g",
         columns=(
-            Column(head="Record", align="left", share=2.4),
-            Column(head="PRD at θ = 4°, μ = 0.5", share=1.6),
-            Column(head=f"Least μ at θ = {slope:g}° for {1e3 * wanted:g} mm", share=2.0),
-            Column(head="Runs", share=0.8),
-            Column(head="Time", share=0.8),
+            TableColumn(head="Record", align="left", share=2.4),
+            TableColumn(head="PRD at θ = 4°, μ = 0.5", share=1.6),
+            TableColumn(head=f"Least μ at θ = {slope:g}° for {1e3 * wanted:g} mm", share=2.0),
+            TableColumn(head="Runs", share=0.8),
+            TableColumn(head="Time", share=0.8),
         ),
         rows=(*rows, paper_row),
     )

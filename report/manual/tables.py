@@ -9,7 +9,7 @@ from report.manual.blocks import (
     FAIL,
     PASS,
     Block,
-    Section,
+    ManualSection,
     digits,
     percent,
     scientific,
@@ -17,7 +17,7 @@ from report.manual.blocks import (
     unbroken,
 )
 from report.manual.machine import Machine
-from report.pages.parts import Column, Row, Table, Wide, verdict
+from report.pages.parts import Table, TableColumn, TableRow, Wide, verdict
 from report.words.letters import lettered
 from report.words.units import number
 from solver.rivals.methods import METHODS
@@ -28,10 +28,10 @@ from solver.verification.evidence import (
 )
 
 
-def checks(found: Verification) -> Section:
+def checks(found: Verification) -> ManualSection:
     """Return every check, a table for each section."""
     names = dict.fromkeys(row.section for row in found.checks)
-    return Section(
+    return ManualSection(
         id="checks",
         title="Checks",
         blocks=[
@@ -44,28 +44,28 @@ def checks(found: Verification) -> Section:
 
 
 def _check_table(checks: Sequence[CheckRow]) -> Table:
-    rows: list[Row] = []
+    rows: list[TableRow] = []
     for source in dict.fromkeys(row.source for row in checks):
-        rows.append(Row(cells=(Wide(f"Source: {lettered(source)}", 7),), kind="total"))
+        rows.append(TableRow(cells=(Wide(f"Source: {lettered(source)}", 7),), kind="total"))
         rows += [_check_row(row) for row in checks if row.source == source]
     return Table(
         caption="",
         columns=(
-            Column(head="Problem", align="left", share=3.15),
-            Column(head="Quantity", align="left", share=1.95),
-            Column(head="Expected", share=1.55),
-            Column(head="Found", share=1.55),
-            Column(head="Error", share=1.1),
-            Column(head="Tolerance", share=1.1),
-            Column(head="Result", align="center", share=0.7),
+            TableColumn(head="Problem", align="left", share=3.15),
+            TableColumn(head="Quantity", align="left", share=1.95),
+            TableColumn(head="Expected", share=1.55),
+            TableColumn(head="Found", share=1.55),
+            TableColumn(head="Error", share=1.1),
+            TableColumn(head="Tolerance", share=1.1),
+            TableColumn(head="Result", align="center", share=0.7),
         ),
         rows=tuple(rows),
         kind="compact",
     )
 
 
-def _check_row(row: CheckRow) -> Row:
-    return Row(
+def _check_row(row: CheckRow) -> TableRow:
+    return TableRow(
         cells=(
             unbroken(lettered(row.problem)),
             f"{row.quantity} [{lettered(row.unit)}]" if row.unit != "1" else row.quantity,
@@ -78,20 +78,20 @@ def _check_row(row: CheckRow) -> Row:
     )
 
 
-def methods() -> Section:
+def methods() -> ManualSection:
     """Return the table of methods."""
     table = Table(
         caption="",
         columns=(
-            Column(head="Method", align="left", share=1.7),
-            Column(head="Accuracy set by", align="left", share=1.5),
-            Column(head="Order", align="center", share=0.55),
-            Column(head="Vertical", align="center", share=0.75),
-            Column(head="Not valid", align="left", share=3.6),
-            Column(head="Source", align="left", share=2.6),
+            TableColumn(head="Method", align="left", share=1.7),
+            TableColumn(head="Accuracy set by", align="left", share=1.5),
+            TableColumn(head="Order", align="center", share=0.55),
+            TableColumn(head="Vertical", align="center", share=0.75),
+            TableColumn(head="Not valid", align="left", share=3.6),
+            TableColumn(head="Source", align="left", share=2.6),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     lettered(method.title),
                     _KNOBS[method.knob],
@@ -109,7 +109,7 @@ def methods() -> Section:
         ),
         kind="compact",
     )
-    return Section(
+    return ManualSection(
         id="methods",
         title="The methods compared",
         blocks=(
@@ -133,9 +133,9 @@ _KNOBS = {
 }
 
 
-def peers(peers: Sequence[PeerPoint]) -> Section:
+def peers(peers: Sequence[PeerPoint]) -> ManualSection:
     """Return what other programs gave."""
-    return Section(
+    return ManualSection(
         id="peers",
         title="Other programs",
         blocks=(
@@ -148,10 +148,10 @@ def peers(peers: Sequence[PeerPoint]) -> Section:
                     Table(
                         caption="",
                         columns=(
-                            Column(head="Record", align="left", share=2.0),
-                            Column(head="Scene", align="left", share=2.0),
-                            Column(head="Time per run", share=1.0),
-                            Column(head="Error in PRD", share=1.0),
+                            TableColumn(head="Record", align="left", share=2.0),
+                            TableColumn(head="Scene", align="left", share=2.0),
+                            TableColumn(head="Time per run", share=1.0),
+                            TableColumn(head="Error in PRD", share=1.0),
                         ),
                         rows=tuple(_peer_rows(peers)),
                         kind="compact",
@@ -162,15 +162,15 @@ def peers(peers: Sequence[PeerPoint]) -> Section:
     )
 
 
-def _peer_rows(peers: Sequence[PeerPoint]) -> Iterator[Row]:
+def _peer_rows(peers: Sequence[PeerPoint]) -> Iterator[TableRow]:
     """Give the runs of each program in each of its ways below a line that names them."""
     named = [(f"{one.peer} {one.version}: {one.note}", one) for one in peers]
     for name in dict.fromkeys(name for name, _ in named):
-        yield Row(cells=(Wide(name, 4),), kind="total")
+        yield TableRow(cells=(Wide(name, 4),), kind="total")
         for one in (one for other, one in named if other == name):
             failed = math.isnan(one.prd_error_percent)
             error = "failed" if failed else percent(one.prd_error_percent)
-            yield Row(cells=(one.record, lettered(one.scene), seconds(one.seconds), error))
+            yield TableRow(cells=(one.record, lettered(one.scene), seconds(one.seconds), error))
 
 
 def _command(found: Verification) -> str:
@@ -180,9 +180,9 @@ def _command(found: Verification) -> str:
     return words
 
 
-def software(found: Verification, machine: Machine) -> Section:
+def software(found: Verification, machine: Machine) -> ManualSection:
     """Return versions and the machine."""
-    return Section(
+    return ManualSection(
         id="software",
         title="Software and machine",
         blocks=(
@@ -197,10 +197,10 @@ def software(found: Verification, machine: Machine) -> Section:
                     Table(
                         caption="",
                         columns=(
-                            Column(head="Item", align="left"),
-                            Column(head="Version or kind", align="left", share=3.0),
+                            TableColumn(head="Item", align="left"),
+                            TableColumn(head="Version or kind", align="left", share=3.0),
                         ),
-                        rows=tuple(Row(cells=cells) for cells in machine.rows),
+                        rows=tuple(TableRow(cells=cells) for cells in machine.rows),
                     ),
                 ),
             ),

@@ -15,7 +15,7 @@ import numpy as np
 
 from report.sheet.archive import OpenBook
 from report.sheet.cells import CellError, Found, check_saved, number
-from report.sheet.locate import MAX_COLUMNS, Spot, cells_below
+from report.sheet.locate import MAX_COLUMNS, CellPosition, cells_below
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 from solver.records.record import Record, record_from_values
@@ -120,7 +120,7 @@ def _path(folder: Path, name: str) -> Path:
     return path
 
 
-def find_heading(book: OpenBook, name: str) -> Spot | None:
+def find_heading(book: OpenBook, name: str) -> CellPosition | None:
     """Return the heading of a pasted column; None for a file.
 
     Raises
@@ -139,10 +139,10 @@ def find_heading(book: OpenBook, name: str) -> Spot | None:
     raise InputError(f"'{name}' names no sheet of this workbook; write Sheet!Header, or a file")
 
 
-def _heading_on(book: OpenBook, title: str, header: str) -> Spot:
+def _heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
     extent, sheet = book.extent(title), book.computed[title]
     spots = [
-        Spot(title, row, column)
+        CellPosition(title, row, column)
         for row in range(1, min(HEADING_ROWS, extent.last_row) + 1)
         for column in range(1, min(MAX_COLUMNS, extent.last_column) + 1)
         if str(sheet.cell(row, column).value or "").strip().casefold() == header.casefold()
@@ -153,13 +153,13 @@ def _heading_on(book: OpenBook, title: str, header: str) -> Spot:
             " above the column"
         )
     if len(spots) > 1:
-        places = " and ".join(spot.address for spot in spots[:2])
+        places = " and ".join(position.address for position in spots[:2])
         raise InputError(f"heading '{header}' is at {places}; give each its own")
     return spots[0]
 
 
 def _read_column(
-    book: OpenBook, name: str, heading: Spot, units: str, dt_s: float | None
+    book: OpenBook, name: str, heading: CellPosition, units: str, dt_s: float | None
 ) -> Component:
     missing = [("time step", dt_s is None), ("units", not units)]
     if problems := [f"'{name}' is a pasted column; give its {w}" for w, is_so in missing if is_so]:

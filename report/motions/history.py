@@ -141,7 +141,7 @@ def _building(data: ProjectInput, field: str) -> Building:
         periods,
         damping=(asked.damping_percent / 100.0,),
         alpha0=math.inf if asked.stiffness_ratio is None else asked.stiffness_ratio,
-        storeys=data.site.storeys,
+        stories=data.site.stories,
     )
 
 

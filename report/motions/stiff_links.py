@@ -11,7 +11,7 @@ from report.sheet.fields import Fault, Place
 from report.sheet.schema import Links, ProjectInput
 from report.words.units import G_MPS2, Quantity
 from solver.model import Motion
-from solver.sliding.row import MOST_STEPS, Row, least_steps
+from solver.sliding.row import MOST_STEPS, BlockRow, least_steps
 
 
 def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault]:
@@ -31,7 +31,7 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault
 
 def _stiffest(one: Links, weight_n: float, seconds: float) -> float:
     """Return the stiffness [N/m] that takes `MOST_STEPS`, which grow with its square root."""
-    soft = Row(mus=one.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * one.damping_ratio)
+    soft = BlockRow(mus=one.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * one.damping_ratio)
     per_s2 = (MOST_STEPS / least_steps(soft, seconds)) ** 2
     return per_s2 * weight_n / (len(one.mus) * G_MPS2)
 

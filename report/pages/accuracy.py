@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import SHIFT, Accuracy, MethodRun, Rivals
-from report.pages.parts import NO_VALUE, Column, PackageData, Picture, Row, Table
+from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered, power_of_ten
 from report.words.units import number
 from solver.model import Status
@@ -51,7 +51,7 @@ def _run(package: PackageData, found: Rivals) -> str:
     return (
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
         f"μ = {number(array.mu, 3)}) under motion {found.motion.motion.id}, {run.heading.name}, "
-        f"{vertical} vertical shaking. PRD {package.say.both(run.result.prd_m)}, model "
+        f"{vertical} vertical shaking. PRD {package.fmt.both(run.result.prd_m)}, model "
         f"{int(run.solution.rung)} of part 11, {run.solution.rung.title}."
     )
 
@@ -68,7 +68,7 @@ def _plane(package: PackageData, found: Rivals) -> str:
         f"this PRD is below {below_mm(run.result.error_m)} ({kind}). The methods that others "
         "use know one axis only, and are compared on this run along the slope alone, "
         f"without the component across it{slow}: a displacement of "
-        f"{package.say.both(found.exact.prd_m)}, no result of this package."
+        f"{package.fmt.both(found.exact.prd_m)}, no result of this package."
     )
 
 
@@ -110,12 +110,12 @@ def _doubled(change: float) -> str:
 
 
 def _methods(package: PackageData, found: Rivals) -> Table:
-    say, exact = package.say, found.exact
-    top = Row(
+    fmt, exact = package.fmt, found.exact
+    top = TableRow(
         cells=(
             "Exact, event by event",
             "none",
-            *say.cells(exact.prd_m),
+            *fmt.cells(exact.prd_m),
             "rounding",
         ),
         kind="total",
@@ -124,22 +124,22 @@ def _methods(package: PackageData, found: Rivals) -> Table:
     return Table(
         caption="The governing run along the slope alone, by every method with its defaults",
         columns=(
-            Column(head="Method", align="left", share=3.0),
-            Column(head="Parameters", align="left", share=2.4),
-            *say.columns("PRD", share=0.9),
-            Column(head="Error in PRD", unit="%", share=1.1),
+            TableColumn(head="Method", align="left", share=3.0),
+            TableColumn(head="Parameters", align="left", share=2.4),
+            *fmt.columns("PRD", share=0.9),
+            TableColumn(head="Error in PRD", unit="%", share=1.1),
         ),
         rows=(top, *rows),
         kind="compact",
     )
 
 
-def _method_row(package: PackageData, run: MethodRun) -> Row:
-    return Row(
+def _method_row(package: PackageData, run: MethodRun) -> TableRow:
+    return TableRow(
         cells=(
             lettered(run.method.title),
             parameters(run.parameters),
-            *package.say.cells(run.result.prd_m),
+            *package.fmt.cells(run.result.prd_m),
             "failed" if run.failed else number(100.0 * run.error, 3),
         )
     )
@@ -163,20 +163,20 @@ def _by_array(
 
 
 def _friction_table(package: PackageData, found: Accuracy) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="Design displacement at other friction, all motions run again",
         columns=(
-            Column(head="Array", align="left", share=1.2),
-            Column(head="μ", share=0.7),
-            *say.columns(f"{_PERCENT} less"),
-            *say.columns("As given"),
-            *say.columns(f"{_PERCENT} more"),
-            Column(head="Change", unit=f"{_PERCENT} less", share=1.0),
-            Column(head="Change", unit=f"{_PERCENT} more", share=1.0),
+            TableColumn(head="Array", align="left", share=1.2),
+            TableColumn(head="μ", share=0.7),
+            *fmt.columns(f"{_PERCENT} less"),
+            *fmt.columns("As given"),
+            *fmt.columns(f"{_PERCENT} more"),
+            TableColumn(head="Change", unit=f"{_PERCENT} less", share=1.0),
+            TableColumn(head="Change", unit=f"{_PERCENT} more", share=1.0),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     given.array.id,
                     number(given.array.mu, 3),
@@ -194,11 +194,11 @@ def _friction_table(package: PackageData, found: Accuracy) -> Table:
 
 
 def _design_cells(package: PackageData, found: ArrayAssessment) -> tuple[str, str]:
-    return package.say.cells(found.design_m, mark=package.design_mark(found))
+    return package.fmt.cells(found.design_m, mark=package.design_mark(found))
 
 
 def _design(package: PackageData, found: ArrayAssessment) -> str:
-    return package.say.both(found.design_m) + package.design_mark(found)
+    return package.fmt.both(found.design_m) + package.design_mark(found)
 
 
 def _change(value: float, given: float) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from markupsafe import Markup
 
 from report.motions.history import PreparedMotion, first_period_s
-from report.pages.parts import Column, PackageData, Row, Table
+from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.words.units import G_MPS2, Quantity, number
 from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M
 from solver.building.roof import Building, RoofMotion
@@ -20,13 +20,13 @@ NAMES = {"horizontal": "record", "transverse": "transverse"}
 
 
 def building_part(
-    package: PackageData, motions: Sequence[Motion], stories: Sequence[PreparedMotion]
+    package: PackageData, motions: Sequence[Motion], preparations: Sequence[PreparedMotion]
 ) -> Mapping[str, object]:
     """Return sentences and tables on the way from ground to roof."""
     found = [
         (motion, NAMES[name], roof)
-        for motion, story in zip(motions, stories, strict=True)
-        for name, roof in story.roof.items()
+        for motion, prepared in zip(motions, preparations, strict=True)
+        for name, roof in prepared.roof.items()
     ]
     return {
         "texts": tuple(_texts(package, found)),
@@ -87,7 +87,7 @@ def _period_words(package: PackageData) -> Markup:
         number(height / FOOT_M, 1),
         f"{exponent:g}",
         number(first_period_s(package.data), 3),
-        package.say.both(height, Quantity.PLAN),
+        package.fmt.both(height, Quantity.PLAN),
     )
 
 
@@ -101,15 +101,15 @@ def _modes(found: Sequence[_Carried]) -> Table:
     return Table(
         caption="Modes of the building",
         columns=(
-            Column(head="Direction", align="left", share=1.3),
-            Column(head="Mode", share=0.6),
-            Column(head="Period", unit="s"),
-            Column(head="Damping", unit="% of critical"),
-            Column(head="Roof factor", unit="Γφ"),
-            Column(head="Taken", align="left", share=1.0),
+            TableColumn(head="Direction", align="left", share=1.3),
+            TableColumn(head="Mode", share=0.6),
+            TableColumn(head="Period", unit="s"),
+            TableColumn(head="Damping", unit="% of critical"),
+            TableColumn(head="Roof factor", unit="Γφ"),
+            TableColumn(head="Taken", align="left", share=1.0),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     name if mode == 0 else "",
                     str(mode + 1),
@@ -131,26 +131,26 @@ def _peaks(found: Sequence[_Carried]) -> Table:
     return Table(
         caption="Peaks on the ground and at the roof, scaled, and modes",
         columns=(
-            Column(head="Motion", align="left", share=1.2),
-            Column(head="Component", align="left", share=1.3),
-            Column(head="Peak", unit="ground, g"),
-            Column(head="Peak", unit="roof, g"),
-            Column(head="Roof / ground", share=1.0),
-            Column(head="Modes taken", share=0.9),
-            Column(head="Next mode", unit="% of roof's peak", share=1.2),
-            Column(head="All left out", unit="% of roof's peak", share=1.2),
-            Column(head="Goes on for", unit="s", share=0.9),
+            TableColumn(head="Motion", align="left", share=1.2),
+            TableColumn(head="Component", align="left", share=1.3),
+            TableColumn(head="Peak", unit="ground, g"),
+            TableColumn(head="Peak", unit="roof, g"),
+            TableColumn(head="Roof / ground", share=1.0),
+            TableColumn(head="Modes taken", share=0.9),
+            TableColumn(head="Next mode", unit="% of roof's peak", share=1.2),
+            TableColumn(head="All left out", unit="% of roof's peak", share=1.2),
+            TableColumn(head="Goes on for", unit="s", share=0.9),
         ),
         rows=tuple(_peak_row(*one) for one in found),
         kind="compact",
     )
 
 
-def _peak_row(motion: Motion, name: str, roof: RoofMotion) -> Row:
+def _peak_row(motion: Motion, name: str, roof: RoofMotion) -> TableRow:
     ground, top = (
         abs(motion.scale) * peak / G_MPS2 for peak in (roof.ground_peak_mps2, roof.roof_peak_mps2)
     )
-    return Row(
+    return TableRow(
         cells=(
             motion.id,
             name,

@@ -12,10 +12,10 @@ from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
     NG,
     OK,
-    Column,
     PackageData,
-    Row,
     Table,
+    TableColumn,
+    TableRow,
     check_value,
     dagger,
     verdict,
@@ -27,30 +27,30 @@ from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
 
 def clearance_table(package: PackageData, *, brief: bool) -> Table:
     """Return the clearances, required against provided."""
-    say = package.say
+    fmt = package.fmt
     factor = " × I" if package.assessment.rules.importance_in_separation else ""
     more = (
         ()
         if brief
         else (
-            *say.columns("Displ.", share=0.75),
-            Column(head="Of, going", align="left", share=1.55),
-            Column(head="Factor" + factor, share=0.85),
-            Column(head="Clause", align="left", share=2.15),
+            *fmt.columns("Displ.", share=0.75),
+            TableColumn(head="Of, going", align="left", share=1.55),
+            TableColumn(head="Factor" + factor, share=0.85),
+            TableColumn(head="Clause", align="left", share=2.15),
         )
     )
     return Table(
         caption="Clearances: required and provided separation",
         columns=(
-            Column(head="No.", share=0.45),
-            Column(head="From", align="left", share=0.9),
-            Column(head="To", align="left", share=1.1),
-            Column(head="Condition", align="left", share=2.2),
+            TableColumn(head="No.", share=0.45),
+            TableColumn(head="From", align="left", share=0.9),
+            TableColumn(head="To", align="left", share=1.1),
+            TableColumn(head="Condition", align="left", share=2.2),
             *more,
-            *say.columns("Required", share=0.85),
-            *say.columns("Provided", share=0.85),
-            Column(head="D/C", share=0.65),
-            Column(head="Verdict", align="center", share=0.95),
+            *fmt.columns("Required", share=0.85),
+            *fmt.columns("Provided", share=0.85),
+            TableColumn(head="D/C", share=0.65),
+            TableColumn(head="Verdict", align="center", share=0.95),
         ),
         rows=tuple(
             _clearance_row(package, count, gap, brief)
@@ -60,30 +60,30 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
     )
 
 
-def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief: bool) -> Row:
-    say, row = package.say, gap.clearance
+def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief: bool) -> TableRow:
+    fmt, row = package.fmt, gap.clearance
     key = SEPARATION_KEYS[gap.neighbour]
     least = package.mark("separation_edge_min_in") if gap.is_least_value else ""
     more = (
         ()
         if brief
         else (
-            *say.cells(gap.design_m),
+            *fmt.cells(gap.design_m),
             f"{gap.governing_array}, {gap.governing_direction.value}",
             number(gap.factor, 2) + package.mark(key),
             package.clause(key),
         )
     )
     where = "" if row.direction == "any" else f", {row.direction.value}"
-    return Row(
+    return TableRow(
         cells=(
             str(count),
             row.array,
             row.object,
             gap.neighbour.value + where,
             *more,
-            *say.cells(gap.required_m, mark=least),
-            *say.cells(row.provided_m, Quantity.SIZE),
+            *fmt.cells(gap.required_m, mark=least),
+            *fmt.cells(row.provided_m, Quantity.SIZE),
             ratio(gap.demand_capacity),
             verdict(gap.ok),
         )
@@ -104,8 +104,8 @@ def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
 def failed_limits(package: PackageData) -> Sequence[str]:
     """Return the limits that are not kept, in words."""
     return [
-        f"{place}: {check.title} is {check_value(check, check.found, package.say)}, limit "
-        f"{check_value(check, check.limit, package.say)} "
+        f"{place}: {check.title} is {check_value(check, check.found, package.fmt)}, limit "
+        f"{check_value(check, check.limit, package.fmt)} "
         f"({check.provision.clause}{dagger(check.provision)})."
         for place, check in all_checks(package)
         if not check.ok
@@ -140,22 +140,22 @@ def check_table(
     return Table(
         caption=caption,
         columns=(
-            Column(head="On", align="left", share=0.9),
-            Column(head="Limit on", align="left", share=3.1),
-            Column(head="Found", share=1.6),
-            Column(head="", align="center", share=0.3),
-            Column(head="Limit", share=1.7),
-            Column(head="Clause", align="left", share=1.7),
-            Column(head="Verdict", align="center", share=0.9),
+            TableColumn(head="On", align="left", share=0.9),
+            TableColumn(head="Limit on", align="left", share=3.1),
+            TableColumn(head="Found", share=1.6),
+            TableColumn(head="", align="center", share=0.3),
+            TableColumn(head="Limit", share=1.7),
+            TableColumn(head="Clause", align="left", share=1.7),
+            TableColumn(head="Verdict", align="center", share=0.9),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     place,
                     check.title,
-                    check_value(check, check.found, package.say),
+                    check_value(check, check.found, package.fmt),
                     "≤" if check.at_most else "≥",
-                    check_value(check, check.limit, package.say) + dagger(check.provision),
+                    check_value(check, check.limit, package.fmt) + dagger(check.provision),
                     check.provision.clause + dagger(check.provision),
                     verdict(check.ok, words),
                 )
@@ -177,9 +177,9 @@ def clearances(package: PackageData) -> Mapping[str, object]:
     if parapets:
         notes.append(
             "A parapet qualifies when its top is at least "
-            f"{package.say.both(package.assessment.rules.length_m('parapet_height_in'))}"
+            f"{package.fmt.both(package.assessment.rules.length_m('parapet_height_in'))}"
             f"{package.mark('parapet_height_in')} above the roof and at least "
-            f"{package.say.both(package.assessment.rules.length_m('parapet_over_cg_in'))}"
+            f"{package.fmt.both(package.assessment.rules.length_m('parapet_over_cg_in'))}"
             f"{package.mark('parapet_over_cg_in')} above the array's centre of gravity. An edge "
             "whose parapet does not qualify counts as one without. The strength of the parapet is "
             "not checked here."
@@ -188,7 +188,7 @@ def clearances(package: PackageData) -> Mapping[str, object]:
         notes.append(
             "Least separation to an edge without a qualifying parapet governs where the required "
             "value exceeds factor × displacement: "
-            f"{package.say.both(package.assessment.rules.length_m('separation_edge_min_in'))}"
+            f"{package.fmt.both(package.assessment.rules.length_m('separation_edge_min_in'))}"
             f"{package.mark('separation_edge_min_in')}."
         )
     return {"table": clearance_table(package, brief=False), "notes": tuple(notes)}
@@ -205,23 +205,23 @@ def limits(package: PackageData) -> Mapping[str, object]:
 
 
 def _interconnection(package: PackageData) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="Interconnection strength required within each array",
         columns=(
-            Column(head="Array", align="left", share=1.2),
-            *say.columns("Weight W", Quantity.WEIGHT),
-            *say.columns(Markup("Lighter part {} = W/2").format(symbol("W_1")), Quantity.WEIGHT),
-            *say.columns("Strength required", Quantity.WEIGHT),
-            Column(head="Clause", align="left", share=1.4),
+            TableColumn(head="Array", align="left", share=1.2),
+            *fmt.columns("Weight W", Quantity.WEIGHT),
+            *fmt.columns(Markup("Lighter part {} = W/2").format(symbol("W_1")), Quantity.WEIGHT),
+            *fmt.columns("Strength required", Quantity.WEIGHT),
+            TableColumn(head="Clause", align="left", share=1.4),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     found.array.id,
-                    *say.cells(found.array.weight_n, Quantity.WEIGHT),
-                    *say.cells(found.array.weight_n / 2.0, Quantity.WEIGHT),
-                    *say.cells(
+                    *fmt.cells(found.array.weight_n, Quantity.WEIGHT),
+                    *fmt.cells(found.array.weight_n / 2.0, Quantity.WEIGHT),
+                    *fmt.cells(
                         found.interconnection_n,
                         Quantity.WEIGHT,
                         mark=package.mark("interconnection_sds"),
@@ -242,13 +242,13 @@ def provisions(package: PackageData) -> Mapping[str, object]:
         "table": Table(
             caption=f"Numbers of {rules.name} used here",
             columns=(
-                Column(head="Provision", align="left", share=4.6),
-                Column(head="Value", share=0.9),
-                Column(head="Clause", align="left", share=1.7),
-                Column(head="Standing", align="left", share=1.9),
+                TableColumn(head="Provision", align="left", share=4.6),
+                TableColumn(head="Value", share=0.9),
+                TableColumn(head="Clause", align="left", share=1.7),
+                TableColumn(head="Standing", align="left", share=1.9),
             ),
             rows=tuple(
-                Row(
+                TableRow(
                     cells=(
                         _sentence_case(OVERRIDABLE[key]),
                         f"{provision.value:.4g}" + dagger(provision),
@@ -263,12 +263,12 @@ def provisions(package: PackageData) -> Mapping[str, object]:
         "overrides": Table(
             caption="Overridden for this project",
             columns=(
-                Column(head="Provision", align="left", share=3.0),
-                Column(head="Value", share=0.8),
-                Column(head="Reason given in the workbook", align="left", share=4.0),
+                TableColumn(head="Provision", align="left", share=3.0),
+                TableColumn(head="Value", share=0.8),
+                TableColumn(head="Reason given in the workbook", align="left", share=4.0),
             ),
             rows=tuple(
-                Row(
+                TableRow(
                     cells=(
                         _sentence_case(OVERRIDABLE[row.provision]),
                         f"{row.value:.6g}†‡",

@@ -9,7 +9,15 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
 from report.pages.checks import all_checks, clearance_table, troubles
-from report.pages.parts import Column, PackageData, Row, Table, shortened, statistic, verdict
+from report.pages.parts import (
+    PackageData,
+    Table,
+    TableColumn,
+    TableRow,
+    shortened,
+    statistic,
+    verdict,
+)
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
 from report.words.units import number, ratio
@@ -54,12 +62,12 @@ def cover(package: PackageData) -> Mapping[str, object]:
         "revisions": Table(
             caption="",
             columns=(
-                Column(head="Rev.", share=0.6, align="left"),
-                Column(head="Date", share=1.2, align="left"),
-                Column(head="Description", share=4.0, align="left"),
-                Column(head="By", share=1.8, align="left"),
+                TableColumn(head="Rev.", share=0.6, align="left"),
+                TableColumn(head="Date", share=1.2, align="left"),
+                TableColumn(head="Description", share=4.0, align="left"),
+                TableColumn(head="By", share=1.8, align="left"),
             ),
-            rows=tuple(Row(cells=cells) for cells in rows),
+            rows=tuple(TableRow(cells=cells) for cells in rows),
         ),
     }
 
@@ -111,7 +119,7 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
         ),
         (
             "Prescriptive displacement",
-            package.say.both(found.prescriptive.value_m) + package.mark(key),
+            package.fmt.both(found.prescriptive.value_m) + package.mark(key),
             rules.values[key].clause,
         ),
         (
@@ -121,27 +129,27 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
         ),
         (
             f"Largest design displacement (array {found.array.id})",
-            package.say.both(found.design_m) + package.design_mark(found),
+            package.fmt.both(found.design_m) + package.design_mark(found),
             f"governed by: {found.governs}",
         ),
     )
 
 
 def _array_table(package: PackageData) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="Arrays: displacement by analysis, prescriptive and design",
         columns=(
-            Column(head="Array", align="left", share=1.2),
-            Column(head="Slope", unit="deg", share=0.8),
-            Column(head="μ", share=0.7),
-            *say.columns("Analysis"),
-            *say.columns("Prescriptive"),
-            *say.columns("Design"),
-            Column(head="Governs", align="left", share=1.2),
-            Column(head="Limits", align="center", share=0.9),
-            Column(head="D/C", share=0.9),
-            Column(head="Verdict", align="center", share=1.1),
+            TableColumn(head="Array", align="left", share=1.2),
+            TableColumn(head="Slope", unit="deg", share=0.8),
+            TableColumn(head="μ", share=0.7),
+            *fmt.columns("Analysis"),
+            *fmt.columns("Prescriptive"),
+            *fmt.columns("Design"),
+            TableColumn(head="Governs", align="left", share=1.2),
+            TableColumn(head="Limits", align="center", share=0.9),
+            TableColumn(head="D/C", share=0.9),
+            TableColumn(head="Verdict", align="center", share=1.1),
         ),
         rows=tuple(_array_row(package, found) for found in package.assessment.arrays),
         notes=(
@@ -151,18 +159,18 @@ def _array_table(package: PackageData) -> Table:
     )
 
 
-def _array_row(package: PackageData, found: ArrayAssessment) -> Row:
+def _array_row(package: PackageData, found: ArrayAssessment) -> TableRow:
     prescriptive = package.mark(package.prescriptive_key(found))
     demands = [gap.demand_capacity for gap in package.assessment.gaps_of(found.array.id)]
     largest = math.nan if any(map(math.isnan, demands)) else max(demands, default=math.nan)
-    return Row(
+    return TableRow(
         cells=(
             found.array.id,
             number(math.degrees(found.array.slope_rad), 2),
             number(found.array.mu, 2),
-            *package.say.cells(found.analysis.value_m),
-            *package.say.cells(found.prescriptive.value_m, mark=prescriptive),
-            *package.say.cells(found.design_m, mark=package.design_mark(found)),
+            *package.fmt.cells(found.analysis.value_m),
+            *package.fmt.cells(found.prescriptive.value_m, mark=prescriptive),
+            *package.fmt.cells(found.design_m, mark=package.design_mark(found)),
             found.governs,
             verdict(all(check.ok for check in found.checks)),
             ratio(largest) if demands else "none given",
@@ -181,9 +189,9 @@ def basis(package: PackageData) -> Mapping[str, object]:
     return {
         "title": package.assessment.rules.title,
         "vertical": f"{with_vertical} of {count} have a vertical component",
-        "moves": "the records say, those of the ground through the building of part 4"
+        "moves": "the records fmt, those of the ground through the building of part 4"
         if any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
-        else "the records say",
+        else "the records fmt",
         "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
         "friction": _friction(package),
         "asked": _asked(package),

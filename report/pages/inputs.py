@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from report.assessment.runs import RUNGS
 from report.pages.model import friction
-from report.pages.parts import Column, PackageData, Row, Table
+from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.sheet.schema import Site
 from report.typeset.equations import symbol
 from report.words.units import Quantity, number
@@ -33,14 +33,14 @@ def _site(package: PackageData) -> Table:
     return Table(
         caption="Site and seismic parameters",
         columns=(
-            Column(head="Description", align="left", share=3.4),
-            Column(head="Symbol", align="left", share=0.8),
-            Column(head="Value", share=2.0),
-            Column(head="Reference", align="left", share=2.4),
-            Column(head="From", align="left", share=1.0),
+            TableColumn(head="Description", align="left", share=3.4),
+            TableColumn(head="Symbol", align="left", share=0.8),
+            TableColumn(head="Value", share=2.0),
+            TableColumn(head="Reference", align="left", share=2.4),
+            TableColumn(head="From", align="left", share=1.0),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     words,
                     symbol(name) if name else "",
@@ -55,7 +55,7 @@ def _site(package: PackageData) -> Table:
 
 
 def _parameters(package: PackageData) -> Sequence[tuple[str, str, str, str, str]]:
-    site, say = package.data.site, package.say
+    site, fmt = package.data.site, package.fmt
     s_ms = None if site.s_s_g is None or site.f_a is None else site.f_a * site.s_s_g
     s_m1 = None if site.s_1_g is None or site.f_v is None else site.f_v * site.s_1_g
     s_d1 = None if s_m1 is None else 2.0 / 3.0 * s_m1
@@ -67,18 +67,18 @@ def _parameters(package: PackageData) -> Sequence[tuple[str, str, str, str, str]
         ("Rule set", "", package.assessment.rules.name, "adopted provisions", given),
         ("Risk category", "", site.risk_category.value, "ASCE 7 Table 1.5-1", given),
         ("Importance factor", "I_e", number(site.i_e, 2), "ASCE 7 Table 1.5-2", given),
-        ("Storeys above grade", "", str(site.storeys), "", given),
+        ("Stories above grade", "", str(site.stories), "", given),
         (
             "Height of the array above the base",
             "z",
-            say.both(site.roof_height_m, Quantity.PLAN),
+            fmt.both(site.roof_height_m, Quantity.PLAN),
             "ASCE 7 13.3",
             given,
         ),
         (
             "Structure height",
             "h",
-            say.both(site.structure_height_m, Quantity.PLAN),
+            fmt.both(site.structure_height_m, Quantity.PLAN),
             "ASCE 7 13.3",
             given,
         ),
@@ -145,16 +145,16 @@ def _arrays(package: PackageData) -> Table:
     return Table(
         caption="Arrays: slope and friction",
         columns=(
-            Column(head="Array", align="left", share=0.9),
-            Column(head="Slope", unit="deg", share=0.7),
-            Column(head="Slope", unit="%", share=0.7),
-            Column(head="Downslope", unit="deg in plan", share=1.0),
-            Column(head="μ", share=0.7),
-            Column(head="Friction test report", align="left", share=2.6),
-            Column(head="Construction", align="left", share=2.2),
+            TableColumn(head="Array", align="left", share=0.9),
+            TableColumn(head="Slope", unit="deg", share=0.7),
+            TableColumn(head="Slope", unit="%", share=0.7),
+            TableColumn(head="Downslope", unit="deg in plan", share=1.0),
+            TableColumn(head="μ", share=0.7),
+            TableColumn(head="Friction test report", align="left", share=2.6),
+            TableColumn(head="Construction", align="left", share=2.2),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     array.id,
                     number(math.degrees(array.slope_rad), 2),
@@ -184,26 +184,26 @@ def _by_speed(package: PackageData) -> Iterator[str]:
 
 
 def _sizes(package: PackageData) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="Arrays: weight and size",
         columns=(
-            Column(head="Array", align="left", share=0.9),
-            *say.columns("Weight", Quantity.WEIGHT),
-            *say.columns("Centre of gravity", Quantity.SIZE),
-            *say.columns("Support spacing", Quantity.SIZE),
-            *say.columns("Plan x", Quantity.PLAN),
-            *say.columns("Plan y", Quantity.PLAN),
+            TableColumn(head="Array", align="left", share=0.9),
+            *fmt.columns("Weight", Quantity.WEIGHT),
+            *fmt.columns("Centre of gravity", Quantity.SIZE),
+            *fmt.columns("Support spacing", Quantity.SIZE),
+            *fmt.columns("Plan x", Quantity.PLAN),
+            *fmt.columns("Plan y", Quantity.PLAN),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     array.id,
-                    *say.cells(array.weight_n, Quantity.WEIGHT),
-                    *say.cells(array.cg_height_m, Quantity.SIZE),
-                    *say.cells(array.support_spacing_m, Quantity.SIZE),
-                    *say.cells(array.x_to_m - array.x_from_m, Quantity.PLAN),
-                    *say.cells(array.y_to_m - array.y_from_m, Quantity.PLAN),
+                    *fmt.cells(array.weight_n, Quantity.WEIGHT),
+                    *fmt.cells(array.cg_height_m, Quantity.SIZE),
+                    *fmt.cells(array.support_spacing_m, Quantity.SIZE),
+                    *fmt.cells(array.x_to_m - array.x_from_m, Quantity.PLAN),
+                    *fmt.cells(array.y_to_m - array.y_from_m, Quantity.PLAN),
                 )
             )
             for array in package.data.arrays
@@ -213,23 +213,23 @@ def _sizes(package: PackageData) -> Table:
 
 
 def _links(package: PackageData) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="Arrays to be held against a row of linked blocks",
         columns=(
-            Column(head="Array", align="left", share=0.9),
-            Column(head="Blocks", share=0.8),
-            Column(head="μ of the blocks, from the highest down", align="left", share=4.2),
-            *say.columns("Link stiffness", Quantity.STIFFNESS, share=1.1),
-            Column(head="Link damping", unit="of critical", share=1.3),
+            TableColumn(head="Array", align="left", share=0.9),
+            TableColumn(head="Blocks", share=0.8),
+            TableColumn(head="μ of the blocks, from the highest down", align="left", share=4.2),
+            *fmt.columns("Link stiffness", Quantity.STIFFNESS, share=1.1),
+            TableColumn(head="Link damping", unit="of critical", share=1.3),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     one.array,
                     str(len(one.mus)),
                     ", ".join(number(mu, 3) for mu in one.mus),
-                    *say.cells(one.stiffness_n_per_m, Quantity.STIFFNESS),
+                    *fmt.cells(one.stiffness_n_per_m, Quantity.STIFFNESS),
                     number(one.damping_ratio, 3),
                 )
             )
@@ -240,20 +240,20 @@ def _links(package: PackageData) -> Table:
 
 
 def _objects(package: PackageData) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="Objects and roof edges",
         columns=(
-            Column(head="Object", align="left", share=1.2),
-            Column(head="Kind", align="left", share=1.8),
-            *say.columns("Height", Quantity.SIZE),
-            *say.columns("x from", Quantity.PLAN),
-            *say.columns("x to", Quantity.PLAN),
-            *say.columns("y from", Quantity.PLAN),
-            *say.columns("y to", Quantity.PLAN),
+            TableColumn(head="Object", align="left", share=1.2),
+            TableColumn(head="Kind", align="left", share=1.8),
+            *fmt.columns("Height", Quantity.SIZE),
+            *fmt.columns("x from", Quantity.PLAN),
+            *fmt.columns("x to", Quantity.PLAN),
+            *fmt.columns("y from", Quantity.PLAN),
+            *fmt.columns("y to", Quantity.PLAN),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     item.id,
                     item.kind.value,
@@ -271,4 +271,4 @@ def _objects(package: PackageData) -> Table:
 
 
 def _optional(package: PackageData, value_m: float | None, quantity: Quantity) -> tuple[str, str]:
-    return ("—", "—") if value_m is None else package.say.cells(value_m, quantity)
+    return ("—", "—") if value_m is None else package.fmt.cells(value_m, quantity)

@@ -9,7 +9,16 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.links import LinkedArray
-from report.pages.parts import NO_VALUE, Column, Line, PackageData, Row, Table, statistic, verdict
+from report.pages.parts import (
+    NO_VALUE,
+    Line,
+    PackageData,
+    Table,
+    TableColumn,
+    TableRow,
+    statistic,
+    verdict,
+)
 from report.sheet.schema import Direction
 from report.words.units import Quantity, number
 from solver.model import Status
@@ -55,16 +64,16 @@ def _unfinished(found: LinkedArray) -> Iterator[str]:
 
 
 def _too_far(package: PackageData, found: LinkedArray) -> str:
-    name, say, used = found.found.array.id, package.say, found.found.design_m
+    name, fmt, used = found.found.array.id, package.fmt, found.found.design_m
     if math.isinf(found.estimated_m):
         return (
             f"Array {name}: one rigid block does not slide in one axis, a row of linked blocks by "
-            f"{say.both(found.linked.value_m)}."
+            f"{fmt.both(found.linked.value_m)}."
         )
     return (
         f"Array {name}: a row of linked blocks goes {_ratio(found.ratio)} times as far as one "
-        f"rigid block, estimated design displacement {say.both(found.estimated_m)}, used "
-        f"{say.both(used)}."
+        f"rigid block, estimated design displacement {fmt.both(found.estimated_m)}, used "
+        f"{fmt.both(used)}."
     )
 
 
@@ -125,34 +134,34 @@ def _lines(package: PackageData) -> Sequence[Line]:
 
 
 def _step(package: PackageData, found: LinkedArray) -> tuple[str, str]:
-    say, design = package.say, found.found
+    fmt, design = package.fmt, found.found
     return (
         f"{design.array.id}: max(max(1, {_ratio(found.ratio)}) × "
-        f"{say.both(found.value_m)}, {say.both(design.floor_m)})",
+        f"{fmt.both(found.value_m)}, {fmt.both(design.floor_m)})",
         _estimated(package, found),
     )
 
 
 def _estimated(package: PackageData, found: LinkedArray) -> str:
-    return "no limit" if math.isinf(found.estimated_m) else package.say.both(found.estimated_m)
+    return "no limit" if math.isinf(found.estimated_m) else package.fmt.both(found.estimated_m)
 
 
 def _row_table(package: PackageData) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="Rows of linked blocks and one rigid block: the largest of all runs",
         columns=(
-            Column(head="Array", align="left", share=0.9),
-            Column(head="Blocks", share=0.9),
-            Column(head="μ", share=1.5),
-            *say.columns("Link stiffness", Quantity.STIFFNESS, share=1.0),
-            Column(head="Damping", unit="of critical", share=1.2),
-            *say.columns("PRD, rigid", share=0.8),
-            *say.columns("PRD, row", share=0.8),
-            Column(head="Block", share=0.8),
-            *say.columns("Link force", Quantity.WEIGHT, share=0.9),
+            TableColumn(head="Array", align="left", share=0.9),
+            TableColumn(head="Blocks", share=0.9),
+            TableColumn(head="μ", share=1.5),
+            *fmt.columns("Link stiffness", Quantity.STIFFNESS, share=1.0),
+            TableColumn(head="Damping", unit="of critical", share=1.2),
+            *fmt.columns("PRD, rigid", share=0.8),
+            *fmt.columns("PRD, row", share=0.8),
+            TableColumn(head="Block", share=0.8),
+            *fmt.columns("Link force", Quantity.WEIGHT, share=0.9),
         ),
-        rows=tuple(Row(cells=_row(package, found)) for found in package.assessment.linked),
+        rows=tuple(TableRow(cells=_row(package, found)) for found in package.assessment.linked),
         notes=(
             "Block: the one that goes farthest, counted from the highest. Link force: the largest "
             "in any link; it stands beside the strength that part 9 asks for.",
@@ -162,36 +171,36 @@ def _row_table(package: PackageData) -> Table:
 
 
 def _row(package: PackageData, found: LinkedArray) -> tuple[str, ...]:
-    say, mus, farthest = package.say, found.row.mus, found.farthest
+    fmt, mus, farthest = package.fmt, found.row.mus, found.farthest
     return (
         found.found.array.id,
         str(len(mus)),
         " to ".join(number(mu, 3) for mu in sorted({min(mus), max(mus)})),
-        *say.cells(found.links.stiffness_n_per_m, Quantity.STIFFNESS),
+        *fmt.cells(found.links.stiffness_n_per_m, Quantity.STIFFNESS),
         number(found.links.damping_ratio, 3),
-        *say.cells(found.rigid_prd_m),
-        *say.cells(farthest.prd_m),
+        *fmt.cells(found.rigid_prd_m),
+        *fmt.cells(farthest.prd_m),
         NO_VALUE if math.isnan(farthest.prd_m) else str(farthest.block),
-        *say.cells(found.link_force_n, Quantity.WEIGHT),
+        *fmt.cells(found.link_force_n, Quantity.WEIGHT),
     )
 
 
 def _design_table(package: PackageData, matters: str) -> Table:
-    say = package.say
+    fmt = package.fmt
     linked = package.assessment.linked
     ways = sorted({statistic(found.found.analysis.basis) for found in linked})
     return Table(
         caption="Whether one rigid block is enough",
         columns=(
-            Column(head="Array", align="left", share=0.9),
-            *say.columns("Rigid, one axis"),
-            *say.columns("Row, one axis"),
-            Column(head="Ratio r", share=0.9),
-            *say.columns("Design, used"),
-            *say.columns("Design, with links"),
-            Column(head="Verdict", align="center", share=1.0),
+            TableColumn(head="Array", align="left", share=0.9),
+            *fmt.columns("Rigid, one axis"),
+            *fmt.columns("TableRow, one axis"),
+            TableColumn(head="Ratio r", share=0.9),
+            *fmt.columns("Design, used"),
+            *fmt.columns("Design, with links"),
+            TableColumn(head="Verdict", align="center", share=1.0),
         ),
-        rows=tuple(Row(cells=_design(package, found)) for found in linked),
+        rows=tuple(TableRow(cells=_design(package, found)) for found in linked),
         notes=(
             f"Rigid and row: {', '.join(ways)} of the motions' PRDs, of the row those of the block "
             "that goes farthest. OK where the design with links is above the one used by no more "
@@ -202,13 +211,13 @@ def _design_table(package: PackageData, matters: str) -> Table:
 
 
 def _design(package: PackageData, found: LinkedArray) -> tuple[str, ...]:
-    say, estimated = package.say, found.estimated_m
+    fmt, estimated = package.fmt, found.estimated_m
     return (
         found.found.array.id,
-        *say.cells(found.rigid.value_m),
-        *say.cells(found.linked.value_m),
+        *fmt.cells(found.rigid.value_m),
+        *fmt.cells(found.linked.value_m),
         _ratio(found.ratio),
-        *say.cells(found.found.design_towards_m(Direction.ANY)),
-        *(("∞", "∞") if math.isinf(estimated) else say.cells(estimated)),
+        *fmt.cells(found.found.design_towards_m(Direction.ANY)),
+        *(("∞", "∞") if math.isinf(estimated) else fmt.cells(estimated)),
         verdict(found.is_rigid_enough),
     )

@@ -115,16 +115,16 @@ def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
 
 def prescriptive_line(package: PackageData, found: ArrayAssessment) -> Line:
     """Return the prescriptive displacement."""
-    site, rules, say = package.data.site, package.assessment.rules, package.say
+    site, rules, fmt = package.data.site, package.assessment.rules, package.fmt
     key = package.prescriptive_key(found)
     value, minimum = found.prescriptive.value_m, found.prescriptive.minimum_m
     if found.prescriptive.governs == "SDC A, B, C":
         return Line(
             latex=r"\Delta_{MPV}=\Delta_{A,B,C}",
             reference=package.clause(key),
-            steps=((f"SDC {site.sdc.value}", say.both(value) + package.mark(key)),),
+            steps=((f"SDC {site.sdc.value}", fmt.both(value) + package.mark(key)),),
         )
-    least = say.both(minimum) + package.mark("prescriptive_minimum_in")
+    least = fmt.both(minimum) + package.mark("prescriptive_minimum_in")
     factor = f"{rules['prescriptive_factor_in']:g} in" + package.mark("prescriptive_factor_in")
     inside = "" if rules.importance_in_separation else f" × {number(site.i_e, 2)}"
     latex = (
@@ -139,7 +139,7 @@ def prescriptive_line(package: PackageData, found: ArrayAssessment) -> Line:
         steps=(
             (
                 Markup("{}{} × {}, not below {}").format(factor, inside, bracket, least),
-                say.both(value) + package.mark(key),
+                fmt.both(value) + package.mark(key),
             ),
         ),
         note=f"{found.prescriptive.governs.capitalize()} governs. The same for every array.",
@@ -148,10 +148,10 @@ def prescriptive_line(package: PackageData, found: ArrayAssessment) -> Line:
 
 def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]:
     """Return the way from the peaks of an array to its design displacement."""
-    say, analysis, rules = package.say, found.analysis, package.assessment.rules
-    unit = say.units()[0]
+    fmt, analysis, rules = package.fmt, found.analysis, package.assessment.rules
+    unit = fmt.units()[0]
     peaks = [run.governing.result.prd_m for run in found.motions]
-    shown = " + ".join(say.cells(peak)[0] for peak in peaks[:12]) + (
+    shown = " + ".join(fmt.cells(peak)[0] for peak in peaks[:12]) + (
         " + …" if len(peaks) > 12 else ""
     )
     count = str(len(peaks))
@@ -166,21 +166,21 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
             steps=(
                 (
                     Markup("{} {}").format(fraction(shown, count), unit.symbol),
-                    say.both(analysis.mean_m),
+                    fmt.both(analysis.mean_m),
                 ),
             ),
         ),
         Line(
             latex=r"\Delta_{max}=\mathrm{max}_i\,\mathrm{PRD}_i",
             reference=f"motion {found.worst.motion.id}",
-            steps=(("largest of the motions", say.both(analysis.largest_m)),),
+            steps=(("largest of the motions", fmt.both(analysis.largest_m)),),
         ),
         Line(
             latex=(
                 r"\Delta_{RHA}=k\,\Delta_{max}" if largest else r"\Delta_{RHA}=k\,\overline{\Delta}"
             ),
             reference=package.clause("analysis_factor"),
-            steps=((f"{factor} × {say.both(picked)}", say.both(analysis.value_m)),),
+            steps=((f"{factor} × {fmt.both(picked)}", fmt.both(analysis.value_m)),),
             note=f"Statistic: {statistic(analysis.basis)}.",
         ),
         Line(
@@ -190,8 +190,8 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
                 (
                     "peer reviewed, no floor"
                     if package.data.options.peer_reviewed
-                    else f"{floor} × {say.both(found.prescriptive.value_m)}",
-                    say.both(found.floor_m) + package.mark("analysis_floor"),
+                    else f"{floor} × {fmt.both(found.prescriptive.value_m)}",
+                    fmt.both(found.floor_m) + package.mark("analysis_floor"),
                 ),
             ),
         ),
@@ -200,8 +200,8 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
             reference="design displacement",
             steps=(
                 (
-                    f"max({say.both(analysis.value_m)}, {say.both(found.floor_m)})",
-                    say.both(found.design_m) + package.design_mark(found),
+                    f"max({fmt.both(analysis.value_m)}, {fmt.both(found.floor_m)})",
+                    fmt.both(found.design_m) + package.design_mark(found),
                 ),
             ),
             note=f"Governed by: {found.governs}.",
@@ -212,7 +212,7 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
 
 def _directions_line(package: PackageData, found: ArrayAssessment) -> Line:
     """Return the design displacements down, up and across, from the peaks in each direction."""
-    say, factor = package.say, number(found.analysis.factor, 2) + package.mark("analysis_factor")
+    fmt, factor = package.fmt, number(found.analysis.factor, 2) + package.mark("analysis_factor")
     largest = found.analysis.basis is Basis.LARGEST_FACTORED
     ways = (Direction.DOWN, Direction.UP, Direction.ACROSS)
     return Line(
@@ -225,8 +225,8 @@ def _directions_line(package: PackageData, found: ArrayAssessment) -> Line:
         steps=tuple(
             (
                 f"{way.value.capitalize()}: max({factor} × "
-                f"{say.both(one.largest_m if largest else one.mean_m)}, {say.both(found.floor_m)})",
-                say.both(found.design_towards_m(way)) + package.towards_mark(found, way),
+                f"{fmt.both(one.largest_m if largest else one.mean_m)}, {fmt.both(found.floor_m)})",
+                fmt.both(found.design_towards_m(way)) + package.towards_mark(found, way),
             )
             for way in ways
             for one in (found.directions[way],)
@@ -256,27 +256,27 @@ def separation_line(package: PackageData) -> Line:
 
 
 def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
-    say, rules = package.say, package.assessment.rules
+    fmt, rules = package.fmt, package.assessment.rules
     key = SEPARATION_KEYS[gap.neighbour]
     inside = f" × {number(package.data.site.i_e, 2)}" if rules.importance_in_separation else ""
     least = (
-        f", not below {say.both(rules.length_m('separation_edge_min_in'))}"
+        f", not below {fmt.both(rules.length_m('separation_edge_min_in'))}"
         f"{package.mark('separation_edge_min_in')}"
         if gap.is_least_value
         else ""
     )
-    feet = "" if math.isnan(gap.required_m) else f" = {say.both(gap.required_m, Quantity.PLAN)}"
+    feet = "" if math.isnan(gap.required_m) else f" = {fmt.both(gap.required_m, Quantity.PLAN)}"
     return (
         f"To {_ARTICLES[gap.neighbour]} ({gap.governing_array}, "
         f"{gap.governing_direction.value}): {number(rules[key], 2)}{package.mark(key)}{inside} × "
-        f"{say.both(gap.design_m)}{least}",
-        say.both(gap.required_m) + feet,
+        f"{fmt.both(gap.design_m)}{least}",
+        fmt.both(gap.required_m) + feet,
     )
 
 
 def interconnection_line(package: PackageData, found: ArrayAssessment) -> Line:
     """Return the interconnection strength."""
-    rules, say = package.assessment.rules, package.say
+    rules, fmt = package.assessment.rules, package.fmt
     first = f"{rules['interconnection_sds']:g}{package.mark('interconnection_sds')}"
     second = f"{rules['interconnection_min']:g}{package.mark('interconnection_min')}"
     return Line(
@@ -285,8 +285,8 @@ def interconnection_line(package: PackageData, found: ArrayAssessment) -> Line:
         steps=(
             (
                 f"max({first} × {number(package.data.site.s_ds, 3)}, {second}) × "
-                f"{say.both(found.array.weight_n / 2.0, Quantity.WEIGHT)}",
-                say.both(found.interconnection_n, Quantity.WEIGHT),
+                f"{fmt.both(found.array.weight_n / 2.0, Quantity.WEIGHT)}",
+                fmt.both(found.interconnection_n, Quantity.WEIGHT),
             ),
         ),
     )

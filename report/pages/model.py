@@ -15,10 +15,10 @@ from report.pages import links
 from report.pages.accuracy import below_mm
 from report.pages.parts import (
     NO_VALUE,
-    Column,
     PackageData,
-    Row,
     Table,
+    TableColumn,
+    TableRow,
     Wide,
     nan_is_worst,
     verdict,
@@ -62,8 +62,8 @@ def model_troubles(package: PackageData) -> Iterator[str]:
         worst = max(Direction, key=lambda d: found.chosen_towards_m(d) - found.design_towards_m(d))
         yield (
             f"Array {found.array.id}: the model asked for, {found.array.model.value}, gives "
-            f"{package.say.both(found.design_towards_m(worst))} ({worst.value}), the one that its "
-            f"motions need {package.say.both(found.chosen_towards_m(worst))}."
+            f"{package.fmt.both(found.design_towards_m(worst))} ({worst.value}), the one that its "
+            f"motions need {package.fmt.both(found.chosen_towards_m(worst))}."
         )
 
 
@@ -82,16 +82,16 @@ def _stability_table(package: PackageData) -> Table:
     return Table(
         caption="Beside every model: uplift and tipping",
         columns=(
-            Column(head="Array", align="left", share=0.8),
-            Column(head="Least N", unit="m g", share=1.0),
-            Column(head="Time lifted", unit="s", share=1.1),
-            Column(head="Demand", unit="V/N", share=1.0),
-            Column(head="Capacity", unit="b/(2h)", share=1.1),
-            Column(head="Ratio, held", share=1.1),
-            Column(head="Ratio, sliding", share=1.2),
-            Column(head="Verdict", align="center", share=1.0),
+            TableColumn(head="Array", align="left", share=0.8),
+            TableColumn(head="Least N", unit="m g", share=1.0),
+            TableColumn(head="Time lifted", unit="s", share=1.1),
+            TableColumn(head="Demand", unit="V/N", share=1.0),
+            TableColumn(head="Capacity", unit="b/(2h)", share=1.1),
+            TableColumn(head="Ratio, held", share=1.1),
+            TableColumn(head="Ratio, sliding", share=1.2),
+            TableColumn(head="Verdict", align="center", share=1.0),
         ),
-        rows=tuple(Row(cells=_stability(found)) for found in package.assessment.arrays),
+        rows=tuple(TableRow(cells=_stability(found)) for found in package.assessment.arrays),
         notes=(
             "The worst run of each. Tipping: an array begins to turn about an edge of its supports "
             "where the shear that reaches it, never more than friction gives, is above b/(2h) of "
@@ -150,16 +150,18 @@ def _table(package: PackageData) -> Table:
     return Table(
         caption="Model used, by array",
         columns=(
-            Column(head="Array", align="left", share=0.8),
-            Column(head="Model", align="left", share=2.1),
-            Column(head="Runs", share=1.0),
-            Column(head="μ", share=0.9),
-            Column(head="Demand", share=0.9),
-            Column(head="Why this one", align="left", share=4.2),
-            Column(head="Error of PRD", align="left", share=1.6),
+            TableColumn(head="Array", align="left", share=0.8),
+            TableColumn(head="Model", align="left", share=2.1),
+            TableColumn(head="Runs", share=1.0),
+            TableColumn(head="μ", share=0.9),
+            TableColumn(head="Demand", share=0.9),
+            TableColumn(head="Why this one", align="left", share=4.2),
+            TableColumn(head="Error of PRD", align="left", share=1.6),
         ),
         rows=tuple(
-            Row(cells=cells) for found in package.assessment.arrays for cells in _model_rows(found)
+            TableRow(cells=cells)
+            for found in package.assessment.arrays
+            for cells in _model_rows(found)
         ),
         notes=(
             "Demand: the largest shear over normal force of an array that is held; it slips where "
@@ -200,18 +202,18 @@ def _error(runs: Sequence[HeadingRun]) -> str:
 
 
 def _left_out_table(package: PackageData) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="What was left out, and what it could change in the design displacement",
         columns=(
-            Column(head="Array", align="left", share=0.8),
-            Column(head="Left out", align="left", share=3.1),
-            *say.columns("PRD, by at most", share=0.9),
-            *say.columns("Design, by at most", share=0.9),
-            Column(head="How it is known", align="left", share=3.6),
+            TableColumn(head="Array", align="left", share=0.8),
+            TableColumn(head="Left out", align="left", share=3.1),
+            *fmt.columns("PRD, by at most", share=0.9),
+            *fmt.columns("Design, by at most", share=0.9),
+            TableColumn(head="How it is known", align="left", share=3.6),
         ),
         rows=tuple(
-            Row(cells=cells)
+            TableRow(cells=cells)
             for found in package.assessment.arrays
             for cells in _left_out_rows(package, found)
         ),
@@ -256,15 +258,15 @@ def _effect_row(
     return (
         found.array.id,
         _LEFT_OUT[rung],
-        *package.say.cells(effect),
-        *package.say.cells(raised - found.design_m),
+        *package.fmt.cells(effect),
+        *package.fmt.cells(raised - found.design_m),
         how,
     )
 
 
 def _asked_row(package: PackageData, found: ArrayAssessment) -> tuple[str | Wide, ...]:
     """Return what the models would give that the scenes need, in place of the one asked for."""
-    say, other = package.say, found.chosen[Direction.ANY]
+    fmt, other = package.fmt, found.chosen[Direction.ANY]
     rung = max(run.solution.rung for motion in found.needed for run in motion.runs)
     name = f"What {rung.title} add" if rung > RUNGS[found.array.model] else "Nothing needed"
     if math.isnan(found.design_m) or math.isnan(other.value_m):
@@ -278,8 +280,8 @@ def _asked_row(package: PackageData, found: ArrayAssessment) -> tuple[str | Wide
     return (
         found.array.id,
         name,
-        *say.cells(effect),
-        *say.cells(abs(change)),
+        *fmt.cells(effect),
+        *fmt.cells(abs(change)),
         "exact: run both ways" + ("; the floor governs in both" if floor else ""),
     )
 
@@ -290,7 +292,7 @@ def _sentences(package: PackageData, found: ArrayAssessment) -> Iterator[str]:
     lifted = "it leaves the roof" if least < 0.0 else "it stays on the roof"
     yield (
         f"Array {name}: the worst run is {worst.motion.id}, {worst.governing.heading.name}, with "
-        f"PRD {package.say.both(worst.governing.result.prd_m)}. Least normal force "
+        f"PRD {package.fmt.both(worst.governing.result.prd_m)}. Least normal force "
         f"{number(least, 2)} m g: {lifted}.{friction(found.array)}"
     )
     is_bounded = found.array.friction.is_monotone

@@ -14,7 +14,7 @@ from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.targets import OWN
 from report.pages.building import building_part
-from report.pages.parts import Column, PackageData, Row, Table
+from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
 from report.words.units import G_MPS2, number
@@ -37,44 +37,44 @@ def has_ground(package: PackageData) -> bool:
     return any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
 
 
-def motion_table(motions: Sequence[Motion], stories: Sequence[PreparedMotion]) -> Table:
+def motion_table(motions: Sequence[Motion], preparations: Sequence[PreparedMotion]) -> Table:
     """Return what each motion is, as run."""
-    grounds = [story.recorded_at is RecordedAt.GROUND for story in stories]
-    where = [Column(head="From", align="left", share=0.9)] if any(grounds) else []
+    grounds = [prepared.recorded_at is RecordedAt.GROUND for prepared in preparations]
+    where = [TableColumn(head="From", align="left", share=0.9)] if any(grounds) else []
     return Table(
         caption="Roof motions as run, after scaling",
         columns=(
-            Column(head="Motion", align="left", share=1.0),
-            Column(head="Source", align="left", share=3.7),
+            TableColumn(head="Motion", align="left", share=1.0),
+            TableColumn(head="Source", align="left", share=3.7),
             *where,
-            Column(head="Peak", unit="record, g", share=0.95),
-            Column(head="Peak", unit="transv., g", share=0.95),
-            Column(head="Peak", unit="vertical, g", share=1.0),
-            Column(head="Step", unit="s", share=0.7),
-            Column(head="Duration", unit="s", share=0.85),
-            Column(head="Scaling", align="left", share=1.5),
-            Column(head="Factor", share=0.8),
-            Column(head="Polarity", align="center", share=0.85),
+            TableColumn(head="Peak", unit="record, g", share=0.95),
+            TableColumn(head="Peak", unit="transv., g", share=0.95),
+            TableColumn(head="Peak", unit="vertical, g", share=1.0),
+            TableColumn(head="Step", unit="s", share=0.7),
+            TableColumn(head="Duration", unit="s", share=0.85),
+            TableColumn(head="Scaling", align="left", share=1.5),
+            TableColumn(head="Factor", share=0.8),
+            TableColumn(head="Polarity", align="center", share=0.85),
         ),
         rows=tuple(
-            _motion_row(motion, story, with_place=any(grounds))
-            for motion, story in zip(motions, stories, strict=True)
+            _motion_row(motion, prepared, with_place=any(grounds))
+            for motion, prepared in zip(motions, preparations, strict=True)
         ),
         kind="compact",
     )
 
 
-def _motion_row(motion: Motion, story: PreparedMotion, *, with_place: bool) -> Row:
+def _motion_row(motion: Motion, prepared: PreparedMotion, *, with_place: bool) -> TableRow:
     peaks = (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
-    return Row(
+    return TableRow(
         cells=(
             motion.id,
             motion.source or "—",
-            *([story.recorded_at.value] if with_place else []),
+            *([prepared.recorded_at.value] if with_place else []),
             *(_peak(values, motion.scale) for values in peaks),
             f"{motion.dt_s:.4g}",
             number((len(motion.ax_mps2) - 1) * motion.dt_s, 2),
-            story.scaling,
+            prepared.scaling,
             f"{motion.scale:.4g}",
             "both" if len(motion.signs) == 2 else "+" if motion.signs[0] > 0 else "−",
         )
@@ -85,28 +85,28 @@ def _peak(values: Floats, scale: float) -> str:
     return number(float(np.abs(values).max() * abs(scale) / G_MPS2), 3) if len(values) else "none"
 
 
-def drift_table(package: PackageData, stories: Sequence[PreparedMotion]) -> Table:
+def drift_table(package: PackageData, preparations: Sequence[PreparedMotion]) -> Table:
     """Return what was done to each motion, and the drift that is left in it."""
-    unit = package.say.units()[0]
+    unit = package.fmt.units()[0]
     names = ("horizontal", "transverse", "vertical")
     short = {"horizontal": "record", "transverse": "transv.", "vertical": "vertical"}
-    limit = package.say.both(DRIFT_M)
+    limit = package.fmt.both(DRIFT_M)
     return Table(
         caption="Processing, and what is left at the end of each component",
         columns=(
-            Column(head="Motion", align="left", share=1.1),
-            Column(head="Processing", align="left", share=3.6),
+            TableColumn(head="Motion", align="left", share=1.1),
+            TableColumn(head="Processing", align="left", share=3.6),
             *(
-                Column(head=f"Velocity, {unit.symbol}/s", unit=short[name], share=0.9)
+                TableColumn(head=f"Velocity, {unit.symbol}/s", unit=short[name], share=0.9)
                 for name in names
             ),
             *(
-                Column(head=f"Displacement, {unit.symbol}", unit=short[name], share=0.9)
+                TableColumn(head=f"Displacement, {unit.symbol}", unit=short[name], share=0.9)
                 for name in names
             ),
-            Column(head="Drift", align="left", share=0.9),
+            TableColumn(head="Drift", align="left", share=0.9),
         ),
-        rows=tuple(_drift_row(story, names, unit.si) for story in stories),
+        rows=tuple(_drift_row(prepared, names, unit.si) for prepared in preparations),
         notes=(
             "Each component where it was recorded, processed and scaled. Drift in the input "
             f"becomes slip: a motion with a component that ends more than {limit} from where it "
@@ -116,63 +116,63 @@ def drift_table(package: PackageData, stories: Sequence[PreparedMotion]) -> Tabl
     )
 
 
-def drift_sentence(package: PackageData, stories: Sequence[PreparedMotion]) -> str:
+def drift_sentence(package: PackageData, preparations: Sequence[PreparedMotion]) -> str:
     """Return the same in words, where every motion is as recorded and none drifts; else nothing."""
-    if any(drifts(story) or story.done != AS_RECORDED for story in stories):
+    if any(drifts(prepared) or prepared.done != AS_RECORDED for prepared in preparations):
         return ""
-    unit = package.say.units()[0]
-    found = [m for story in stories for m in story.measures.values()]
+    unit = package.fmt.units()[0]
+    found = [m for prepared in preparations for m in prepared.measures.values()]
     speed = max(abs(m.final_velocity_mps) for m in found) / unit.si
     place = max(abs(m.final_displacement_m) for m in found) / unit.si
     return (
         "All motions are run as recorded: nothing is cut, filtered or taken off. At the end no "
         f"component moves faster than {number(speed, 2)} {unit.symbol}/s or lies farther than "
         f"{number(place, 2)} {unit.symbol} from where it began: none drifts. Drift in the input "
-        f"would become slip, and is marked from {package.say.both(DRIFT_M)} on."
+        f"would become slip, and is marked from {package.fmt.both(DRIFT_M)} on."
     )
 
 
-def _drift_row(story: PreparedMotion, names: Sequence[str], si: float) -> Row:
-    found = [story.measures.get(name) for name in names]
+def _drift_row(prepared: PreparedMotion, names: Sequence[str], si: float) -> TableRow:
+    found = [prepared.measures.get(name) for name in names]
     speeds = ("none" if m is None else number(m.final_velocity_mps / si, 2) for m in found)
     places = ("none" if m is None else number(m.final_displacement_m / si, 2) for m in found)
-    return Row(
+    return TableRow(
         cells=(
-            story.motion_id,
-            story.done,
+            prepared.motion_id,
+            prepared.done,
             *speeds,
             *places,
-            Markup("<b>drifts</b>") if drifts(story) else "none",
+            Markup("<b>drifts</b>") if drifts(prepared) else "none",
         )
     )
 
 
-def drifts(story: PreparedMotion) -> bool:
+def drifts(prepared: PreparedMotion) -> bool:
     """Whether a component of a motion ends away from where it began."""
-    return any(abs(m.final_displacement_m) > DRIFT_M for m in story.measures.values())
+    return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
 
 
 def beyond_table(package: PackageData, found: Sequence[Beyond]) -> Table:
     """Return how much of the slip comes from periods that a high-pass takes away."""
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption=f"Periods beyond the high-pass corner: PRD of array {package.governing.array.id}",
         columns=(
-            Column(head="Motion", align="left", share=1.2),
-            Column(head="Corner", unit="Hz"),
-            Column(head="Period", unit="s"),
-            *say.columns("With the high-pass, as run", share=1.3),
-            *say.columns("Without it", share=1.3),
-            Column(head="From beyond", unit="%", share=1.2),
+            TableColumn(head="Motion", align="left", share=1.2),
+            TableColumn(head="Corner", unit="Hz"),
+            TableColumn(head="Period", unit="s"),
+            *fmt.columns("With the high-pass, as run", share=1.3),
+            *fmt.columns("Without it", share=1.3),
+            TableColumn(head="From beyond", unit="%", share=1.2),
         ),
         rows=tuple(
-            Row(
+            TableRow(
                 cells=(
                     one.motion_id,
                     f"{one.corner_hz:g}",
                     f"{1.0 / one.corner_hz:.3g}",
-                    *say.cells(one.filtered_m),
-                    *say.cells(one.unfiltered_m),
+                    *fmt.cells(one.filtered_m),
+                    *fmt.cells(one.unfiltered_m),
                     "—" if math.isnan(one.share) else number(100.0 * one.share, 0),
                 )
             )
@@ -205,16 +205,19 @@ def spectrum_table(part: Spectra) -> Table:
     return Table(
         caption=f"{part.title}: pseudo-acceleration, 5 % damping, achieved against the target",
         columns=(
-            Column(head="Period", align="left", share=2.9),
-            *(Column(head=f"{period:g} s", unit=f"{1 / period:.3g} Hz") for period in PRINTED_S),
+            TableColumn(head="Period", align="left", share=2.9),
+            *(
+                TableColumn(head=f"{period:g} s", unit=f"{1 / period:.3g} Hz")
+                for period in PRINTED_S
+            ),
         ),
         rows=tuple(rows),
         kind="compact",
     )
 
 
-def _ordinates(name: str, values: Floats, *, kind: str = "", decimals: int = 3) -> Row:
-    return Row(cells=(name, *(number(float(value), decimals) for value in values)), kind=kind)
+def _ordinates(name: str, values: Floats, *, kind: str = "", decimals: int = 3) -> TableRow:
+    return TableRow(cells=(name, *(number(float(value), decimals) for value in values)), kind=kind)
 
 
 def achieved_table(found: Sequence[Spectra]) -> Table:
@@ -222,28 +225,28 @@ def achieved_table(found: Sequence[Spectra]) -> Table:
     return Table(
         caption="Achieved over target, 0.3 to 33 Hz in 1/12 octaves",
         columns=(
-            Column(head="Component", align="left", share=1.7),
-            Column(head="Motions", share=0.9),
-            Column(head="Mean of motions", unit="least", share=0.9),
-            Column(head="Mean of motions", unit="largest", share=0.9),
-            Column(head="Mean below 1.3 Hz", unit="least", share=0.9),
-            Column(head="Mean below 1.3 Hz", unit="largest", share=0.9),
-            Column(head="Single motion", unit="least", share=0.7),
-            Column(head="Single motion", unit="of, at", align="left", share=1.6),
-            Column(head="Single motion", unit="largest", share=0.7),
-            Column(head="Single motion", unit="of, at", align="left", share=1.6),
+            TableColumn(head="Component", align="left", share=1.7),
+            TableColumn(head="Motions", share=0.9),
+            TableColumn(head="Mean of motions", unit="least", share=0.9),
+            TableColumn(head="Mean of motions", unit="largest", share=0.9),
+            TableColumn(head="Mean below 1.3 Hz", unit="least", share=0.9),
+            TableColumn(head="Mean below 1.3 Hz", unit="largest", share=0.9),
+            TableColumn(head="Single motion", unit="least", share=0.7),
+            TableColumn(head="Single motion", unit="of, at", align="left", share=1.6),
+            TableColumn(head="Single motion", unit="largest", share=0.7),
+            TableColumn(head="Single motion", unit="of, at", align="left", share=1.6),
         ),
         rows=tuple(_achieved(part) for part in found if part.in_band.any()),
         kind="compact",
     )
 
 
-def _achieved(part: Spectra) -> Row:
+def _achieved(part: Spectra) -> TableRow:
     periods = part.periods_s[part.in_band]
     each = (part.sa_g / part.target_g)[:, part.in_band]
     mean = each.mean(axis=0)
     slow = mean[periods >= 1 / 1.3]
-    return Row(
+    return TableRow(
         cells=(
             part.title,
             str(len(part.ids)),
@@ -302,19 +305,19 @@ def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
 def page(
     package: PackageData,
     motions: Sequence[Motion],
-    stories: Sequence[PreparedMotion],
+    preparations: Sequence[PreparedMotion],
     records: Sequence[RecordFile],
     found: Sequence[Spectra],
     beyond: Sequence[Beyond],
 ) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
     return {
-        "table": motion_table(motions, stories),
+        "table": motion_table(motions, preparations),
         "notes": _notes(records),
-        "undisturbed": drift_sentence(package, stories),
-        "drift": drift_table(package, stories),
+        "undisturbed": drift_sentence(package, preparations),
+        "drift": drift_table(package, preparations),
         "beyond": [beyond_table(package, beyond)] if beyond else [],
-        "building": building_part(package, motions, stories) if has_ground(package) else None,
+        "building": building_part(package, motions, preparations) if has_ground(package) else None,
         "target": target_words(package),
         "achieved": achieved_table(found),
         "spectra": tuple(spectrum_table(part) for part in found),

@@ -33,7 +33,7 @@ def data_uri(svg: str) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Column:
+class TableColumn:
     """A column: heading, unit below it, width in shares of the table, alignment."""
 
     head: str
@@ -51,7 +51,7 @@ class Wide:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Row:
+class TableRow:
     """A row of finished strings; `kind` is a style: total, counts or empty."""
 
     cells: tuple[str | Wide, ...]
@@ -63,8 +63,8 @@ class Table:
     """A table with its caption; heads of neighbours that read the same are joined."""
 
     caption: str
-    columns: tuple[Column, ...]
-    rows: tuple[Row, ...]
+    columns: tuple[TableColumn, ...]
+    rows: tuple[TableRow, ...]
     notes: tuple[str, ...] = ()
     kind: str = ""
 
@@ -171,7 +171,7 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
-class Say:
+class UnitFormat:
     """Puts values into words, the wanted system of units first."""
 
     us_first: bool
@@ -195,12 +195,12 @@ class Say:
 
     def columns(
         self, head: str, quantity: Quantity = Quantity.DISPLACEMENT, share: float = 1.0
-    ) -> tuple[Column, Column]:
+    ) -> tuple[TableColumn, TableColumn]:
         """Return the two columns of a quantity."""
         first, second = self.units(quantity)
         return (
-            Column(head=head, unit=first.symbol, share=share),
-            Column(head=head, unit=second.symbol, share=share),
+            TableColumn(head=head, unit=first.symbol, share=share),
+            TableColumn(head=head, unit=second.symbol, share=share),
         )
 
 
@@ -225,14 +225,14 @@ def dagger(provision: Provision) -> str:
     return ("" if provision.verified else "†") + ("‡" if provision.reason else "")
 
 
-def check_value(check: Check, value: float, say: Say) -> str:
+def check_value(check: Check, value: float, fmt: UnitFormat) -> str:
     """Return a number of a check in its measure."""
     match check.measure:
         case Measure.ANGLE_DEG:
             percent = 100.0 * math.tan(math.radians(value))
             return f"{number(value, 2)}° ({number(percent, 1)} %)"
         case Measure.LENGTH_M:
-            return say.both(value, Quantity.SIZE)
+            return fmt.both(value, Quantity.SIZE)
         case Measure.COUNT:
             return number(value, 0)
         case _:
@@ -251,9 +251,9 @@ class PackageData:
         return self.assessment.project
 
     @property
-    def say(self) -> Say:
+    def fmt(self) -> UnitFormat:
         """How values are put into words."""
-        return Say(us_first=self.data.project.units_first == "US")
+        return UnitFormat(us_first=self.data.project.units_first == "US")
 
     def mark(self, key: str) -> str:
         """Return the marks of a provision."""

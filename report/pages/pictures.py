@@ -32,7 +32,7 @@ def draw_assessment(package: PackageData) -> Pictures:
     from report.figures import charts as figures
 
     load_charts()
-    us_first, assessment = package.say.us_first, package.assessment
+    us_first, assessment = package.fmt.us_first, package.assessment
     return {
         "inputs-3": [
             Picture(
@@ -68,7 +68,7 @@ def draw_evidence(package: PackageData, found: Evidence) -> Pictures:
     """Return the other pictures, by the id of the part that they belong to."""
     from report.figures import charts as figures
 
-    us_first = package.say.us_first
+    us_first = package.fmt.us_first
     pictures = {
         f"motions-{len(titles(package))}": [
             Picture(

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import MotionRun
 from report.pages.checks import check_table
-from report.pages.parts import NO_VALUE, Column, PackageData, Row, Table, Wide, statistic
+from report.pages.parts import NO_VALUE, PackageData, Table, TableColumn, TableRow, Wide, statistic
 from report.sheet.schema import Direction
 from report.words.units import number
 from solver.model import Heading, Status
@@ -67,19 +67,19 @@ def _over_mean(found: ArrayAssessment, run: MotionRun) -> str:
 
 
 def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
-    say, headings = package.say, _headings(found)
-    first = say.units()[0].symbol
+    fmt, headings = package.fmt, _headings(found)
+    first = fmt.units()[0].symbol
     return Table(
         caption=f"Array {found.array.id}: every motion in every run",
         columns=(
-            Column(head="Motion", align="left", share=1.1),
-            *(Column(head="PRD of each run", unit=_short(heading)) for heading in headings),
-            *say.columns("PRD that counts"),
-            *(Column(head=f"Farthest of all runs, {first}", unit=d.value) for d in _WAYS),
-            *(Column(head=f"Ends at, {first}", unit=way) for way in ("down", "across")),
-            Column(head="t PRD", unit="s", share=0.9),
-            Column(head="N/(m g)", share=1.0),
-            Column(head="Status", align="left", share=1.05),
+            TableColumn(head="Motion", align="left", share=1.1),
+            *(TableColumn(head="PRD of each run", unit=_short(heading)) for heading in headings),
+            *fmt.columns("PRD that counts"),
+            *(TableColumn(head=f"Farthest of all runs, {first}", unit=d.value) for d in _WAYS),
+            *(TableColumn(head=f"Ends at, {first}", unit=way) for way in ("down", "across")),
+            TableColumn(head="t PRD", unit="s", share=0.9),
+            TableColumn(head="N/(m g)", share=1.0),
+            TableColumn(head="Status", align="left", share=1.05),
         ),
         rows=(
             *(_motion_row(package, found, run, headings) for run in found.motions),
@@ -123,15 +123,15 @@ def _meaning(headings: Sequence[Heading]) -> str:
 
 def _motion_row(
     package: PackageData, found: ArrayAssessment, run: MotionRun, headings: Sequence[Heading]
-) -> Row:
-    say, result = package.say, run.governing.result
-    return Row(
+) -> TableRow:
+    fmt, result = package.fmt, run.governing.result
+    return TableRow(
         cells=(
             run.motion.id,
             *(_peak(package, run, heading) for heading in headings),
-            *say.cells(result.prd_m),
-            *(say.cells(run.peak_m(direction))[0] for direction in _WAYS),
-            *(say.cells(value)[0] for value in (result.residual_m, result.residual_across_m)),
+            *fmt.cells(result.prd_m),
+            *(fmt.cells(run.peak_m(direction))[0] for direction in _WAYS),
+            *(fmt.cells(value)[0] for value in (result.residual_m, result.residual_across_m)),
             number(result.t_prd_s, 2),
             number(result.n_min_g, 2),
             _SHORT[result.status],
@@ -143,12 +143,12 @@ def _peak(package: PackageData, run: MotionRun, heading: Heading) -> str:
     """Return the PRD of one run in the first unit; blank where the motion has no such run."""
     for one in run.runs:
         if one.heading == heading:
-            text = package.say.cells(one.result.prd_m)[0]
+            text = package.fmt.cells(one.result.prd_m)[0]
             return Markup("<b>{}</b>").format(text) if one is run.governing else text
     return ""
 
 
-def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequence[Row]:
+def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequence[TableRow]:
     analysis, rules = found.analysis, package.assessment.rules
     factor = rules.values["analysis_factor"].clause + package.mark("analysis_factor")
     floor = rules.values["analysis_floor"].clause + package.mark("analysis_floor")
@@ -180,11 +180,11 @@ def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequ
         ),
     )
     return [
-        Row(
+        TableRow(
             cells=(
                 Wide(label, 1 + runs),
-                *package.say.cells(value, mark=mark),
-                *(package.say.cells(one)[0] for one in excursions),
+                *package.fmt.cells(value, mark=mark),
+                *(package.fmt.cells(one)[0] for one in excursions),
                 Wide(words, 5),
             ),
             kind="total",
@@ -217,38 +217,38 @@ def comparison(package: PackageData) -> Mapping[str, object]:
 
 
 def _ratios(package: PackageData) -> Table:
-    say = package.say
+    fmt = package.fmt
     return Table(
         caption="Displacement by analysis against the prescriptive displacement",
         columns=(
-            Column(head="Array", align="left", share=1.1),
-            *say.columns("Prescriptive"),
-            *say.columns("Mean"),
-            *say.columns("Analysis"),
-            *say.columns("Floor"),
-            *say.columns("Design"),
-            Column(head="Analysis / prescr.", share=1.2),
-            Column(head="Design / prescr.", share=1.2),
-            Column(head="Governs", align="left", share=1.4),
+            TableColumn(head="Array", align="left", share=1.1),
+            *fmt.columns("Prescriptive"),
+            *fmt.columns("Mean"),
+            *fmt.columns("Analysis"),
+            *fmt.columns("Floor"),
+            *fmt.columns("Design"),
+            TableColumn(head="Analysis / prescr.", share=1.2),
+            TableColumn(head="Design / prescr.", share=1.2),
+            TableColumn(head="Governs", align="left", share=1.4),
         ),
         rows=tuple(_ratio_row(package, found) for found in package.assessment.arrays),
         kind="compact",
     )
 
 
-def _ratio_row(package: PackageData, found: ArrayAssessment) -> Row:
-    say = package.say
+def _ratio_row(package: PackageData, found: ArrayAssessment) -> TableRow:
+    fmt = package.fmt
     shares = (found.analysis.value_m / found.prescriptive.value_m, found.ratio)
-    return Row(
+    return TableRow(
         cells=(
             found.array.id,
-            *say.cells(
+            *fmt.cells(
                 found.prescriptive.value_m, mark=package.mark(package.prescriptive_key(found))
             ),
-            *say.cells(found.analysis.mean_m),
-            *say.cells(found.analysis.value_m),
-            *say.cells(found.floor_m, mark=package.mark("analysis_floor")),
-            *say.cells(found.design_m, mark=package.design_mark(found)),
+            *fmt.cells(found.analysis.mean_m),
+            *fmt.cells(found.analysis.value_m),
+            *fmt.cells(found.floor_m, mark=package.mark("analysis_floor")),
+            *fmt.cells(found.design_m, mark=package.design_mark(found)),
             *(NO_VALUE if math.isnan(share) else number(share, 2) for share in shares),
             found.governs,
         )

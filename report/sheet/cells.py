@@ -15,6 +15,7 @@ from typing import Any
 from openpyxl.utils.escape import unescape
 from pydantic import ValidationError
 
+from report.sheet import formerly
 from report.sheet.fields import Entry, Frozen, YesNo, adapter
 from solver.model import InputError
 
@@ -229,6 +230,7 @@ def _choice(found: Found, entry: Entry, wanted: str) -> StrEnum | bool:
     said = " ".join(str(plain(found.value)).split()).casefold()
     if entry.kind is bool:
         said = {"true": "yes", "false": "no"}.get(said, said)
+    said = formerly.CHOICES.get(said, said)
     for choice in entry.choices:
         if choice.casefold() == said:
             return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)

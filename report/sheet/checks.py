@@ -11,7 +11,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-from report.sheet.fields import Draft, Fault, Place, Row, Where
+from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.motion_checks import motion_faults, site_s_ds
 from report.sheet.schema import (
     PROVISION_KEYS,
@@ -66,7 +66,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
     return [fault for check in checks for fault in check(draft, where)]
 
 
-def rectangle(row: Row) -> Rectangle | None:
+def rectangle(row: DraftRow) -> Rectangle | None:
     """Return a row's rectangle, where all four sides are given and in order."""
     sides = [row[side] for side in SIDES if row.get(side) is not None]
     if len(sides) < len(SIDES):
@@ -122,7 +122,7 @@ def _site(draft: Draft, where: Where) -> Iterator[Fault]:
         yield from _sdc(row)
 
 
-def _importance(row: Row) -> Iterator[Fault]:
+def _importance(row: DraftRow) -> Iterator[Fault]:
     risk_category, i_e = row.get("risk_category"), row.get("i_e")
     if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
         return
@@ -133,7 +133,7 @@ def _importance(row: Row) -> Iterator[Fault]:
     )
 
 
-def _s_ds(row: Row) -> Iterator[Fault]:
+def _s_ds(row: DraftRow) -> Iterator[Fault]:
     if any(name not in row for name in ("s_ds_g", "s_s_g", "f_a")):
         return
     given, s_s_g, f_a = row["s_ds_g"], row["s_s_g"], row["f_a"]
@@ -154,7 +154,7 @@ def _s_ds(row: Row) -> Iterator[Fault]:
         yield Fault(Place("site", 0, "s_ds_g"), text)
 
 
-def _sdc(row: Row) -> Iterator[Fault]:
+def _sdc(row: DraftRow) -> Iterator[Fault]:
     sdc, risk_category = row.get("sdc"), row.get("risk_category")
     s_ds_g = site_s_ds(row)
     if sdc is None or risk_category is None or s_ds_g is None:
@@ -180,7 +180,7 @@ def _arrays(draft: Draft, where: Where) -> Iterator[Fault]:
         yield from _sides("arrays", index, row, _us_first(draft))
 
 
-def _slope(index: int, row: Row) -> Iterator[Fault]:
+def _slope(index: int, row: DraftRow) -> Iterator[Fault]:
     value, unit = row.get("slope_value"), row.get("slope_unit")
     if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
         return
@@ -189,7 +189,7 @@ def _slope(index: int, row: Row) -> Iterator[Fault]:
     yield Fault(Place("arrays", index, "slope_value"), text)
 
 
-def _friction(index: int, row: Row) -> Iterator[Fault]:
+def _friction(index: int, row: DraftRow) -> Iterator[Fault]:
     """Yield what contradicts itself in friction by speed, and models that leave it out."""
     fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static", "model")
     if any(field not in row for field in fields):
@@ -210,13 +210,13 @@ def _friction(index: int, row: Row) -> Iterator[Fault]:
         yield Fault(Place("arrays", index, "model"), f"{text} blank friction at speed and static")
 
 
-def _by_speed(array: Row) -> list[str]:
+def _by_speed(array: DraftRow) -> list[str]:
     """Return the fields that make the friction of an array more than one coefficient."""
     one = (None, array["mu"])
     return [name for name in ("mu_fast", "mu_static") if array.get(name) not in one]
 
 
-def _sides(section: str, index: int, row: Row, us_first: bool) -> Iterator[Fault]:
+def _sides(section: str, index: int, row: DraftRow, us_first: bool) -> Iterator[Fault]:
     for axis in "xy":
         low, high = row.get(f"{axis}_from_m"), row.get(f"{axis}_to_m")
         if low is None or high is None or low < high:
@@ -235,7 +235,7 @@ def _objects(draft: Draft, where: Where) -> Iterator[Fault]:
             yield Fault(Place("objects", index, "height_m"), text)
 
 
-def _whole_rectangle(index: int, row: Row) -> Iterator[Fault]:
+def _whole_rectangle(index: int, row: DraftRow) -> Iterator[Fault]:
     blank = [side for side in SIDES if side in row and row[side] is None]
     if not 0 < len(blank) < len(SIDES):
         return
@@ -286,7 +286,9 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
             yield Fault(Place("clearances", index, "array"), text)
 
 
-def _room(index: int, row: Row, scene: Mapping[str, Row], us_first: bool) -> Iterator[Fault]:
+def _room(
+    index: int, row: DraftRow, scene: Mapping[str, DraftRow], us_first: bool
+) -> Iterator[Fault]:
     array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
     if array is not None and array == other:
         text = f"object is '{other}', the array itself; give an object or another array"
@@ -321,7 +323,7 @@ def _links(draft: Draft, where: Where) -> Iterator[Fault]:
         yield from _blocks(place, text, draft, where, home)
 
 
-def _one_coefficient(place: Place, name: str, array: Row) -> Iterator[Fault]:
+def _one_coefficient(place: Place, name: str, array: DraftRow) -> Iterator[Fault]:
     if "mu" in array and _by_speed(array):
         text = f"array is '{name}', whose friction is not one coefficient; blank its friction at"
         yield Fault(place, f"{text} speed and static friction, or take this row out")

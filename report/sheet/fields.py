@@ -36,10 +36,10 @@ class Fault(NamedTuple):
     text: str
 
 
-Row = Mapping[str, Any]
+DraftRow = Mapping[str, Any]
 """Fields of a row of a draft; one that could not be read is absent."""
 
-Draft = Mapping[str, Sequence[Row]]
+Draft = Mapping[str, Sequence[DraftRow]]
 """Rows by section, so far as they could be read."""
 
 Where = Callable[[Place], str]

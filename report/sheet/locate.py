@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.worksheet import Worksheet
 
+from report.sheet import formerly
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found
 from report.sheet.fields import Entry, Section, entries
@@ -26,7 +27,7 @@ FRESH = "copy it from a fresh workbook (roofslip new)"
 
 
 @dataclass(frozen=True, slots=True)
-class Spot:
+class CellPosition:
     """A cell by its place."""
 
     sheet: str
@@ -45,7 +46,7 @@ class Spot:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Column:
+class FieldColumn:
     """A column of a table: where it is, and the unit that its heading names."""
 
     number: int
@@ -59,13 +60,13 @@ class TableFound:
 
     Attributes
     ----------
-    heading : Spot
+    heading : CellPosition
         Its first heading.
-    columns : mapping of field to Column
+    columns : mapping of field to FieldColumn
         Of the headings that are there and readable.
     rows : range
         Rows that may hold inputs.
-    others : tuple of Spot
+    others : tuple of CellPosition
         Headings that no field has.
     absent : tuple of str
         Optional fields without a column: workbooks of earlier versions, and columns that someone
@@ -74,30 +75,30 @@ class TableFound:
         Finished lines about headings and merged cells.
     """
 
-    heading: Spot
-    columns: Mapping[str, Column]
+    heading: CellPosition
+    columns: Mapping[str, FieldColumn]
     rows: Sequence[int]
-    others: tuple[Spot, ...]
+    others: tuple[CellPosition, ...]
     absent: tuple[str, ...]
     problems: tuple[str, ...]
 
 
-def found_at(book: OpenBook, spot: Spot) -> Found:
+def found_at(book: OpenBook, position: CellPosition) -> Found:
     """Return what a cell holds, as typed and as computed."""
-    return _found(spot, book.typed[spot.sheet], book.computed[spot.sheet])
+    return _found(position, book.typed[position.sheet], book.computed[position.sheet])
 
 
-def _found(spot: Spot, typed_sheet: Worksheet, computed_sheet: Worksheet) -> Found:
-    typed = typed_sheet.cell(spot.row, spot.column)
-    computed = computed_sheet.cell(spot.row, spot.column)
+def _found(position: CellPosition, typed_sheet: Worksheet, computed_sheet: Worksheet) -> Found:
+    typed = typed_sheet.cell(position.row, position.column)
+    computed = computed_sheet.cell(position.row, position.column)
     formula = ""
     if typed.data_type == "f":
         # Array formulas are objects that have a text, data tables such that have none.
         is_text = isinstance(typed.value, str)
         formula = str(typed.value if is_text else getattr(typed.value, "text", None) or "=TABLE()")
     return Found(
-        sheet=spot.sheet,
-        cell=spot.cell,
+        sheet=position.sheet,
+        cell=position.cell,
         value=computed.value,
         formula=formula,
         is_error=computed.data_type == "e",
@@ -105,26 +106,30 @@ def _found(spot: Spot, typed_sheet: Worksheet, computed_sheet: Worksheet) -> Fou
     )
 
 
-def find_cell(book: OpenBook, section: Section, entry: Entry) -> Spot:
+def find_cell(book: OpenBook, section: Section, entry: Entry) -> CellPosition:
     """Return the cell of a single field, by its defined name, else beside its label.
 
     Raises
     ------
     InputError
     """
-    spot = _named(book, section.cell_name(entry.name)) or _beside_label(book, section, entry)
-    if spot is None:
+    position = _field_named(book, section, entry) or _beside_label(book, section, entry)
+    if position is None:
         raise InputError(
             f"{section.sheet}: {entry.spoken} is not there (no name {section.cell_name(entry.name)}"
             f" and no label '{entry.cell.label}'); {FRESH}"
         )
-    return spot
+    return position
 
 
-def find_unit_cell(book: OpenBook, section: Section, entry: Entry, value: Spot) -> Spot:
+def find_unit_cell(
+    book: OpenBook, section: Section, entry: Entry, value: CellPosition
+) -> CellPosition:
     """Return the cell that holds the unit of a single field, by name, else next to the value."""
-    spot = _named(book, section.unit_name(entry.name))
-    return spot or Spot(value.sheet, value.row, value.column + 1)
+    names = _fields(section, entry)
+    found = (_named(book, section.unit_name(name)) for name in names)
+    position = next((one for one in found if one is not None), None)
+    return position or CellPosition(value.sheet, value.row, value.column + 1)
 
 
 def is_absent(book: OpenBook, section: Section) -> bool:
@@ -132,7 +137,7 @@ def is_absent(book: OpenBook, section: Section) -> bool:
     if section.is_table:
         return sheet_titled(book, section.sheet) is None and _table_named(book, section) is None
     return not any(
-        _named(book, section.cell_name(entry.name)) or _beside_label(book, section, entry)
+        _field_named(book, section, entry) or _beside_label(book, section, entry)
         for entry in entries(section.model)
     )
 
@@ -147,7 +152,23 @@ def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
     return next((s for s in _sheets(book) if s.title.strip().casefold() == wanted), None)
 
 
-def _named(book: OpenBook, name: str) -> Spot | None:
+def _fields(section: Section, entry: Entry) -> tuple[str, ...]:
+    """Return the name of a field and what it was called before."""
+    return entry.name, *formerly.FIELDS.get((section.key, entry.name), ())
+
+
+def _labels(section: Section, entry: Entry) -> set[str]:
+    """Return the label of a field and what it was called before, as they are compared."""
+    earlier = formerly.LABELS.get((section.key, entry.name), ())
+    return {_key(label) for label in (entry.cell.label, *earlier)}
+
+
+def _field_named(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:
+    found = (_named(book, section.cell_name(name)) for name in _fields(section, entry))
+    return next((one for one in found if one is not None), None)
+
+
+def _named(book: OpenBook, name: str) -> CellPosition | None:
     for defined in book.typed.defined_names.values():
         if str(defined.name).casefold() != name:
             continue
@@ -156,7 +177,7 @@ def _named(book: OpenBook, name: str) -> Spot | None:
         if match and bounds:
             title = match[2] or match[1].replace("''", "'")
             if title in [sheet.title for sheet in _sheets(book)]:
-                return Spot(title, bounds[1], bounds[0])
+                return CellPosition(title, bounds[1], bounds[0])
     return None
 
 
@@ -170,21 +191,22 @@ def _bounds(reference: str) -> tuple[int, int, int, int] | None:
     return (left, top, right, bottom) if left and top and right and bottom else None
 
 
-def _beside_label(book: OpenBook, section: Section, entry: Entry) -> Spot | None:
+def _beside_label(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:
     sheet = sheet_titled(book, section.sheet)
     if sheet is None:
         return None
-    for spot in _scanned(book, sheet):
-        if _key(sheet.cell(spot.row, spot.column).value) == _key(entry.cell.label):
-            return Spot(spot.sheet, spot.row, spot.column + 1)
+    wanted = _labels(section, entry)
+    for position in _scanned(book, sheet):
+        if _key(sheet.cell(position.row, position.column).value) in wanted:
+            return CellPosition(position.sheet, position.row, position.column + 1)
     return None
 
 
-def _scanned(book: OpenBook, sheet: Worksheet) -> Iterator[Spot]:
+def _scanned(book: OpenBook, sheet: Worksheet) -> Iterator[CellPosition]:
     extent = book.extent(sheet.title)
     for row in range(1, min(extent.last_row, SCANNED_ROWS) + 1):
         for column in range(1, min(extent.last_column, MAX_COLUMNS) + 1):
-            yield Spot(sheet.title, row, column)
+            yield CellPosition(sheet.title, row, column)
 
 
 def _key(text: object) -> str:
@@ -209,7 +231,7 @@ def find_table(book: OpenBook, section: Section) -> TableFound:
     sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
     _check_reach(book, sheet, top)
     last_column = _last_heading(sheet, top, right)
-    headings = [Spot(sheet.title, top, column) for column in range(left, last_column + 1)]
+    headings = [CellPosition(sheet.title, top, column) for column in range(left, last_column + 1)]
     columns, others, seen, problems = _columns(book, section, headings)
     absent, missing = _unseen(section, headings[0], seen, others)
     problems += missing
@@ -246,14 +268,15 @@ def _table_named(book: OpenBook, section: Section) -> _Place | None:
 def _headings(book: OpenBook, section: Section) -> _Place:
     """Return the row that has most of a section's headings, its own sheet first."""
     own = sheet_titled(book, section.sheet)
-    wanted = {_key(entry.cell.label) for entry in entries(section.model)}
+    fields = entries(section.model)
+    wanted = set[str]().union(*(_labels(section, entry) for entry in fields))
     for sheet in [own] if own else _sheets(book):
         rows: dict[int, list[int]] = {}
-        for spot in _scanned(book, sheet):
-            if _key(sheet.cell(spot.row, spot.column).value) in wanted:
-                rows.setdefault(spot.row, []).append(spot.column)
+        for position in _scanned(book, sheet):
+            if _key(sheet.cell(position.row, position.column).value) in wanted:
+                rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
-        if best and len(rows[best]) > len(wanted) / 2:
+        if best and len(rows[best]) > len(fields) / 2:
             return sheet, min(rows[best]), best, max(rows[best]), range(0)
     what = f"no table {section.table_name} and no row of its headings"
     missing = "" if own else "the sheet is missing: "
@@ -280,33 +303,33 @@ def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
 
 
 def _columns(
-    book: OpenBook, section: Section, headings: Sequence[Spot]
-) -> tuple[dict[str, Column], list[Spot], set[str], list[str]]:
-    fields = {_key(entry.cell.label): entry for entry in entries(section.model)}
-    columns: dict[str, Column] = {}
-    others: list[Spot] = []
+    book: OpenBook, section: Section, headings: Sequence[CellPosition]
+) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[str]]:
+    fields = {label: entry for entry in entries(section.model) for label in _labels(section, entry)}
+    columns: dict[str, FieldColumn] = {}
+    others: list[CellPosition] = []
     problems: list[str] = []
     seen: set[str] = set()
-    for spot in headings:
-        text = found_at(book, spot).value
+    for position in headings:
+        text = found_at(book, position).value
         entry = fields.get(_key(text))
         if entry is None:
-            others += [spot] if text is not None else []
+            others += [position] if text is not None else []
         elif entry.name in seen:
             problems.append(
-                f"{spot.address}: heading '{entry.cell.label}' is there twice; keep one"
+                f"{position.address}: heading '{entry.cell.label}' is there twice; keep one"
             )
         else:
             seen.add(entry.name)
             try:
-                columns[entry.name] = _column(spot, entry, _split(text)[1])
+                columns[entry.name] = _column(position, entry, _split(text)[1])
             except InputError as error:
                 problems += error.problems
     return columns, others, seen, problems
 
 
 def _unseen(
-    section: Section, first: Spot, seen: set[str], others: Sequence[Spot]
+    section: Section, first: CellPosition, seen: set[str], others: Sequence[CellPosition]
 ) -> tuple[tuple[str, ...], list[str]]:
     """Return optional fields that have no column, and a problem for any other.
 
@@ -322,12 +345,12 @@ def _unseen(
     return tuple(absent), problems
 
 
-def _column(spot: Spot, entry: Entry, unit: str) -> Column:
+def _column(position: CellPosition, entry: Entry, unit: str) -> FieldColumn:
     try:
         symbol, si = unit_size(entry, unit)
     except InputError as error:
-        raise InputError(f"{spot.address}: {error.problems[0]}") from error
-    return Column(number=spot.column, unit=symbol, si=si)
+        raise InputError(f"{position.address}: {error.problems[0]}") from error
+    return FieldColumn(number=position.column, unit=symbol, si=si)
 
 
 def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
@@ -368,11 +391,11 @@ def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -
     return problems
 
 
-def cells_below(book: OpenBook, heading: Spot) -> list[Found]:
+def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:
     """Return what the cells below a heading hold, as far as the sheet's values reach."""
     last = book.extent(heading.sheet).last_row
     typed, computed = book.typed[heading.sheet], book.computed[heading.sheet]
     return [
-        _found(Spot(heading.sheet, row, heading.column), typed, computed)
+        _found(CellPosition(heading.sheet, row, heading.column), typed, computed)
         for row in range(heading.row + 1, last + 1)
     ]

@@ -9,9 +9,9 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
-from report.sheet.fields import Draft, Fault, Place, Row, Where
+from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.schema import RecordedAt, Scaling, s_ds
-from solver.building.beam import MOST_STOREYS
+from solver.building.beam import MOST_STORIES
 
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
 """Fields of a motion that name a record, each with what the component is called."""
@@ -28,7 +28,7 @@ def motion_faults(draft: Draft, where: Where) -> Iterator[Fault]:
     yield from _scaled_to_target(draft, where)
 
 
-def _same_component(index: int, row: Row) -> Iterator[Fault]:
+def _same_component(index: int, row: DraftRow) -> Iterator[Fault]:
     seen: dict[str, str] = {}
     for field, label in LABELS.items():
         if not row.get(field):
@@ -39,7 +39,7 @@ def _same_component(index: int, row: Row) -> Iterator[Fault]:
             yield Fault(Place("motions", index, field), text)
 
 
-def _scale_value(index: int, row: Row) -> Iterator[Fault]:
+def _scale_value(index: int, row: DraftRow) -> Iterator[Fault]:
     scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
     value = row.get("scale_value")
     if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
@@ -50,7 +50,7 @@ def _scale_value(index: int, row: Row) -> Iterator[Fault]:
         yield Fault(place, f"factor or PPA is missing; give {wanted}")
 
 
-def _processing(index: int, row: Row) -> Iterator[Fault]:
+def _processing(index: int, row: DraftRow) -> Iterator[Fault]:
     start, end = row.get("from_s"), row.get("to_s")
     if end is not None and end <= (start or 0.0):
         text = f"keep to is {end:g} s; give more than keep from, {start or 0.0:g} s"
@@ -75,15 +75,15 @@ def _building(draft: Draft, where: Where) -> Iterator[Fault]:
             text = f"period T2 is {second:g} s; give {longest}, or leave it blank"
             yield Fault(Place("building", 0, "period_2_s"), text)
     if ground is not None:
-        yield from _storeys(draft)
+        yield from _stories(draft)
 
 
-def _storeys(draft: Draft) -> Iterator[Fault]:
+def _stories(draft: Draft) -> Iterator[Fault]:
     for row in draft["site"]:
-        count = row.get("storeys", 1)
-        if count > MOST_STOREYS:
-            text = f"storeys is {count}; ground motions reach the roof of at most {MOST_STOREYS}"
-            yield Fault(Place("site", 0, "storeys"), f"{text}, give motions of the roof")
+        count = row.get("stories", 1)
+        if count > MOST_STORIES:
+            text = f"stories is {count}; ground motions reach the roof of at most {MOST_STORIES}"
+            yield Fault(Place("site", 0, "stories"), f"{text}, give motions of the roof")
 
 
 def _first_row(draft: Draft, field: str, value: object) -> int | None:
@@ -168,7 +168,7 @@ def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[
         yield from _transition(site, target)
 
 
-def _transition(site: Row, target: Row) -> Iterator[Fault]:
+def _transition(site: DraftRow, target: DraftRow) -> Iterator[Fault]:
     s_ds_g = site_s_ds(site)
     if s_ds_g is None:
         return
@@ -178,6 +178,6 @@ def _transition(site: Row, target: Row) -> Iterator[Fault]:
         yield Fault(Place("target", 0, "t_l_s"), f"{text} = S_D1/S_DS = {t_s:.3g} s")
 
 
-def site_s_ds(row: Row) -> float | None:
+def site_s_ds(row: DraftRow) -> float | None:
     """Return S_DS [g] of a draft of the site; None where it cannot be known."""
     return s_ds(row.get("s_ds_g"), row.get("s_s_g"), row.get("f_a"))

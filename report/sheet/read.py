@@ -17,8 +17,8 @@ from report.sheet.cells import CellError, Found, plain, read_cell, wish
 from report.sheet.checks import faults
 from report.sheet.fields import Entry, Fault, Place, Section, YesNo, entries
 from report.sheet.locate import (
-    Column,
-    Spot,
+    CellPosition,
+    FieldColumn,
     TableFound,
     find_cell,
     find_table,
@@ -223,35 +223,37 @@ def _read_block(book: OpenBook, section: Section, gathered: _Gathered) -> None:
     for entry in entries(section.model):
         place = Place(section.key, 0, entry.name)
         try:
-            spot = find_cell(book, section, entry)
-            gathered.addresses[place] = spot.address
-            column = _block_column(book, section, entry, spot)
+            position = find_cell(book, section, entry)
+            gathered.addresses[place] = position.address
+            column = _block_column(book, section, entry, position)
         except InputError as error:
             gathered.add(place, error.problems)
             continue
-        _read_field(section, entry, place, found_at(book, spot), column, row, gathered)
+        _read_field(section, entry, place, found_at(book, position), column, row, gathered)
 
 
-def _block_column(book: OpenBook, section: Section, entry: Entry, spot: Spot) -> Column:
+def _block_column(
+    book: OpenBook, section: Section, entry: Entry, position: CellPosition
+) -> FieldColumn:
     if entry.quantity is None:
-        return Column(number=spot.column, unit=str(entry.cell.unit), si=1.0)
-    unit = found_at(book, find_unit_cell(book, section, entry, spot))
+        return FieldColumn(number=position.column, unit=str(entry.cell.unit), si=1.0)
+    unit = found_at(book, find_unit_cell(book, section, entry, position))
     text = "" if unit.value is None else plain(unit.value).strip()
     try:
         symbol, si = unit_size(entry, text)
     except InputError as error:
         raise InputError(f"{unit.address}: {error.problems[0]}") from error
-    return Column(number=spot.column, unit=symbol, si=si)
+    return FieldColumn(number=position.column, unit=symbol, si=si)
 
 
 def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: _Gathered) -> None:
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
-    gathered.echo += [_ignored(book, spot) for spot in table.others]
+    gathered.echo += [_ignored(book, position) for position in table.others]
     sheet = table.heading.sheet
     for number in table.rows:
         cells = {
-            name: found_at(book, Spot(sheet, number, column.number))
+            name: found_at(book, CellPosition(sheet, number, column.number))
             for name, column in table.columns.items()
         }
         if not all(cell.is_blank for cell in cells.values()):
@@ -278,7 +280,7 @@ def _read_field(
     entry: Entry,
     place: Place,
     found: Found,
-    column: Column,
+    column: FieldColumn,
     row: dict[str, Any],
     gathered: _Gathered,
 ) -> None:
@@ -290,7 +292,7 @@ def _read_field(
     gathered.echo.append(_echoed(entry, found, column, row[entry.name]))
 
 
-def _value(section: Section, entry: Entry, found: Found, column: Column) -> Any:
+def _value(section: Section, entry: Entry, found: Found, column: FieldColumn) -> Any:
     if not found.is_blank:
         return read_cell(found, entry, section.model, column.unit, column.si)
     if entry.is_required:
@@ -298,7 +300,7 @@ def _value(section: Section, entry: Entry, found: Found, column: Column) -> Any:
     return entry.default
 
 
-def _echoed(entry: Entry, found: Found, column: Column, value: Any) -> EchoRow:
+def _echoed(entry: Entry, found: Found, column: FieldColumn, value: Any) -> EchoRow:
     shown = _shown(value, SI_SYMBOLS[entry.quantity] if entry.quantity else column.unit)
     if found.is_blank and shown:
         shown += " (default)"
@@ -320,11 +322,11 @@ def _shown(value: Any, unit: str) -> str:
     return "" if value is None else plain(value)
 
 
-def _ignored(book: OpenBook, spot: Spot) -> EchoRow:
-    text = plain(found_at(book, spot).value)
+def _ignored(book: OpenBook, position: CellPosition) -> EchoRow:
+    text = plain(found_at(book, position).value)
     return EchoRow(
-        sheet=spot.sheet,
-        cell=spot.cell,
+        sheet=position.sheet,
+        cell=position.cell,
         label=f"column '{text}'",
         typed="",
         unit="",

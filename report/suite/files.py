@@ -17,7 +17,7 @@ import numpy as np
 
 from report.figures.base import load_fonts
 from report.figures.suite import Panel, suite_png
-from report.suite.inputs import Targets
+from report.suite.inputs import SuiteTargets
 from report.typeset.pdf import TEMPLATES
 from report.words.units import G_MPS2
 from solver.model import Floats
@@ -73,7 +73,7 @@ def _cleared(value: float, peak: float) -> float:
     return 0.0 if abs(value) <= _NO_DRIFT * peak else value
 
 
-def components(suite: Sequence[SuiteMotion], targets: Targets) -> tuple[Component, ...]:
+def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[Component, ...]:
     """Return every component of a suite with its fit and measures."""
     return tuple(
         Component(
@@ -91,7 +91,7 @@ def components(suite: Sequence[SuiteMotion], targets: Targets) -> tuple[Componen
 
 def suite_files(
     suite: Sequence[SuiteMotion],
-    targets: Targets,
+    targets: SuiteTargets,
     *,
     seed: int,
     records: Mapping[str, str],
@@ -101,7 +101,7 @@ def suite_files(
     Parameters
     ----------
     suite : sequence of SuiteMotion
-    targets : Targets
+    targets : SuiteTargets
     seed : int
     records : mapping of str to str
         The files that seeded it, with their SHA-256.
@@ -117,7 +117,7 @@ def suite_files(
 
 def _document(
     suite: Sequence[SuiteMotion],
-    targets: Targets,
+    targets: SuiteTargets,
     parts: Sequence[Component],
     seed: int,
     records: Mapping[str, str],
@@ -192,7 +192,7 @@ def _component(part: Component, files: Mapping[str, bytes]) -> dict[str, Any]:
     }
 
 
-def _panel(suite: Sequence[SuiteMotion], targets: Targets, name: str) -> Panel:
+def _panel(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> Panel:
     records = [motion.components["xyz".index(name)] for motion in suite]
     fits = tuple(spectrum_fit(record, targets.of(name), _DRAWN_HZ) for record in records)
     kind = "vertical" if name == "z" else "horizontal"
@@ -216,7 +216,7 @@ _COLUMNS = (
 )
 
 
-def suite_table(suite: Sequence[SuiteMotion], targets: Targets) -> list[str]:
+def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str]:
     """Return the lines to print: targets, limits, a line a component, and whether all hold."""
     parts = components(suite, targets)
     pairs = [

@@ -1,6 +1,6 @@
 """What a made suite is asked for: targets by code or table, records as seeds, a folder to fill.
 
-Makes nothing: `report.suite.files` does. Read `Targets` first.
+Makes nothing: `report.suite.files` does. Read `SuiteTargets` first.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _MADE = re.compile(r"motion-\d{2,}-[xyz]\.csv")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Targets:
+class SuiteTargets:
     """What x and y, and z, are to follow, and how that is said.
 
     Attributes
@@ -52,7 +52,7 @@ class Targets:
         return self.vertical if component == "z" else self.horizontal
 
 
-def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> Targets:
+def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> SuiteTargets:
     """Return the AC156 spectra of a code at a height.
 
     Parameters
@@ -73,7 +73,7 @@ def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> T
     rules = RULE_SETS[CODES[code]]
     across = ac156_horizontal(rules, s_ds_g=s_ds_g, z_over_h=z_over_h, tail=tail)
     upward = ac156_vertical(s_ds_g=s_ds_g, tail=tail)
-    return Targets(
+    return SuiteTargets(
         horizontal=(across.freq_hz, across.sa_g),
         vertical=(upward.freq_hz, upward.sa_g),
         lines=(
@@ -93,7 +93,7 @@ def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> T
     )
 
 
-def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> Targets:
+def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTargets:
     """Return the targets of a table; without its own vertical, AC156's for S_DS.
 
     Raises
@@ -123,7 +123,9 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> Targets:
             f"tail of the vertical: {tail.sentence}",
         ]
         facts |= {"vertical_source": "AC156", "s_ds_g": s_ds_g, "tail": tail.value}
-    return Targets(horizontal=table.horizontal, vertical=vertical, lines=tuple(lines), facts=facts)
+    return SuiteTargets(
+        horizontal=table.horizontal, vertical=vertical, lines=tuple(lines), facts=facts
+    )
 
 
 def _s_ds_problems(s_ds_g: float) -> list[str]:

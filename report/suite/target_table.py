@@ -16,7 +16,7 @@ import numpy as np
 
 from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import CellError, Found, check_saved, number
-from report.sheet.locate import Spot, found_at
+from report.sheet.locate import CellPosition, found_at
 from solver.model import Floats, InputError
 from solver.synthesis import BAND_HZ, Target
 
@@ -154,13 +154,13 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
         )
     columns = range(1, min(extent.last_column, MAX_COLUMNS) + 1)
     return [
-        [_cell_at(book, Spot(title, row, column)) for column in columns]
+        [_cell_at(book, CellPosition(title, row, column)) for column in columns]
         for row in range(1, extent.last_row + 1)
     ]
 
 
-def _cell_at(book: OpenBook, spot: Spot) -> _Cell:
-    found = found_at(book, spot)
+def _cell_at(book: OpenBook, position: CellPosition) -> _Cell:
+    found = found_at(book, position)
     return _Cell(found.address, found)
 
 

@@ -1,4 +1,4 @@
-"""Modes of uniform buildings: a beam in shear and bending, or equal storeys with lumped floors.
+"""Modes of uniform buildings: a beam in shear and bending, or equal stories with lumped floors.
 
 Owns shapes without dimension: no periods in seconds, no damping, no motions.
 Read `beam_modes` first; `solver.building.roof` gives the modes their periods.
@@ -25,7 +25,7 @@ from solver.model import Floats, InputError
 MOST_ALPHA0 = 1000.0
 """Largest finite lateral stiffness ratio; infinite is the shear beam."""
 
-MOST_STOREYS = 100
+MOST_STORIES = 100
 
 _HALVINGS = 60
 
@@ -91,17 +91,17 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
     return Modes(period_ratios=gamma[0] * beta[0] / (gamma * beta), factors=gain[:, None] * shape)
 
 
-def storey_modes(alpha0: float, storeys: int) -> Modes:
-    """Return all modes of a building of equal storeys with equal masses at its floors, at the roof.
+def story_modes(alpha0: float, stories: int) -> Modes:
+    """Return all modes of a building of equal stories with equal masses at its floors, at the roof.
 
     The floors are tied to a bending and a shear beam; between them the beams have no mass. One
-    storey is a plain oscillator; with many storeys the modes become those of `beam_modes`.
+    story is a plain oscillator; with many stories the modes become those of `beam_modes`.
 
     Parameters
     ----------
     alpha0 : float
         As in `beam_modes`.
-    storeys : int
+    stories : int
         From 1 to 100.
 
     Raises
@@ -109,22 +109,22 @@ def storey_modes(alpha0: float, storeys: int) -> Modes:
     InputError
     """
     check_alpha0(alpha0)
-    if not 1 <= storeys <= MOST_STOREYS:
-        raise InputError(f"storeys: found {storeys}; give a whole number from 1 to {MOST_STOREYS}")
-    squares, shapes = np.linalg.eigh(floor_stiffness(alpha0, storeys))
+    if not 1 <= stories <= MOST_STORIES:
+        raise InputError(f"stories: found {stories}; give a whole number from 1 to {MOST_STORIES}")
+    squares, shapes = np.linalg.eigh(floor_stiffness(alpha0, stories))
     factors = shapes.sum(axis=0) * shapes[-1]
     return Modes(period_ratios=np.sqrt(squares[0] / squares), factors=factors[:, None])
 
 
-def floor_stiffness(alpha0: float, storeys: int) -> Floats:
-    """Return the lateral stiffness between the floors of equal storeys, up to a factor.
+def floor_stiffness(alpha0: float, stories: int) -> Floats:
+    """Return the lateral stiffness between the floors of equal stories, up to a factor.
 
-    Shape (storeys, storeys), the lowest floor first; EI = H = 1, or GA = 1 where alpha0 is
+    Shape (stories, stories), the lowest floor first; EI = H = 1, or GA = 1 where alpha0 is
     infinite. It is the stiffness of both beams, one added to the other.
     """
-    x = np.arange(1, storeys + 1) / storeys
-    shear = storeys * (2.0 * np.eye(storeys) - np.eye(storeys, k=1) - np.eye(storeys, k=-1))
-    shear[-1, -1] = storeys  # the roof has no storey above
+    x = np.arange(1, stories + 1) / stories
+    shear = stories * (2.0 * np.eye(stories) - np.eye(stories, k=1) - np.eye(stories, k=-1))
+    shear[-1, -1] = stories  # the roof has no story above
     if math.isinf(alpha0):
         return shear
     near, far = np.minimum.outer(x, x), np.maximum.outer(x, x)

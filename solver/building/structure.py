@@ -14,11 +14,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.building.beam import MOST_STOREYS, Modes, beam_modes, check_alpha0, storey_modes
+from solver.building.beam import MOST_STORIES, Modes, beam_modes, check_alpha0, story_modes
 from solver.model import Floats, InputError
 
 BEAM_MODES = 40
-"""Modes of a building without storeys; beyond them each roof factor is under 0.04."""
+"""Modes of a building without stories; beyond them each roof factor is under 0.04."""
 
 LEAST_DAMPING, MOST_DAMPING = 0.01, 0.5
 MOST_PERIOD_S = 10.0
@@ -49,13 +49,13 @@ def building_of_periods(
     *,
     damping: Sequence[float] = (0.05,),
     alpha0: float = math.inf,
-    storeys: int = 0,
+    stories: int = 0,
 ) -> Building:
     """Return a uniform building whose first modes have the given periods.
 
     Roof factors, and the periods of higher modes over the last one given, are those of
-    `solver.building.beam`. With few storeys the floors' masses matter: one storey has a roof factor
-    of 1, where a beam without storeys has up to 1.57.
+    `solver.building.beam`. With few stories the floors' masses matter: one story has a roof factor
+    of 1, where a beam without stories has up to 1.57.
 
     Parameters
     ----------
@@ -65,15 +65,15 @@ def building_of_periods(
         Fraction of critical damping of the first modes; the last value holds for all others.
     alpha0 : float
         Lateral stiffness ratio, see `solver.building.beam.beam_modes`; infinite: shear building.
-    storeys : int
-        Equal storeys with equal floor masses; 0 for a beam.
+    stories : int
+        Equal stories with equal floor masses; 0 for a beam.
 
     Raises
     ------
     InputError
     """
     _check_periods(periods_s, damping)
-    modes = _modes(alpha0, storeys)
+    modes = _modes(alpha0, stories)
     ratios = modes.period_ratios
     given = np.array(periods_s[: ratios.size], dtype=np.float64)
     periods = np.append(given, given[-1] * ratios[given.size :] / ratios[given.size - 1])
@@ -84,7 +84,7 @@ def building_of_periods(
         periods_s=_read_only(periods),
         damping=_read_only(zeta),
         roof_factors=_read_only(modes.factors[:, 0]),
-        words=_words(given, damping, alpha0, storeys),
+        words=_words(given, damping, alpha0, stories),
     )
 
 
@@ -115,25 +115,25 @@ def building_of_modes(
     )
 
 
-def _modes(alpha0: float, storeys: int) -> Modes:
+def _modes(alpha0: float, stories: int) -> Modes:
     check_alpha0(alpha0)
-    if storeys == 0:
+    if stories == 0:
         return beam_modes(alpha0, BEAM_MODES)
-    if not 1 <= storeys <= MOST_STOREYS:
+    if not 1 <= stories <= MOST_STORIES:
         raise InputError(
-            f"storeys: found {storeys}; give a whole number from 1 to {MOST_STOREYS}, 0 for a beam"
+            f"stories: found {stories}; give a whole number from 1 to {MOST_STORIES}, 0 for a beam"
         )
-    return storey_modes(alpha0, storeys)
+    return story_modes(alpha0, stories)
 
 
-def _words(given: Floats, damping: Sequence[float], alpha0: float, storeys: int) -> str:
+def _words(given: Floats, damping: Sequence[float], alpha0: float, stories: int) -> str:
     """Return how a uniform building was made."""
     periods = ", ".join(f"{period:.3g}" for period in given)
     ratios = ", ".join(f"{100.0 * value:.3g}" for value in damping)
-    if storeys == 1:
-        kind = "one storey"
+    if stories == 1:
+        kind = "one story"
     else:
-        kind = "uniform" if storeys == 0 else f"{storeys} equal storeys"
+        kind = "uniform" if stories == 0 else f"{stories} equal stories"
         kind += ", in shear" if math.isinf(alpha0) else ""
         kind += ", in bending" if alpha0 == 0.0 else ""
         if 0.0 < alpha0 < math.inf:

@@ -24,7 +24,7 @@ NO_RECORD.setflags(write=False)
 
 
 @dataclass(frozen=True, slots=True)
-class Prepared:
+class AxisScene:
     """One block under one motion, checked, in the letters of the kernels.
 
     `ax` and `az` are read-only; `az` has shape (0,) where there is no vertical shaking. `x` and `z`
@@ -56,7 +56,7 @@ class Outcome(NamedTuple):
 
 
 Parameters = Mapping[str, float]
-Follow = Callable[[Prepared, Parameters, Floats], Outcome]
+Follow = Callable[[AxisScene, Parameters, Floats], Outcome]
 """Runs a scene; the array of shape (2, n) is filled with s and s' at the samples, (2, 0) not."""
 
 
@@ -114,7 +114,7 @@ def link_frequency(stiffness_per_m: float, g_mps2: float) -> float:
     return math.sqrt(g_mps2 * stiffness_per_m)
 
 
-def least_normal(scene: Prepared) -> tuple[float, float]:
+def least_normal(scene: AxisScene) -> tuple[float, float]:
     """Return the least N / (m g), and when N first falls below zero [s]; NaN if it never does."""
     c, (az, z) = scene, _vertical(scene)
     found: tuple[float, float] = one_axis.least_normal(
@@ -123,20 +123,20 @@ def least_normal(scene: Prepared) -> tuple[float, float]:
     return found
 
 
-def exact_events(scene: Prepared, n_stops: int) -> Floats:
+def exact_events(scene: AxisScene, n_stops: int) -> Floats:
     """Return the events of a run with so many stops: time, kind (`kernels`) and s of each."""
     rows = np.empty((2 * n_stops + 1, 3))
     n_events = _run_exact(scene, rows)[-1]
     return rows[: int(n_events)]
 
 
-def _vertical(scene: Prepared) -> tuple[Floats | None, Floats | None]:
+def _vertical(scene: AxisScene) -> tuple[Floats | None, Floats | None]:
     """Return the vertical record and its bounds as the exact kernels take them."""
     return (scene.az, scene.z) if scene.az.size else (None, None)
 
 
 def _run_exact(
-    scene: Prepared, events: Floats | None
+    scene: AxisScene, events: Floats | None
 ) -> tuple[float, float, float, float, float, int, int]:
     c, (az, z) = scene, _vertical(scene)
     found: tuple[float, float, float, float, float, int, int] = one_axis.slide_exact(
@@ -145,7 +145,7 @@ def _run_exact(
     return found
 
 
-def _exact(scene: Prepared, _: Parameters, samples: Floats) -> Outcome:
+def _exact(scene: AxisScene, _: Parameters, samples: Floats) -> Outcome:
     c, found = scene, Outcome(True, *_run_exact(scene, None)[:-1])
     if samples.size:
         events = exact_events(scene, found.n_stops)
@@ -156,7 +156,7 @@ def _exact(scene: Prepared, _: Parameters, samples: Floats) -> Outcome:
     return found
 
 
-def _frozen(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+def _frozen(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
     """Follow the scene on a flat roof that drives the block alike: the exact kernel serves.
 
     There N = g' for good and G = -a', so g' = g cos(theta) freezes the normal force and a' = -G
@@ -171,51 +171,51 @@ def _frozen(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome
     return _exact(flat, parameters, samples)
 
 
-def _constant(scene: Prepared, parameters: Parameters, samples: Floats, skips: bool) -> Outcome:
+def _constant(scene: AxisScene, parameters: Parameters, samples: Floats, skips: bool) -> Outcome:
     p = int(parameters["substeps"])
     return _outcome(rivals.slide_constant(*_letters(scene), p, skips, samples))
 
 
-def _paper(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+def _paper(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
     return _constant(scene, parameters, samples, False)
 
 
-def _adaptive(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+def _adaptive(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
     return _constant(scene, parameters, samples, True)
 
 
-def _linear(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+def _linear(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
     p = int(parameters["substeps"])
     return _outcome(rivals.slide_linear(*_letters(scene), p, samples))
 
 
-def _link(scene: Prepared, parameters: Parameters, samples: Floats, implicit: bool) -> Outcome:
+def _link(scene: AxisScene, parameters: Parameters, samples: Floats, implicit: bool) -> Outcome:
     p, k = int(parameters["substeps"]), scene.g * parameters["stiffness_per_m"]
     return _outcome(rivals.slide_link(*_letters(scene), p, k, implicit, samples))
 
 
-def _explicit(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+def _explicit(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
     return _link(scene, parameters, samples, False)
 
 
-def _implicit(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+def _implicit(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
     return _link(scene, parameters, samples, True)
 
 
-def _regularised(scene: Prepared, parameters: Parameters, samples: Floats) -> Outcome:
+def _regularised(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
     drive, cap = drive_and_cap(scene)
     velocity, tolerance = parameters["velocity_mps"], parameters["tolerance"]
     return Outcome(*regularized.slide(drive, cap, scene.dt, velocity, tolerance, samples))
 
 
-def drive_and_cap(scene: Prepared) -> tuple[Floats, Floats]:
+def drive_and_cap(scene: AxisScene) -> tuple[Floats, Floats]:
     """Return G and mu N at the samples [m/s2]."""
     x = scene.scale * scene.ax
     z = scene.g + scene.scale * (scene.az if scene.az.size else np.zeros_like(x))
     return scene.sn * z - scene.cs * x, scene.mu * (scene.cs * z + scene.sn * x)
 
 
-def _letters(scene: Prepared) -> tuple[Floats, Floats, float, float, float, float, float, float]:
+def _letters(scene: AxisScene) -> tuple[Floats, Floats, float, float, float, float, float, float]:
     c = scene
     return c.ax, c.az, c.dt, c.sn, c.cs, c.mu, c.g, c.scale
 

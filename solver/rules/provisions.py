@@ -209,11 +209,11 @@ def required_mu(rules: RuleSet, slope_rad: float) -> float:
     return rules["prescriptive_min_mu"] + 0.7 * rise
 
 
-def building_checks(rules: RuleSet, *, risk_category: int, storeys: int) -> tuple[Check, ...]:
+def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tuple[Check, ...]:
     """Return the limits on the building that both routes keep."""
     return (
         _check(rules, "Risk category (I = 1 to IV = 4)", risk_category, "max_risk_category"),
-        _check(rules, "Number of storeys", storeys, "max_storeys"),
+        _check(rules, "Number of stories", stories, "max_stories"),
     )
 
 

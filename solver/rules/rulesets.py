@@ -47,7 +47,7 @@ OVERRIDABLE: Mapping[str, str] = {
     "prescriptive_max_slope_deg": "steepest slope for the prescriptive route [deg]",
     "prescriptive_min_mu": "least friction coefficient for the prescriptive route",
     "analysis_max_slope_deg": "steepest slope for the analysis route [deg]",
-    "max_storeys": "most storeys of the building",
+    "max_stories": "most stories of the building",
     "max_risk_category": "highest risk category (I = 1 ... IV = 4)",
     "low_profile_in": "greatest height of the centre of gravity [in]",
     "low_profile_ratio": "greatest height of the centre of gravity / least support dimension",
@@ -121,7 +121,7 @@ prescriptive_low_sdc_in     6      K  Sec. 6
 prescriptive_max_slope_deg  3      K  Sec. 6
 prescriptive_min_mu         0.4    K  Sec. 6
 analysis_max_slope_deg      7      K  Sec. 5
-max_storeys                 6      K  Sec. 5
+max_stories                 6      K  Sec. 5
 max_risk_category           3      K  Sec. 5
 low_profile_in              36     K  Sec. 5
 low_profile_ratio           0.5    K  Sec. 5
@@ -147,7 +147,7 @@ prescriptive_minimum_in     24     K  13.6.12
 prescriptive_max_slope_deg  {math.degrees(math.atan(1 / 20))!r}  K  13.6.12
 prescriptive_min_mu         0.4    K  13.6.12
 analysis_max_slope_deg      {math.degrees(math.atan(1 / 12))!r}  L  13.6.12
-max_storeys                 6      K  13.6.12
+max_stories                 6      K  13.6.12
 max_risk_category           3      K  13.6.12
 low_profile_in              36     K  13.6.12
 low_profile_ratio           0.5    K  13.6.12

@@ -17,7 +17,7 @@ from solver.forces import forces
 from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
-from solver.sliding.row import Row, slide_row
+from solver.sliding.row import BlockRow, slide_row
 
 
 class Rung(IntEnum):
@@ -59,7 +59,7 @@ class Settings:
         Of two axes and of friction by speed, relative to the PRD (`two_axes.TOLERANCES`).
     forced : Rung or None
         This rung and no other. A row is never chosen, only asked for.
-    row : Row or None
+    row : BlockRow or None
         The blocks and links of `Rung.ROW`.
     """
 
@@ -67,7 +67,7 @@ class Settings:
     matters_share: float = 0.005
     tolerance: float = two_axes.DEFAULT_TOLERANCE
     forced: Rung | None = None
-    row: Row | None = None
+    row: BlockRow | None = None
 
     def bound_m(self, prd_m: float) -> float:
         """Return the effect on a PRD below which nothing more is modelled [m]."""
@@ -272,7 +272,7 @@ def _followed(scene: Scene, rung: Rung, found: SlideResult, why: str, demand: fl
     )
 
 
-def _linked(scene: Scene, row: Row | None, demand: float) -> Solution:
+def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
     """Return the farthest of a row's blocks, with the largest excursions of them all."""
     if row is None:
         raise InputError("a row of blocks is asked for, but not given; give Settings.row")

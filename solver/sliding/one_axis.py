@@ -16,10 +16,10 @@ from solver.model import Event, EventKind, Floats, Scene, SlideHistory, SlideRes
 from solver.rivals.methods import (
     METHODS,
     NO_RECORD,
+    AxisScene,
     Method,
     Outcome,
     Parameters,
-    Prepared,
     exact_events,
     least_normal,
 )
@@ -47,7 +47,7 @@ def rounding(scene: Scene) -> float:
     return _rounding(prepared(scene))
 
 
-def _rounding(scene: Prepared) -> float:
+def _rounding(scene: AxisScene) -> float:
     c, up = scene, abs(scene.scale) * float(max(-scene.z[0, -1], scene.z[1, -1], 0.0))
     along = abs(c.scale) * float(max(-c.x[0, -1], c.x[1, -1]))
     terms = (abs(c.sn) + c.mu * c.cs) * (c.g + up) + (c.cs + c.mu * abs(c.sn)) * along
@@ -60,7 +60,7 @@ def run_method(method: Method, parameters: Parameters, scene: Scene) -> SlideRes
     return _run(method, parameters, prepared(scene), _NO_HISTORY)
 
 
-def _run(method: Method, parameters: Parameters, scene: Prepared, samples: Floats) -> SlideResult:
+def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floats) -> SlideResult:
     """Run a scene; `samples` of shape (2, n) is filled with u and its rate, (2, 0) with nothing."""
     n_min_g, t_uplift = least_normal(scene)
     if n_min_g < 0.0:
@@ -74,7 +74,7 @@ def _run(method: Method, parameters: Parameters, scene: Prepared, samples: Float
     return _result(found, scene.cs, n_min_g, error_m)
 
 
-def _events(scene: Prepared, result: SlideResult) -> tuple[Event, ...]:
+def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
     """Return the events of the exact method: at most a slip before each stop, and one more."""
     if math.isnan(result.prd_m):
         return ()
@@ -146,9 +146,9 @@ def sample_times(scene: Scene) -> Floats:
     return np.arange(scene.ax_mps2.size, dtype=np.float64) * scene.dt_s
 
 
-def prepared(scene: Scene) -> Prepared:
+def prepared(scene: Scene) -> AxisScene:
     """Return a scene in the letters of the kernels of one axis."""
-    return Prepared(
+    return AxisScene(
         ax=scene.ax_mps2,
         x=kernel.bounds(scene.ax_mps2),
         az=scene.az_mps2,

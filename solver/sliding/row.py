@@ -1,7 +1,7 @@
 """Rung 5: blocks in a row along the slope, joined by springs and dashpots, each with its friction.
 
 Shows whether one rigid block is enough for an array; not for default use. Integrates nothing itself
-(see `solver.kernels.row`). Read `Row`, then `slide_row`.
+(see `solver.kernels.row`). Read `BlockRow`, then `slide_row`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _MOST_EVENTS = 20_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Row:
+class BlockRow:
     """Blocks in a row down the slope, the first the highest, with a link between neighbours.
 
     Attributes
@@ -106,7 +106,7 @@ class RowResult:
         [m]: a bound, from energy (`solver.kernels.row`), rounding counted.
     n_stops, n_steps : int
     rigid : SlideResult
-        The row as one rigid array with `Row.mean_mu`.
+        The row as one rigid array with `BlockRow.mean_mu`.
     """
 
     status: Status
@@ -128,7 +128,7 @@ class RowResult:
         return max(self.prd_m) - self.rigid.prd_m
 
 
-def slide_row(scene: Scene, row: Row) -> RowResult:
+def slide_row(scene: Scene, row: BlockRow) -> RowResult:
     """Slide a row of blocks along the slope, exact to rounding between events and at them.
 
     The row begins at rest with its links unstretched; all blocks feel the same roof motion. What
@@ -144,7 +144,7 @@ def slide_row(scene: Scene, row: Row) -> RowResult:
     return _run(scene, row, None)
 
 
-def row_history(scene: Scene, row: Row) -> Floats:
+def row_history(scene: Scene, row: BlockRow) -> Floats:
     """Return the displacement of each block at the samples, shape (blocks, n) [m].
 
     NaN where `slide_row` gives none; errors as there.
@@ -156,7 +156,7 @@ def row_history(scene: Scene, row: Row) -> Floats:
     return samples * math.cos(scene.slope_rad)
 
 
-def _run(scene: Scene, row: Row, samples: Floats | None) -> RowResult:
+def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
     """Run a row; samples are filled with s."""
     if problems := _faults(row) or _too_stiff(scene, row):
         raise InputError(problems)
@@ -202,7 +202,7 @@ def _run(scene: Scene, row: Row, samples: Floats | None) -> RowResult:
 _ENERGIES = ("work", "friction", "dampers", "kinetic", "springs")
 
 
-def _nothing(status: Status, row: Row, rigid: SlideResult) -> RowResult:
+def _nothing(status: Status, row: BlockRow, rigid: SlideResult) -> RowResult:
     none = (math.nan,) * len(row.mus)
     return RowResult(
         status=status,
@@ -224,7 +224,7 @@ def _tuple(values: Floats) -> tuple[float, ...]:
     return tuple(values.tolist())
 
 
-def _faults(row: Row) -> list[str]:
+def _faults(row: BlockRow) -> list[str]:
     """Return every value of a row that cannot be."""
     found = []
     if not row.mus:
@@ -247,7 +247,7 @@ def _share_faults(shares: Sequence[float], count: int) -> list[str]:
     return []
 
 
-def least_steps(row: Row, seconds: float) -> float:
+def least_steps(row: BlockRow, seconds: float) -> float:
     """Return how many steps a row needs at least to follow a motion of some length [s]."""
     if len(row.mus) == 1:
         return 0.0
@@ -256,7 +256,7 @@ def least_steps(row: Row, seconds: float) -> float:
     return rate * seconds
 
 
-def _too_stiff(scene: Scene, row: Row) -> list[str]:
+def _too_stiff(scene: Scene, row: BlockRow) -> list[str]:
     if least_steps(row, scene.dt_s * scene.ax_mps2.size) <= MOST_STEPS:
         return []
     return [

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from solver.building.beam import beam_modes, floor_stiffness, storey_modes
+from solver.building.beam import beam_modes, floor_stiffness, story_modes
 from solver.building.roof import absolute_accelerations, building_of_periods, roof_motion
 from solver.model import Floats
 from solver.records.record import Record
@@ -21,7 +21,7 @@ from solver.verification.evidence import CheckRow, RoofComparison
 
 SECTION = "From ground to roof"
 
-STOREYS, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
+STORIES, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
 """The made building."""
 
 _BENDING = ((1.875104069, 0.734095514), (4.694091133, 1.018467319), (7.854757438, 0.999224497))
@@ -35,21 +35,21 @@ def building_checks(made: FloorRecords, found: RoofComparison) -> Iterator[Check
     yield from _limits()
     yield from _coupled()
     yield from _sums()
-    yield from _storeys()
+    yield from _stories()
     yield _whole_building(made)
     yield from _identified(found)
 
 
 def made_building(ground: Record) -> FloorRecords:
-    """Return the motions of equal storeys on a ground, all floors stepped at once.
+    """Return the motions of equal stories on a ground, all floors stepped at once.
 
-    No modes are superposed. A beam half a storey higher has the same modes, nearly.
+    No modes are superposed. A beam half a story higher has the same modes, nearly.
     """
     floors = _stepped(ground.a_mps2, ground.dt_s)
-    levels = (STOREYS // 2, STOREYS)
+    levels = (STORIES // 2, STORIES)
     return FloorRecords(
-        title=f"A made building of {STOREYS} storeys",
-        story=f"Equal storeys and floors in shear and bending: first period {PERIOD_S:g} s, "
+        title=f"A made building of {STORIES} stories",
+        story=f"Equal stories and floors in shear and bending: first period {PERIOD_S:g} s, "
         f"damping {100 * DAMPING:g} % in every mode, lateral stiffness ratio {ALPHA0:g}. Its "
         f"ground is {ground.name}; its floors are stepped all at once, without modes, so that "
         "modes and fit stand against something else.",
@@ -58,7 +58,7 @@ def made_building(ground: Record) -> FloorRecords:
         ground_mps2=ground.a_mps2,
         floors_mps2=floors[:, [level - 1 for level in levels]],
         floors=tuple(f"{level}th" for level in levels),
-        heights=tuple(level / (STOREYS + 0.5) for level in levels),
+        heights=tuple(level / (STORIES + 0.5) for level in levels),
         code_period_s=math.nan,
         search_s=(0.5 * PERIOD_S, 2.0 * PERIOD_S),
     )
@@ -70,23 +70,23 @@ def _stepped(a: Floats, dt: float) -> Floats:
     One matrix exponential holds the floors' displacements and velocities, the ground's
     acceleration and its slope.
     """
-    stiff = floor_stiffness(ALPHA0, STOREYS)
+    stiff = floor_stiffness(ALPHA0, STORIES)
     squares, shapes = np.linalg.eigh(stiff)
     squares *= (2.0 * math.pi / PERIOD_S) ** 2 / squares[0]
     stiff = (shapes * squares) @ shapes.T
     damp = (shapes * (2.0 * DAMPING * np.sqrt(squares))) @ shapes.T
-    n = 2 * STOREYS
+    n = 2 * STORIES
     rate = np.zeros((n + 2, n + 2))
-    rate[:STOREYS, STOREYS:n] = np.eye(STOREYS)
-    rate[STOREYS:n, :n] = np.hstack([-stiff, -damp])
-    rate[STOREYS:n, n] = -1.0
+    rate[:STORIES, STORIES:n] = np.eye(STORIES)
+    rate[STORIES:n, :n] = np.hstack([-stiff, -damp])
+    rate[STORIES:n, n] = -1.0
     rate[n, n + 1] = 1.0
     step = _exponential(rate * dt)
-    state, found = np.zeros(n), np.zeros((a.size, STOREYS))
+    state, found = np.zeros(n), np.zeros((a.size, STORIES))
     for i in range(1, a.size):
         slope = (a[i] - a[i - 1]) / dt
         state = step[:n, :n] @ state + step[:n, n] * a[i - 1] + step[:n, n + 1] * slope
-        found[i] = rate[STOREYS:n, :n] @ state
+        found[i] = rate[STORIES:n, :n] @ state
     return found
 
 
@@ -124,7 +124,7 @@ def _steps() -> Iterator[CheckRow]:
 
 def _steady_waves() -> Iterator[CheckRow]:
     dt, period_s, zeta = 0.001, 0.5, 0.1
-    building = building_of_periods([period_s], damping=[zeta], storeys=1)
+    building = building_of_periods([period_s], damping=[zeta], stories=1)
     for ratio in (0.5, 1.0, 2.0):
         w = ratio * 2.0 * math.pi / period_s
         wave = np.sin(w * dt * np.arange(round(20.0 / dt)))
@@ -134,7 +134,7 @@ def _steady_waves() -> Iterator[CheckRow]:
             SECTION,
             f"Wave of {ratio:g} times the frequency",
             "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2, damping 0.1; "
-            "one storey, step 0.001 s",
+            "one story, step 0.001 s",
             "Roof over ground",
             "1",
             math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped)),
@@ -244,14 +244,14 @@ def _sums() -> Iterator[CheckRow]:
         )
 
 
-def _storeys() -> Iterator[CheckRow]:
-    for storeys in (1, 2, 5):
-        angle = math.pi / (2.0 * storeys + 1.0)
-        shape = np.sin(angle * np.arange(1, storeys + 1))
-        modes = storey_modes(math.inf, storeys)
+def _stories() -> Iterator[CheckRow]:
+    for stories in (1, 2, 5):
+        angle = math.pi / (2.0 * stories + 1.0)
+        shape = np.sin(angle * np.arange(1, stories + 1))
+        modes = story_modes(math.inf, stories)
         yield check(
             SECTION,
-            f"Storeys in shear: {storeys}, first mode",
+            f"Stories in shear: {stories}, first mode",
             "Sines of (2 n - 1) pi k / (2 N + 1) at floor k",
             "Roof factor",
             "1",
@@ -262,7 +262,7 @@ def _storeys() -> Iterator[CheckRow]:
 
 
 def _whole_building(made: FloorRecords) -> CheckRow:
-    building = building_of_periods([PERIOD_S], damping=[DAMPING], alpha0=ALPHA0, storeys=STOREYS)
+    building = building_of_periods([PERIOD_S], damping=[DAMPING], alpha0=ALPHA0, stories=STORIES)
     roof = roof_motion(made.ground_mps2, made.dt_s, building, share=0.0)
     stepped = made.floors_mps2[:, -1]
     off = float(np.abs(roof[: stepped.size] - stepped).max())
@@ -280,8 +280,8 @@ def _whole_building(made: FloorRecords) -> CheckRow:
 
 def _identified(found: RoofComparison) -> Iterator[CheckRow]:
     best = found.predictions[0]
-    source = "What it was made with, as a beam half a storey higher; fitted to two of its floors"
-    ratio = ALPHA0 * (1.0 + 0.5 / STOREYS)
+    source = "What it was made with, as a beam half a story higher; fitted to two of its floors"
+    ratio = ALPHA0 * (1.0 + 0.5 / STORIES)
     for quantity, unit, expected, value, tolerance in (
         ("First period", "s", PERIOD_S, best.period_s, 0.005),
         ("Damping", "1", DAMPING, best.damping, 0.02),

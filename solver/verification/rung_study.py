@@ -17,7 +17,7 @@ import numpy as np
 from solver.model import Friction, Heading, Scene, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
-from solver.sliding.row import Row, RowResult, slide_row
+from solver.sliding.row import BlockRow, RowResult, slide_row
 from solver.verification import plane_work
 from solver.verification.bound_study import bound_ratios
 from solver.verification.rung_evidence import (
@@ -217,10 +217,10 @@ def _first_scenes(triples: Sequence[Triple], cases: Sequence[Case]) -> list[Scen
     return [_scene(triple, case, first) for triple in triples for case in cases]
 
 
-def row_of(mu: float, stretch_m: float, g_mps2: float) -> Row:
+def row_of(mu: float, stretch_m: float, g_mps2: float) -> BlockRow:
     """Return five blocks whose links stretch so far under the weight of a block."""
     stiffness = g_mps2 / stretch_m
-    return Row(
+    return BlockRow(
         mus=tuple(mu * share for share in ROW_SHARES),
         stiffness_per_s2=stiffness,
         damping_per_s=2.0 * ROW_DAMPING * math.sqrt(stiffness),
@@ -262,5 +262,5 @@ _RUNGS = (
     ("One axis with vertical", one_axis.run, coulomb, False, True),
     ("Two axes with vertical", two_axes.run, coulomb, True, True),
     ("Two axes, friction by speed", two_axes.run, by_speed, True, True),
-    ("Row of five blocks, links of 1 mm", _row, coulomb, False, True),
+    ("BlockRow of five blocks, links of 1 mm", _row, coulomb, False, True),
 )

@@ -16,7 +16,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status,
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Rung, Settings
-from solver.sliding.row import Row, slide_row
+from solver.sliding.row import BlockRow, slide_row
 from solver.verification import plane_scipy
 from solver.verification.bound_study import bound_ratios
 from solver.verification.checks import check
@@ -261,10 +261,10 @@ def _one_block(triple: Triple) -> Iterator[CheckRow]:
     scene = triple.scene(case, coulomb(case.mu), second=False)
     exact = one_axis.run(scene)
     for count in (1, 3):
-        found = slide_row(scene, Row(mus=(case.mu,) * count, stiffness_per_s2=1e4))
+        found = slide_row(scene, BlockRow(mus=(case.mu,) * count, stiffness_per_s2=1e4))
         yield check(
             SECTION,
-            f"Row of equal blocks, {count} of them: {triple.name}, {case}",
+            f"BlockRow of equal blocks, {count} of them: {triple.name}, {case}",
             "The exact method of one axis with vertical: their links have nothing to do",
             "PRD, largest of the blocks",
             "m",

@@ -15,7 +15,7 @@ import numpy as np
 from solver.kernels import one_axis
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.records.record import Record
-from solver.rivals.methods import NO_RECORD, Prepared
+from solver.rivals.methods import NO_RECORD, AxisScene
 from solver.synthesis import SuiteMotion, Target, make_suite
 
 SEED = 2003
@@ -80,9 +80,9 @@ def scale_to(record: Record, ppa_g: float) -> float:
     return ppa_g * STANDARD_GRAVITY_MPS2 / float(np.abs(record.a_mps2).max())
 
 
-def prepared(record: Record, case: Case) -> Prepared:
+def prepared(record: Record, case: Case) -> AxisScene:
     """Return what `Method.follow` takes, so that nothing but the method is timed."""
-    return Prepared(
+    return AxisScene(
         ax=record.a_mps2,
         x=one_axis.bounds(record.a_mps2),
         az=NO_RECORD,

@@ -14,7 +14,7 @@ import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2, SlideResult, Status
 from solver.records.record import Record
-from solver.rivals.methods import METHODS, Method, Prepared
+from solver.rivals.methods import METHODS, AxisScene, Method
 from solver.sliding.checked import slide
 from solver.verification.evidence import WorkPoint, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable, prepared, scale_to
@@ -92,7 +92,7 @@ def least_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> flo
     return least
 
 
-def timed(method: Method, scene: Prepared, parameters: Mapping[str, float]) -> float:
+def timed(method: Method, scene: AxisScene, parameters: Mapping[str, float]) -> float:
     """Return the least seconds of a run by a method, on a prepared scene."""
     return least_seconds(lambda: method.follow(scene, parameters, NO_SAMPLES))
 

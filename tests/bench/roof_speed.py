@@ -62,8 +62,8 @@ def main() -> None:
         print(f"{count:6}{samples:9}{found * 1e3:9.2f}{found / count / samples * 1e9:9.2f}"
               f"{plain * 1e3:12.2f}{plain / found:7.2f}")  # fmt: skip
     a = rng.normal(size=13_000)
-    for storeys in (1, 4, 12, 0):
-        building = building_of_periods([1.0], storeys=storeys)
+    for stories in (1, 4, 12, 0):
+        building = building_of_periods([1.0], stories=stories)
         took = seconds(lambda a=a, b=building: to_roof(a, DT_S, b), repeats)
         print(f"a roof motion, {building.words}: {took * 1e3:.2f} ms")
 

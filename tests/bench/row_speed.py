@@ -18,7 +18,7 @@ import numba
 import numpy as np
 
 from solver.sliding import checked, one_axis
-from solver.sliding.row import Row, slide_row
+from solver.sliding.row import BlockRow, slide_row
 
 DT_S, SECONDS, MUS = 0.005, 30.0, (0.3, 0.5, 0.4, 0.35, 0.45)
 STIFFNESSES = (0.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8)
@@ -57,7 +57,7 @@ def main() -> None:
     print(f"{'k/m 1/s2':>9}{'ms':>9}{'ratio':>9}{'steps':>9}{'stops':>7}{'PRD mm':>9}"
           f"{'rigid mm':>9}{'stretch mm':>11}{'force':>7}{'bound m':>9}{'defect':>9}")  # fmt: skip
     for k in STIFFNESSES:
-        row = Row(mus=MUS, stiffness_per_s2=k, damping_per_s=0.1 * math.sqrt(k))
+        row = BlockRow(mus=MUS, stiffness_per_s2=k, damping_per_s=0.1 * math.sqrt(k))
         found = slide_row(scene, row)
         took = seconds(lambda r=row: slide_row(scene, r), repeats)
         defect = abs(found.energy.defect) / found.energy.work
@@ -66,7 +66,9 @@ def main() -> None:
               f"{found.stretch_m * 1e3:11.2g}{found.link_force:7.2f}{found.error_m:9.1g}"
               f"{defect:9.1g}")  # fmt: skip
     for count in (1, 2, 5, 10, 20):
-        row = Row(mus=tuple(np.linspace(0.3, 0.5, count)), stiffness_per_s2=1e3, damping_per_s=3.0)
+        row = BlockRow(
+            mus=tuple(np.linspace(0.3, 0.5, count)), stiffness_per_s2=1e3, damping_per_s=3.0
+        )
         took = seconds(lambda r=row: slide_row(scene, r), repeats)
         print(f"{count} blocks, k/m 1e3 1/s2: {took * 1e3:.1f} ms")
 

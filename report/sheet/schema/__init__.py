@@ -9,7 +9,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
+from pydantic import AfterValidator
+
 from report.sheet.fields import Cell, Frozen, Section, YesNo
+from report.sheet.formerly import PROVISIONS
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
     MAX_TEXT,
@@ -104,7 +107,9 @@ class Override(Frozen):
     """A provision's number, replaced, with the reason that the package prints."""
 
     provision: Annotated[
-        RequiredText, Cell("Provision", "Choose which number to replace.", "parapet_height_in")
+        RequiredText,
+        AfterValidator(lambda key: PROVISIONS.get(key, key)),
+        Cell("Provision", "Choose which number to replace.", "parapet_height_in"),
     ]
     value: Annotated[float, Cell("Value", "In the unit that the sheet Provisions names.", 18.0)]
     reason: Annotated[

@@ -14,7 +14,7 @@ from pydantic import Field, model_validator
 from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import Id, Positive
 from report.words.units import G_MPS2, Quantity
-from solver.sliding.row import Row
+from solver.sliding.row import BlockRow
 
 BLOCKS = (2, 20)
 """Fewest and most blocks of a row."""
@@ -74,8 +74,8 @@ class Links(Frozen):
         """Friction coefficient of each block, from the highest down."""
         return coefficients(self.friction)
 
-    def row(self, weight_n: float) -> Row:
+    def row(self, weight_n: float) -> BlockRow:
         """Return the row of an array of some weight [N]."""
         stiffness = self.stiffness_n_per_m * len(self.mus) * G_MPS2 / weight_n
         damping = 2.0 * self.damping_ratio * math.sqrt(stiffness)
-        return Row(mus=self.mus, stiffness_per_s2=stiffness, damping_per_s=damping)
+        return BlockRow(mus=self.mus, stiffness_per_s2=stiffness, damping_per_s=damping)

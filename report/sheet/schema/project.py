@@ -112,7 +112,7 @@ class Site(Frozen):
         ),
     ] = None
     sdc: Annotated[Sdc, Cell("Seismic design category", "ASCE 7 section 11.6.", "D")]
-    storeys: Annotated[int, Field(ge=1, le=200), Cell("Storeys", "Above grade.", 1)]
+    stories: Annotated[int, Field(ge=1, le=200), Cell("Stories", "Above grade.", 1)]
     structure_height_m: Annotated[
         Positive,
         Cell(

@@ -11,7 +11,7 @@ from report.assessment.project import reassess
 from solver.model import Scene, Status, coulomb
 from solver.sliding.checked import slide
 from solver.sliding.least_model import DEFAULT
-from solver.sliding.row import Row, slide_row
+from solver.sliding.row import BlockRow, slide_row
 
 G, LB, INCH = 9.80665, 4.4482216152605, 0.0254
 MOTIONS = stand_in.motions(3, seconds=12.0)
@@ -54,7 +54,7 @@ def readonly(values):
 def test_the_rows_are_those_of_the_solver():
     _, item = assessed("0.40, 0.45, 0.50", 500, damping_ratio=0.1)
     mass, k = 42000 * LB / G / 3, 500 * LB / INCH
-    row = Row(
+    row = BlockRow(
         mus=(0.4, 0.45, 0.5),
         stiffness_per_s2=k / mass,
         damping_per_s=0.2 * math.sqrt(k * mass) / mass,

@@ -221,7 +221,7 @@ def test_a_motion_that_ends_while_sliding_is_warned_of():
 
 def test_a_limit_of_the_building_fails_the_whole():
     assert not assessed(site=site(risk_category="IV", i_e=1.5)).ok
-    assert not assessed(site=site(storeys=7)).ok
+    assert not assessed(site=site(stories=7)).ok
 
 
 def test_an_override_changes_the_result_and_is_kept_with_its_reason():

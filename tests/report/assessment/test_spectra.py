@@ -114,9 +114,9 @@ def test_an_own_spectrum_of_long_periods_alone_leaves_the_band_unjudged():
 
 def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_target():
     motions = given()
-    stories = [stand_in.story(m, recorded_at=RecordedAt.GROUND) for m in motions]
+    preparations = [stand_in.prepared(m, recorded_at=RecordedAt.GROUND) for m in motions]
     done = stand_in.assessed(stand_in.book(found=motions))
-    *_, across, transverse = spectra(under(done, motions, stories))
+    *_, across, transverse = spectra(under(done, motions, preparations))
     assert (across.title, transverse.title) == ("Ground, horizontal", "Ground, transverse")
     assert across.is_ground
     alone = response_spectrum(0.5 * motions[1].ax_mps2, motions[1].dt_s, across.periods_s)

@@ -45,7 +45,7 @@ def found(made):
 def recorded(made):
     """The made building as if it had been recorded, with a period by its height."""
     return compare(
-        replace(made, title="A tower", story="Told.", is_recorded=True, code_period_s=1.0)
+        replace(made, title="A tower", prepared="Told.", is_recorded=True, code_period_s=1.0)
     )
 
 
@@ -92,7 +92,7 @@ def test_every_check_passes_and_no_two_are_alike(made, found):
         ("roof_motion", lambda right: 1.001 * right),
         ("beam_modes", lambda right: replace(right, factors=1.001 * right.factors)),
         ("beam_modes", lambda right: replace(right, period_ratios=right.period_ratios**1.001)),
-        ("storey_modes", lambda right: replace(right, factors=1.001 * right.factors)),
+        ("story_modes", lambda right: replace(right, factors=1.001 * right.factors)),
     ],
 )
 def test_what_is_wrong_fails_the_checks_that_see_it(made, found, monkeypatch, name, wrong):
@@ -257,7 +257,7 @@ def test_with_records_the_manual_says_how_far_off_each_prediction_is(found, reco
 
 def test_charts_name_each_line_and_only_records_have_a_history(found, recorded):
     one, other = (building(verification(f)).blocks[1].charts[0] for f in (found, recorded))
-    assert one.name == "building-a-made-building-of-24-storeys"
+    assert one.name == "building-a-made-building-of-24-stories"
     for text in (">ground<", ">roof, stepped<", ">fitted to the 12th floor<"):
         assert text in one.picture.svg
     for text in (">roof, recorded<", f">{BY_HEIGHT}<", ">Roof acceleration: recorded (solid)"):

@@ -47,20 +47,20 @@ def shaken(found, data_changes=None, unfiltered=None, **changes):
 
 def test_as_recorded_nothing_is_changed():
     found = records()
-    motion, story = shaken(found)
+    motion, prepared = shaken(found)
     assert motion.scale == 1.0
     for a, record in zip(
         (motion.ax_mps2, motion.ay_mps2, motion.az_mps2), found.values(), strict=True
     ):
         assert np.array_equal(a, record.a_mps2)
-    assert (story.done, story.scaling, story.roof) == ("as recorded", "as recorded", {})
+    assert (prepared.done, prepared.scaling, prepared.roof) == ("as recorded", "as recorded", {})
 
 
 def test_a_ppa_is_the_peak_of_the_horizontal_record_and_one_factor_serves_all():
-    motion, story = shaken(records(), scaling="PPA", scale_value=1.25)
+    motion, prepared = shaken(records(), scaling="PPA", scale_value=1.25)
     assert motion.scale * np.abs(motion.ax_mps2).max() == pytest.approx(1.25 * G, rel=1e-12)
-    assert story.scaling == "PPA 1.25 g"
-    assert story.scaled["vertical"].a_mps2 == pytest.approx(motion.scale * motion.az_mps2)
+    assert prepared.scaling == "PPA 1.25 g"
+    assert prepared.scaled["vertical"].a_mps2 == pytest.approx(motion.scale * motion.az_mps2)
 
 
 def log_ratio(motion, target, periods_s):
@@ -75,17 +75,17 @@ def log_ratio(motion, target, periods_s):
 @pytest.mark.parametrize(("start", "end"), [(0.2, 5.0), (0.5, 2.0)])
 def test_a_motion_scaled_to_the_target_lies_on_it_over_the_periods_asked_for(start, end):
     data = {"target": {"from_s": start, "to_s": end}}
-    motion, story = shaken(records(), data, scaling="target spectrum")
+    motion, prepared = shaken(records(), data, scaling="target spectrum")
     target = stand_in.assessed(stand_in.book(found=(motion,) * 3)).targets.roof
     assert log_ratio(motion, target, np.geomspace(start, end, 400)) == pytest.approx(0, abs=2e-3)
-    assert story.scaling == f"target, {start:g} to {end:g} s"
+    assert prepared.scaling == f"target, {start:g} to {end:g} s"
 
 
 def test_a_ground_motion_goes_through_the_building_component_by_component():
     found = records()
     building = {"period_s": 0.62, "transverse_s": 0.5, "damping_percent": 3.0}
-    motion, story = shaken(found, {"building": building}, **GROUND)
-    buildings = [building_of_periods([t], damping=(0.03,), storeys=1) for t in (0.62, 0.5)]
+    motion, prepared = shaken(found, {"building": building}, **GROUND)
+    buildings = [building_of_periods([t], damping=(0.03,), stories=1) for t in (0.62, 0.5)]
     wanted = shaking_to_roof(
         [found["record"].a_mps2, found["transverse"].a_mps2],
         found["vertical"].a_mps2,
@@ -96,17 +96,17 @@ def test_a_ground_motion_goes_through_the_building_component_by_component():
     assert np.array_equal(motion.ax_mps2, wanted.horizontal[0].a_mps2)
     assert np.array_equal(motion.ay_mps2, wanted.horizontal[1].a_mps2)
     assert np.array_equal(motion.az_mps2, wanted.vertical_mps2)
-    assert list(story.roof) == ["horizontal", "transverse"]
+    assert list(prepared.roof) == ["horizontal", "transverse"]
 
 
 def test_a_ground_motion_is_scaled_where_it_was_recorded():
     found = records()
     building = {"building": {"period_s": 0.62}}
-    motion, story = shaken(found, building, scaling="PPA", scale_value=0.5, **GROUND)
+    motion, prepared = shaken(found, building, scaling="PPA", scale_value=0.5, **GROUND)
     peak = np.abs(found["record"].a_mps2).max()
     assert motion.scale * peak == pytest.approx(0.5 * G)
-    assert story.measures["horizontal"].pga_mps2 == pytest.approx(0.5 * G)
-    assert story.roof["horizontal"].ground_peak_mps2 == pytest.approx(peak)
+    assert prepared.measures["horizontal"].pga_mps2 == pytest.approx(0.5 * G)
+    assert prepared.roof["horizontal"].ground_peak_mps2 == pytest.approx(peak)
 
 
 def test_a_horizontal_component_alone_stays_alone_at_the_roof():
@@ -131,16 +131,16 @@ def test_what_is_left_at_the_end_is_measured_after_scaling():
     drifting = {
         field: replace(record, a_mps2=record.a_mps2 + 0.02) for field, record in records().items()
     }
-    _, story = shaken(drifting, scaling="factor", scale_value=2.0)
+    _, prepared = shaken(drifting, scaling="factor", scale_value=2.0)
     scaled = replace(drifting["record"], a_mps2=2.0 * drifting["record"].a_mps2)
-    assert story.measures["horizontal"] == measures(scaled)
+    assert prepared.measures["horizontal"] == measures(scaled)
 
 
 def test_the_motion_without_its_high_pass_keeps_the_factor():
     found = records()
     cut = {field: replace(r, a_mps2=0.5 * r.a_mps2) for field, r in found.items()}
-    motion, story = shaken(cut, None, found, scaling="PPA", scale_value=1.0, highpass_hz=0.2)
-    (bare,) = story.unfiltered
+    motion, prepared = shaken(cut, None, found, scaling="PPA", scale_value=1.0, highpass_hz=0.2)
+    (bare,) = prepared.unfiltered
     assert bare.scale == motion.scale
     assert np.array_equal(bare.ax_mps2, found["record"].a_mps2)
 

@@ -301,7 +301,7 @@ def test_nothing_is_fetched_but_what_is_shipped(address):
 
 
 def ground(name="G1", **changes):
-    """A ground motion that went through a building of 0.5 s, with its story."""
+    """A ground motion that went through a building of 0.5 s, with its prepared."""
     (given,) = stand_in.motions(1, seconds=8.0, peak_g=0.5)
     asked = {"id": name, "record": "x", "recorded_at": "ground"}
     data = stand_in.project(
@@ -312,25 +312,25 @@ def ground(name="G1", **changes):
         for field, a in (("record", given.ax_mps2), ("vertical", given.az_mps2))
     }
     prepared = Components(files=(), records=components, unfiltered=components)
-    ((motion, story),) = shake(data, [prepared])
-    return data, motion, story
+    ((motion, prepared),) = shake(data, [prepared])
+    return data, motion, prepared
 
 
-def words_of(data, motion, story):
-    book = stand_in.book(data, (motion,) * 3).having(prepared=(story,) * 3)
+def words_of(data, motion, prepared):
+    book = stand_in.book(data, (motion,) * 3).having(prepared=(prepared,) * 3)
     html = stand_in.html(book)
     return flat(unescape(re.sub(r"<style.*?</style>|<[^>]+>", " ", html)))
 
 
 def test_the_way_from_ground_to_roof_is_said_with_its_numbers():
-    data, motion, story = ground()
-    whole = words_of(data, motion, story)
+    data, motion, prepared = ground()
+    whole = words_of(data, motion, prepared)
     assert "4.3 From ground to roof" in whole
     assert "4.4 Response spectra" in whole
-    assert "one storey; period 0.5 s; damping 5 % of critical." in whole
+    assert "one story; period 0.5 s; damping 5 % of critical." in whole
     assert "The array's mass is neglected" in whole
     assert "vertical motion passes unchanged" in whole
-    roof = story.roof["horizontal"]
+    roof = prepared.roof["horizontal"]
     peaks = f"{roof.ground_peak_mps2 / stand_in.G:.3f} {roof.roof_peak_mps2 / stand_in.G:.3f}"
     assert f"G1 record {peaks}" in whole
     assert "those of the ground through the building of part 4" in whole
@@ -340,9 +340,9 @@ def test_the_way_from_ground_to_roof_is_said_with_its_numbers():
 
 
 def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
-    data, motion, story = ground(highpass_hz=0.2)
+    data, motion, prepared = ground(highpass_hz=0.2)
     half = replace(motion, ax_mps2=0.5 * motion.ax_mps2)
-    whole = words_of(data, half, story)
+    whole = words_of(data, half, prepared)
     assert "Periods beyond the high-pass corner: PRD of array" in whole
     row = re.search(r"G1 0\.2 5 ([\d.]+) \d+ ([\d.]+) \d+ (−?\d+)", whole)
     assert row
@@ -353,17 +353,17 @@ def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
 
 def test_drift_is_marked_from_ten_millimetres_on():
     base = stand_in.motions(1, seconds=8.0)[0]
-    still = stand_in.story(base)
+    still = stand_in.prepared(base)
     for end_m, is_marked in ((0.0099, False), (-0.0101, True)):
         found = replace(still.measures["horizontal"], final_displacement_m=end_m)
         level = {name: replace(m, final_displacement_m=0.0) for name, m in still.measures.items()}
-        story = replace(still, measures=level | {"horizontal": found})
-        assert drifts(story) is is_marked
+        prepared = replace(still, measures=level | {"horizontal": found})
+        assert drifts(prepared) is is_marked
 
 
 def still(given):
-    """The story of a motion that ends where it began, at rest."""
-    found = stand_in.story(given)
+    """The prepared of a motion that ends where it began, at rest."""
+    found = stand_in.prepared(given)
     level = {
         name: replace(one, final_displacement_m=0.0, final_velocity_mps=0.0)
         for name, one in found.measures.items()
@@ -375,8 +375,8 @@ def still(given):
 def test_what_was_done_is_one_sentence_where_nothing_was_done_and_a_table_else(done):
     book = stand_in.book(found=few())
     first, *others = map(still, book.motions)
-    stories = (replace(first, done=done), *others)
-    html = stand_in.html(book.having(prepared=stories))
+    preparations = (replace(first, done=done), *others)
+    html = stand_in.html(book.having(prepared=preparations))
     is_said = "At the end no component moves faster than 0.00 in/s or lies farther than 0.00 in"
     assert (is_said in html) == (done == "as recorded")
     assert ("Processing, and what is left" in html) == (done != "as recorded")

@@ -69,7 +69,7 @@ def test_the_equation_has_its_numbers(both):
     found = both.assessment.linked[0]
     text, result = line.steps[0]
     assert text.startswith(f"A1: max(max(1, {links._ratio(found.ratio)}) × ")
-    assert result == both.say.both(found.estimated_m)
+    assert result == both.fmt.both(found.estimated_m)
 
 
 def test_an_array_for_which_one_block_is_not_enough_is_ng_everywhere(both):

@@ -76,7 +76,7 @@ def check_units(document):
     units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2", "_hz", "_percent")
     plain = {
         "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
-        "f_v", "storeys", "slope_value", "found", "limit", "scale_value", "value",
+        "f_v", "stories", "slope_value", "found", "limit", "scale_value", "value",
         "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
         "left_out_share", "mu_slow", "mu_fast", "mu_static", "rung", "next_rung", "friction_demand",
         "demand", "capacity", "held_ratio", "sliding_ratio", "times", "mus", "ratio",

@@ -254,7 +254,7 @@ def test_a_name_that_leads_nowhere_is_looked_up_by_its_label(tmp_path):
         book.defined_names["site_i_e"].attr_text = "Gone!$B$5"
         book.defined_names["site_s_1_g"].attr_text = "Site!$A:$XFD"
         book.defined_names["site_sdc"].attr_text = "Site!$B$0"
-        book.defined_names["site_storeys"].attr_text = '"'
+        book.defined_names["site_stories"].attr_text = '"'
 
     assert read_workbook(edit(make(tmp_path), change)).input.project.name == "Alameda Warehouse"
 

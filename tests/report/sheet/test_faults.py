@@ -73,8 +73,8 @@ SINGLE_CELLS = [
     ),
     ("Project", "B11", "3/5/26", "date is '3/5/26'; give a date such as 2026-03-05"),
     ("Project", "B11", True, "date is TRUE; give a date such as 2026-03-05"),
-    ("Site", "B15", 1.5, "storeys is 1.5; give a whole number from 1 to 200"),
-    ("Site", "B15", 0, "storeys is 0; give a whole number from 1 to 200"),
+    ("Site", "B15", 1.5, "stories is 1.5; give a whole number from 1 to 200"),
+    ("Site", "B15", 0, "stories is 0; give a whole number from 1 to 200"),
     (
         "Site",
         "B5",
@@ -261,7 +261,7 @@ CONTRADICTIONS = [
     (
         {"Building!B6": 0.2, "Motions!L9": "ground", "Site!B15": 101},
         [
-            "Site!B15: storeys is 101; ground motions reach the roof of at most 100, give motions"
+            "Site!B15: stories is 101; ground motions reach the roof of at most 100, give motions"
             " of the roof"
         ],
     ),

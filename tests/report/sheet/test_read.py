@@ -2,7 +2,6 @@
 
 import datetime as dt
 import hashlib
-import math
 
 import numpy as np
 import pytest
@@ -14,26 +13,11 @@ from openpyxl.worksheet.formula import ArrayFormula
 
 from places import DATA
 from report.sheet import schema
-from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template
-from sheets import FT, edit, make, problems, project, read_workbook
+from sheets import FT, edit, make, problems, project, read_workbook, same
 
 DATA = DATA
-
-
-def same(found: ProjectInput, wanted: ProjectInput) -> bool:
-    """Whether two inputs agree, numbers to the rounding of a cell."""
-    return _same(found.model_dump(), wanted.model_dump())
-
-
-def _same(a, b):
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(_same(a[k], b[k]) for k in a)
-    if isinstance(a, tuple | list):
-        return len(a) == len(b) and all(map(_same, a, b))
-    if isinstance(a, float) and isinstance(b, float):
-        return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)
-    return a == b
 
 
 @pytest.fixture(params=list(UnitsFirst))
@@ -606,9 +590,9 @@ def test_a_ground_motion_comes_out_at_the_roof(tmp_path):
         book["Motions"]["L8"], book["Building"]["B6"] = "ground", 0.5
 
     book = read_workbook(edit(make(tmp_path), change))
-    at_roof, story = book.motions[0], book.prepared[0]
-    assert story.roof["horizontal"].building.periods_s[0] == 0.5
-    assert np.array_equal(at_roof.ax_mps2, story.roof["horizontal"].a_mps2)
+    at_roof, prepared = book.motions[0], book.prepared[0]
+    assert prepared.roof["horizontal"].building.periods_s[0] == 0.5
+    assert np.array_equal(at_roof.ax_mps2, prepared.roof["horizontal"].a_mps2)
     assert book.prepared[1].roof == {}
 
 

@@ -33,7 +33,7 @@ SITE = {
     "risk_category": "II",
     "i_e": 1.0,
     "sdc": "D",
-    "storeys": 1,
+    "stories": 1,
     "structure_height_m": 10.0,
     "roof_height_m": 10.0,
 }

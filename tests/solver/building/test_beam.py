@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from solver.building.beam import beam_modes, floor_stiffness, storey_modes
+from solver.building.beam import beam_modes, floor_stiffness, story_modes
 from solver.model import InputError
 
 ALPHAS = [0.0, 0.3, 1.0, 2.0, 5.0, 12.5, 30.0, 200.0]
@@ -149,30 +149,30 @@ def test_factors_of_all_modes_sum_to_one_at_any_height(alpha0):
     np.testing.assert_allclose(sums[-1], 1.0, atol=1e-3)
 
 
-@pytest.mark.parametrize("storeys", [1, 2, 3, 8, 40, 100])
-def test_a_shear_building_of_storeys_has_its_closed_form(storeys):
-    found = storey_modes(math.inf, storeys)
-    angle = (2 * np.arange(1, storeys + 1) - 1) * math.pi / (2 * storeys + 1)
+@pytest.mark.parametrize("stories", [1, 2, 3, 8, 40, 100])
+def test_a_shear_building_of_stories_has_its_closed_form(stories):
+    found = story_modes(math.inf, stories)
+    angle = (2 * np.arange(1, stories + 1) - 1) * math.pi / (2 * stories + 1)
     frequency = np.sin(angle / 2)
     np.testing.assert_allclose(found.period_ratios, frequency[0] / frequency, rtol=1e-9)
-    floors = np.arange(1, storeys + 1)
+    floors = np.arange(1, stories + 1)
     shapes = np.sin(angle[:, None] * floors)
     expected = shapes.sum(axis=1) * shapes[:, -1] / (shapes**2).sum(axis=1)
     np.testing.assert_allclose(found.factors[:, 0], expected, rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize("alpha0", [0.0, 3.0, math.inf])
-def test_many_storeys_become_the_beam_at_first_order_or_better(alpha0):
+def test_many_stories_become_the_beam_at_first_order_or_better(alpha0):
     beam = beam_modes(alpha0, 3)
-    off = [np.abs(storey_modes(alpha0, n).factors[:3] - beam.factors).max() for n in (20, 40, 80)]
+    off = [np.abs(story_modes(alpha0, n).factors[:3] - beam.factors).max() for n in (20, 40, 80)]
     assert off[2] < 0.04
     assert off[0] / off[1] > 1.75
     assert off[1] / off[2] > 1.85
 
 
 @pytest.mark.parametrize("alpha0", [0.0, 3.0, math.inf])
-def test_one_storey_is_a_plain_oscillator(alpha0):
-    found = storey_modes(alpha0, 1)
+def test_one_story_is_a_plain_oscillator(alpha0):
+    found = story_modes(alpha0, 1)
     assert found.period_ratios == pytest.approx([1.0])
     assert found.factors == pytest.approx(np.array([[1.0]]))
 
@@ -192,10 +192,10 @@ def test_a_stiffness_ratio_out_of_range_is_refused(alpha0):
     with pytest.raises(InputError, match="give 0 to 1000, or infinite"):
         beam_modes(alpha0, 3)
     with pytest.raises(InputError, match="give 0 to 1000, or infinite"):
-        storey_modes(alpha0, 3)
+        story_modes(alpha0, 3)
 
 
-@pytest.mark.parametrize("storeys", [0, -1, 101])
-def test_storeys_out_of_range_are_refused(storeys):
+@pytest.mark.parametrize("stories", [0, -1, 101])
+def test_stories_out_of_range_are_refused(stories):
     with pytest.raises(InputError, match="whole number from 1 to 100"):
-        storey_modes(1.0, storeys)
+        story_modes(1.0, stories)

@@ -81,28 +81,28 @@ def test_without_damping_energy_stays_after_the_shaking():
     )
 
 
-@pytest.mark.parametrize(("alpha0", "storeys"), [(math.inf, 1), (math.inf, 4), (0.0, 3), (2.5, 6)])
-def test_a_roof_agrees_with_the_equations_of_all_floors_at_once(ground, alpha0, storeys):
+@pytest.mark.parametrize(("alpha0", "stories"), [(math.inf, 1), (math.inf, 4), (0.0, 3), (2.5, 6)])
+def test_a_roof_agrees_with_the_equations_of_all_floors_at_once(ground, alpha0, stories):
     """K and M of the floors, damping of the same ratio in every mode, no modes superposed."""
     zeta, period_s, dt = 0.04, 0.7, 0.01
-    stiff = floor_stiffness(alpha0, storeys)
+    stiff = floor_stiffness(alpha0, stories)
     squares = np.linalg.eigvalsh(stiff)
     stiff = stiff * (2.0 * math.pi / period_s) ** 2 / squares[0]
     damp = 2.0 * zeta * scipy.linalg.sqrtm(stiff).real
-    none, one = np.zeros((storeys, storeys)), np.eye(storeys)
+    none, one = np.zeros((stories, stories)), np.eye(stories)
     system = np.block([[none, one], [-stiff, -damp]])
-    load = np.concatenate([np.zeros(storeys), -np.ones(storeys)])
+    load = np.concatenate([np.zeros(stories), -np.ones(stories)])
     rows = np.hstack([-stiff, -damp])[-1:]
     expected = stepped(system, load, ground, dt, rows)[:, 0]
-    building = building_of_periods([period_s], damping=[zeta], alpha0=alpha0, storeys=storeys)
-    assert to_roof(ground, dt, building, share=0.0).n_modes == storeys
+    building = building_of_periods([period_s], damping=[zeta], alpha0=alpha0, stories=stories)
+    assert to_roof(ground, dt, building, share=0.0).n_modes == stories
     found = roof_motion(ground, dt, building, share=0.0)[:1200]
     assert np.abs(found - expected)[1:].max() < 1e-8 * np.abs(expected).max()
 
 
 def test_a_steady_wave_is_passed_with_the_textbook_transmissibility():
     dt, period_s, zeta = 0.002, 0.5, 0.1
-    building = building_of_periods([period_s], damping=[zeta], storeys=1)
+    building = building_of_periods([period_s], damping=[zeta], stories=1)
     for ratio in (0.3, 0.9, 1.0, 1.5, 3.0):
         w = ratio * 2.0 * math.pi / period_s
         t = np.arange(round(20.0 / dt)) * dt
@@ -150,10 +150,10 @@ def test_as_few_modes_as_keep_the_rest_under_the_share(ground):
     assert len(set(counts)) == len(counts)
 
 
-@pytest.mark.parametrize(("period_s", "storeys"), [(0.3, 3), (0.5, 5), (0.8, 8)])
-def test_what_is_left_out_is_seen_between_the_samples_too(noise, period_s, storeys):
+@pytest.mark.parametrize(("period_s", "stories"), [(0.3, 3), (0.5, 5), (0.8, 8)])
+def test_what_is_left_out_is_seen_between_the_samples_too(noise, period_s, stories):
     # The modes left out swing fastest: their peaks are missed at the samples.
-    ground, building = noise[::3], building_of_periods([period_s], storeys=storeys)
+    ground, building = noise[::3], building_of_periods([period_s], stories=stories)
     found = to_roof(ground, 0.03, building, share=0.1)
     at = np.arange(16 * (ground.size - 1) + 1) / 16
     finer = to_roof(np.interp(at, np.arange(ground.size), ground), 0.03 / 16, building, share=0.1)
@@ -161,7 +161,7 @@ def test_what_is_left_out_is_seen_between_the_samples_too(noise, period_s, store
 
 
 def test_a_stiff_building_takes_the_ground_to_the_roof(ground):
-    found = to_roof(ground, 0.01, building_of_periods([0.002], storeys=1))
+    found = to_roof(ground, 0.01, building_of_periods([0.002], stories=1))
     assert found.n_modes == 0
     np.testing.assert_array_equal(found.a_mps2[:1200], ground)
     assert 0.0 < found.next_share == found.left_out_share < 0.05
@@ -175,7 +175,7 @@ def test_a_still_ground_gives_a_still_roof():
 
 
 def test_the_motion_goes_on_until_the_building_rests(ground):
-    building = building_of_periods([1.5], damping=[0.02], storeys=5)
+    building = building_of_periods([1.5], damping=[0.02], stories=5)
     found = to_roof(ground, 0.01, building)
     longer = to_roof(lengthened(ground, 20000), 0.01, building)
     n = found.a_mps2.size
@@ -193,8 +193,8 @@ def test_a_ground_that_is_still_long_before_its_end_is_not_lengthened(ground):
 
 
 def test_the_step_is_refined_where_the_roof_would_swing_between_samples(ground):
-    """One storey of 0.12 s under a record of 0.02 s: as if the record itself had more samples."""
-    a, building = ground[::2], building_of_periods([0.12], storeys=1)
+    """One story of 0.12 s under a record of 0.02 s: as if the record itself had more samples."""
+    a, building = ground[::2], building_of_periods([0.12], stories=1)
     found = to_roof(a, 0.02, building)
     steps = 4
     assert found.dt_s == pytest.approx(0.02 / steps)
@@ -217,7 +217,7 @@ def test_the_step_is_refined_where_the_roof_would_swing_between_samples(ground):
     [(0.5, 0.01, 1), (0.2, 0.01, 1), (0.19, 0.01, 2), (0.1, 0.08, 16)],
 )
 def test_a_period_has_twenty_samples_or_an_interval_sixteen_steps(ground, period_s, dt_s, steps):
-    found = to_roof(ground, dt_s, building_of_periods([period_s], storeys=1), share=0.0)
+    found = to_roof(ground, dt_s, building_of_periods([period_s], stories=1), share=0.0)
     assert dt_s / found.dt_s == pytest.approx(steps)
     assert found.dt_s <= period_s / FINENESS * (1.0 + 1e-9)
     assert steps <= MOST_STEPS
@@ -225,7 +225,7 @@ def test_a_period_has_twenty_samples_or_an_interval_sixteen_steps(ground, period
 
 def test_all_components_have_one_step_and_one_length(ground):
     vertical = 0.5 * ground[:1000]
-    slow, fast = (building_of_periods([t], storeys=1) for t in (2.0, 0.15))
+    slow, fast = (building_of_periods([t], stories=1) for t in (2.0, 0.15))
     found = shaking_to_roof([ground, ground[::-1]], vertical, 0.01, [slow, fast])
     assert found.dt_s == pytest.approx(0.005)
     sizes = {found.vertical_mps2.size, *(one.a_mps2.size for one in found.horizontal)}
@@ -251,7 +251,7 @@ def test_without_vertical_there_is_none_at_the_roof(ground):
 
 def test_nothing_is_added_where_nothing_is_needed(ground):
     a = lengthened(ground, 9000)
-    found = shaking_to_roof([a], a, 0.01, [building_of_periods([0.5], storeys=1)])
+    found = shaking_to_roof([a], a, 0.01, [building_of_periods([0.5], stories=1)])
     assert found.vertical_mps2.size == found.horizontal[0].a_mps2.size == 9000
     np.testing.assert_array_equal(found.vertical_mps2, a)
 
@@ -261,10 +261,10 @@ def test_nothing_is_added_where_nothing_is_needed(ground):
     period_s=st.floats(0.05, 6.0),
     factor=st.floats(0.01, 100.0),
     alpha0=st.sampled_from([0.0, 1.0, 8.0, math.inf]),
-    storeys=st.sampled_from([0, 1, 2, 12]),
+    stories=st.sampled_from([0, 1, 2, 12]),
 )
-def test_twice_the_ground_is_twice_the_roof(ground, period_s, factor, alpha0, storeys):
-    building = building_of_periods([period_s], alpha0=alpha0, storeys=storeys)
+def test_twice_the_ground_is_twice_the_roof(ground, period_s, factor, alpha0, stories):
+    building = building_of_periods([period_s], alpha0=alpha0, stories=stories)
     one, other = (roof_motion(f * ground, 0.01, building) for f in (1.0, -factor))
     np.testing.assert_allclose(other, -factor * one, atol=1e-9 * factor)
 
@@ -291,24 +291,24 @@ def test_given_periods_are_kept_and_higher_ones_follow_the_last():
     assert "period 1, 0.4 s; damping 3, 5, 8 % of critical" in building.words
 
 
-def test_a_building_has_no_more_modes_than_storeys():
-    building = building_of_periods([1.0, 0.4, 0.2], damping=[0.03, 0.05, 0.06], storeys=2)
+def test_a_building_has_no_more_modes_than_stories():
+    building = building_of_periods([1.0, 0.4, 0.2], damping=[0.03, 0.05, 0.06], stories=2)
     assert building.periods_s.tolist() == [1.0, 0.4]
     assert building.damping.tolist() == [0.03, 0.05]
     assert building.roof_factors.sum() == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(
-    ("alpha0", "storeys", "words"),
+    ("alpha0", "stories", "words"),
     [
         (math.inf, 0, "uniform, in shear;"),
-        (0.0, 4, "4 equal storeys, in bending;"),
+        (0.0, 4, "4 equal stories, in bending;"),
         (3.0, 0, "in shear and bending with a lateral stiffness ratio of 3;"),
-        (3.0, 1, "one storey;"),
+        (3.0, 1, "one story;"),
     ],
 )
-def test_a_building_says_how_it_was_made(alpha0, storeys, words):
-    assert words in building_of_periods([1.0], alpha0=alpha0, storeys=storeys).words
+def test_a_building_says_how_it_was_made(alpha0, stories, words):
+    assert words in building_of_periods([1.0], alpha0=alpha0, stories=stories).words
 
 
 def test_modes_of_an_analysis_are_taken_as_they_are():
@@ -328,8 +328,8 @@ def test_modes_of_an_analysis_are_taken_as_they_are():
         ({"periods_s": [1.0], "damping": [5.0]}, "damping: found 5.0; give a fraction"),
         ({"periods_s": [1.0], "damping": []}, "one damping"),
         ({"periods_s": [1.0], "alpha0": -1.0}, "lateral stiffness ratio: found -1.0"),
-        ({"periods_s": [1.0], "storeys": 101}, "storeys: found 101"),
-        ({"periods_s": [1.0], "storeys": -1}, "0 for a beam"),
+        ({"periods_s": [1.0], "stories": 101}, "stories: found 101"),
+        ({"periods_s": [1.0], "stories": -1}, "0 for a beam"),
     ],
 )
 def test_what_cannot_be_a_building_is_refused(arguments, said):

@@ -10,7 +10,7 @@ from solver.forces import forces
 from solver.model import Friction, InputError, Scene, Status, coulomb
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Rung, Settings, history, solve
-from solver.sliding.row import Row, slide_row
+from solver.sliding.row import BlockRow, slide_row
 
 G = 9.80665
 DT = 0.01
@@ -195,7 +195,7 @@ def test_where_the_normal_force_vanishes_no_rung_gives_a_number(ay, forced):
 
 
 def test_a_row_is_run_where_it_is_asked_for():
-    row = Row(mus=(0.3, 0.4, 0.5), stiffness_per_s2=1e3)
+    row = BlockRow(mus=(0.3, 0.4, 0.5), stiffness_per_s2=1e3)
     found = solve(scene(AX, az=AZ), Settings(forced=Rung.ROW, row=row))
     direct = slide_row(scene(AX, az=AZ), row)
     assert found.result.prd_m == max(direct.prd_m) > direct.rigid.prd_m

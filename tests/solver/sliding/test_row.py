@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from solver.model import InputError, Scene, Status, coulomb
 from solver.sliding import one_axis
 from solver.sliding import row as rows
-from solver.sliding.row import Row, row_history, slide_row
+from solver.sliding.row import BlockRow, row_history, slide_row
 
 G = 10.0
 EMPTY = np.empty(0)
@@ -65,7 +65,7 @@ def constant(a, seconds, dt=0.01):
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.5])
 def test_a_row_of_one_block_is_the_block_with_vertical_shaking(seed, slope, mu):
     one = shaken(seed, slope)
-    found = slide_row(one, Row(mus=(mu,), stiffness_per_s2=1e3))
+    found = slide_row(one, BlockRow(mus=(mu,), stiffness_per_s2=1e3))
     exact = one_axis.run(replace(one, friction=coulomb(mu)))
     assert found.prd_m[0] == pytest.approx(exact.prd_m, rel=1e-9)
     assert found.residual_m[0] == pytest.approx(exact.residual_m, rel=1e-9, abs=1e-9 * exact.prd_m)
@@ -79,7 +79,7 @@ def test_a_row_of_one_block_is_the_block_with_vertical_shaking(seed, slope, mu):
 def test_a_row_of_one_block_is_the_block_on_real_records(real_records):
     for record, dt in real_records.values():
         one = scene(record * (G / np.abs(record).max()), dt=dt)
-        found = slide_row(one, Row(mus=(0.4,), stiffness_per_s2=1.0))
+        found = slide_row(one, BlockRow(mus=(0.4,), stiffness_per_s2=1.0))
         assert found.prd_m[0] == pytest.approx(found.rigid.prd_m, rel=1e-12)
 
 
@@ -91,7 +91,7 @@ def test_a_row_of_one_block_is_the_block_on_real_records(real_records):
 def test_blocks_of_equal_friction_move_as_one_whatever_their_links(stiffness, shares):
     one = shaken(1)
     found = slide_row(
-        one, Row(mus=(0.4,) * 4, stiffness_per_s2=stiffness, damping_per_s=2.0, shares=shares)
+        one, BlockRow(mus=(0.4,) * 4, stiffness_per_s2=stiffness, damping_per_s=2.0, shares=shares)
     )
     assert found.prd_m == pytest.approx((found.rigid.prd_m,) * 4, rel=1e-9)
     assert found.stretch_m == found.link_force == 0.0
@@ -109,7 +109,7 @@ def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
     mus, one = (0.25, 0.55, 0.4), shaken(seed)
     aways, stretches, shared = [], [], G * (0.55 - 0.4)
     for stiffness in (1e2, 1e4, 1e6, 1e8):
-        links = Row(
+        links = BlockRow(
             mus=mus, stiffness_per_s2=stiffness, damping_per_s=0.2 * stiffness**0.5, shares=shares
         )
         found = slide_row(one, links)
@@ -127,7 +127,7 @@ def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
 
 def test_without_links_each_block_goes_by_itself():
     one, mus = shaken(4), (0.2, 0.5, 0.35)
-    found = slide_row(one, Row(mus=mus, stiffness_per_s2=0.0))
+    found = slide_row(one, BlockRow(mus=mus, stiffness_per_s2=0.0))
     alone = [one_axis.run(replace(one, friction=coulomb(mu))).prd_m for mu in mus]
     assert found.prd_m == pytest.approx(alone, rel=1e-9)
     assert found.stretch_m > 0.0
@@ -140,7 +140,7 @@ def test_without_links_each_block_goes_by_itself():
 @pytest.mark.parametrize("k", [30.0, 400.0, 1e5])
 def test_a_block_without_friction_on_a_held_one_swings_about_its_weight_by_the_spring(k):
     a = 2.0
-    found = slide_row(constant(a, 3.0), Row(mus=(HELD, 0.0), stiffness_per_s2=k))
+    found = slide_row(constant(a, 3.0), BlockRow(mus=(HELD, 0.0), stiffness_per_s2=k))
     assert found.prd_m == pytest.approx((0.0, 2.0 * a / k), rel=1e-12)
     assert found.residual_m[1] == pytest.approx(
         a / k * (1.0 - math.cos(3.0 * math.sqrt(k))), rel=1e-9
@@ -152,7 +152,7 @@ def test_a_block_without_friction_on_a_held_one_swings_about_its_weight_by_the_s
 def test_a_dashpot_alone_lets_a_block_reach_a_steady_speed():
     a, c, t = 2.0, 3.0, 2.0
     found = slide_row(
-        constant(a, t), Row(mus=(HELD, 0.0), stiffness_per_s2=0.0, damping_per_s=c)
+        constant(a, t), BlockRow(mus=(HELD, 0.0), stiffness_per_s2=0.0, damping_per_s=c)
     )  # fmt: skip
     way = a / c * (t - (1.0 - math.exp(-c * t)) / c)
     assert found.residual_m == pytest.approx((0.0, way), rel=1e-12)
@@ -167,7 +167,7 @@ def test_friction_ends_a_swing_after_as_many_reversals_as_the_closed_form_has(a,
     while abs(a - k * place) > mu * G:
         place = 2.0 * (a - side * mu * G) / k - place
         side, n_stops = -side, n_stops + 1
-    found = slide_row(constant(a, 8.0), Row(mus=(HELD, mu), stiffness_per_s2=k))
+    found = slide_row(constant(a, 8.0), BlockRow(mus=(HELD, mu), stiffness_per_s2=k))
     assert found.residual_m[1] == pytest.approx(place, rel=1e-11)
     assert found.prd_m[1] == pytest.approx(2.0 * (a - mu * G) / k, rel=1e-12)
     assert (found.n_stops, found.status) == (n_stops, Status.OK)
@@ -176,7 +176,7 @@ def test_friction_ends_a_swing_after_as_many_reversals_as_the_closed_form_has(a,
 def test_a_block_too_steep_to_rest_by_itself_comes_to_rest_on_its_link():
     slope, mu, k = 0.3, 0.1, 50.0
     one = scene(np.zeros(1001), slope=slope)
-    found = slide_row(one, Row(mus=(HELD, mu), stiffness_per_s2=k))
+    found = slide_row(one, BlockRow(mus=(HELD, mu), stiffness_per_s2=k))
     a, hold = G * math.sin(slope), mu * G * math.cos(slope)
     assert found.status is Status.OK
     assert found.prd_m[1] == pytest.approx(math.cos(slope) * 2.0 * (a - hold) / k, rel=1e-12)
@@ -184,10 +184,12 @@ def test_a_block_too_steep_to_rest_by_itself_comes_to_rest_on_its_link():
 
 
 def test_a_block_without_friction_that_nothing_pushes_rests():
-    found = slide_row(scene(np.zeros(100), slope=0.0), Row(mus=(0.0, 0.4), stiffness_per_s2=10.0))
+    found = slide_row(
+        scene(np.zeros(100), slope=0.0), BlockRow(mus=(0.0, 0.4), stiffness_per_s2=10.0)
+    )
     assert (found.status, found.prd_m, found.n_stops) == (Status.OK, (0.0, 0.0), 0)
     pushed = scene([0.0, 0.0, -1.0, 1.0, 0.0, 0.0], dt=0.1, slope=0.0)
-    found = slide_row(pushed, Row(mus=(0.0, HELD, 0.0), stiffness_per_s2=10.0))
+    found = slide_row(pushed, BlockRow(mus=(0.0, HELD, 0.0), stiffness_per_s2=10.0))
     assert found.status is Status.SLIDING_AT_END
     assert found.prd_m[0] == pytest.approx(found.prd_m[2], rel=1e-12)
 
@@ -195,7 +197,7 @@ def test_a_block_without_friction_that_nothing_pushes_rests():
 # Symmetry, invariance, energy
 
 
-MIXED = Row(mus=(0.3, 0.5, 0.3, 0.2), stiffness_per_s2=2e3, damping_per_s=5.0,
+MIXED = BlockRow(mus=(0.3, 0.5, 0.3, 0.2), stiffness_per_s2=2e3, damping_per_s=5.0,
             shares=(0.2, 0.2, 0.2, 0.4))  # fmt: skip
 
 
@@ -213,7 +215,7 @@ def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
 def test_blocks_that_mirror_each_other_without_a_slope_stop_and_slip_together():
     """Every event of one end is one of the other at the same time."""
     one = scene(shaking(6, 1.0), slope=0.0)
-    row = Row(mus=(0.3, 0.3, 0.6, 0.6, 0.3, 0.3), stiffness_per_s2=1e3)
+    row = BlockRow(mus=(0.3, 0.3, 0.6, 0.6, 0.3, 0.3), stiffness_per_s2=1e3)
     history = row_history(one, row)
     np.testing.assert_allclose(history, history[::-1], rtol=0.0, atol=1e-11)
 
@@ -322,7 +324,7 @@ def test_an_adaptive_solver_stopped_at_every_event_gives_the_same_motion(mus, sh
     ax = np.concatenate([[0.0], rng.normal(0.0, 6.0, 24), [0.0, 0.0]])
     az = np.concatenate([[0.0], rng.normal(0.0, 1.5, 24), [0.0, 0.0]])
     one = scene(ax, az, dt=0.1, slope=0.08)
-    row = Row(mus=mus, stiffness_per_s2=k, damping_per_s=c, shares=shares)
+    row = BlockRow(mus=mus, stiffness_per_s2=k, damping_per_s=c, shares=shares)
     history = row_history(one, row)
     assert slide_row(one, row).n_stops >= 10
     np.testing.assert_allclose(history, by_scipy(one, row), rtol=0.0, atol=1e-11)
@@ -358,14 +360,14 @@ def test_a_row_that_is_given_up_gives_no_number(monkeypatch):
 
 
 def test_every_fault_of_a_row_is_named():
-    bad = Row(mus=(-0.1, 0.3), stiffness_per_s2=math.inf, damping_per_s=-1.0, shares=(1.0,))
+    bad = BlockRow(mus=(-0.1, 0.3), stiffness_per_s2=math.inf, damping_per_s=-1.0, shares=(1.0,))
     with pytest.raises(InputError) as caught:
         slide_row(shaken(1), bad)
     assert [line.split()[0] for line in caught.value.problems] == [
         "mus", "stiffness_per_s2", "damping_per_s", "shares",
     ]  # fmt: skip
     with pytest.raises(InputError, match="mus is empty"):
-        slide_row(shaken(1), Row(mus=(), stiffness_per_s2=1.0))
+        slide_row(shaken(1), BlockRow(mus=(), stiffness_per_s2=1.0))
     with pytest.raises(InputError, match="add up to 1"):
         slide_row(shaken(1), replace(MIXED, shares=(0.2, 0.2, 0.2, 0.2)))
     with pytest.raises(InputError, match="softer links"):
