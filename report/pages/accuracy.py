@@ -52,7 +52,7 @@ def _run(package: PackageData, found: Rivals) -> str:
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
         f"μ = {number(array.mu, 3)}) under motion {found.motion.motion.id}, {run.heading.name}, "
         f"{vertical} vertical shaking. PRD {package.fmt.both(run.result.prd_m)}, model "
-        f"{int(run.solution.rung)} of part 11, {run.solution.rung.title}."
+        f"{int(run.solution.rung)} of {package.part('model')}, {run.solution.rung.title}."
     )
 
 

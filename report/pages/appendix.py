@@ -9,7 +9,7 @@ from importlib import metadata
 from itertools import groupby
 
 from report.motions.components import RecordFile
-from report.pages.parts import shortened
+from report.pages.parts import PackageData, shortened
 from report.sheet.read import EchoRow
 from report.words.units import number
 
@@ -33,6 +33,18 @@ LEAST_BLANK = 3
 """So many blank cells side by side, or below each other, share a line of the echo."""
 
 _HEADS = ("Cell", "Asked for", "Typed", "Unit", "Taken as")
+
+
+def echo_page(package: PackageData) -> Mapping[str, object]:
+    """Return the input echo."""
+    sheet = package.assessment.sheet
+    return {"workbook": sheet.path.name, "sha256": sheet.sha256, "sheets": echo(sheet.echo)}
+
+
+def records_page(package: PackageData) -> Mapping[str, object]:
+    """Return the records and what made the package."""
+    found = records(package.assessment.shaking.records)
+    return {"files": found, "method": METHOD, "software": software()}
 
 
 def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, str], ...]:

@@ -62,7 +62,7 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
 
 def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief: bool) -> TableRow:
     fmt, row = package.fmt, gap.clearance
-    key = SEPARATION_KEYS[gap.neighbour]
+    key = SEPARATION_KEYS[gap.neighbor]
     least = package.mark("separation_edge_min_in") if gap.is_least_value else ""
     more = (
         ()
@@ -80,7 +80,7 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
             str(count),
             row.array,
             row.object,
-            gap.neighbour.value + where,
+            gap.neighbor.value + where,
             *more,
             *fmt.cells(gap.required_m, mark=least),
             *fmt.cells(row.provided_m, Quantity.SIZE),
@@ -167,11 +167,12 @@ def check_table(
 
 def clearances(package: PackageData) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
-    parapets = [gap for gap in package.assessment.clearances if "parapet" in gap.neighbour.value]
+    parapets = [gap for gap in package.assessment.clearances if "parapet" in gap.neighbor.value]
     notes = [
         "Displ. is the design displacement of the array named behind it, in the direction named: "
         "of its excursions down the slope, up, across (either way) or any, the largest of all "
-        "runs of each motion (part 6), never below the floor. Between two arrays the larger of "
+        f"runs of each motion ({package.part('results')}), never below the floor. Between two "
+        "arrays the larger of "
         "the two counts, each seen from its own side."
     ]
     if parapets:
@@ -196,11 +197,10 @@ def clearances(package: PackageData) -> Mapping[str, object]:
 
 def limits(package: PackageData) -> Mapping[str, object]:
     """Return the part on limits and interconnection strength."""
+    limits = "Limits of the analysis route and of the building"
     return {
-        "table": check_table(
-            "Limits of the analysis route and of the building", package, all_checks(package)
-        ),
-        "interconnection": _interconnection(package),
+        "texts": (),
+        "tables": (check_table(limits, package, all_checks(package)), _interconnection(package)),
     }
 
 

@@ -189,9 +189,10 @@ def basis(package: PackageData) -> Mapping[str, object]:
     return {
         "title": package.assessment.rules.title,
         "vertical": f"{with_vertical} of {count} have a vertical component",
-        "moves": "the records fmt, those of the ground through the building of part 4"
+        "moves": "the records say, those of the ground through the building of "
+        f"{package.part('motions')}"
         if any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
-        else "the records fmt",
+        else "the records say",
         "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
         "friction": _friction(package),
         "asked": _asked(package),
@@ -213,7 +214,11 @@ def _asked(package: PackageData) -> str:
 def _linked(package: PackageData) -> str:
     """Return which arrays are held against a row of linked blocks."""
     names = ", ".join(found.found.array.id for found in package.assessment.linked)
-    return f" (but part 11 holds {names} against a row of linked blocks)" if names else ""
+    return (
+        f" (but {package.part('model')} holds {names} against a row of linked blocks)"
+        if names
+        else ""
+    )
 
 
 def _friction(package: PackageData) -> str:
@@ -221,4 +226,4 @@ def _friction(package: PackageData) -> str:
     tested = [one.id for one in package.data.arrays if not one.friction.is_constant]
     if not tested:
         return single
-    return f"{single}; by speed, as tested, for {', '.join(tested)} (part 11)"
+    return f"{single}; by speed, as tested, for {', '.join(tested)} ({package.part('model')})"

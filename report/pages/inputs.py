@@ -17,6 +17,15 @@ from report.words.units import Quantity, number
 NOT_GIVEN = "not given"
 
 
+def below(_: PackageData) -> tuple[tuple[str, str], ...]:
+    """Return the parts below, in order."""
+    return (
+        ("inputs-site", "Site and seismic parameters"),
+        ("inputs-arrays", "Arrays and objects"),
+        ("inputs-plan", "Roof plan"),
+    )
+
+
 def inputs(package: PackageData) -> Mapping[str, object]:
     """Return the part on inputs, without the roof plan."""
     return {
@@ -180,7 +189,8 @@ def _by_speed(package: PackageData) -> Iterator[str]:
         if not array.friction.is_constant:
             yield f"{array.id}:{friction(array)}"
         if array.model in RUNGS:
-            yield f"{array.id}: the model asked for is {array.model.value} (part 11)."
+            where = package.part("model")
+            yield f"{array.id}: the model asked for is {array.model.value} ({where})."
 
 
 def _sizes(package: PackageData) -> Table:
@@ -235,7 +245,7 @@ def _links(package: PackageData) -> Table:
             )
             for one in package.data.links
         ),
-        notes=("Blocks of equal weight in a row down the slope (part 11).",),
+        notes=(f"Blocks of equal weight in a row down the slope ({package.part('model')}).",),
     )
 
 

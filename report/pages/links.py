@@ -100,7 +100,7 @@ def _text(package: PackageData) -> str:
     return (
         f"The workbook asks it of {', '.join(names)}, which {are} run once more as a row of blocks "
         "of equal weight down the slope, each with its own friction and stick-slip state, with a "
-        "spring and a dashpot between neighbours. All feel the same roof motion, in one axis, with "
+        "spring and a dashpot between neighbors. All feel the same roof motion, in one axis, with "
         "the vertical where there is one. Beside it stands one rigid block with the array's own "
         "friction coefficient in that same axis, so that their ratio is the effect of links and of "
         "uneven friction alone; the ratio is taken to hold for the model that the design uses too."
@@ -115,8 +115,8 @@ def _lines(package: PackageData) -> Sequence[Line]:
                 r"\quad F_i=k\,e_i+c\,\dot{e}_i,\quad e_i=s_{i+1}-s_i"
             ),
             reference="block i, link i below it",
-            note="m, N and G are those of one block (part 5), c = 2ζ√(km). A block rests while "
-            "what pushes it, F included, is not above its friction.",
+            note=f"m, N and G are those of one block ({package.part('method')}), c = 2ζ√(km). A block "
+            "rests while what pushes it, F included, is not above its friction.",
         ),
         Line(
             latex=(
@@ -164,7 +164,7 @@ def _row_table(package: PackageData) -> Table:
         rows=tuple(TableRow(cells=_row(package, found)) for found in package.assessment.linked),
         notes=(
             "Block: the one that goes farthest, counted from the highest. Link force: the largest "
-            "in any link; it stands beside the strength that part 9 asks for.",
+            f"in any link; it stands beside the strength that {package.part('limits')} asks for.",
         ),
         kind="compact",
     )
@@ -194,7 +194,7 @@ def _design_table(package: PackageData, matters: str) -> Table:
         columns=(
             TableColumn(head="Array", align="left", share=0.9),
             *fmt.columns("Rigid, one axis"),
-            *fmt.columns("TableRow, one axis"),
+            *fmt.columns("Row, one axis"),
             TableColumn(head="Ratio r", share=0.9),
             *fmt.columns("Design, used"),
             *fmt.columns("Design, with links"),

@@ -3,20 +3,45 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
+from report.pages.demand import demand_lines
 from report.pages.parts import Line, PackageData, nan_is_worst, statistic
 from report.sheet.schema import Direction
 from report.typeset.equations import fraction, symbol
 from report.words.units import Quantity, number
-from solver.rules.provisions import SEPARATION_KEYS, Basis, Neighbour
+from solver.rules.provisions import SEPARATION_KEYS, Basis, Neighbor
 
 
-def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
+def below(_: PackageData) -> tuple[tuple[str, str], ...]:
+    """Return the parts below, in order."""
+    return (
+        ("method-demand", "Seismic demand"),
+        ("method-motion", "Motion of an array"),
+        ("method-design", "Design displacement"),
+        ("method-separation", "Separations"),
+    )
+
+
+def page(package: PackageData) -> Mapping[str, object]:
+    """Return the equations with their numbers, for the governing array."""
+    governing = package.governing
+    return {
+        "array": governing.array.id,
+        "demand": demand_lines(package),
+        "motion": motion_lines(package, governing),
+        "prescriptive": prescriptive_line(package, governing),
+        "design": design_lines(package, governing),
+        "separation": separation_line(package),
+        "interconnection": interconnection_line(package, governing),
+    }
+
+
+def motion_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]:
     """Return the equations of motion and the yield accelerations of an array."""
     theta, mu = found.array.slope_rad, found.array.friction.mu_static
     phi = math.atan(mu)
@@ -60,7 +85,7 @@ def motion_lines(found: ArrayAssessment) -> Sequence[Line]:
             reference="the same in two axes",
             note="With shaking across the slope the array slides along v, down the slope and "
             "across it, and rests while |G| ≤ μN. PRD is the largest resultant of u and of the "
-            "displacement across. Part 11 says where this is used.",
+            f"displacement across. {package.part('model').capitalize()} says where this is used.",
         ),
         Line(
             latex=r"\phi=\arctan\mu",
@@ -231,8 +256,9 @@ def _directions_line(package: PackageData, found: ArrayAssessment) -> Line:
             for way in ways
             for one in (found.directions[way],)
         ),
-        note="From the farthest of all runs of each motion in that direction (part 6), by the same "
-        "statistic. A clearance takes the displacement in its own direction, any the largest.",
+        note="From the farthest of all runs of each motion in that direction "
+        f"({package.part('results')}), by the same statistic. A clearance takes the "
+        "displacement in its own direction, any the largest.",
     )
 
 
@@ -249,15 +275,15 @@ def separation_line(package: PackageData) -> Line:
         reference=", ".join(sorted(clauses)),
         steps=tuple(
             _separation(package, max(gaps, key=lambda gap: nan_is_worst(gap.required_m)))
-            for kind in Neighbour
-            if (gaps := [gap for gap in package.assessment.clearances if gap.neighbour is kind])
+            for kind in Neighbor
+            if (gaps := [gap for gap in package.assessment.clearances if gap.neighbor is kind])
         ),
     )
 
 
 def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
     fmt, rules = package.fmt, package.assessment.rules
-    key = SEPARATION_KEYS[gap.neighbour]
+    key = SEPARATION_KEYS[gap.neighbor]
     inside = f" × {number(package.data.site.i_e, 2)}" if rules.importance_in_separation else ""
     least = (
         f", not below {fmt.both(rules.length_m('separation_edge_min_in'))}"
@@ -267,7 +293,7 @@ def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
     )
     feet = "" if math.isnan(gap.required_m) else f" = {fmt.both(gap.required_m, Quantity.PLAN)}"
     return (
-        f"To {_ARTICLES[gap.neighbour]} ({gap.governing_array}, "
+        f"To {_ARTICLES[gap.neighbor]} ({gap.governing_array}, "
         f"{gap.governing_direction.value}): {number(rules[key], 2)}{package.mark(key)}{inside} × "
         f"{fmt.both(gap.design_m)}{least}",
         fmt.both(gap.required_m) + feet,
@@ -293,9 +319,9 @@ def interconnection_line(package: PackageData, found: ArrayAssessment) -> Line:
 
 
 _ARTICLES = {
-    Neighbour.LIKE: "a like array",
-    Neighbour.FIXED: "a fixed object",
-    Neighbour.UNLIKE: "an unlike array",
-    Neighbour.PARAPET: "an edge with a qualifying parapet",
-    Neighbour.EDGE: "an edge without a qualifying parapet",
+    Neighbor.LIKE: "a like array",
+    Neighbor.FIXED: "a fixed object",
+    Neighbor.UNLIKE: "an unlike array",
+    Neighbor.PARAPET: "an edge with a qualifying parapet",
+    Neighbor.EDGE: "an edge without a qualifying parapet",
 }

@@ -203,6 +203,7 @@ def _error(runs: Sequence[HeadingRun]) -> str:
 
 def _left_out_table(package: PackageData) -> Table:
     fmt = package.fmt
+    rows = "see the rows below" if package.assessment.linked else package.part("basis")
     return Table(
         caption="What was left out, and what it could change in the design displacement",
         columns=(
@@ -219,7 +220,7 @@ def _left_out_table(package: PackageData) -> Table:
         ),
         notes=(
             "Not in any of these models: turning in plan, rocking, and the array's own "
-            f"flexibility ({'part 2' if not package.assessment.linked else 'see the rows below'}).",
+            f"flexibility ({rows}).",
         ),
         kind="compact",
     )

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from markupsafe import Markup, escape
 
+from report.assessment.evidence import Evidence
 from report.assessment.highpass import Beyond
 from report.assessment.spectra import PRINTED_S, Spectra
 from report.motions.components import RecordFile
@@ -26,10 +27,15 @@ DRIFT_M = 0.010
 """Displacement left at the end from which a component is marked."""
 
 
-def titles(package: PackageData) -> tuple[str, ...]:
-    """Return the parts of the part, in order; the spectra come last."""
-    below = ("From ground to roof",) if has_ground(package) else ()
-    return ("Motions", "Processing and drift", *below, "Response spectra")
+def below(package: PackageData) -> tuple[tuple[str, str], ...]:
+    """Return the parts below, in order."""
+    ground = (("motions-building", "From ground to roof"),) if has_ground(package) else ()
+    return (
+        ("motions-list", "Motions"),
+        ("motions-processing", "Processing and drift"),
+        *ground,
+        ("motions-spectra", "Response spectra"),
+    )
 
 
 def has_ground(package: PackageData) -> bool:
@@ -275,8 +281,8 @@ def target_words(package: PackageData) -> Sequence[str]:
     roof = (
         "the project's own spectrum (sheet Spectrum of the workbook), which replaces that of AC156"
         if goals.roof.name == OWN
-        else Markup("AC156 required response spectrum, corners in part 5; {}").format(
-            symbol("A_FLX").join(map(escape, tail.sentence.split("A_FLX")))
+        else Markup("AC156 required response spectrum, corners in {}; {}").format(
+            package.part("method"), symbol("A_FLX").join(map(escape, tail.sentence.split("A_FLX")))
         )
     )
     texts: list[str] = [
@@ -302,18 +308,13 @@ def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
     return tuple(dict.fromkeys(f"{text.rstrip('.')}." for text in said))
 
 
-def page(
-    package: PackageData,
-    motions: Sequence[Motion],
-    preparations: Sequence[PreparedMotion],
-    records: Sequence[RecordFile],
-    found: Sequence[Spectra],
-    beyond: Sequence[Beyond],
-) -> Mapping[str, object]:
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
+    shaking, found = package.assessment.shaking, evidence.spectra
+    motions, preparations, beyond = shaking.motions, shaking.prepared, evidence.highpass
     return {
         "table": motion_table(motions, preparations),
-        "notes": _notes(records),
+        "notes": _notes(shaking.records),
         "undisturbed": drift_sentence(package, preparations),
         "drift": drift_table(package, preparations),
         "beyond": [beyond_table(package, beyond)] if beyond else [],

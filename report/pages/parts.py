@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import base64
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 
@@ -60,7 +60,7 @@ class TableRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table:
-    """A table with its caption; heads of neighbours that read the same are joined."""
+    """A table with its caption; heads of neighbors that read the same are joined."""
 
     caption: str
     columns: tuple[TableColumn, ...]
@@ -244,6 +244,12 @@ class PackageData:
     """All that the pages are made from."""
 
     assessment: Assessment
+    numbers: Mapping[str, str]
+
+    def part(self, name: str) -> str:
+        """Return how the text calls a part."""
+        number = self.numbers[name]
+        return f"part {number}" if number.isdigit() else f"appendix {number}"
 
     @property
     def data(self) -> ProjectInput:
@@ -288,7 +294,7 @@ class PackageData:
 
     def separation_mark(self, gap: ClearanceCheck) -> str:
         """Return the marks of what a required separation is taken from."""
-        key = SEPARATION_KEYS[gap.neighbour]
+        key = SEPARATION_KEYS[gap.neighbor]
         return self.mark("separation_edge_min_in" if gap.is_least_value else key)
 
 

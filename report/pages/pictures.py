@@ -11,7 +11,6 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.spectra import Spectra
 from report.pages import accuracy
-from report.pages.motions import titles
 from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
@@ -34,11 +33,11 @@ def draw_assessment(package: PackageData) -> Pictures:
     load_charts()
     us_first, assessment = package.fmt.us_first, package.assessment
     return {
-        "inputs-3": [
+        "inputs-plan": [
             Picture(
                 svg=figures.roof_plan(package.data, us_first),
                 caption="Roof plan to scale: arrays with their fall and slope, objects, roof "
-                "edges, and the clearances by their numbers in part 8.",
+                f"edges, and the clearances by their numbers in {package.part('clearances')}.",
                 alt="Roof plan with arrays, objects, edges and clearances",
             )
         ],
@@ -70,7 +69,7 @@ def draw_evidence(package: PackageData, found: Evidence) -> Pictures:
 
     us_first = package.fmt.us_first
     pictures = {
-        f"motions-{len(titles(package))}": [
+        "motions-spectra": [
             Picture(
                 svg=figures.spectra(parts),
                 caption=f"Response spectra of the motions {where}, 5 % damping, and target.",

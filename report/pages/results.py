@@ -25,6 +25,17 @@ _SHORT = {
 }
 
 
+def below(package: PackageData) -> tuple[tuple[str, str], ...]:
+    """Return the parts below, in order."""
+    arrays = enumerate(package.assessment.arrays, start=1)
+    return tuple((f"results-{count}", f"Array {found.array.id}") for count, found in arrays)
+
+
+def page(package: PackageData) -> Mapping[str, object]:
+    """Return the results of every array, without the charts."""
+    return {"arrays": [array_results(package, found) for found in package.assessment.arrays]}
+
+
 def array_results(package: PackageData, found: ArrayAssessment) -> Mapping[str, object]:
     """Return the table of one array and the lines above and below it."""
     troubles = [
@@ -91,18 +102,19 @@ def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
             "of all runs; clearances follow from these. The columns behind belong to the run that "
             "counts; N/(m g) is the least. The file results.xlsx has every run in both systems of "
             "units.",
-            *_stand_in(found),
+            *_stand_in(package, found),
         ),
         kind="compact",
     )
 
 
-def _stand_in(found: ArrayAssessment) -> Sequence[str]:
+def _stand_in(package: PackageData, found: ArrayAssessment) -> Sequence[str]:
     """Return that the PRD stands for motion across, where it does."""
     runs = [run for motion in found.motions for run in motion.runs]
     if all(run.has_across for run in runs):
         return ()
-    return ("Where a run has one axis alone (part 11), its PRD stands for the motion across.",)
+    part = package.part("model")
+    return (f"Where a run has one axis alone ({part}), its PRD stands for the motion across.",)
 
 
 def _headings(found: ArrayAssessment) -> tuple[Heading, ...]:

@@ -3,7 +3,7 @@
 import pytest
 
 import stand_in
-from solver.rules.provisions import Neighbour
+from solver.rules.provisions import Neighbor
 
 
 def assessed(found=None, **changes):
@@ -20,13 +20,13 @@ def done():
 
 
 def test_clearances_take_the_factor_of_what_lies_across(done):
-    kinds = [item.neighbour for item in done.clearances]
+    kinds = [item.neighbor for item in done.clearances]
     assert kinds == [
-        Neighbour.LIKE,
-        Neighbour.FIXED,
-        Neighbour.UNLIKE,
-        Neighbour.PARAPET,
-        Neighbour.EDGE,
+        Neighbor.LIKE,
+        Neighbor.FIXED,
+        Neighbor.UNLIKE,
+        Neighbor.PARAPET,
+        Neighbor.EDGE,
     ]
     assert [item.factor for item in done.clearances] == [0.5, 1.0, 1.0, 1.0, 2.0]
     for item in done.clearances:
@@ -54,13 +54,13 @@ def test_arrays_of_other_construction_are_unlike():
         stand_in.array("A2", 0.5, x=120, construction="Tray 5 deg, portrait"),
     ]
     done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)])
-    assert done.clearances[0].neighbour is Neighbour.UNLIKE
+    assert done.clearances[0].neighbor is Neighbor.UNLIKE
 
 
 def test_a_low_parapet_leaves_an_edge_without():
     objects = [stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)]
     done = assessed(objects=objects, clearances=[stand_in.clearance("A1", "N", 5.0)])
-    assert done.clearances[0].neighbour is Neighbour.EDGE
+    assert done.clearances[0].neighbor is Neighbor.EDGE
 
 
 def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7():

@@ -10,7 +10,7 @@ import stand_in
 from report.assessment.sensitivity import accuracy
 from report.figures.base import load_fonts
 from report.pages import accuracy as accuracy_page
-from report.pages.parts import PackageData
+from report.pages.registry import package_data
 from report.typeset.pdf import TEMPLATES
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
@@ -23,7 +23,7 @@ def fonts():
 
 def made(data=None, found=None):
     book = stand_in.book(data, found or stand_in.motions(3, seconds=10.0))
-    package = PackageData(assessment=stand_in.assessed(book))
+    package = package_data(stand_in.assessed(book))
     return book, package, accuracy(package.assessment)
 
 
@@ -62,7 +62,7 @@ def test_each_method_is_run_on_the_governing_scene(usual):
     assert found.rivals.exact == direct(found.rivals.motion, found.rivals.array.array)
     assert {run.method.name for run in found.rivals.runs} == set(METHODS) - {
         "exact",
-        "regularised",
+        "regularized",
         "paper",
     }
     for run in found.rivals.runs:

@@ -8,7 +8,7 @@ import pytest
 import stand_in
 from report.pages import front, inputs, links, model
 from report.pages.checks import troubles
-from report.pages.parts import PackageData
+from report.pages.registry import package_data
 
 MATTERS = "1 mm (0.04 in) or 0.5 %"
 
@@ -21,7 +21,7 @@ def scene(asked, found=None, **changes):
         | changes
     )
     book = stand_in.book(data, found or stand_in.motions(3, seconds=12.0))
-    return PackageData(assessment=stand_in.assessed(book))
+    return package_data(stand_in.assessed(book))
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,8 @@ import pytest
 import stand_in
 from report.pages import model
 from report.pages.checks import troubles
-from report.pages.parts import PackageData, Wide
+from report.pages.parts import Wide
+from report.pages.registry import package_data
 from report.sheet.schema import Direction
 from solver.sliding.least_model import Rung
 from solver.sliding.tipping import Supports, tipping
@@ -21,7 +22,7 @@ def scene(found=None, **changes):
         stand_in.project(objects=[], clearances=[], **changes),
         found or stand_in.motions(3, seconds=8.0),
     )
-    return PackageData(assessment=stand_in.assessed(book))
+    return package_data(stand_in.assessed(book))
 
 
 def alone(motions):
@@ -170,7 +171,7 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     tall = stand_in.array("A1", 0.5, cg_height_m=0.9, support_spacing_m=0.5)
     data = stand_in.project(arrays=[tall], clearances=[])
     made = stand_in.book(data, stand_in.motions(3, seconds=6.0))
-    found = PackageData(assessment=stand_in.assessed(made))
+    found = package_data(stand_in.assessed(made))
     assert found.assessment.arrays[0].tipping.ratio > 1.0
     assert not found.assessment.ok
     assert not found.assessment.array_ok(found.assessment.arrays[0])

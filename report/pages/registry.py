@@ -1,0 +1,181 @@
+"""The pages of the package in order: what each is called, what fills it, and its template.
+
+A page is added here, with the function that fills it; where it is tables and texts alone it needs
+no template of its own. Parts refer to each other by id (`PackageData.part`). Read `PAGES`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from report.assessment.evidence import Evidence
+from report.assessment.project import Assessment
+from report.pages import (
+    accuracy,
+    appendix,
+    checks,
+    front,
+    inputs,
+    method,
+    model,
+    motions,
+    results,
+)
+from report.pages.parts import PackageData, Part
+
+Content = Mapping[str, Any]
+Below = tuple[tuple[str, str], ...]
+
+
+def _nothing_below(_: PackageData) -> Below:
+    return ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Page:
+    """A part of the package.
+
+    Attributes
+    ----------
+    id, title : str
+        Its address and name within the package, and that of its content in the template.
+    fill : callable
+        Returns what the template places.
+    below : callable
+        Returns the ids and titles of the parts below it.
+    template : str
+        `plain.html` places `texts` and `tables`.
+    is_appendix : bool
+        Numbered by letters.
+    """
+
+    id: str
+    title: str
+    fill: Callable[[PackageData, Evidence], Content]
+    below: Callable[[PackageData], Below] = _nothing_below
+    template: str = "plain.html"
+    is_appendix: bool = False
+
+
+PAGES = (
+    Page(
+        id="summary",
+        title="Summary",
+        fill=lambda package, _: front.summary(package),
+        template="summary.html",
+    ),
+    Page(
+        id="basis",
+        title="Basis and limits of the method",
+        fill=lambda package, _: front.basis(package),
+        template="basis.html",
+    ),
+    Page(
+        id="inputs",
+        title="Inputs",
+        fill=lambda package, _: inputs.inputs(package),
+        below=inputs.below,
+        template="inputs.html",
+    ),
+    Page(
+        id="motions",
+        title="Roof motions",
+        fill=motions.page,
+        below=motions.below,
+        template="motions.html",
+    ),
+    Page(
+        id="method",
+        title="Method and equations",
+        fill=lambda package, _: method.page(package),
+        below=method.below,
+        template="method.html",
+    ),
+    Page(
+        id="results",
+        title="Results",
+        fill=lambda package, _: results.page(package),
+        below=results.below,
+        template="results.html",
+    ),
+    Page(
+        id="comparison",
+        title="Comparison with the prescriptive displacement",
+        fill=lambda package, _: results.comparison(package),
+        template="comparison.html",
+    ),
+    Page(
+        id="clearances",
+        title="Clearances",
+        fill=lambda package, _: checks.clearances(package),
+        template="clearances.html",
+    ),
+    Page(
+        id="limits",
+        title="Limits and interconnection strength",
+        fill=lambda package, _: checks.limits(package),
+    ),
+    Page(
+        id="provisions",
+        title="Provisions and overrides",
+        fill=lambda package, _: checks.provisions(package),
+        template="provisions.html",
+    ),
+    Page(
+        id="model",
+        title="Model used",
+        fill=lambda package, _: model.page(package),
+        template="model.html",
+    ),
+    Page(
+        id="accuracy",
+        title="Accuracy and sensitivity",
+        fill=lambda package, evidence: accuracy.page(package, evidence.accuracy),
+        template="accuracy.html",
+    ),
+    Page(
+        id="echo",
+        title="Input echo",
+        fill=lambda package, _: appendix.echo_page(package),
+        template="echo.html",
+        is_appendix=True,
+    ),
+    Page(
+        id="records",
+        title="Records and software",
+        fill=lambda package, _: appendix.records_page(package),
+        template="records.html",
+        is_appendix=True,
+    ),
+)
+
+
+def package_data(assessment: Assessment) -> PackageData:
+    """Return an assessment with the number of each part."""
+    return PackageData(assessment=assessment, numbers=_numbers(PAGES))
+
+
+def _numbers(pages: Sequence[Page]) -> Mapping[str, str]:
+    body = [page.id for page in pages if not page.is_appendix]
+    appendices = [page.id for page in pages if page.is_appendix]
+    return {name: str(count) for count, name in enumerate(body, start=1)} | {
+        name: chr(ord("A") + count) for count, name in enumerate(appendices)
+    }
+
+
+def parts(package: PackageData) -> tuple[Part, ...]:
+    """Return the parts of the package in order, as the contents list them."""
+    return tuple(
+        Part(
+            id=page.id,
+            number=package.numbers[page.id],
+            title=page.title,
+            parts=tuple(
+                Part(id=name, number=f"{package.numbers[page.id]}.{count}", title=title)
+                for count, (name, title) in enumerate(page.below(package), start=1)
+            ),
+        )
+        for page in PAGES
+    )
