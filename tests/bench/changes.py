@@ -1,0 +1,175 @@
+"""How many files a change takes: three changes made on a scratch copy, tried, and counted.
+
+Run from the top: .venv/bin/python tests/bench/changes.py
+A rule set, a record format and a page of the package. Each is made as a developer would make it,
+then used; the files that differ from the checkout are counted, tests and their data apart.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change: what it is, how it is made, Python that fails where it does not work."""
+
+    name: str
+    make: Callable[[Path], None]
+    use: str
+
+
+def replaced(path: Path, old: str, new: str) -> None:
+    """Replace the one place where a text stands."""
+    text = path.read_text(encoding="utf-8")
+    if text.count(old) != 1:
+        raise SystemExit(f"{path}: {text.count(old)} places of {old!r}")
+    path.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def rule_set(top: Path) -> None:
+    """Add an edition of ASCE 7 with the numbers of the last one."""
+    path = top / "solver" / "rules" / "rulesets.py"
+    text = path.read_text(encoding="utf-8")
+    begin = text.rindex("        RuleSet(")
+    end = text.index("\n        ),\n", begin) + len("\n        ),\n")
+    last = text[begin:end]
+    added = last.replace("asce7-22", "asce7-28").replace("7-22", "7-28")
+    path.write_text(text[:end] + added + text[end:], encoding="utf-8")
+
+
+FORMAT = '''"""Records of one header line `%ACC dt`, then accelerations in g."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from solver.formats.motionfile import MotionFile
+from solver.formats.source import Source
+from solver.records.record import Record, UNITS
+
+
+def recognizes(lines: Sequence[str]) -> bool:
+    """Whether the lines are of such a file."""
+    return lines[0].startswith("%ACC ")
+
+
+def read(source: Source) -> MotionFile:
+    """Return its channel."""
+    a = np.array([float(line) for line in source.lines[1:]]) * UNITS["g"]
+    a.setflags(write=False)
+    record = Record(name="channel", dt_s=float(source.lines[0].split()[1]), a_mps2=a)
+    return MotionFile(name=source.name, format="ACC", notes=(), channels=(record,))
+'''
+
+
+def record_format(top: Path) -> None:
+    """Add a format of records."""
+    (top / "solver" / "formats" / "acc.py").write_text(FORMAT, encoding="utf-8")
+    reader = top / "solver" / "formats" / "reader.py"
+    replaced(
+        reader, "from solver.formats import cosmos,", "from solver.formats import acc, cosmos,"
+    )
+    replaced(reader, "for module in (cosmos,", "for module in (acc, cosmos,")
+
+
+PAGE = '''"""Wind: what is not in this package."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from report.pages.parts import PackageData
+
+
+def page(package: PackageData) -> Mapping[str, object]:
+    """Return the page."""
+    count = len(package.data.arrays)
+    return {"texts": (f"Wind on {count} arrays is not checked, see {package.part('basis')}.",),
+            "tables": ()}
+'''
+
+
+def page(top: Path) -> None:
+    """Add a page after the limits."""
+    (top / "report" / "pages" / "wind.py").write_text(PAGE, encoding="utf-8")
+    registry = top / "report" / "pages" / "registry.py"
+    replaced(registry, "    results,\n)", "    results,\n    wind,\n)")
+    replaced(
+        registry,
+        '    Page(\n        id="provisions",',
+        '    Page(id="wind", title="Wind", fill=lambda package, _: wind.page(package)),\n'
+        '    Page(\n        id="provisions",',
+    )
+
+
+CHANGES = (
+    Change(
+        "rule set",
+        rule_set,
+        "from report.sheet.schema.choices import RuleSetName\n"
+        "from solver.rules.rulesets import RULE_SETS\n"
+        "assert RULE_SETS[RuleSetName('ASCE 7-28')].amplification.slope == 2.5",
+    ),
+    Change(
+        "record format",
+        record_format,
+        "from pathlib import Path\n"
+        "import solver\n"
+        "Path('x.acc').write_text('%ACC 0.01\\n0\\n0.5\\n0\\n')\n"
+        "assert solver.read_record(Path('x.acc')).dt_s == 0.01\n"
+        "Path('x.acc').unlink()",
+    ),
+    Change(
+        "page",
+        page,
+        "import report\n"
+        "from report.assessment.evidence import support\n"
+        "from report.package.html import pages\n"
+        "assessment = report.assess_project('projects/example')\n"
+        "html = pages(assessment, support(assessment))\n"
+        "assert 'Wind on 3 arrays is not checked, see part 2.' in html",
+    ),
+)
+
+
+def git(top: Path, *words: str) -> str:
+    """Run git in a folder."""
+    done = subprocess.run(["git", *words], cwd=top, check=True, capture_output=True, text=True)
+    return done.stdout
+
+
+def main() -> None:
+    """Print the files of each change."""
+    with tempfile.TemporaryDirectory() as folder:
+        top = Path(folder)
+        for name in git(ROOT, "ls-files", "-z").split("\0"):
+            if name and (ROOT / name).is_file():
+                (top / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(ROOT / name, top / name)
+        git(top, "init", "-q")
+        git(top, "add", "-A")
+        git(top, "-c", "user.name=bench", "-c", "user.email=bench", "commit", "-qm", "as it is")
+        for change in CHANGES:
+            change.make(top)
+            environment = os.environ | {"PYTHONPATH": str(top), "PYTHONDONTWRITEBYTECODE": "1"}
+            subprocess.run([sys.executable, "-c", change.use], cwd=top, env=environment, check=True)
+            git(top, "add", "-A")
+            changed = git(top, "diff", "--cached", "--name-only").split()
+            print(f"{change.name}: {len(changed)} files ({', '.join(changed)})")
+            git(top, "reset", "-q", "--hard")
+
+
+if __name__ == "__main__":
+    main()
