@@ -1,8 +1,10 @@
-"""The sliding block: exact response of ballasted arrays, and the code rules it is held against.
+"""The sliding block: exact response of ballasted arrays, and the code rules for their design.
 
-Public names are listed here; everything is SI. Imports no files, pages or pictures.
+The public names are listed here. All quantities are SI. Imports nothing that lays out pages or
+draws figures.
 """
 
+from solver.formats import read_record
 from solver.model import (
     Event,
     EventKind,
@@ -15,9 +17,10 @@ from solver.model import (
     Status,
     coulomb,
 )
+from solver.records.record import Record
 from solver.rivals.methods import METHODS
-from solver.sliding.checked import scene, slide, slide_history
-from solver.sliding.least_model import Rung, Settings, Solution, solve
+from solver.sliding.checked import history, scene, slide, slide_history, solve
+from solver.sliding.least_model import Rung, Settings, Solution
 from solver.sliding.sweep import Sweep, sweep
 
 __all__ = [
@@ -27,6 +30,7 @@ __all__ = [
     "Friction",
     "InputError",
     "Motion",
+    "Record",
     "Rung",
     "Scene",
     "Settings",
@@ -36,6 +40,8 @@ __all__ = [
     "Status",
     "Sweep",
     "coulomb",
+    "history",
+    "read_record",
     "scene",
     "slide",
     "slide_history",

@@ -1,7 +1,7 @@
-"""What a plane hands to a block at the samples: driving acceleration and normal force.
+"""Forces on a block at the samples: driving acceleration and normal force.
 
-Follows no motion (`solver.kernels.one_axis`, `solver.kernels.two_axes`, `solver.kernels.row` do)
-and checks no input. Read `forces`.
+Integrates no motion (`solver.kernels.one_axis`, `solver.kernels.two_axes` and `solver.kernels.row`
+do) and checks no input. Read `forces`.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from solver.model import Floats, Scene
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Forces:
-    """Forces on a unit of mass at the samples; each is a straight line between them.
+    """Forces per unit mass at the samples; each varies linearly between samples.
 
     Attributes
     ----------
     down_mps2, across_mps2 : array, shape (n,)
-        Driving acceleration G = ((g + az) sin theta - ax cos theta, -ay), down the slope and
-        across it [m/s2]; what friction has to hold.
+        Driving acceleration G = ((g + az) sin theta - ax cos theta, -ay), downslope and cross-slope
+        [m/s2]; friction must resist it for the block to stay at rest.
     normal_mps2 : array, shape (n,)
         N / m = (g + az) cos theta + ax sin theta [m/s2].
     """
@@ -33,9 +33,9 @@ class Forces:
 
     @property
     def friction_demand(self) -> float:
-        """Largest |G| / N; inf where the normal force vanishes.
+        """Largest |G| / N; inf if the normal force is zero or negative at a sample.
 
-        Between samples it is less: G / N runs along a straight line there.
+        The maximum is at a sample: between samples the point G / N moves along a straight line.
         """
         if np.min(self.normal_mps2) <= 0.0:
             return math.inf
@@ -43,7 +43,7 @@ class Forces:
 
 
 def forces(scene: Scene) -> Forces:
-    """Return what the plane hands to a block (Eqs. 6-9 of the paper, with the vertical added)."""
+    """Return the forces on a block (Eqs. 6-9 of the paper, with vertical acceleration added)."""
     sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
     ax = scene.scale * scene.ax_mps2
     gravity = scene.g_mps2 + (scene.scale * scene.az_mps2 if scene.az_mps2.size else 0.0 * ax)

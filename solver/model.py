@@ -1,25 +1,30 @@
-"""What the solver takes and gives: frozen records, outcomes, the two kinds of error.
+"""Inputs and results of the solver: frozen records, outcomes, the two kinds of error.
 
-Owns no mathematics and no files. Read `solver.sliding.checked` next.
+Contains no mathematics and reads no files. Read `solver.sliding.checked` next.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 Floats = NDArray[np.float64]
 
+INCH_M = 0.0254
 STANDARD_GRAVITY_MPS2 = 9.80665
 
 
 class InputError(ValueError):
-    """What a user can fix: every problem found, each with its place, what was found, what would do.
+    """Errors that the user can fix: each with its location, what was found and what is accepted.
 
     Attributes
     ----------
@@ -33,11 +38,11 @@ class InputError(ValueError):
 
 
 class DefectError(RuntimeError):
-    """What only the developers can fix: a state that the code holds impossible."""
+    """An internal error, which only the developers can fix: a state assumed impossible."""
 
 
 class Status(StrEnum):
-    """Outcome of one run; `sentence` says it to a reader."""
+    """Outcome of one run; `sentence` describes it for the reader."""
 
     OK = "ok"
     SLIDING_AT_END = "sliding_at_end"
@@ -52,11 +57,11 @@ class Status(StrEnum):
 
 
 _SENTENCES = {
-    Status.OK: "followed to the end of the record, at rest there",
-    Status.SLIDING_AT_END: "still sliding when the record ends: the displacement is not final",
-    Status.UPLIFT: "the normal force falls below zero: outside the model, no displacement given",
-    Status.DIVERGED: "the method did not converge or blew up: no displacement given",
-    Status.STEP_LIMIT: "more steps are needed than a run may take: no displacement given",
+    Status.OK: "analyzed to the end of the record, where the block is at rest",
+    Status.SLIDING_AT_END: "still sliding at the end of the record: the displacement is not final",
+    Status.UPLIFT: "the normal force falls below zero: outside the model, no displacement is given",
+    Status.DIVERGED: "the method did not converge or became unstable: no displacement is given",
+    Status.STEP_LIMIT: "the run exceeded the limit on time steps: no displacement is given",
 }
 
 
@@ -64,7 +69,7 @@ _SENTENCES = {
 class SlideResult:
     """One block under one motion. Displacements are horizontal, relative to the roof.
 
-    With `Status.UPLIFT`, `Status.DIVERGED` and `Status.STEP_LIMIT` every displacement, its time and
+    With `Status.UPLIFT`, `Status.DIVERGED` or `Status.STEP_LIMIT` every displacement, its time and
     its error are NaN.
 
     Attributes
@@ -73,27 +78,29 @@ class SlideResult:
     prd_m : float
         Peak relative displacement, the largest |u| [m].
     residual_m : float
-        u at the end of the record [m], positive down the slope for a positive slope.
+        u at the end of the record [m], positive downslope for a positive slope.
     down_m, up_m : float
-        Largest excursion in positive and in negative u [m], both >= 0.
+        Largest excursion toward positive and toward negative u [m], both >= 0.
     across_m, residual_across_m : float
-        Largest excursion across the slope, either way, and where it ends, positive to the left
-        of down the slope [m]; 0 in one axis. With two axes the PRD is the largest resultant.
+        Largest cross-slope excursion in either direction, and cross-slope displacement at the end,
+        positive to the left when facing downslope [m]; 0 in one axis. In two axes the PRD is the
+        largest resultant.
     t_prd_s : float
-        Time of the PRD [s]; 0 when nothing moves.
+        Time of the PRD [s]; 0 if the block does not slip.
     n_stops : int
-        How often the sliding speed came to zero, reversals included.
+        Number of times the sliding velocity became zero, reversals included.
     n_min_g : float
-        Least normal force over the record / (m g).
+        Minimum normal force over the record / (m g).
     t_uplift_s : float
         When the normal force first falls below zero [s]; NaN if it never does.
     end_speed_mps : float
         Horizontal relative velocity at the end of the record [m/s].
     error_m : float
-        No displacement is more than this from the exact motion of the interpolated record [m]: the
-        method's own bound in two axes, an allowance for rounding by the method `exact` in one
-        (`sliding.rounding`); NaN for the other methods. Where friction falls with speed or at the
-        breakaway there is no bound: then it is twice the difference of two tolerances.
+        Largest difference of any displacement from the exact motion under the interpolated record
+        [m]: the method's own bound in two axes; in one axis an allowance for rounding error by the
+        method `exact` (`one_axis.rounding`), and NaN for the other methods. If friction decreases
+        with velocity or at breakaway there is no bound: the value is then twice the difference
+        between runs at two tolerances.
     """
 
     status: Status
@@ -112,16 +119,16 @@ class SlideResult:
 
 
 class EventKind(StrEnum):
-    """What happens at an event of a sliding motion."""
+    """Kind of event in a sliding motion."""
 
     SLIP = "slip"
     STOP = "stop"
 
 
 class Event(NamedTuple):
-    """Slip begins or ends: time [s], kind, displacement down and across the slope [m].
+    """Slip begins or ends: time [s], kind, downslope and cross-slope displacement [m].
 
-    A tuple, because a run has hundreds of them.
+    A tuple for speed: a run has hundreds of them.
     """
 
     t_s: float
@@ -137,10 +144,10 @@ class SlideHistory:
     Attributes
     ----------
     t_s, u_m, v_mps : array, shape (n,)
-        Time [s], horizontal relative displacement [m] and velocity [m/s]; all NaN
-        where the result gives none.
+        Time [s], horizontal relative displacement [m] and velocity [m/s]; displacement and velocity
+        are NaN if the result gives no displacement.
     across_m, across_mps : array, shape (n,) or (0,)
-        The same across the slope; empty in one axis.
+        Cross-slope displacement [m] and velocity [m/s]; empty in one axis.
     events : tuple of Event
     result : SlideResult
     """
@@ -153,18 +160,30 @@ class SlideHistory:
     events: tuple[Event, ...]
     result: SlideResult
 
+    def __repr__(self) -> str:
+        return f"SlideHistory({len(self.t_s)} samples, {len(self.events)} events, {self.result})"
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the motion as a table with one row per sample, indexed by time."""
+        import pandas as pd
+
+        columns = {"u_m": self.u_m, "v_mps": self.v_mps}
+        if self.across_m.size:
+            columns |= {"across_m": self.across_m, "across_mps": self.across_mps}
+        return pd.DataFrame(columns, index=pd.Index(self.t_s, name="t_s"))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Friction:
-    """Coefficient of friction by speed w: mu_fast - (mu_fast - mu_slow) exp(-rate w).
+    """Velocity-dependent coefficient of friction: mu_fast - (mu_fast - mu_slow) exp(-rate w).
 
-    Constantinou, Mokha and Reinhorn, J. Struct. Eng. 116 (1990) 455-474, Eq. 2. `mu_static` holds
-    the block until it slips and whenever it has stopped.
+    w is the sliding speed. Constantinou, Mokha and Reinhorn, J. Struct. Eng. 116 (1990) 455-474,
+    Eq. 2. `mu_static` applies to a block at rest: before the first slip and after every stop.
 
     Attributes
     ----------
     mu_slow, mu_fast : float
-        At a crawl and at great speed, >= 0.
+        Coefficient at low and at high velocity, >= 0.
     rate_s_per_m : float
         >= 0 [s/m].
     mu_static : float
@@ -178,18 +197,18 @@ class Friction:
 
     @property
     def is_constant(self) -> bool:
-        """Whether it is Coulomb's: one coefficient for all."""
+        """Whether it is Coulomb friction: one coefficient at rest and at every velocity."""
         turns = self.mu_fast != self.mu_slow and self.rate_s_per_m > 0.0
         return not turns and self.mu_static == self.mu_slow
 
     @property
     def is_monotone(self) -> bool:
-        """Whether it never falls as the speed grows, from rest on: then errors cannot grow."""
+        """Whether it never decreases with velocity, starting from rest: then errors cannot grow."""
         return self.mu_fast >= self.mu_slow and self.mu_static == self.mu_slow
 
 
 def coulomb(mu: float) -> Friction:
-    """Return friction with one coefficient."""
+    """Return Coulomb friction with one coefficient."""
     return Friction(mu_slow=mu, mu_fast=mu, rate_s_per_m=0.0, mu_static=mu)
 
 
@@ -200,14 +219,14 @@ class Scene:
     Attributes
     ----------
     ax_mps2, ay_mps2 : array, shape (n,)
-        Horizontal roof acceleration, in the vertical plane of the slope and across it [m/s2];
-        read-only, as all records.
+        Horizontal roof acceleration along the slope and cross-slope [m/s2]; read-only, like all
+        records.
     az_mps2 : array, shape (n,) or (0,)
-        Vertical, positive up [m/s2]; empty for none.
+        Vertical acceleration, positive up [m/s2]; empty for none.
     dt_s, slope_rad, g_mps2 : float
-        As of `solver.slide`.
+        As in `solver.slide`.
     scale : float
-        Factor for all components.
+        Factor on all components.
     friction : Friction
     """
 
@@ -220,18 +239,26 @@ class Scene:
     scale: float
     g_mps2: float
 
+    def __repr__(self) -> str:
+        axes = 1 + (self.ay_mps2.size > 0) + (self.az_mps2.size > 0)
+        return (
+            f"Scene({axes} component{'s' if axes > 1 else ''} of {self.ax_mps2.size} samples at "
+            f"{self.dt_s:g} s, slope {math.degrees(self.slope_rad):.4g} deg, mu "
+            f"{self.friction.mu_slow:g}, scale {self.scale:g})"
+        )
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Heading:
-    """Which horizontal component of a motion runs along the slope, and in which sense.
+    """Which horizontal component of a motion is applied along the slope, and with which sign.
 
-    The other one runs across it as recorded: its sense mirrors the motion of the block and
-    changes no displacement.
+    The other component is applied cross-slope as recorded: reversing it mirrors the motion of the
+    block and changes no displacement.
 
     Attributes
     ----------
     swapped : bool
-        Whether the transverse component runs along the slope instead of the record.
+        Whether the transverse component is applied along the slope instead of the record.
     sign : int
         +1 as recorded, -1 reversed.
     """
@@ -241,18 +268,18 @@ class Heading:
 
     @property
     def component(self) -> str:
-        """The component along the slope, in words: record or transverse."""
+        """Name of the component along the slope: record or transverse."""
         return "transverse" if self.swapped else "record"
 
     @property
     def name(self) -> str:
-        """The run in words, such as `record +` or `transverse −`."""
+        """Name of the run, such as `record +` or `transverse −`."""
         return f"{self.component} {'+' if self.sign > 0 else '−'}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion:
-    """A roof motion ready to run: scaled, in m/s2, evenly sampled, arrays read-only.
+    """A roof motion ready to run: in m/s2, evenly sampled, with its scale factor, arrays read-only.
 
     Attributes
     ----------
@@ -261,11 +288,11 @@ class Motion:
         Sampling interval [s].
     ax_mps2, ay_mps2, az_mps2 : array, shape (n,)
         Horizontal record, the other horizontal component (transverse) and vertical (positive up)
-        acceleration, unscaled [m/s2]; ay or az of shape (0,) where there is none.
+        acceleration, unscaled [m/s2]; ay or az has shape (0,) if there is none.
     scale : float
-        Factor for all components.
+        Factor on all components.
     signs : tuple of int
-        Polarities of a horizontal component to run, from {+1, -1}.
+        Polarities in which each horizontal component is run, from {+1, -1}.
     """
 
     id: str
@@ -279,7 +306,7 @@ class Motion:
 
     @property
     def has_vertical(self) -> bool:
-        """Whether a vertical component goes with the horizontal one."""
+        """Whether there is a vertical component."""
         return len(self.az_mps2) > 0
 
     @property
@@ -289,12 +316,12 @@ class Motion:
 
     @property
     def headings(self) -> tuple[Heading, ...]:
-        """The runs along the slope: each horizontal component in each of its polarities."""
+        """The runs: each horizontal component along the slope, in each of its polarities."""
         components = (False, True) if self.has_transverse else (False,)
         return tuple(Heading(swapped=s, sign=sign) for s in components for sign in self.signs)
 
     def scene(self, heading: Heading, *, slope_rad: float, friction: Friction) -> Scene:
-        """Return a run of an array: a slope, its friction, and this motion with a heading."""
+        """Return the scene of one run: this motion at a heading, on a slope with its friction."""
         along, across = self.ax_mps2, self.ay_mps2
         if heading.swapped:
             along, across = across, along

@@ -1,4 +1,4 @@
-"""A small project with its records, and ways to spoil its workbook. For the tests of the input."""
+"""A small project with its records, and helpers to change its workbook, for the input tests."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ class Book:
 
     @property
     def input(self) -> ProjectInput:
-        """What is typed into it."""
+        """The input of the workbook."""
         return self.sheet.project
 
     def having(self, **changes: object) -> Book:
-        """Return the book with other motions, records or preparations."""
+        """Return the book with other motions, records or processing."""
         return Book(self.sheet, replace(self.shaking, **changes))  # type: ignore[arg-type]
 
     def __getattr__(self, name: str) -> object:
@@ -182,14 +182,14 @@ def edit(path: Path, change: Callable[[Workbook], object]) -> Path:
 
 
 def problems(path: Path) -> tuple[str, ...]:
-    """Return what the reader finds wrong with a workbook."""
+    """Return the problems that the reader reports for a workbook."""
     with pytest.raises(InputError) as caught:
         read_workbook(path)
     return caught.value.problems
 
 
 def same(found: ProjectInput, wanted: ProjectInput) -> bool:
-    """Whether two inputs agree, numbers to the rounding of a cell."""
+    """Whether two inputs agree, numbers within the rounding error of a cell."""
     return _same(found.model_dump(), wanted.model_dump())
 
 

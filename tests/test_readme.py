@@ -1,4 +1,4 @@
-"""Every command and every line of Python in the README runs, in a folder of its own."""
+"""Every command and every line of Python in the README runs, in a separate folder."""
 
 import re
 import shlex
@@ -21,7 +21,7 @@ COMMANDS = [
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """The example alone, as in a fresh checkout; a project of one's own is the example's copy."""
+    """The example alone, as in a fresh checkout; a new project is a copy of the example."""
     top = tmp_path_factory.mktemp("checkout")
     ignored = shutil.ignore_patterns("out")
     shutil.copytree(ROOT / "projects" / "example", top / "projects" / "example", ignore=ignored)
@@ -29,7 +29,7 @@ def folder(tmp_path_factory):
 
 
 def fill(top):
-    """Fill the new project as its user would: here, with the example's input."""
+    """Fill in the new project as a user would, here with the input of the example."""
     example, yours = (top / "projects" / name for name in ("example", "yours"))
     assert (yours / "input.xlsx").is_file()
     shutil.copy(example / "input.xlsx", yours / "input.xlsx")
@@ -41,9 +41,9 @@ def test_every_command_of_the_readme_runs(folder):
     for command in COMMANDS:
         words = shlex.split(command)[1:]
         if words == ["test"]:
-            continue  # it runs this
+            continue  # it runs this test
         done = subprocess.run(
-            [sys.executable, "-m", "report.cli.main", *words],
+            [sys.executable, "-m", "report.cli", *words],
             cwd=folder,
             capture_output=True,
             text=True,
@@ -57,14 +57,17 @@ def test_every_command_of_the_readme_runs(folder):
         assert (folder / "projects" / project / "out" / "calc-package.pdf").is_file()
 
 
-def test_the_python_of_the_readme_runs():
+def test_the_python_of_the_readme_runs(folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    monkeypatch.setenv("MPLBACKEND", "agg")
     blocks = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
     assert blocks
     for block in blocks:
         exec(compile(block, "README.md", "exec"), {})
+    assert (folder / "prd.png").is_file()
 
 
-def test_every_picture_and_file_that_the_readme_names_is_there():
+def test_every_picture_and_file_that_the_readme_names_exists():
     names = re.findall(r"\]\((?!http)([^)#]+)\)", README)
     assert [name for name in names if not (ROOT / name).exists()] == []
 

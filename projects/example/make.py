@@ -1,6 +1,6 @@
-"""Makes the example: seven roof motions from seeded noise, and the filled input sheet.
+"""Makes the example: seven roof motions from seeded noise, and the completed input workbook.
 
-Run from the top: .venv/bin/python projects/example/make.py
+Run from the repository root: .venv/bin/python projects/example/make.py
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def main() -> None:
 
 
 def example() -> ProjectInput:
-    """Return the project: a warehouse roof of 360 ft by 240 ft in three slopes."""
+    """Return the project: a 360 ft by 240 ft warehouse roof with three slopes."""
     return ProjectInput.model_validate(
         {
             "project": {
@@ -74,12 +74,12 @@ def example() -> ProjectInput:
                 "roof_height_m": 36 * FOOT,
             },
             "arrays": [
-                # Asked for in one axis, as an earlier package was: the page on the models shows
-                # that two axes would not change its design displacement, because the floor governs.
+                # One axis is requested, as in an earlier package. The page on the models shows
+                # that two axes do not change its design displacement: the floor governs.
                 _array("A1", 0.5, 0.50, (30, 150), (130, 232), model="one axis with vertical"),
-                # The least model that answers is chosen: two axes.
+                # The simplest adequate model is chosen: two axes.
                 _array("A2", 2.0, 0.50, (30, 150), (30, 127)),
-                # Its friction was tested at several speeds: slippery at a crawl, less so beyond.
+                # Velocity-dependent friction: less friction at low velocity than at high velocity.
                 _array("A3", 3.0, 0.40, (190, 350), (30, 190), mu_fast=0.50, mu_rate_s_per_m=20.0),
             ],
             "objects": [
@@ -119,7 +119,7 @@ def _array(
     y: tuple[float, float],
     **more: object,
 ) -> dict[str, object]:
-    """Return an array of the same product, its rectangle in feet, sloping down to the south."""
+    """Return an array of the same product with its rectangle in feet; south is downslope."""
     area_sqft = (x[1] - x[0]) * (y[1] - y[0])
     return {
         "id": name,

@@ -1,4 +1,4 @@
-"""One array under all motions, held against the rule set: what it is designed for.
+"""One array under all motions, checked against the rule set: its design displacement.
 
 Computes no physics (`report.assessment.runs`) and reads no code rule itself
 (`solver.rules.provisions`). Read `report.assessment.project` next.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 
 from report.assessment.runs import RUNGS, MotionRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
@@ -18,12 +19,13 @@ from solver.sliding import least_model
 from solver.sliding.tipping import Supports, Tipping, tipping
 from solver.sliding.uplift import Uplift, uplift
 
-_BASES = {
-    Statistic.RULE_SET: None,
-    Statistic.MEAN_1_1: Basis.MEAN_FACTORED,
-    Statistic.LARGEST_1_1: Basis.LARGEST_FACTORED,
-    Statistic.MEAN: Basis.MEAN,
-}
+
+class DesignBasis(StrEnum):
+    """Source of a design displacement."""
+
+    ANALYSIS = "analysis"
+    FLOOR = "floor"
+    NO_VALUE = "no value"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,22 +35,22 @@ class ArrayAssessment:
     Attributes
     ----------
     floor_m : float
-        Least design displacement without peer review [m]; 0 with it.
+        Minimum design displacement without peer review [m]; 0 with peer review.
     design_m : float
         Design displacement [m]: the larger of the value from analysis and the floor. NaN where
         there is no value from analysis.
     directions : mapping
-        The value from analysis of the excursions in each direction; `analysis` is that of any.
+        Value from analysis of the excursions in each direction; `analysis` is that for any.
     chosen : mapping
-        The same by the models that the scenes need; differs where a model is asked for.
+        The same with the adequate models; differs from it where a model is requested.
     needed : tuple of MotionRun
-        The runs behind it, in the order of `motions`.
+        The runs for `chosen`, in the order of `motions`.
     tipping, uplift : Tipping, Uplift
-        Of the run that comes nearest to tipping, and of the one with the least normal force.
+        For the run nearest to tipping, and for the run with the smallest normal force.
     checks : tuple of Check
-        Limits that the array must keep for the analysis route.
+        Limits of the analysis route.
     prescriptive_checks : tuple of Check
-        Limits that it would have to keep to use the prescriptive value instead.
+        Limits of the prescriptive route.
     """
 
     array: Array
@@ -67,31 +69,31 @@ class ArrayAssessment:
     interconnection_n: float
 
     @property
-    def governs(self) -> str:
-        """What the design displacement comes from."""
+    def governs(self) -> DesignBasis:
+        """Source of the design displacement."""
         if math.isnan(self.design_m):
-            return "no value"
-        return "floor" if self.floor_m > self.analysis.value_m else "analysis"
+            return DesignBasis.NO_VALUE
+        return DesignBasis.FLOOR if self.floor_m > self.analysis.value_m else DesignBasis.ANALYSIS
 
     def design_towards_m(self, direction: Direction) -> float:
-        """Return the design displacement in a direction [m]: not below the floor either."""
+        """Return the design displacement in a direction [m], not less than the floor."""
         return self._floored(self.directions[direction])
 
     def chosen_towards_m(self, direction: Direction) -> float:
-        """Return the same by the models that the scenes need [m]."""
+        """Return the same with the adequate models [m]."""
         return self._floored(self.chosen[direction])
 
-    def _floored(self, found: AnalysisValue) -> float:
-        return math.nan if math.isnan(found.value_m) else max(found.value_m, self.floor_m)
+    def _floored(self, analysis: AnalysisValue) -> float:
+        return math.nan if math.isnan(analysis.value_m) else max(analysis.value_m, self.floor_m)
 
     @property
     def is_model_asked_for(self) -> bool:
-        """Whether the workbook asks for a model."""
+        """Whether the workbook requests a model."""
         return self.array.model in RUNGS
 
     @property
     def is_model_enough(self) -> bool:
-        """Whether the models that the scenes need would not ask for more room, any way."""
+        """Whether the adequate models require no larger displacement in any direction."""
         pairs = ((self.chosen_towards_m(d), self.design_towards_m(d)) for d in Direction)
         return all(math.isnan(b) or a <= b + least_model.DEFAULT.bound_m(b) for a, b in pairs)
 
@@ -102,7 +104,7 @@ class ArrayAssessment:
 
     @property
     def variation(self) -> float:
-        """Standard deviation of the motions' PRDs over their mean; NaN for one motion."""
+        """Coefficient of variation of the motions' PRDs; NaN for one motion."""
         peaks = [run.governing.result.prd_m for run in self.motions]
         mean = self.analysis.mean_m
         if len(peaks) < 2 or not mean > 0.0:
@@ -115,14 +117,9 @@ class ArrayAssessment:
         return max(self.motions, key=lambda run: nan_is_worst(run.governing.result.prd_m))
 
 
-def same_id(one: str, other: str) -> bool:
-    """Whether two ids name the same thing; capitals do not tell things apart."""
-    return one.casefold() == other.casefold()
-
-
 def by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
-    """Return the array of an id."""
-    return next(item for item in arrays if same_id(item.array.id, wanted))
+    """Return the array with an id."""
+    return next(item for item in arrays if item.array.id == wanted)
 
 
 def assess_array(
@@ -132,20 +129,21 @@ def assess_array(
     runs: tuple[MotionRun, ...],
     needed: tuple[MotionRun, ...],
 ) -> ArrayAssessment:
-    """Return an array held against the rule set.
+    """Return an array checked against the rule set.
 
     Parameters
     ----------
     runs : tuple of MotionRun
-        Of its own model, one for each motion.
+        With the model of the array, one for each motion.
     needed : tuple of MotionRun
-        By the models that its scenes need; `runs` itself where no model is asked for.
+        With the adequate models; `runs` itself where no model is requested.
     """
     site = data.site
     prescriptive = provisions.prescriptive_displacement(
         rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
     )
-    basis = _BASES[data.options.statistic]
+    asked = data.options.statistic
+    basis = None if asked is Statistic.RULE_SET else Basis(asked.value)
     directions = _towards(rules, runs, basis)
     analysis = directions[Direction.ANY]
     floor = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m

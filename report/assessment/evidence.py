@@ -1,6 +1,6 @@
-"""What only the package prints, beyond the assessment: each computed once.
+"""Supporting results that only the package prints, each computed once.
 
-Draws nothing. Read `support`; `report.pages` says it.
+Draws nothing. Read `support`; `report.pages` prints it.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from solver.model import SlideHistory
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Evidence:
-    """What stands behind an assessment.
+    """Results that support an assessment.
 
     Attributes
     ----------
     spectra : tuple of Spectra
     histories : tuple of tuple of SlideHistory
-        For each array, the governing run of each motion; all NaN where it gave no displacement.
+        For each array, the governing run of each motion; all NaN where it has no displacement.
     accuracy : Accuracy
-        The governing run by every method, and the design with other friction.
+        The governing run by every method, and the design with changed friction.
     highpass : tuple of Beyond
-        What the high-pass of each motion takes from the slip of the governing array.
+        Effect of the high-pass of each motion on the slip of the governing array.
     """
 
     spectra: tuple[Spectra, ...]
@@ -36,7 +36,7 @@ class Evidence:
 
 
 def support(assessment: Assessment) -> Evidence:
-    """Compute what stands behind an assessment."""
+    """Compute the results that support an assessment."""
     return Evidence(
         spectra=spectra(assessment),
         histories=tuple(tuple(run.history() for run in one.motions) for one in assessment.arrays),

@@ -1,6 +1,6 @@
-"""How much of the slip comes from periods that a high-pass takes away.
+"""Effect of the high-pass filter on the slip.
 
-Runs the solver on motions with their high-pass left out; `report.pages.motions` says the outcome.
+Runs the solver on motions without their high-pass; `report.pages.motions` prints the results.
 """
 
 from __future__ import annotations
@@ -8,14 +8,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.assessment.arrays import ArrayAssessment, same_id
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
 from report.assessment.runs import run_motion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Beyond:
-    """One array under one motion, with its high-pass as run and without it [m]."""
+    """One array under one motion, with the high-pass as run and without it [m]."""
 
     motion_id: str
     corner_hz: float
@@ -24,22 +24,22 @@ class Beyond:
 
     @property
     def share(self) -> float:
-        """Part of the PRD without the high-pass that is lost with it; NaN where nothing slides."""
+        """Fraction of the PRD without high-pass that the filter removes; NaN without sliding."""
         if not self.unfiltered_m > 0.0:
             return math.nan
         return (self.unfiltered_m - self.filtered_m) / self.unfiltered_m
 
 
 def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
-    """Run the governing array under every motion that has a high-pass once more without it."""
-    rows, found = assessment.project.motions, assessment.governing
-    corners = {row.id.casefold(): row.highpass_hz or math.nan for row in rows}
+    """Rerun the governing array without high-pass under every motion that has one."""
+    rows, governing = assessment.project.motions, assessment.governing
+    corners = {row.id: row.highpass_hz or math.nan for row in rows}
     return tuple(
         Beyond(
             motion_id=bare.id,
-            corner_hz=corners[bare.id.casefold()],
-            filtered_m=_prd_m(found, bare.id),
-            unfiltered_m=run_motion(found.array, bare).governing.result.prd_m,
+            corner_hz=corners[bare.id],
+            filtered_m=_prd_m(governing, bare.id),
+            unfiltered_m=run_motion(governing.array, bare).governing.result.prd_m,
         )
         for prepared in assessment.shaking.prepared
         for bare in prepared.unfiltered
@@ -47,5 +47,5 @@ def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
 
 
 def _prd_m(found: ArrayAssessment, motion_id: str) -> float:
-    run = next(run for run in found.motions if same_id(run.motion.id, motion_id))
+    run = next(run for run in found.motions if run.motion.id == motion_id)
     return run.governing.result.prd_m

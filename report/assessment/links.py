@@ -1,6 +1,6 @@
-"""Whether one rigid block is enough for an array: held against a row of linked blocks.
+"""Adequacy of one rigid block for an array: comparison with a row of linked blocks.
 
-Runs both in one axis with the vertical, where a workbook asks for it; computes no physics
+Runs both in one axis with the vertical, where a workbook requests it; computes no physics
 (`solver.sliding.row`, `solver.sliding.checked`). Read `LinkedArray` first, then `assess_linked`.
 """
 
@@ -28,9 +28,9 @@ class LinkedRun:
     Attributes
     ----------
     rigid : SlideResult
-        Of one block with the array's own friction coefficient.
+        One block with the friction coefficient of the array.
     row : RowResult
-        Of the blocks, each with its own.
+        The linked blocks, each with its own coefficient.
     """
 
     heading: Heading
@@ -39,30 +39,30 @@ class LinkedRun:
 
     @property
     def prd_m(self) -> float:
-        """PRD of the block that goes farthest [m]; NaN where there is none."""
+        """Largest PRD of the blocks [m]; NaN where there is none."""
         return max(self.row.prd_m)
 
     @property
     def block(self) -> int:
-        """Number of the block that goes farthest, from 1, the highest."""
+        """Number of the block with the largest PRD, from 1 at the upslope end."""
         return self.row.prd_m.index(self.prd_m) + 1
 
     @property
     def is_final(self) -> bool:
-        """Whether both are followed until they rest."""
+        """Whether both come to rest."""
         return self.row.status is Status.OK and self.rigid.status is Status.OK
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkedMotion:
-    """All runs of one motion; the largest PRDs are NaN where a run has none [m]."""
+    """All runs of one motion; the largest PRDs are NaN if any run has none [m]."""
 
     motion: Motion
     runs: tuple[LinkedRun, ...]
 
     @property
     def rigid_m(self) -> float:
-        """Largest PRD of the one block [m]."""
+        """Largest PRD of the single block [m]."""
         return max((run.rigid.prd_m for run in self.runs), key=nan_is_worst)
 
     @property
@@ -73,19 +73,19 @@ class LinkedMotion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkedArray:
-    """An array as a row of linked blocks, beside what it is designed for as one rigid block.
+    """An array as a row of linked blocks, with its design as one rigid block.
 
     Attributes
     ----------
     links : Links
-        As asked for.
+        As entered in the workbook.
     found : ArrayAssessment
-        The array as it is designed.
+        The array as designed.
     row : BlockRow
     motions : tuple of LinkedMotion
     rigid, linked : AnalysisValue
-        Of the one block and of the blocks that go farthest, by the statistic of the array; both
-        in one axis with the vertical.
+        Of the single block and of the blocks with the largest PRD, by the statistic of the
+        array; both in one axis with the vertical.
     """
 
     links: Links
@@ -97,10 +97,10 @@ class LinkedArray:
 
     @property
     def ratio(self) -> float:
-        """Value with links / value of the one block.
+        """Value with links / value of the single block.
 
-        Where that one does not slide: inf, or 1 where the blocks slide by less than any model minds
-        (`least_model.Settings.bound_m`).
+        If the single block does not slide: inf, or 1 where the blocks slide less than the tolerance
+        that matters to the choice of model (`least_model.Settings.bound_m`).
         """
         rigid, linked = self.rigid.value_m, self.linked.value_m
         if rigid == 0.0 and not math.isnan(linked):
@@ -109,10 +109,10 @@ class LinkedArray:
 
     @property
     def value_m(self) -> float:
-        """The value from analysis that links raise [m].
+        """The value from analysis that is multiplied by the ratio [m].
 
-        Where a model is asked for and the one that the motions need gives more, that is it: a floor
-        may hide what the model leaves out, and need not hide it together with links.
+        Where a model is requested and the adequate one gives more, the latter: the floor may cover
+        what the requested model neglects, but not necessarily together with links.
         """
         return max(self.found.analysis.value_m, self.found.chosen[Direction.ANY].value_m)
 
@@ -120,7 +120,7 @@ class LinkedArray:
     def estimated_m(self) -> float:
         """Design displacement with links [m], an estimate; NaN without a value.
 
-        The value from analysis grows by the ratio, where that is above 1; not below the floor.
+        The value from analysis times the ratio, if above 1; not less than the floor.
         """
         ratio, design = self.ratio, self.found
         if math.isnan(ratio) or math.isnan(design.design_m):
@@ -131,29 +131,29 @@ class LinkedArray:
 
     @property
     def is_rigid_enough(self) -> bool:
-        """Whether links ask for no more room than the design has, by runs that are all final."""
+        """Whether links require no larger displacement than the design, with all runs final."""
         return self.is_final and self.is_within
 
     @property
     def is_within(self) -> bool:
-        """Whether the estimate is above the design by no more than any model minds."""
+        """Whether the estimate exceeds the design by no more than the model tolerance."""
         design = self.found.design_m
         return self.estimated_m <= design + least_model.DEFAULT.bound_m(design)
 
     @property
     def is_final(self) -> bool:
-        """Whether every run is followed until all of it rests."""
+        """Whether every block comes to rest in every run."""
         return all(run.is_final for motion in self.motions for run in motion.runs)
 
     @property
     def farthest(self) -> LinkedRun:
-        """The run in which a block goes farthest; one without a displacement over all."""
+        """The run with the largest PRD of a block, or one without a displacement."""
         runs = [run for motion in self.motions for run in motion.runs]
         return max(runs, key=lambda run: nan_is_worst(run.prd_m))
 
     @property
     def rigid_prd_m(self) -> float:
-        """Largest PRD of the one block in any run [m]."""
+        """Largest PRD of the single block in any run [m]."""
         return max((motion.rigid_m for motion in self.motions), key=nan_is_worst)
 
     @property
@@ -171,7 +171,7 @@ class LinkedArray:
 def assess_linked(
     pool: Executor, rules: RuleSet, links: Links, found: ArrayAssessment
 ) -> LinkedArray:
-    """Run an array as a row of linked blocks under all its motions, and as one block beside it."""
+    """Run an array under all its motions as a row of linked blocks and as one rigid block."""
     row = links.row(found.array.weight_n)
     motions = tuple(
         pool.map(partial(_run_motion, found.array, row), [run.motion for run in found.motions])

@@ -1,7 +1,7 @@
-"""Runs every array under every motion and holds the result against the rule set.
+"""Runs every array under every motion and checks the result against the rule set.
 
-Orders the work and keeps what came out; computes no physics (`solver.sliding.checked`) and reads no
-code rule itself (`solver.rules.provisions`). Read `report.assessment.arrays`,
+Orders the work and collects the results; computes no physics (`solver.sliding.checked`) and reads
+no code rule itself (`solver.rules.provisions`). Read `report.assessment.arrays`,
 `report.assessment.clearances`, `report.assessment.links` first.
 """
 
@@ -14,7 +14,7 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, assess_array, by_id, same_id
+from report.assessment.arrays import ArrayAssessment, assess_array, by_id
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.runs import MotionRun, nan_is_worst, run_motion
@@ -39,13 +39,13 @@ class Assessment:
     sheet : Sheet
     shaking : Shaking
     project : ProjectInput
-        As assessed: that of the sheet, but for runs with other friction.
+        As assessed: that of the sheet, except for runs with changed friction.
     horizontal_target, vertical_target : RequiredSpectrum
         AC156 at the roof.
     targets : Targets
-        What the motions are held against: AC156 or the project's own.
+        Target spectra of the motions: AC156 or project-specific.
     linked : tuple of LinkedArray
-        The arrays of which the workbook asks whether one rigid block is enough.
+        The arrays for which the workbook requests a check of the rigid-block model.
     """
 
     sheet: Sheet
@@ -63,18 +63,18 @@ class Assessment:
 
     @property
     def governing(self) -> ArrayAssessment:
-        """The array with the largest design displacement; one without a value over all."""
+        """The array with the largest design displacement, or one without a value."""
         return max(self.arrays, key=lambda found: nan_is_worst(found.design_m))
 
     @property
     def ok(self) -> bool:
-        """Whether all limits and clearances are kept and each array has a final design value."""
-        limits_kept = all(check.ok for check in self.building_checks)
-        arrays_stand = all(map(self.array_ok, self.arrays))
-        return limits_kept and arrays_stand and all(gap.ok for gap in self.clearances)
+        """Whether all limits and clearances are satisfied and each array has a final value."""
+        building_ok = all(check.ok for check in self.building_checks)
+        arrays_ok = all(map(self.array_ok, self.arrays))
+        return building_ok and arrays_ok and all(gap.ok for gap in self.clearances)
 
     def array_ok(self, found: ArrayAssessment) -> bool:
-        """Whether an array keeps its limits, has final values, and all its room."""
+        """Whether an array has final values and satisfies its limits and clearances."""
         return (
             not math.isnan(found.design_m)
             and found.is_model_enough
@@ -86,30 +86,21 @@ class Assessment:
         )
 
     def linked_of(self, found: ArrayAssessment) -> Sequence[LinkedArray]:
-        """Return an array as a row of linked blocks, where the workbook asks for it."""
+        """Return an array as a row of linked blocks, where the workbook requests it."""
         return [one for one in self.linked if one.found.array.id == found.array.id]
 
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
-        """Return the clearances that name an array, on either side."""
+        """Return the clearances that involve an array, on either side."""
         return [
             gap
             for gap in self.clearances
-            if same_id(gap.clearance.array, array_id) or same_id(gap.clearance.object, array_id)
+            if gap.clearance.array == array_id or gap.clearance.object == array_id
         ]
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Runs whose displacement is missing or not final, in words."""
-        return tuple(
-            f"Array {assessed.array.id}, motion {motion.motion.id}, "
-            f"{', '.join(run.heading.name for run in runs)}: "
-            f"{_trouble([run.result for run in runs])}."
-            for assessed in self.arrays
-            for motion in assessed.motions
-            for status in Status
-            if status is not Status.OK
-            and (runs := [run for run in motion.runs if run.result.status is status])
-        )
+        return tuple(text for found in self.arrays for text in run_warnings(found))
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
         """Return the clearance of an array, from either side, with the largest D/C, if any."""
@@ -117,8 +108,21 @@ class Assessment:
         return max(of_array, key=lambda c: nan_is_worst(c.demand_capacity), default=None)
 
 
+def run_warnings(found: ArrayAssessment) -> tuple[str, ...]:
+    """Return in words the runs of an array whose displacement is missing or not final."""
+    return tuple(
+        f"Array {found.array.id}, motion {motion.motion.id}, "
+        f"{', '.join(run.heading.name for run in runs)}: "
+        f"{_trouble([run.result for run in runs])}."
+        for motion in found.motions
+        for status in Status
+        if status is not Status.OK
+        and (runs := [run for run in motion.runs if run.result.status is status])
+    )
+
+
 def _trouble(results: Sequence[SlideResult]) -> str:
-    """Return in words what is wrong with runs of one outcome."""
+    """Return the outcome of runs without a final displacement, in words."""
     status = results[0].status
     if status is Status.UPLIFT:
         return f"{status.sentence} (at {min(result.t_uplift_s for result in results):.3f} s)"
@@ -136,38 +140,40 @@ def assess(sheet: Sheet, shaking: Shaking) -> Assessment:
     InputError
         For an override of a provision that the rule set does not have.
     """
-    return _assess(sheet, shaking, sheet.project, hold_models=True)
+    return _assess(sheet, shaking, sheet.project, check_models=True)
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:
-    """Assess another input under the same motions, by its own models alone."""
-    return _assess(given.sheet, given.shaking, project, hold_models=False)
+    """Assess another input under the same motions, with its own models only."""
+    return _assess(given.sheet, given.shaking, project, check_models=False)
 
 
-def _assess(sheet: Sheet, shaking: Shaking, data: ProjectInput, *, hold_models: bool) -> Assessment:
+def _assess(
+    sheet: Sheet, shaking: Shaking, data: ProjectInput, *, check_models: bool
+) -> Assessment:
     """Assess an input.
 
     Parameters
     ----------
-    hold_models : bool
-        Whether models that are asked for are held against those that the scenes need, and one
-        rigid block against a row of them.
+    check_models : bool
+        Whether requested models are compared with the adequate ones, and one rigid block with a
+        row of linked blocks.
     """
     site = data.site
     rules = provisions.RULE_SETS[site.rule_set].overridden(
         {row.provision: (row.value, row.reason) for row in data.overrides}
     )
     started = time.perf_counter()
-    # Runs in two axes, and of rows, leave Python alone: two of them go on at once.
+    # Runs in two axes and of rows release the GIL: two proceed in parallel.
     with ThreadPoolExecutor(THREADS) as pool:
-        runs = [_runs(pool, array, shaking.motions, hold_models) for array in data.arrays]
+        runs = [_runs(pool, array, shaking.motions, check_models) for array in data.arrays]
         seconds = time.perf_counter() - started
         arrays = tuple(
             assess_array(data, rules, array, *found)
             for array, found in zip(data.arrays, runs, strict=True)
         )
-        asked = data.links if hold_models else ()
-        linked = tuple(assess_linked(pool, rules, one, by_id(arrays, one.array)) for one in asked)
+        links = data.links if check_models else ()
+        linked = tuple(assess_linked(pool, rules, one, by_id(arrays, one.array)) for one in links)
     return Assessment(
         sheet=sheet,
         shaking=shaking,
@@ -189,10 +195,10 @@ def _assess(sheet: Sheet, shaking: Shaking, data: ProjectInput, *, hold_models: 
 
 
 def _runs(
-    pool: Executor, array: Array, motions: Sequence[Motion], hold_models: bool
+    pool: Executor, array: Array, motions: Sequence[Motion], check_models: bool
 ) -> tuple[tuple[MotionRun, ...], ...]:
-    """Return the runs of an array, and those by the models that its scenes need."""
+    """Return the runs of an array, and those with the adequate models."""
     runs = tuple(pool.map(partial(run_motion, array), motions))
-    if array.model is Model.CHOOSE or not hold_models:
+    if array.model is Model.CHOOSE or not check_models:
         return runs, runs
     return runs, tuple(pool.map(partial(run_motion, array, model=Model.CHOOSE), motions))

@@ -1,6 +1,6 @@
-"""One array under one motion: each component along the slope in each sense, and which run counts.
+"""One array under one motion: each component along the slope in each polarity; governing run.
 
-Follows nothing itself (`solver.sliding.least_model` does) and knows no code rule. Read
+Integrates nothing itself (`solver.sliding.least_model` does) and knows no code rule. Read
 `report.assessment.project` next.
 """
 
@@ -20,7 +20,7 @@ RUNGS: Mapping[Model, Rung] = {
     Model.ONE_AXIS_VERTICAL: Rung.ONE_AXIS_VERTICAL,
     Model.TWO_AXES: Rung.TWO_AXES,
 }
-"""The models that a workbook can ask for."""
+"""The models that a workbook can request."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,36 +33,36 @@ class HeadingRun:
 
     @property
     def result(self) -> SlideResult:
-        """What the model that was chosen gave."""
+        """Result of the model used."""
         return self.solution.result
 
     @property
     def has_across(self) -> bool:
-        """Whether motion across the slope was modelled, or shown to be none."""
+        """Whether cross-slope motion was modeled, or shown to be zero."""
         return self.solution.rung is Rung.NO_SLIP or self.solution.rung >= Rung.TWO_AXES
 
     def excursion_m(self, direction: Direction) -> float:
-        """Return how far the array goes in a direction, at its farthest [m].
+        """Return the largest excursion of the array in a direction [m].
 
-        Where no motion across the slope was modelled, the PRD stands for it.
+        Where cross-slope motion was not modeled, the PRD is used for it.
         """
-        found = self.result
+        result = self.result
         return {
-            Direction.DOWN: found.down_m,
-            Direction.UP: found.up_m,
-            Direction.ACROSS: found.across_m if self.has_across else found.prd_m,
-            Direction.ANY: found.prd_m,
+            Direction.DOWN: result.down_m,
+            Direction.UP: result.up_m,
+            Direction.ACROSS: result.across_m if self.has_across else result.prd_m,
+            Direction.ANY: result.prd_m,
         }[direction]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionRun:
-    """One array under one motion, with each horizontal component in the polarities asked for.
+    """One array under one motion, with each horizontal component in the requested polarities.
 
     Attributes
     ----------
     governing : HeadingRun
-        The run with the largest PRD; one without a displacement governs over all.
+        The run with the largest PRD, or one without a displacement.
     """
 
     motion: Motion
@@ -75,11 +75,11 @@ class MotionRun:
         return self.motion.dt_s * (len(self.motion.ax_mps2) - 1)
 
     def peak_m(self, direction: Direction) -> float:
-        """Return the largest excursion of all runs in a direction [m]; NaN where one has none."""
+        """Return the largest excursion of all runs in a direction [m]; NaN if any has none."""
         return max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
 
     def history(self) -> SlideHistory:
-        """Follow the governing run once more, at the samples: for drawing alone."""
+        """Rerun the governing run for its values at the samples, for plotting only."""
         return least_model.history(self.governing.scene, self.governing.solution)
 
 
@@ -89,7 +89,7 @@ def run_motion(array: Array, motion: Motion, model: Model | None = None) -> Moti
     Parameters
     ----------
     model : Model, optional
-        In place of the array's own.
+        Replaces the model of the array.
     """
     settings = Settings(forced=RUNGS.get(array.model if model is None else model))
     runs = tuple(_run(array, motion, heading, settings) for heading in motion.headings)
@@ -103,5 +103,5 @@ def _run(array: Array, motion: Motion, heading: Heading, settings: Settings) -> 
 
 
 def nan_is_worst(value: float) -> float:
-    """Return a value to sort by: NaN over all."""
+    """Return a sort key in which NaN is the largest."""
     return math.inf if math.isnan(value) else value

@@ -1,7 +1,7 @@
-"""How sure the answer of a package is: every method on its governing run, and other friction.
+"""Accuracy of the governing run by every method, and sensitivity to friction.
 
-Runs the solver and keeps numbers; `report.pages.accuracy` puts them into words and
-`report.figures.accuracy` draws them.
+Runs the solver and collects numbers; `report.pages.accuracy` prints them and
+`report.figures.accuracy` plots them.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from solver.rivals.methods import METHODS, Method
 from solver.sliding.checked import slide
 
 SHIFT = 0.05
-"""Share by which the friction coefficient is lowered and raised."""
+"""Fraction by which the friction coefficient is decreased and increased."""
 
 MOST_STEPS = 64
-"""In a sampling interval; finer settings are in the verification manual alone."""
+"""Maximum steps per sampling interval; finer settings are in the verification manual only."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,11 +37,11 @@ class MethodRun:
     Attributes
     ----------
     name : str
-        Of the method.
+        Name of the method.
     steps : float
-        Its steps in each sampling interval.
+        Steps in each sampling interval.
     is_default : bool
-        Whether these are the parameters that the method has by itself.
+        Whether the parameters are the defaults of the method.
     error : float
         |PRD / exact PRD - 1|; NaN where the method failed.
     """
@@ -55,18 +55,18 @@ class MethodRun:
 
     @property
     def method(self) -> Method:
-        """The method itself."""
+        """The method."""
         return METHODS[self.name]
 
     @property
     def failed(self) -> bool:
-        """Whether it gave no displacement."""
+        """Whether the run gave no displacement."""
         return math.isnan(self.error)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rivals:
-    """The governing run, along the slope alone, by every method: they know one axis.
+    """The governing run along the slope alone, by every method: they have one axis only.
 
     Attributes
     ----------
@@ -75,14 +75,14 @@ class Rivals:
     motion : MotionRun
         Its motion with the largest PRD.
     exact : SlideResult
-        Of its governing run along the slope alone.
+        Exact result of its governing run along the slope alone.
     doubled : float
-        |PRD / PRD - 1| of the exact method with a sample added midway between each two: the same
-        motion, so that what is found is rounding. NaN without a displacement.
+        |PRD / PRD - 1| of the exact method with a sample added midway between adjacent samples:
+        the motion is the same, so the change is rounding error. NaN without a displacement.
     seconds : float
-        Time of the exact run, the least of some [s].
+        Time of the exact run, the smallest of several [s].
     runs : tuple of MethodRun
-        Empty where nothing slides or the block leaves the roof.
+        Empty where nothing slides or the block lifts off.
     """
 
     array: ArrayAssessment
@@ -101,7 +101,7 @@ class Accuracy:
     ----------
     rivals : Rivals
     less, given, more : Assessment
-        With the friction coefficients lowered, as given, and raised.
+        With the friction coefficients decreased, as given, and increased.
     """
 
     rivals: Rivals
@@ -111,7 +111,7 @@ class Accuracy:
 
     @property
     def newly_short(self) -> tuple[ClearanceCheck, ...]:
-        """Clearances that are kept as given and not with less friction."""
+        """Clearances that are satisfied as given but not with less friction."""
         pairs = zip(self.given.clearances, self.less.clearances, strict=True)
         return tuple(after for before, after in pairs if before.ok and not after.ok)
 
@@ -133,7 +133,7 @@ def rivals(array: ArrayAssessment) -> Rivals:
 
 
 def accuracy(given: Assessment) -> Accuracy:
-    """Run the governing motion by every method, and all arrays with other friction."""
+    """Run the governing motion by every method, and all arrays with changed friction."""
     return Accuracy(
         rivals=rivals(given.governing),
         less=reassess(given, _with_friction(given.project, 1.0 - SHIFT)),
@@ -143,13 +143,13 @@ def accuracy(given: Assessment) -> Accuracy:
 
 
 def _seconds(scene: dict[str, Any]) -> float:
-    """Return the least time of some runs: what disturbs a run only lengthens it."""
-    found = []
+    """Return the smallest time of several runs: disturbances only lengthen a run."""
+    times = []
     for _ in range(7):
         started = time.perf_counter()
         slide(**scene)
-        found.append(time.perf_counter() - started)
-    return min(found)
+        times.append(time.perf_counter() - started)
+    return min(times)
 
 
 def _with_friction(data: ProjectInput, factor: float) -> ProjectInput:
@@ -165,14 +165,14 @@ def _with_friction(data: ProjectInput, factor: float) -> ProjectInput:
 
 def _scene(run: MotionRun) -> dict[str, Any]:
     """Return the governing run, along the slope alone, as arguments of `slide`."""
-    found = run.governing.scene
+    governing = run.governing.scene
     return {
-        "ax_mps2": found.ax_mps2,
-        "az_mps2": found.az_mps2 if run.motion.has_vertical else None,
-        "dt_s": found.dt_s,
-        "scale": found.scale,
-        "slope_rad": found.slope_rad,
-        "mu": found.friction.mu_slow,
+        "ax_mps2": governing.ax_mps2,
+        "az_mps2": governing.az_mps2 if run.motion.has_vertical else None,
+        "dt_s": governing.dt_s,
+        "scale": governing.scale,
+        "slope_rad": governing.slope_rad,
+        "mu": governing.friction.mu_slow,
     }
 
 
@@ -186,10 +186,10 @@ def _doubled(scene: dict[str, Any]) -> dict[str, Any]:
 
 
 def _midway(samples: Floats) -> Floats:
-    found = np.empty(2 * samples.size - 1)
-    found[::2] = samples
-    found[1::2] = (samples[:-1] + samples[1:]) / 2.0
-    return found
+    doubled = np.empty(2 * samples.size - 1)
+    doubled[::2] = samples
+    doubled[1::2] = (samples[:-1] + samples[1:]) / 2.0
+    return doubled
 
 
 def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
@@ -212,10 +212,10 @@ def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
 
 
 def _shown(with_vertical: bool) -> Iterator[Method]:
-    """Yield the rivals that take the scene; regularised friction would take too long here.
+    """Yield the methods that apply to the scene, except regularized friction, which is too slow.
 
-    `adaptive` gives the numbers of `paper`: it stands for both with vertical shaking, which the
-    paper's own does not take.
+    `adaptive` gives the numbers of `paper` and represents both with vertical shaking, which
+    `paper` does not accept.
     """
-    left_out = {"exact", "regularised", "paper" if with_vertical else "adaptive"}
-    return (method for method in METHODS.values() if method.name not in left_out)
+    omitted = {"exact", "regularized", "paper" if with_vertical else "adaptive"}
+    return (method for method in METHODS.values() if method.name not in omitted)

@@ -1,4 +1,4 @@
-"""Response spectra of the motions as run, with the target that they are held against.
+"""Response spectra of the motions as run, with their target.
 
 Draws nothing and prints nothing: `report.figures` and `report.pages.motions` do.
 """
@@ -21,7 +21,7 @@ from solver.records.spectrum import response_spectrum
 
 PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
 BAND_HZ = 0.3 * 2.0 ** (np.arange(82) / 12.0)  # 1/12 octaves to 32.3 Hz
-# From the last corner of AC156 to its first: the band, beyond it coarser, and what is printed.
+# From the last corner of AC156 to the first: the band, coarser beyond it, and printed periods.
 PERIODS_S: Floats = np.unique(
     np.concatenate([1.0 / BAND_HZ, np.geomspace(3.6, 9.3, 10), [1 / 33.3], PRINTED_S[1:]])
 )
@@ -55,17 +55,17 @@ class Spectra:
 
     @property
     def target_g(self) -> Floats:
-        """Ordinates of the target at the periods; NaN where it is not given."""
+        """Ordinates of the target at the periods; NaN where not given."""
         return self.target.ordinates(self.periods_s)
 
     @property
     def in_band(self) -> NDArray[np.bool_]:
-        """Whether a period lies in the band that a matched motion keeps to, and has a target."""
+        """Whether a period lies in the matching band and has a target ordinate."""
         return np.isin(self.periods_s, 1.0 / BAND_HZ) & np.isfinite(self.target_g)
 
 
 def spectra(assessment: Assessment) -> tuple[Spectra, ...]:
-    """Return the spectra of each component that any motion has: at the roof, then on the ground."""
+    """Return the spectra of each component that occurs: at the roof, then on the ground."""
     goals, motions = assessment.targets, assessment.shaking.motions
     ground = [one for one in assessment.shaking.prepared if one.recorded_at is RecordedAt.GROUND]
     at_roof = (
@@ -90,11 +90,11 @@ def _scaled(motion: Motion, a_mps2: Floats) -> Record:
 def _spectra(
     title: str, target: TargetSpectrum, records: Sequence[Record], *, is_ground: bool
 ) -> Spectra:
-    found = [response_spectrum(record.a_mps2, record.dt_s, PERIODS_S) for record in records]
+    ordinates = [response_spectrum(record.a_mps2, record.dt_s, PERIODS_S) for record in records]
     return Spectra(
         ids=tuple(record.name for record in records),
         periods_s=PERIODS_S,
-        sa_g=np.array(found) / G_MPS2,
+        sa_g=np.array(ordinates) / G_MPS2,
         target=target,
         title=title,
         is_ground=is_ground,

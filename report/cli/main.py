@@ -1,7 +1,7 @@
-"""The command line: every command by name. The modules of this room alone print and catch.
+"""The command line: every command by name. Only the modules of this folder print and catch.
 
-Heavy imports stay inside the commands so that `--help` is quick. Exit codes: 0 done, 2 the input is
-at fault, 1 a defect of ours (with the traceback, or with the checks that failed). Read `report` for
+Heavy imports stay inside the commands so that `--help` is quick. Exit codes: 0 done, 2 input
+error, 1 internal error (with the traceback) or failed verification checks. Read `report` for
 the way from workbook to package.
 """
 
@@ -20,7 +20,7 @@ from report.cli.verify import verify
 def main() -> None:
     """Calculation packages for the seismic sliding of ballasted rooftop solar arrays.
 
-    Begin with `roofslip new DIR`, fill DIR/input.xlsx, then run `roofslip report DIR`.
+    Start with `roofslip new DIR`, fill in DIR/input.xlsx, then run `roofslip report DIR`.
     """
 
 

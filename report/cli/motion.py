@@ -23,23 +23,23 @@ if TYPE_CHECKING:
 
 _FILE = click.Path(path_type=Path)
 
-# Of the record's peak: what a converted record may lose.
+# Rounding error allowed in a converted record, relative to its peak.
 _KEPT_WITHIN = 1e-9
 _PICTURES = (".svg", ".png")
 
 
 @click.group()
 def motion() -> None:
-    """Look at records, convert them, and make suites of them."""
+    """Inspect and convert records, and generate suites of motions."""
 
 
 def _reading(command: Callable[..., None]) -> Callable[..., None]:
-    """Add the options that say how to read a file."""
+    """Add the options for reading a file."""
     options = (
         click.option("--units", type=click.Choice(UNITS),
-                     help="Units, where the file does not say."),
+                     help="Units, if the file does not state them."),
         click.option("--dt", "dt_s", type=float, default=math.nan, metavar="S",
-                     help="Time step [s], where the file has none."),
+                     help="Time step [s], if the file has none."),
     )  # fmt: skip
     for option in options:
         command = option(command)
@@ -47,13 +47,15 @@ def _reading(command: Callable[..., None]) -> Callable[..., None]:
 
 
 _channel = click.option("--channel", default="", metavar="NAME",
-                        help="One channel: its name, or its number in the file.")  # fmt: skip
+                        help="One channel: its name or its number in the file.")  # fmt: skip
 
 
 def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
-    """Let only names of pictures pass, so that no record is ever written over."""
+    """Accept only picture file names, so that a record is never overwritten."""
     if path and path.suffix.lower() not in _PICTURES:
-        raise click.BadParameter(f"{path} is no name of a picture; end it in .svg or .png")
+        raise click.BadParameter(
+            f"{path} is not a picture file name; use the extension .svg or .png"
+        )
     return path
 
 
@@ -61,32 +63,34 @@ def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path |
 @click.argument("file", metavar="FILE", type=_FILE)
 @_channel
 @_reading
-@click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="Print JSON in SI units, with the units in the keys."
+)
 @click.option("--plot", metavar="OUT.svg|OUT.png", type=_FILE, callback=_picture,
-              help="Draw the records and their 5 % damped response spectra.")  # fmt: skip
+              help="Plot the records and their 5 % damped response spectra.")  # fmt: skip
 def info(
     file: Path, channel: str, units: str | None, dt_s: float, as_json: bool, plot: Path | None
 ) -> None:
-    """Say what FILE holds: channels, peaks, duration, drift.
+    """List the channels of FILE with peaks, duration and drift.
 
-    Peak acceleration, velocity and displacement, Arias intensity, significant duration from 5 to
-    95 % of it, and the velocity and displacement left at the end. No base line is taken off. The
-    format is told by the content, whatever the name of the file.
+    Prints peak acceleration, velocity and displacement, Arias intensity, significant duration (5 to
+    95 % of it), and the velocity and displacement at the end, without baseline correction. The
+    format is recognized from the content, not from the file name.
     """
     from report.suite.info import summary, table
 
     with input_errors(file):
-        found = _read(file, units, dt_s)
-        records = [found.channel(channel)] if channel else found.channels
+        motion_file = _read(file, units, dt_s)
+        records = [motion_file.channel(channel)] if channel else motion_file.channels
         if plot:
             _draw(records, plot)
     channels = [summary(record) for record in records]
     if as_json:
-        about = {"file": str(file), "format": found.format, "notes": list(found.notes)}
+        about = {"file": str(file), "format": motion_file.format, "notes": list(motion_file.notes)}
         click.echo(json.dumps(about | {"channels": channels}))
         return
-    click.echo(f"{file}: {found.format}")
-    for line in (*table(channels), *(f"note: {note}" for note in found.notes)):
+    click.echo(f"{file}: {motion_file.format}")
+    for line in (*table(channels), *(f"note: {note}" for note in motion_file.notes)):
         click.echo(line)
     if plot:
         click.echo(plot)
@@ -98,14 +102,14 @@ def info(
 @_channel
 @_reading
 def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float) -> None:
-    """Write FILE as csv: time in s, acceleration in g.
+    """Write FILE as CSV: time in s, acceleration in g.
 
-    Never over a file that is there. Of several channels one has to be chosen.
+    An existing file is never overwritten. If FILE has several channels, select one with --channel.
     """
     with input_errors(file):
-        found = _read(file, units, dt_s)
-        _write(found.channel(channel), out)
-    for note in found.notes:
+        motion_file = _read(file, units, dt_s)
+        _write(motion_file.channel(channel), out)
+    for note in motion_file.notes:
         click.echo(f"note: {note}")
     click.echo(out)
 
@@ -115,19 +119,18 @@ def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float)
 @click.argument("more", metavar="", nargs=-1)
 @click.option("--sds", "s_ds_g", type=float, default=math.nan, help="S_DS [g].")
 @click.option("--zh", "z_over_h", type=float, default=1.0, show_default=True,
-              help="Height of the array over that of the roof.")  # fmt: skip
-@click.option("--code", type=click.Choice(["asce7-16", "asce7-22", "pv1"]),
-              help="Edition whose AC156 spectrum is the target.")  # fmt: skip
+              help="Height ratio z/h of the array.")  # fmt: skip
+@click.option("--code", help="Edition for the AC156 target spectrum, e.g. asce7-16 or pv1.")
 @click.option("--tail", type=click.Choice(["ac156", "1/T"]), default="ac156", show_default=True,
-              help="Below 1.3 Hz: the line of AC156, or 1/T.")  # fmt: skip
-@click.option("--target", metavar="BOOK.xlsx!SHEET|CSV", help="A spectrum of your own: columns "
-              "frequency [Hz] or period [s], horizontal [g], vertical [g].")  # fmt: skip
+              help="Target below 1.3 Hz: the AC156 line, or 1/T.")  # fmt: skip
+@click.option("--target", metavar="BOOK.xlsx!SHEET|CSV", help="Your own target spectrum, with "
+              "columns frequency [Hz] or period [s], horizontal [g], vertical [g].")  # fmt: skip
 @click.option("--count", type=click.IntRange(1, 99), default=7, show_default=True,
               help="Number of motions.")  # fmt: skip
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True,
               help="The same seed gives the same files.")  # fmt: skip
-@click.option("--records", metavar="FILES", multiple=True, help="Grow from records, not noise: a "
-              "motion from each file, or from several joined by commas. After DIR.")  # fmt: skip
+@click.option("--records", metavar="FILES", multiple=True, help="Use records as seeds, not "
+              "noise: one motion per file, or per files joined by commas. After DIR.")  # fmt: skip
 @_reading
 def suite(
     folder: Path,
@@ -143,13 +146,13 @@ def suite(
     units: str | None,
     dt_s: float,
 ) -> None:
-    """Make motions that follow a spectrum, into DIR: x, y and z of each, suite.json, suite.png.
+    """Generate spectrum-compatible motions in DIR: x, y and z records, suite.json, suite.png.
 
-    Each lasts 30 s, 5 to rise and 5 to decay, and ends at rest where it began. Older files of the
-    same names are replaced.
+    Each motion lasts 30 s, with 5 s of rise and 5 s of decay, and ends with zero velocity and
+    displacement. Existing files of the same names are replaced.
     """
     if more and not records:
-        raise click.UsageError(f"'{more[0]}' belongs to nothing; write --records before files")
+        raise click.UsageError(f"unexpected argument '{more[0]}'; write --records before the files")
     with input_errors(folder), Progress() as progress:
         from report.results.publish import publish
         from report.suite.files import suite_files, suite_table
@@ -158,20 +161,20 @@ def suite(
 
         check_folder(folder, count)
         targets = _targets(code, s_ds_g, z_over_h, tail, target)
-        found = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
-        progress("compiling the solver, the first time")
-        made = make_suite(
+        seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
+        progress("compiling the solver (first run only)")
+        motions = make_suite(
             targets.horizontal,
             targets.vertical,
             count=count,
             seed=seed,
-            records=found.groups,
+            records=seeds.groups,
             progress=progress,
         )
-        progress("drawing the spectra")
-        files = suite_files(made, targets, seed=seed, records=found.sha256)
+        progress("plotting the spectra")
+        files = suite_files(motions, targets, seed=seed, records=seeds.sha256)
         publish(files, folder)
-    for line in (*suite_table(made, targets), *found.notes):
+    for line in (*suite_table(motions, targets), *seeds.notes):
         click.echo(line)
     click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
 
@@ -203,7 +206,7 @@ def _write(record: Record, out: Path) -> None:
     from solver.records.record import write_record
 
     if out.exists():
-        raise InputError(f"{out}: is there already; give another name, or move it away")
+        raise InputError(f"{out}: already exists; give another name, or move the file")
     try:
         write_record(out, record, within=_KEPT_WITHIN)
     except OSError as error:
@@ -211,7 +214,7 @@ def _write(record: Record, out: Path) -> None:
 
 
 def _draw(records: Sequence[Record], out: Path) -> None:
-    """Write the picture of records, over an older one too."""
+    """Write the plot of records; an earlier plot is replaced."""
     from report.figures.base import load_fonts
     from report.figures.records import MOST, records_png, records_svg
     from report.suite.info import PERIODS_S, spectra_g
@@ -219,7 +222,9 @@ def _draw(records: Sequence[Record], out: Path) -> None:
     from solver.model import InputError
 
     if len(records) > MOST:
-        raise InputError(f"{out.name}: a picture holds {MOST} channels; choose one by its name")
+        raise InputError(
+            f"{out.name}: a plot shows at most {MOST} channels; select one with --channel"
+        )
     load_fonts(TEMPLATES / "fonts")
     drawing = records_png if out.suffix.lower() == ".png" else records_svg
     picture = drawing(records, PERIODS_S, spectra_g(records))

@@ -1,6 +1,6 @@
-"""From a folder to a calculation package: `roofslip new`, `check` and `report`.
+"""The commands on a project: `roofslip new`, `check` and `report`.
 
-Read `make`: the whole way, a line for each step.
+Read `make` first: one line for each step from workbook to package.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ SOURCE = click.Path(path_type=Path)
 @click.command()
 @click.argument("folder", metavar="DIR", type=SOURCE)
 @click.option("--units", type=click.Choice(["US", "SI"]), default="US", show_default=True,
-              help="Units of the input cells, and the ones printed first.")  # fmt: skip
+              help="Units of the input cells and primary units of the package.")  # fmt: skip
 def new(folder: Path, units: str) -> None:
-    """Write DIR/input.xlsx, ready to fill, and DIR/records/ for the motions."""
+    """Write a blank DIR/input.xlsx and the folder DIR/records/ for the motions."""
     with input_errors(folder):
         path = _new_project(folder, units)
-    click.echo(f"{path}: fill the yellow cells, put the roof motions into {folder / 'records'},")
+    click.echo(f"{path}: fill in the yellow cells, put the roof motions in {folder / 'records'},")
     click.echo(f"then run: roofslip report {folder}")
 
 
 def _new_project(folder: Path, units: str) -> Path:
-    """Write a blank workbook and an empty records folder; never over a workbook that is there."""
+    """Write a blank workbook and an empty records folder; never overwrite a workbook."""
     from report.sheet.schema import UnitsFirst
     from report.sheet.template import write_template
     from solver.model import InputError
 
     path = folder / "input.xlsx"
     if path.exists():
-        raise InputError(f"{path}: is there already; choose another folder, or move it away")
+        raise InputError(f"{path}: already exists; choose another folder, or move the file")
     try:
         (folder / "records").mkdir(parents=True, exist_ok=True)
         write_template(path, units=UnitsFirst(units))
@@ -54,7 +54,7 @@ def _new_project(folder: Path, units: str) -> Path:
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
 def check(source: Path) -> None:
-    """Read and validate the input; write nothing."""
+    """Read and validate the input without writing anything."""
     from report.motions.prepare import prepare
     from report.sheet.read import read
 
@@ -71,9 +71,9 @@ def check(source: Path) -> None:
 
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
-@click.option("--out", type=SOURCE, help="Folder for the outputs; default: out/ beside the input.")
+@click.option("--out", type=SOURCE, help="Output folder; default: out/ beside the input.")
 def report(source: Path, out: Path | None) -> None:
-    """Write calc-package.pdf, results.xlsx and results.json, and print the governing numbers."""
+    """Write calc-package.pdf, results.xlsx and results.json, and print a summary."""
     with input_errors(source), Progress() as progress:
         assessment, folder, files = make(source, out, progress)
     _print_summary(assessment)
@@ -85,7 +85,7 @@ def report(source: Path, out: Path | None) -> None:
 def make(
     source: Path, out: Path | None, progress: Callable[[str], None]
 ) -> tuple[Assessment, Path, Mapping[str, bytes]]:
-    """Read a workbook, run it, and write its package and tables."""
+    """Read a workbook, run its motions, and write the package and the tables."""
     from report.assessment.evidence import support
     from report.assessment.project import assess
     from report.motions.prepare import prepare
@@ -101,7 +101,7 @@ def make(
     progress("running the motions (the first run compiles the solver)")
     assessment = assess(sheet, shaking)
     evidence = support(assessment)
-    progress("making the pages")
+    progress("writing the pages")
     html = pages(assessment, evidence)
     progress("laying out the package")
     pdf = lay_out(html)
@@ -124,13 +124,13 @@ def _print_summary(assessment: Assessment) -> None:
         click.echo(f"warning: {warning}")
     for item in assessment.arrays:
         if not item.tipping.is_ok:
-            click.echo(f"warning: array {item.array.id} begins to tip: part 11 of the package")
-    for name in (one.found.array.id for one in assessment.linked if not one.is_rigid_enough):
-        text = f"one rigid block is not shown to be enough for array {name}"
-        click.echo(f"warning: {text}: part 11 of the package")
+            click.echo(f"warning: array {item.array.id} starts to tip; see part 11 of the package")
+    for name in (row.found.array.id for row in assessment.linked if not row.is_rigid_enough):
+        text = f"one rigid block has not been shown to be adequate for array {name}"
+        click.echo(f"warning: {text}; see part 11 of the package")
     checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]
     for failed in (c for c in checks if not c.ok):
-        click.echo(f"warning: outside {failed.provision.clause}: {failed.title}")
+        click.echo(f"warning: {failed.provision.clause} is not satisfied: {failed.title}")
 
 
 def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) -> tuple[str, ...]:

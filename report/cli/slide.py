@@ -1,7 +1,6 @@
-"""The command `roofslip slide`: one block under one motion, by the least model that answers.
+"""The command `roofslip slide`: one block under one motion, with the simplest adequate model.
 
-Parses and prints; reading is for `solver.formats`, choosing and running for
-`solver.sliding.least_model`.
+Parses and prints; `solver.formats` reads, `solver.sliding.least_model` selects and runs the model.
 """
 
 from __future__ import annotations
@@ -21,26 +20,30 @@ if TYPE_CHECKING:
     from solver.records.record import Record
 
 MODELS = ("no-slip", "one-axis", "one-axis-vertical", "two-axes")
-"""Rungs of `solver.sliding.least_model` that can be asked for, from the least; friction by speed is
-no option of this command."""
+"""Models of `solver.sliding.least_model` that can be requested, simplest first; this command has no
+velocity-dependent friction."""
 
 
 @click.command()
 @click.argument("record")
-@click.option("--slope-deg", type=float, required=True, help="Roof slope [deg], positive down "
-              "in the direction of positive acceleration.")  # fmt: skip
+@click.option("--slope-deg", type=float, required=True, help="Roof slope [deg]; positive if "
+              "positive acceleration points downslope.")  # fmt: skip
 @click.option("--mu", type=float, required=True, help="Friction coefficient.")
-@click.option("--transverse", metavar="RECORD", help="The other horizontal record, across the "
-              "slope.")  # fmt: skip
+@click.option("--transverse", metavar="RECORD", help="Second horizontal record, acting "
+              "cross-slope.")  # fmt: skip
 @click.option("--vertical", metavar="RECORD", help="Vertical record, positive up.")
-@click.option("--ppa-g", type=float, help="Scale all to this peak of RECORD [g].")
-@click.option("--factor", type=float, help="Scale all by this factor.")
-@click.option("--dt", type=float, help="Time step [s], where the record has no column of times.")
+@click.option(
+    "--ppa-g", type=float, help="Scale all components so that RECORD peaks at this PPA [g]."
+)
+@click.option("--factor", type=float, help="Scale all components by this factor.")
+@click.option("--dt", type=float, help="Time step [s], if the record has no time column.")
 @click.option("--units", type=click.Choice(UNITS),
-              help="Units of the records, where the files do not say.")  # fmt: skip
-@click.option("--model", type=click.Choice(MODELS), help="Run this model, not the least that "
-              "answers.")  # fmt: skip
-@click.option("--json", "as_json", is_flag=True, help="Print JSON: SI, units in the keys.")
+              help="Units of the records, if the files do not state them.")  # fmt: skip
+@click.option("--model", type=click.Choice(MODELS), help="Run this model instead of the simplest "
+              "adequate one.")  # fmt: skip
+@click.option(
+    "--json", "as_json", is_flag=True, help="Print JSON in SI units, with the units in the keys."
+)
 def slide(
     record: str,
     transverse: str | None,
@@ -54,9 +57,9 @@ def slide(
     model: str | None,
     as_json: bool,
 ) -> None:
-    """Slide one block under one RECORD: a quick look, or a step of a script.
+    """Compute the sliding of one block under one RECORD, for a quick check or in a script.
 
-    Where a file has several channels, RECORD is "FILE | CHANNEL", the channel by name or number.
+    If a file has several channels, give RECORD as "FILE | CHANNEL" (name or number).
     """
     if ppa_g is not None and factor is not None:
         raise click.UsageError("give --ppa-g or --factor, not both")
@@ -65,24 +68,24 @@ def slide(
         records = _read((record, transverse, vertical), units or "", step_s)
         scale = _scale(records[0], ppa_g, factor)
         scene = _scene(records, slope_deg, mu, scale)
-        found = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": scene.dt_s}
-        found |= _solved(scene, model)
+        values = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": scene.dt_s}
+        values |= _solved(scene, model)
     if as_json:
-        click.echo(json.dumps({k: _finite(v) for k, v in found.items()}))
+        click.echo(json.dumps({k: _finite(v) for k, v in values.items()}))
         return
-    width = max(map(len, found))
-    for key, value in found.items():
+    width = max(map(len, values))
+    for key, value in values.items():
         shown = f"{value:.6g}" if isinstance(value, float) else value
         click.echo(f"{key:>{width}}  {shown}")
 
 
 def _finite(value: Any) -> Any:
-    """JSON knows no NaN and no infinity."""
+    """Replace NaN and infinity, which JSON does not have, by null."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record | None]:
-    """Read horizontal, transverse and vertical record; every fault of all of them at once."""
+    """Read the horizontal, transverse and vertical records; report the errors of all at once."""
     from solver.formats import read_record
     from solver.model import InputError
 
@@ -106,8 +109,9 @@ def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record
 
 def _mismatches(records: list[Record]) -> list[str]:
     return [
-        f"{other.name}: has {len(other.a_mps2)} samples of {other.dt_s:g} s, {records[0].name} "
-        f"{len(records[0].a_mps2)} of {records[0].dt_s:g} s; give components of one length and step"
+        f"{other.name}: has {len(other.a_mps2)} samples at {other.dt_s:g} s, but "
+        f"{records[0].name} has {len(records[0].a_mps2)} at {records[0].dt_s:g} s; give components "
+        "of equal length and time step"
         for other in records[1:]
         if (len(other.a_mps2), other.dt_s) != (len(records[0].a_mps2), records[0].dt_s)
     ]
@@ -120,7 +124,9 @@ def _scale(record: Record | None, ppa_g: float | None, factor: float | None) -> 
         return 1.0 if factor is None else factor
     peak = float(abs(record.a_mps2).max())
     if peak == 0.0:
-        raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a PPA")
+        raise InputError(
+            f"{record.name}: is all zeros and cannot be scaled to a PPA; give another record"
+        )
     return ppa_g * STANDARD_GRAVITY_MPS2 / peak
 
 
@@ -141,16 +147,16 @@ def _scene(records: list[Record | None], slope_deg: float, mu: float, scale: flo
 
 
 def _solved(scene: Scene, model: str | None) -> dict[str, Any]:
-    """Return the result by name, with the model that gave it."""
+    """Return the results by name, with the model used."""
     from solver.sliding.least_model import Rung, Settings, solve
 
-    found = solve(scene, Settings(forced=None if model is None else Rung(MODELS.index(model))))
-    return asdict(found.result) | {
-        "outcome": found.result.status.sentence,
-        "model": f"{int(found.rung)}, {found.rung.title}",
-        "reason": found.reason,
-        "next_model": f"{int(found.next_rung)}, {found.next_rung.title}",
-        "next_effect_m": found.next_effect_m,
-        "error_m": found.result.error_m,
-        "friction_demand": found.friction_demand,
+    solution = solve(scene, Settings(forced=None if model is None else Rung(MODELS.index(model))))
+    return asdict(solution.result) | {
+        "outcome": solution.result.status.sentence,
+        "model": f"{int(solution.rung)}, {solution.rung.title}",
+        "reason": solution.reason,
+        "next_model": f"{int(solution.next_rung)}, {solution.next_rung.title}",
+        "next_effect_m": solution.next_effect_m,
+        "error_m": solution.result.error_m,
+        "friction_demand": solution.friction_demand,
     }

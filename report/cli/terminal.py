@@ -1,6 +1,6 @@
-"""What every command does alike: errors that a user can fix, and progress.
+"""What all commands share: input errors and progress.
 
-Says nothing of its own. Heavy imports stay out, so that `--help` is quick. Read `report.cli.main`
+Prints no text of its own. Heavy imports stay out, so that `--help` is quick. Read `report.cli.main`
 next.
 """
 
@@ -16,14 +16,14 @@ from typing import Any
 import click
 
 UNITS = ("g", "m/s2", "cm/s2", "mm/s2", "gal")
-"""Those of `solver.formats.UNIT_CHOICES`, which takes too long to import for `--help`."""
+"""Equal to `solver.formats.UNIT_CHOICES`, which takes too long to import for `--help`."""
 
 _QUIET_SECONDS = 1.0
 
 
 @contextmanager
 def input_errors(source: Path) -> Iterator[None]:
-    """Print what the user can fix, each problem on its line, and exit 2."""
+    """Print input errors, one problem per line, and exit with code 2."""
     try:
         yield
     except Exception as error:
@@ -39,9 +39,9 @@ def input_errors(source: Path) -> Iterator[None]:
 
 
 class Progress:
-    """Says what is being done: one changing line on a terminal, plain lines elsewhere.
+    """Prints the current step: one updated line on a terminal, plain lines elsewhere.
 
-    Silent for the first second, so that quick work says nothing.
+    Plain lines start after one second, so that quick commands print none.
     """
 
     def __init__(self) -> None:
@@ -52,7 +52,7 @@ class Progress:
         return self
 
     def __call__(self, doing: str) -> None:
-        """Say what is being done."""
+        """Print the current step."""
         seconds = time.monotonic() - self._started
         line = f"[{seconds:4.1f} s] {doing}"
         if self._terminal:

@@ -21,43 +21,46 @@ _FOLDER = click.Path(path_type=Path)
 @click.command()
 @click.option("--out", type=_FOLDER, default=Path("out"), show_default=True,
               help="Folder for the outputs.")  # fmt: skip
-@click.option("--quick", is_flag=True, help="Fewer records, scenes and settings: seconds.")
-@click.option("--records", type=_FOLDER, help="Folder of real records: files of three components "
-              "run in every model; roof_575_market in it, ground and floors of 575 Market Street, "
-              "is held against the way from ground to roof.")  # fmt: skip
+@click.option("--quick", is_flag=True, help="Run fewer records, cases and settings; takes seconds.")
+@click.option("--records", type=_FOLDER, help="Folder of recorded motions. Files with three "
+              "components are run with every model; roof_575_market (ground and floor records of "
+              "575 Market Street) is compared with the building model.")  # fmt: skip
 def verify(out: Path, quick: bool, records: Path | None) -> None:
-    """Check the solver and every rival, and write verification.pdf with its table and charts.
+    """Check the solver and the comparison methods; write verification.pdf, its table and charts.
 
-    Exits 1 where a check fails, with the outputs written.
+    The exit code is 1 if a check fails; the outputs are written in any case.
     """
     from report.results.publish import publish
 
     with input_errors(records or out), Progress() as progress:
-        found, files = _verification(quick, records, progress)
-        progress("putting the files in place")
+        verification, files = _verification(quick, records, progress)
+        progress("writing the files")
         publish(files, out)
-    failed = [row for row in found.checks if not row.passed]
-    passed = len(found.checks) - len(failed)
-    click.echo(f"{'FAIL' if failed else 'PASS'}: {passed} of {len(found.checks)} checks passed")
+    failed = [row for row in verification.checks if not row.passed]
+    passed = len(verification.checks) - len(failed)
+    click.echo(
+        f"{'FAIL' if failed else 'PASS'}: {passed} of {len(verification.checks)} checks passed"
+    )
     for row in failed:
         click.echo(
             f"  {row.section}: {row.problem}, {row.quantity}: expected {row.expected:.10g}, found "
-            f"{row.found:.10g} {row.unit}, error {row.error:.1e} over {row.tolerance:.1e}"
+            f"{row.found:.10g} {row.unit}, error {row.error:.1e} exceeds "
+            f"{row.tolerance:.1e}"
         )
     for name in files:
         click.echo(out / name)
-    if failed or not found.checks:
+    if failed or not verification.checks:
         sys.exit(1)
 
 
 def _verification(
     quick: bool, records: Path | None, progress: Callable[[str], None]
 ) -> tuple[Verification, Mapping[str, bytes]]:
-    """Return what was found, and every output as finished bytes by file name."""
+    """Return the verification, and every output as finished bytes by file name."""
     from report.manual.render import files
     from solver.verification.run import recorded_buildings, recorded_triples, verify
 
     buildings = recorded_buildings(records) if records else ()
     motions = recorded_triples(records) if records else ()
-    found = verify((), quick=quick, progress=progress, buildings=buildings, motions=motions)
-    return found, files(found, dt.date.today(), progress)
+    verification = verify((), quick=quick, progress=progress, buildings=buildings, motions=motions)
+    return verification, files(verification, dt.date.today(), progress)

@@ -1,4 +1,4 @@
-"""Work against precision on the governing run of a package, along the slope alone.
+"""Error against number of steps for the governing run of a package, along the slope alone.
 
 The cost axis counts steps, not seconds, so that two runs draw the same bytes.
 """
@@ -16,12 +16,12 @@ from report.figures.methods import LOOKS
 from report.figures.scales import decades
 from report.words.units import Quantity
 
-FLOOR = 1e-16  # an error of no digit at all is drawn here: a double carries no more
+FLOOR = 1e-16  # an error of zero is drawn here: the resolution of a double
 _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 
 
 def work_precision(found: Rivals, us_first: bool) -> str:
-    """Return the error in PRD against steps for each sampling interval, a line a method."""
+    """Return the error in PRD against steps per sampling interval, one line per method."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     with style():
         figure, axes = framed(1.85, 0.55, 2.5, 0.1, 0.42)
@@ -30,7 +30,7 @@ def work_precision(found: Rivals, us_first: bool) -> str:
         floor = max(found.doubled, FLOOR)
         axes.plot([1.0], [100.0 * floor], **LOOKS["exact"].all | {"markersize": 9})
         axes.annotate(
-            "exact method: rounding only",
+            "exact method: rounding error",
             (1.0, 100.0 * floor),
             (9, -2),
             textcoords="offset points",
@@ -48,11 +48,11 @@ def work_precision(found: Rivals, us_first: bool) -> str:
 
 
 def _draw(axes: Axes, runs: Sequence[MethodRun]) -> None:
-    """Draw one method; its default setting lies on the line like any other."""
+    """Draw one method; its default setting is on the line like any other."""
     if not runs:
         return
     look = LOOKS[runs[0].method.name]
-    if not runs[0].method.knob:  # no number of steps changes its error
+    if not runs[0].method.knob:  # the error does not depend on a number of steps
         axes.axhline(100.0 * runs[0].error, color=look.color, linewidth=1.6, label=look.label)
         return
     ordered = sorted(runs, key=lambda run: (run.steps, run.error))
@@ -74,7 +74,7 @@ def _axes(axes: Axes, most: float) -> None:
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_locator(NullLocator())
     decades(axes.yaxis)
-    axes.set_xlabel("Steps in each sampling interval")
+    axes.set_xlabel("Steps per sampling interval")
     axes.set_ylabel("Error in PRD [%]")
     axes.grid(True)
     axes.set_axisbelow(True)

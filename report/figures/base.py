@@ -1,6 +1,7 @@
-"""What all charts share: fonts, style, sizes, and the way to the text of an SVG.
+"""Shared by all charts: fonts, style, sizes, and SVG output.
 
-Two runs give the same bytes, whatever the machine's fonts and settings. Read `report.figures` next.
+Two runs give the same bytes, independent of the machine's fonts and settings.
+Read `report.figures` next.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from matplotlib.figure import Figure
 
 WIDTH_IN = 6.7
 INK, GREY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
-ACROSS = "#c8651b"  # beside ACCENT, told apart by anyone, in grey too
+ACROSS = "#c8651b"  # distinct from ACCENT with color blindness and in gray
 FAMILY = "Source Sans 3"
 
 _STYLE: Any = {
@@ -44,15 +45,15 @@ _STYLE: Any = {
     "legend.frameon": False,
     "legend.fontsize": 7.5,
     "hatch.linewidth": 0.5,
-    "svg.fonttype": "none",  # text stays text: the pages load the same fonts
+    "svg.fonttype": "none",  # text remains text: the pages load the same fonts
     "svg.hashsalt": "roofslip",
     "path.simplify": True,
-    "text.parse_math": False,  # a dollar sign in a name is a dollar sign
+    "text.parse_math": False,  # a dollar sign in a name is printed as such
 }
 
 
 def load_fonts(folder: Path) -> None:
-    """Make the shipped fonts known to the charts."""
+    """Register the shipped fonts with the charts."""
     known = {entry.fname for entry in font_manager.fontManager.ttflist}
     for path in sorted(folder.glob("SourceSans3-*.ttf")):
         if str(path) not in known:
@@ -61,7 +62,7 @@ def load_fonts(folder: Path) -> None:
 
 @contextmanager
 def style() -> Iterator[None]:
-    """Draw in the package's style, whatever the machine's settings are."""
+    """Draw in the style of the package, independent of the machine's settings."""
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(_STYLE)
@@ -69,7 +70,7 @@ def style() -> Iterator[None]:
 
 
 def svg_text(figure: Figure) -> str:
-    """Return a figure as the text of an SVG, without date or maker."""
+    """Return a figure as the text of an SVG, without date or creator."""
     out = io.StringIO()
     figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
     text = out.getvalue()
@@ -77,7 +78,7 @@ def svg_text(figure: Figure) -> str:
 
 
 def framed(height: float, left: float, right: float, top: float, bottom: float) -> Any:
-    """Return a figure and its axes with margins in inches: measuring them takes half the time."""
+    """Return a figure and its axes with margins [in]; automatic layout takes as long as drawing."""
     figure = Figure(figsize=(WIDTH_IN, height))
     box = (
         left / WIDTH_IN,
@@ -89,23 +90,23 @@ def framed(height: float, left: float, right: float, top: float, bottom: float) 
 
 
 def bare(axes: Axes) -> None:
-    """Leave only the two axes that carry numbers."""
+    """Hide the top and right spines."""
     axes.spines[["top", "right"]].set_visible(False)
 
 
 class Broken:
-    """A line in pieces: one path instead of many."""
+    """A line with gaps: one path instead of many."""
 
     def __init__(self) -> None:
         self.x: list[float] = []
         self.y: list[float] = []
 
     def add(self, x: Iterable[float], y: Iterable[float]) -> None:
-        """Add a piece."""
+        """Append a segment."""
         self.x += [*x, math.nan]
         self.y += [*y, math.nan]
 
 
 def tick_text(name: str) -> str:
-    """Return a name cut to what fits beside a tick."""
+    """Return a name truncated to the width of a tick label."""
     return name if len(name) <= 14 else f"{name[:13]}…"

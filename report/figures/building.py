@@ -1,4 +1,4 @@
-"""A roof as recorded and as computed from its ground: spectra, and the strongest seconds."""
+"""Recorded and computed roof motion: spectra, and the strongest part of the history."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from report.words.units import G_MPS2
 from solver.verification.evidence import RoofComparison, RoofPrediction
 
 SHOWN_S = 16.0
-"""Of the histories: around the roof's strongest shaking [s]."""
+"""Duration of the histories shown, around the strongest shaking [s]."""
 
 _DASHES: tuple[Any, ...] = ((0, (5, 1.5)), (0, (1, 1.2)), (0, (6, 1.5, 1, 1.5)))
 _PERIODS_S = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
@@ -23,7 +23,7 @@ _SPECTRUM_IN, _HISTORY_IN, _ABOVE_IN, _BELOW_IN = 2.2, 1.05, 0.22, 0.42
 
 
 def comparison(found: RoofComparison) -> str:
-    """Return spectra of ground, roof and computed roofs; below, a recorded roof and the first."""
+    """Return spectra of ground, roof and computed roofs; below, histories of a recorded roof."""
     panels = [(_spectra, _SPECTRUM_IN)]
     if found.is_recorded:
         panels.append((_histories, _HISTORY_IN))
@@ -39,12 +39,12 @@ def comparison(found: RoofComparison) -> str:
 
 
 def computed(found: RoofComparison) -> tuple[RoofPrediction, ...]:
-    """Return the predictions that a building was made for: all but the ground itself."""
+    """Return the predictions by a building model: all except the ground motion itself."""
     return tuple(one for one in found.predictions if one.n_modes > 0)
 
 
 def _spectra(axes: Axes, found: RoofComparison) -> None:
-    roof = "roof, recorded" if found.is_recorded else "roof, stepped"
+    roof = "roof, recorded" if found.is_recorded else "roof, integrated directly"
     for sa_mps2, look in (
         (found.ground_sa_mps2, {"color": GREY, "linewidth": 0.9, "label": "ground"}),
         (found.roof_sa_mps2, {"color": INK, "linewidth": 1.8, "label": roof}),
@@ -97,7 +97,7 @@ def _histories(axes: Axes, found: RoofComparison) -> None:
     )
     axes.set_xlim(t[0], t[-1])
     axes.set_xlabel("Time [s]")
-    axes.set_ylabel("Roof [g]")
+    axes.set_ylabel("Acceleration [g]")
     title = f"Roof acceleration: recorded (solid) and {first.name} (dashed)"
     axes.set_title(title, loc="left", weight="semibold")
     axes.grid(True)

@@ -1,7 +1,7 @@
-"""Charts of the package, each a function from what was computed to the text of an SVG.
+"""Charts of the package, each a function from computed results to an SVG.
 
-Computes nothing but where ink goes; reads well in black and white (line style, marker and
-hatching carry the meaning). Fonts and style are in `base`.
+Computes only the layout; legible in black and white (line style, marker and hatching carry the
+meaning). Fonts and style are in `base`.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ __all__ = [
 
 
 def spectra(found: Sequence[Spectra]) -> str:
-    """Return the spectra of each motion thin, mean and target thick, a panel a component."""
+    """Return the spectra: motions thin, mean and target thick, one panel per component."""
     with style():
         height = 0.62 + _PANEL_IN[min(len(found), 3)] * len(found)
         figure = Figure(figsize=(WIDTH_IN, height))
@@ -96,19 +96,23 @@ def _spectrum_axes(axes: Axes, part: Spectra) -> None:
     bare(axes)
 
 
-_PANEL_IN = {1: 2.0, 2: 1.9, 3: 1.25}  # a panel of so many: all stay on the page of the text
+_PANEL_IN = {
+    1: 2.0,
+    2: 1.9,
+    3: 1.25,
+}  # panel height by number of panels: all fit on the page of the text
 _PERIOD_TICKS = (0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 
 
 def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
-    """Return prescriptive value, floor, each motion's PRD, mean and design value by array."""
+    """Return prescriptive value, floor, PRD of each motion, mean and design value by array."""
     first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
     with style():
         height = 1.3 + _row_in(len(arrays)) * len(arrays)
         names = [tick_text(one.array.id) for one in arrays]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, found in enumerate(arrays):
-            _compare(axes, row, found, first, labelled=row == 0)
+            _compare(axes, row, found, first, labeled=row == 0)
         axes.set_yticks(range(len(arrays)), names)
         axes.set_ylim(len(arrays) - 0.45, -0.55)
         axes.set_xlim(0, None)
@@ -132,12 +136,12 @@ _LEGEND = ("prescriptive", "floor", "PRD of each motion", "mean", "design")
 
 
 def _label_in(names: Sequence[str]) -> float:
-    """Return the room that tick labels need [in]."""
+    """Return the width of the tick labels [in]."""
     return 0.2 + 0.06 * max(map(len, names))
 
 
 def _row_in(count: int) -> float:
-    """Return the height of a row of a chart with so many [in]."""
+    """Return the height of a row of a chart with `count` rows [in]."""
     return min(0.48, 5.4 / count)
 
 
@@ -155,9 +159,9 @@ def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
     axes.spines["right"].set_visible(False)
 
 
-def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labelled: bool) -> None:
+def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labeled: bool) -> None:
     def text(label: str) -> str:
-        return label if labelled else "_"
+        return label if labeled else "_"
 
     prescriptive = found.prescriptive.value_m / unit.si
     axes.barh(
@@ -204,7 +208,7 @@ def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labell
 
 
 def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -> str:
-    """Return required against provided separations as bars, numbered from `start`."""
+    """Return required and provided separations as bars, numbered from `start`."""
     first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
     provided = [gap.clearance.provided_m / first.si for gap in gaps]
     required = [gap.required_m / first.si for gap in gaps]

@@ -1,4 +1,4 @@
-"""Histories of the displacement relative to the roof, one panel a motion."""
+"""Histories of the displacement relative to the roof, one panel per motion."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ from report.figures.base import (
 from report.words.units import Quantity, Unit, number, pair
 from solver.model import Floats, SlideHistory
 
-MAX_POINTS = 150  # in a history; a panel is 150 points of paper wide
+MAX_POINTS = 150  # in a history; a panel is 150 pt wide
 
 
 def histories(
     motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
 ) -> str:
-    """Return the relative displacement under each motion, its governing run, PRD marked.
+    """Return the relative displacement in the governing run of each motion, PRD marked.
 
     `followed` are the histories of these runs.
 
-    All panels share one pair of axes, moved apart: a pair for each would take ten times as long.
+    All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     grid = _Grid(motions, followed, unit)
@@ -56,7 +56,7 @@ def histories(
 
 
 class _Grid:
-    """Where the panels of a figure lie, and what their scales are."""
+    """Position and scale of the panels of a figure."""
 
     def __init__(
         self, motions: Sequence[MotionRun], followed: Sequence[SlideHistory], unit: Unit
@@ -65,7 +65,7 @@ class _Grid:
         self.unit = unit
         self.columns = 2 if len(motions) <= 4 else 3
         self.rows = math.ceil(len(motions) / self.columns)
-        self.last = len(motions) - self.columns  # panels from here on have none below them
+        self.last = len(motions) - self.columns  # panels from here on are in the bottom row
         drawn = [line for one in self.followed if one for line in (one.u_m, one.across_m)]
         high = max([0.0, *(float(line.max()) for line in drawn if line.size)]) / unit.si
         low = min([0.0, *(float(line.min()) for line in drawn if line.size)]) / unit.si
@@ -74,17 +74,17 @@ class _Grid:
         self.seconds = max(run.seconds for run in motions)
 
     def x(self, index: int, t_s: Any) -> Any:
-        """Return where times lie, as given: one or an array."""
+        """Return the position of times, a number or an array."""
         return index % self.columns + 0.94 * t_s / self.seconds
 
     def y(self, index: int, value: Any) -> Any:
-        """Return where displacements in the grid's unit lie, as given: one or an array."""
+        """Return the position of displacements in the unit of the grid, a number or an array."""
         share = (value - self.low) / (self.high - self.low)
         return -(index // self.columns) - 0.95 + 0.72 * share
 
 
 def _rules(axes: Axes, grid: _Grid, count: int) -> None:
-    """Draw the levels and the ticks of all panels, each kind as one broken line."""
+    """Draw the levels and ticks of all panels, each kind as one line with gaps."""
     levels, zeros, ticks = Broken(), Broken(), Broken()
     for index in range(count):
         left, right = grid.x(index, 0.0), grid.x(index, grid.seconds)
@@ -108,25 +108,25 @@ def _times(axes: Axes, grid: _Grid, index: int, ticks: Broken) -> None:
             at = grid.x(index, float(t))
             ticks.add([at, at], [level, level - 0.025])
             text = f"{t:g} s" if t else "0"
-            # The last label keeps clear of the next panel's first.
+            # The last label must not overlap the first one of the next panel.
             side = "right" if t > 0.9 * grid.seconds else "center"
             axes.text(at, level - 0.05, text, ha=side, va="top", fontsize=7)
 
 
 def _traces(axes: Axes, grid: _Grid) -> None:
-    """Draw all histories down the slope, all across it, and all peaks, each as a broken line."""
+    """Draw all downslope histories, all cross-slope ones, and all peaks, each as one line."""
     down, across, peaks = Broken(), Broken(), Broken()
-    for index, found in enumerate(grid.followed):
-        if found is None:
+    for index, history in enumerate(grid.followed):
+        if history is None:
             middle = grid.y(index, (grid.low + grid.high) / 2)
             axes.text(grid.x(index, grid.seconds / 2), middle, "no value", ha="center", va="center")
             continue
-        for line, values in ((across, found.across_m), (down, found.u_m)):
+        for line, values in ((across, history.across_m), (down, history.u_m)):
             if values.size:
-                t, u = envelope(found.t_s, values / grid.unit.si)
+                t, u = envelope(history.t_s, values / grid.unit.si)
                 line.add(grid.x(index, t), grid.y(index, u))
-        at = found.result.t_prd_s
-        peak = np.interp(at, found.t_s, found.u_m / grid.unit.si)
+        at = history.result.t_prd_s
+        peak = np.interp(at, history.t_s, history.u_m / grid.unit.si)
         peaks.add([grid.x(index, at)], [grid.y(index, peak)])
     axes.plot(across.x, across.y, color=ACROSS, linewidth=0.7, clip_on=False)
     axes.plot(down.x, down.y, color=ACCENT, linewidth=0.9, clip_on=False)
@@ -141,7 +141,7 @@ def _titles(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool)
 
 
 def _short(run: MotionRun) -> str:
-    """Return the governing run's polarity; the component too where there are two."""
+    """Return the polarity of the governing run, with its component if there are two."""
     heading = run.governing.heading
     return heading.name if run.motion.has_transverse else heading.name[-1]
 
@@ -154,7 +154,7 @@ def _prd_text(run: MotionRun, us_first: bool) -> str:
 
 
 def envelope(t: Floats, u: Floats, most: int = MAX_POINTS) -> tuple[Floats, Floats]:
-    """Return at most `most` points: least and largest of each stretch, in their order."""
+    """Return at most `most` points: minimum and maximum of each segment, in order."""
     if len(u) <= most:
         return t, u
     edges = np.linspace(0, len(u), most // 2, dtype=int)[:-1]

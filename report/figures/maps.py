@@ -1,4 +1,4 @@
-"""Stability maps: where a method fails or is off, over two quantities; and conditioning."""
+"""Stability maps: failure and error of a method against two parameters; and sensitivity to mu."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from report.words.letters import lettered
 from solver.model import Floats
 from solver.verification.evidence import Conditioning, StabilityMap
 
-MOST = 4  # maps of one figure: it must fit on a page
+MOST = 4  # maps per figure, so that it fits on a page
 _BANDS = (
-    (0.0, 0.1, "#ffffff", "under 0.1 %"),
+    (0.0, 0.1, "#ffffff", "less than 0.1 %"),
     (0.1, 1.0, "#dfe6ee", "0.1 to 1 %"),
     (1.0, 10.0, "#a9bccf", "1 to 10 %"),
-    (10.0, math.inf, "#5f7890", "over 10 %"),
+    (10.0, math.inf, "#5f7890", "more than 10 %"),
 )
 _LIMIT: dict[str, Any] = {"color": INK, "linewidth": 1.6, "linestyle": (0, (5, 1.4, 1, 1.4))}
 _FAILED: dict[str, Any] = {
@@ -100,9 +100,9 @@ def _contours(axes: Axes, found: StabilityMap) -> None:
             )
 
 
-def _edges(centres: Floats, *, log: bool) -> Floats:
-    """Return the borders of cells around their centres."""
-    values = np.log(centres) if log else np.asarray(centres, dtype=float)
+def _edges(centers: Floats, *, log: bool) -> Floats:
+    """Return the edges of cells around their centers."""
+    values = np.log(centers) if log else np.asarray(centers, dtype=float)
     if values.size == 1:
         edges = np.array([values[0] - 0.5, values[0] + 0.5])
     else:
@@ -129,7 +129,7 @@ def _key(maps: Sequence[StabilityMap]) -> list[Any]:
 
 
 def conditioning(found: Sequence[Conditioning]) -> str:
-    """Return PRD over mu, and below it what the small change of mu does, a column each."""
+    """Return PRD over mu, and below it the change due to a small change of mu, a column each."""
     with style():
         figure = Figure(figsize=(WIDTH_IN, 2.6))
         figure.subplots_adjust(
@@ -148,12 +148,12 @@ def conditioning(found: Sequence[Conditioning]) -> str:
                 axes.grid(True)
                 bare(axes)
         grid[0, 0].set_ylabel("Exact PRD [mm]")
-        grid[1, 0].set_ylabel("Change of PRD [%]")
+        grid[1, 0].set_ylabel("Change in PRD [%]")
         return svg_text(figure)
 
 
 def _spread(axes: Axes, values: Floats) -> None:
-    """Set a logarithmic scale where values lie decades apart, an even one where they do not."""
+    """Set a logarithmic scale if the values span decades, a linear scale otherwise."""
     seen = values[values > 0.0]
     if seen.size and seen.max() > 100.0 * seen.min():
         axes.set_yscale("log")

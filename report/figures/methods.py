@@ -1,20 +1,22 @@
-"""How each method is drawn, the same in the package and in the verification manual.
+"""Line style of each method, the same in the package and in the verification manual.
 
-Marker and line style tell methods apart in black and white; colour only helps.
+Marker and line style distinguish the methods in black and white; color is secondary.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import cycle
 from typing import Any
 
 from report.figures.base import ACCENT, GREY, INK
+from solver.rivals.methods import METHODS
 
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """Label in a legend, marker, line style, colour, and whether the marker is filled."""
+    """Legend label, marker, line style, color, and whether the marker is filled."""
 
     label: str
     marker: str
@@ -42,14 +44,19 @@ class Look:
 
 _DASHED, _DOTTED, _DASHDOT, _LONG = (0, (4, 1.6)), (0, (1, 1.4)), (0, (5, 1.4, 1, 1.4)), (0, (9, 2))
 
+_STYLES = (
+    ("*", "none", INK, True),
+    ("o", "-", ACCENT, False),
+    ("s", _DASHED, INK, False),
+    ("^", _DASHDOT, ACCENT, True),
+    ("v", _DOTTED, INK, True),
+    ("D", _LONG, GREY, True),
+    ("X", _DASHED, GREY, True),
+    ("P", "none", GREY, True),
+)
+
 LOOKS: Mapping[str, Look] = {
-    "exact": Look("exact", "*", "none", INK, True),
-    "paper": Look("paper's, constant acceleration", "o", "-", ACCENT, False),
-    "linear": Look("linear acceleration", "s", _DASHED, INK, False),
-    "adaptive": Look("paper's, small steps in slip", "^", _DASHDOT, ACCENT, True),
-    "penalty-explicit": Look("link, explicit", "v", _DOTTED, INK, True),
-    "penalty-implicit": Look("link, implicit", "D", _LONG, GREY, True),
-    "regularised": Look("regularised friction", "X", _DASHED, GREY, True),
-    "frozen-normal": Look("normal force frozen", "P", "none", GREY, True),
+    method.name: Look(method.label, *style)
+    for method, style in zip(METHODS.values(), cycle(_STYLES), strict=False)
 }
-"""By the name of the method."""
+"""Keyed by the name of the method, styles in the order of the methods."""

@@ -1,4 +1,4 @@
-"""The paper's Figs. 5 to 12 made again on the records at hand."""
+"""The paper's Figs. 5 to 12 for the records of the verification."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PAPER_P64_PERCENT = 0.48
 
 FIG_10_SLOPE_DEG, FIG_11_MU, FIG_12_PPA_G = 1.0, 0.5, 1.5
 READ_OFF = (2.0, 0.5)
-"""The paper's example on Fig. 12: slope [deg] and wanted PRD [m]."""
+"""The paper's example on Fig. 12: slope [deg] and limit on PRD [m]."""
 
 _DASHED, _DOTTED, _DASHDOT = (0, (4, 1.6)), (0, (1, 1.4)), (0, (5, 1.4, 1, 1.4))
 _LINES: tuple[Any, ...] = ("-", _DASHED, _DASHDOT, _DOTTED)
@@ -53,7 +53,7 @@ def _errors(axes: Axes, one: Convergence) -> None:
         "o-",
         color=INK,
         markersize=4,
-        label="truth: exact",
+        label="against exact",
     )
     by_finest = one.largest_error_p256_percent > 0.0
     axes.plot(
@@ -64,11 +64,11 @@ def _errors(axes: Axes, one: Convergence) -> None:
         linestyle=_DASHED,
         color=ACCENT,
         markersize=4,
-        label=f"truth: P = {one.substeps[-1]}, as in the paper",
+        label=f"against P = {one.substeps[-1]}, as in the paper",
     )
     axes.plot(
         [64], [PAPER_P64_PERCENT], linestyle="", marker="*", markersize=9, color=GREY,
-        label=f"the paper, its record: {PAPER_P64_PERCENT} %",
+        label=f"paper, record of the paper: {PAPER_P64_PERCENT} %",
     )  # fmt: skip
     axes.set_yscale("log")
     low, high = axes.get_ylim()
@@ -83,7 +83,7 @@ def _powers_of_two(axes: Axes, substeps: Sequence[int]) -> None:
     axes.xaxis.set_major_locator(FixedLocator(list(substeps)))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xlabel("Sub-steps P in each sampling interval")
+    axes.set_xlabel("Sub-steps P per sampling interval")
     axes.grid(True)
     axes.set_axisbelow(True)
 
@@ -103,7 +103,7 @@ def _rows(count: int, row_in: float, below_in: float = 0.45) -> tuple[Figure, An
 
 
 def links(found: Sequence[LinkComparison]) -> str:
-    """Return Figs. 6 to 9: the history that differs most, and PRD and RRD over mu, a row each."""
+    """Return Figs. 6 to 9, a row each: history with the largest difference; PRD and RRD over mu."""
     with style():
         figure, grid = _rows(len(found), 2.0)
         for (left, right), one in zip(grid, found, strict=True):
@@ -198,7 +198,7 @@ def _nearest(values: Floats, wanted: float) -> int:
 
 
 def _every(values: Floats) -> list[tuple[int, float]]:
-    """Return at most eight of the values with their places, the last one among them."""
+    """Return at most eight of the values with their indices, including the last value."""
     step = math.ceil(values.size / 8)
     return [(k, float(values[k])) for k in range((values.size - 1) % step, values.size, step)]
 
@@ -232,7 +232,7 @@ def _family(axes: Axes, x: Floats, family: Sequence[tuple[str, Floats]]) -> None
 
 
 def contours(found: DesignCurves) -> str:
-    """Return Fig. 12: contours of PRD over mu and slope, with the read-off of the least mu."""
+    """Return Fig. 12: contours of PRD over mu and slope, with the least mu for the limit."""
     ppa = _nearest(found.ppas_g, FIG_12_PPA_G)
     prd_mm = 1e3 * found.prd_m[:, :, ppa]
     slope_deg, wanted_m = READ_OFF

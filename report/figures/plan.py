@@ -28,7 +28,7 @@ from report.words.units import Quantity, Unit, number
 
 
 def roof_plan(data: ProjectInput, us_first: bool) -> str:
-    """Arrays, objects and edges to scale, with the gaps that are checked and the slope's fall."""
+    """Return arrays, objects and edges to scale, with checked gaps and downslope directions."""
     unit = Quantity.PLAN.us if us_first else Quantity.PLAN.si
     shapes: dict[str, Rectangle | None] = {item.id: item.rectangle for item in data.objects}
     shapes |= {item.id: item.rectangle for item in data.arrays}
@@ -79,9 +79,9 @@ def _objects(axes: Axes, data: ProjectInput, span: float) -> None:
         axes.add_patch(_box(shape, linewidth=0.7, edgecolor=INK, **_FILLS[item.kind]))
         wide, tall = shape.x_to_m - shape.x_from_m, shape.y_to_m - shape.y_from_m
         x, y = (shape.x_from_m + shape.x_to_m) / 2, (shape.y_from_m + shape.y_to_m) / 2
-        upright = tall > 3 * wide
-        room = (tall if upright else wide) / span
-        if room < 0.012 * len(item.id) + 0.04:  # no room within: below it
+        is_vertical = tall > 3 * wide
+        room = (tall if is_vertical else wide) / span
+        if room < 0.012 * len(item.id) + 0.04:  # no space inside: label below
             axes.text(
                 x,
                 shape.y_from_m - 0.008 * span,
@@ -92,14 +92,14 @@ def _objects(axes: Axes, data: ProjectInput, span: float) -> None:
             )
             continue
         axes.text(
-            # Off the middle of an edge, where clearances are measured.
+            # Away from the middle of an edge, where clearances are drawn.
             x if tall > wide or room < 0.6 else shape.x_from_m + 0.2 * wide,
             y if wide > tall or room < 0.6 else shape.y_from_m + 0.2 * tall,
             tick_text(item.id),
             ha="center",
             va="center",
             fontsize=7,
-            rotation=90 if upright else 0,
+            rotation=90 if is_vertical else 0,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
         )
 
@@ -137,9 +137,8 @@ def _array(axes: Axes, name: str, shape: Rectangle, downslope_deg: float, slope:
 def _gaps(
     axes: Axes, data: ProjectInput, shapes: Mapping[str, Rectangle | None], span: float
 ) -> None:
-    known = {name.casefold(): shape for name, shape in shapes.items()}
     for count, row in enumerate(data.clearances, start=1):
-        near, far = known.get(row.array.casefold()), known.get(row.object.casefold())
+        near, far = shapes.get(row.array), shapes.get(row.object)
         if near is None or far is None:
             continue
         (xa, ya), (xb, yb) = _closest(near, far)
@@ -180,7 +179,7 @@ def _closest(a: Rectangle, b: Rectangle) -> tuple[tuple[float, float], tuple[flo
 
 
 def _nearest(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
-    """Return where two ranges come closest; the middle of what they share where they overlap."""
+    """Return the closest points of two ranges; the middle of the overlap if they overlap."""
     if a[1] <= b[0]:
         return a[1], b[0]
     if b[1] <= a[0]:

@@ -1,7 +1,7 @@
-"""Records as they were read: acceleration over time, a panel a channel, and their spectra.
+"""Records as read: acceleration over time, one panel per channel, and their spectra.
 
-Computes nothing but where ink goes. For people who look at a file: the picture stands alone, so
-its text is drawn as outlines and needs no font. Read `report.figures.base` first.
+Computes only the layout. The picture is a stand-alone file, so its text is drawn as outlines and
+needs no font. Read `report.figures.base` first.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from solver.model import Floats
 from solver.records.record import Record
 
 MOST = 12
-"""Channels that one picture holds."""
+"""Maximum number of channels in one picture."""
 
 _POINTS = 3000
 _DPI = 200
@@ -42,9 +42,9 @@ def records_svg(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> s
     ----------
     records : sequence of Record
     periods_s : array, shape (m,)
-        Periods of the spectra [s], rising.
+        Periods of the spectra [s], increasing.
     sa_g : array, shape (n, m)
-        Their ordinates [g], a row a record.
+        Their ordinates [g], one row per record.
     """
     with style():
         mpl.rcParams["svg.fonttype"] = "path"
@@ -61,7 +61,7 @@ def records_png(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> b
 
 
 def _figure(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> Figure:
-    """Lay out from below: legend, spectra, and a panel a record with its title above it."""
+    """Lay out from the bottom: legend, spectra, and one panel per record with its title."""
     count = len(records)
     legend_in = 0.14 + _LEGEND_IN * -(-count // _LEGEND_COLUMNS) if count > 1 else 0.0
     low_in = legend_in + _BOTTOM_IN
@@ -85,7 +85,7 @@ def _figure(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> Figur
 
 
 def _histories(panels: Sequence[Axes], records: Sequence[Record]) -> None:
-    """Draw all records on one scale of time and one of acceleration."""
+    """Draw all records with the same time and acceleration scales."""
     reach = max(float(np.abs(one.a_mps2).max()) for one in records) / G_MPS2 or 1.0
     longest = max((len(one.a_mps2) - 1) * one.dt_s for one in records)
     for axes, one in zip(panels, records, strict=True):

@@ -1,4 +1,4 @@
-"""Models side by side: what each step up does to the PRD; work against precision in two axes."""
+"""Comparison of models: effect of each fuller model on the PRD; accuracy against run time."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from solver.verification.rung_evidence import BoundRatios, PlaneWork, RungChange
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _DOT = "#9a9a9a"
 _SPREAD = 0.31
-"""Of the dots of a row, to each side of its middle."""
+"""Vertical spread of the dots of a row, to each side of its center line."""
 
 
 def changes(found: Sequence[RungChange]) -> str:
-    """Return a row for each change: every run a dot, 10 to 90 % a bar, the median a mark."""
+    """Return a row for each change: a dot for each run, a bar for 10 to 90 %, a median mark."""
     height = 0.5 + 0.31 * len(found)
     with style():
         figure, axes = framed(height, 1.95, 0.15, 0.08, 0.42)
@@ -38,7 +38,7 @@ def changes(found: Sequence[RungChange]) -> str:
         axes.xaxis.set_major_locator(FixedLocator([v for v in _RATIOS if low <= v <= high]))
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.xaxis.set_minor_locator(NullLocator())
-        axes.set_xlabel("PRD of the fuller model over that of the lesser")
+        axes.set_xlabel("PRD of the fuller model / PRD of the simpler model")
         axes.grid(True, axis="x")
         axes.set_axisbelow(True)
         bare(axes)
@@ -49,7 +49,7 @@ def changes(found: Sequence[RungChange]) -> str:
 def _row(axes: Any, row: int, one: RungChange) -> None:
     if not one.ratios.size:
         return
-    # Dots side by side in turns: the same every time, and no two of one value on each other.
+    # Golden-ratio offsets: the same in every run, and equal values do not overlap.
     turn = 0.5 * (1.0 + math.sqrt(5.0))
     aside = _SPREAD * (2.0 * np.mod(turn * np.arange(one.ratios.size), 1.0) - 1.0)
     axes.plot(one.ratios, row + aside, linestyle="", marker=".", markersize=1.8, color=_DOT)
@@ -59,7 +59,7 @@ def _row(axes: Any, row: int, one: RungChange) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Look:
-    """How a method's line is drawn."""
+    """Line style of a method."""
 
     color: str
     linestyle: Any
@@ -79,7 +79,7 @@ _LOOKS = (
 
 
 def work(found: Sequence[PlaneWork]) -> str:
-    """Return a line for each method, from coarse to fine; failed runs are left out."""
+    """Return a line for each method, from coarse to fine; failed runs are not drawn."""
     names = list(dict.fromkeys(one.method for one in found))
     with style():
         height = 2.4
@@ -112,15 +112,15 @@ def work(found: Sequence[PlaneWork]) -> str:
 
 
 LEAST_PERCENT = 1e-12
-"""Error that is drawn as the least."""
+"""Smallest error drawn; smaller ones are drawn there."""
 
 
 LEAST_RATIO = 1e-6
-"""Error over bound that is drawn as the least."""
+"""Smallest ratio drawn; smaller ones are drawn there."""
 
 
 def bounds(found: Sequence[BoundRatios]) -> str:
-    """Return, for each kind, the share of the pairs whose error over bound is above a value."""
+    """Return, for each kind, the share of the pairs whose ratio to the bound exceeds a value."""
     with style():
         figure = Figure(figsize=(WIDTH_IN, 2.5))
         axes = figure.add_axes((0.085, 0.165, 0.58, 0.8))
@@ -144,7 +144,7 @@ def bounds(found: Sequence[BoundRatios]) -> str:
         axes.grid(True, color=PALE)
         axes.set_axisbelow(True)
         bare(axes)
-        axes.set_xlabel("Difference of the two runs of a pair over the sum of their bounds")
-        axes.set_ylabel("Share of the pairs above")
+        axes.set_xlabel("Difference of the two runs of a pair / sum of their bounds")
+        axes.set_ylabel("Share of pairs exceeding")
         axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
         return svg_text(figure)

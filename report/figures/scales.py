@@ -1,4 +1,4 @@
-"""Logarithmic scales whose tick labels are plain text: the charts set no mathematics."""
+"""Logarithmic scales with plain-text tick labels; the charts use no math text."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def power_of_ten(value: float) -> str:
 
 
 def plain(value: float) -> str:
-    """Return `2.5 × 10⁻⁶` for a small number, other ones in full."""
+    """Return `2.5 × 10⁻⁶` for a small number, and others in full."""
     if value == 0.0 or abs(value) >= 1e-3:
         return f"{value:g}".replace("-", "−")
     exponent = math.floor(math.log10(abs(value)))
@@ -27,7 +27,7 @@ def plain(value: float) -> str:
 
 
 def decades(axis: Axis, most: int = 9) -> None:
-    """Mark powers of ten on a logarithmic axis, at most so many."""
+    """Label powers of ten on a logarithmic axis, at most `most` of them."""
     axis.set_major_locator(LogLocator(numticks=most))
     axis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
     axis.set_minor_locator(NullLocator())

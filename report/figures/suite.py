@@ -1,6 +1,6 @@
-"""A made suite against its target: the spectra of every component, and their ratios.
+"""A generated suite and its target: the spectra of every component, and their ratios.
 
-Computes nothing but where ink goes; the picture stands alone. Read `report.figures.base` first.
+Computes only the layout; the picture is a stand-alone file. Read `report.figures.base` first.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ class Panel:
     ----------
     title : str
     fits : tuple of SpectrumFit
-        A motion each, all over the same frequencies.
+        One per motion, all at the same frequencies.
     band_hz, limits : tuple of float
-        Where the ratios have to lie, and within what.
+        Frequency band and limits of the ratios.
     """
 
     title: str

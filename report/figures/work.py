@@ -1,4 +1,4 @@
-"""Work against precision: time per run against error, medians and envelopes over the scenes."""
+"""Accuracy against run time: medians and envelopes over the analysis cases."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ UNITS = {"percent": "%", "m": "m"}
 class Curve:
     """One method from coarse to fine: median time [s], and error over the scenes.
 
-    `each` holds a row for every run: time, error.
+    `each` has one row per run: time, error.
     """
 
     method: str
@@ -36,9 +36,9 @@ class Curve:
 
 
 def curves(points: Sequence[WorkPoint], measure: str, floor: float) -> tuple[Curve, ...]:
-    """Return a curve for each method, in the order of the points; failed runs are left out.
+    """Return a curve for each method, in the order of the points; failed runs are omitted.
 
-    Errors below the floor are drawn there: a double carries no more, and log scales know no 0.
+    Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
     """
     names = dict.fromkeys(point.method for point in points)
     found = (
@@ -70,7 +70,7 @@ def _curve(name: str, points: Sequence[WorkPoint], measure: str, floor: float) -
 
 
 def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
-    """Return medians of every method: a panel for PRD and one for the residual.
+    """Return the medians of every method: one panel for PRD and one for the residual.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
             _log_axes(axes)
             axes.set_title(f"Error in {name}", loc="left", weight="semibold")
             axes.set_xlabel("Time per run [s]")
-        panels[0].set_ylabel(f"Median error over the scenes [{UNITS[unit]}]")
+        panels[0].set_ylabel(f"Median error over analysis cases [{UNITS[unit]}]")
         handles, labels = panels[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="lower center", ncols=4, handlelength=3.2)
         return svg_text(figure)
@@ -101,7 +101,7 @@ def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
 
 def _name_floor(axes: Axes, curve: Curve) -> None:
     axes.annotate(
-        "exact: rounding floor",
+        "exact: rounding error",
         (curve.seconds[0], curve.median[0]),
         (9, 0),
         textcoords="offset points",
@@ -120,9 +120,9 @@ def _log_axes(axes: Axes) -> None:
 
 
 def by_method(points: Sequence[WorkPoint], measure: str, floor: float) -> str:
-    """Return a panel for each rival: every run a dot, median as a line, envelope as a band.
+    """Return a panel for each rival: a dot per run, the median as a line, the range as a band.
 
-    All medians lie in pale behind each panel.
+    The medians of the other methods are drawn in light gray behind each panel.
     """
     rivals = [point for point in points if point.method != "exact"]
     found = curves(rivals, f"{measure}_percent", floor)

@@ -1,6 +1,6 @@
-"""What the manual is made of, and how its numbers are put in words.
+"""The parts of the manual, and the format of its numbers.
 
-Owns no content: see `report.manual.sections`.
+Contains no content: see `report.manual.sections`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ PASS, FAIL = "PASS", "FAIL"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Chart:
-    """A picture of the manual with the name of its own file."""
+    """A figure of the manual with its file name."""
 
     name: str
     picture: Picture
@@ -27,7 +27,7 @@ class Chart:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Block:
-    """What goes together: a heading if any, texts, tables on top, charts, tables, a list."""
+    """A unit of layout: optional heading, texts, tables on top, charts, tables, a list."""
 
     title: str = ""
     texts: Sequence[str] = ()
@@ -47,7 +47,7 @@ class ManualSection:
 
 
 def numbered(sections: Sequence[ManualSection]) -> tuple[Part, ...]:
-    """Return the sections as numbered parts, blocks with a title below them."""
+    """Return the sections as numbered parts, with their titled blocks as subsections."""
     return tuple(
         Part(
             id=section.id,
@@ -73,7 +73,7 @@ def scientific(value: float) -> str:
 
 
 def percent(value: float) -> str:
-    """Return a number of percent: three digits, small ones as powers of ten."""
+    """Return a percentage with three digits, or as a power of ten if small."""
     if value != value:
         return "—"
     if value == 0.0:
@@ -85,7 +85,7 @@ def percent(value: float) -> str:
 
 
 def seconds(value: float) -> str:
-    """Return a duration with a unit that suits it; an em dash for NaN."""
+    """Return a duration with a suitable unit; an em dash for NaN."""
     if value != value:
         return "—"
     for size, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
@@ -95,7 +95,7 @@ def seconds(value: float) -> str:
 
 
 def digits(value: float) -> str:
-    """Return a value with the ten digits that a check is about."""
+    """Return a value with ten digits."""
     if value != value:
         return "no value"
     if 0.0 < abs(value) < 1e-4:
@@ -104,7 +104,7 @@ def digits(value: float) -> str:
 
 
 def unbroken(text: str) -> str:
-    """Return a text whose `μ = 0.4` and `1 g` are not parted by the end of a line."""
+    """Return a text with no line break inside `μ = 0.4` and `1 g`."""
     return re.sub(r" (?=[=/])|(?<=[=/]) | (?=g\b)", "\u00a0", text)
 
 

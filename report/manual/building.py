@@ -1,4 +1,4 @@
-"""From ground to roof: how far a computed roof motion is from a recorded one."""
+"""Roof motion computed from ground motion: its difference from a recorded roof motion."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from solver.building.roof import FINENESS, RESTING_SHARE, SHARE
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import RoofComparison, RoofPrediction, Verification
 
-TITLE = "From ground to roof"
+TITLE = "Roof motion computed from ground motion"
 
 
 def building(found: Verification) -> ManualSection:
-    """Return a block for each building, the made one first."""
+    """Return a block for each building, the model building first."""
     return ManualSection(
         id="building",
         title=TITLE,
@@ -29,16 +29,18 @@ def building(found: Verification) -> ManualSection:
 
 def _model() -> tuple[str, ...]:
     return (
-        "Where the motions given are those of the ground, the motion of the roof is computed from "
-        "them through an elastic building: a uniform cantilever in shear and bending, or equal "
-        "stories, with one damping ratio for all modes. Each mode is an oscillator, followed "
-        f"exactly; as few are taken as leave out no more than {100 * SHARE:g} % of the roof's peak "
-        f"at any instant. The step is refined to {FINENESS} samples in a period of the fastest "
-        "mode taken, and the motion goes on after the ground's until the building rests, within "
+        "Where ground motions are given, the roof motion is computed with an elastic building "
+        "model: a uniform cantilever in shear and bending, or equal stories, with the same damping "
+        "ratio in all modes. Each mode is an oscillator, integrated exactly. The number of modes "
+        f"is the smallest for which the neglected modes contribute at most {100 * SHARE:g} % of "
+        "the peak roof acceleration at any instant. The time step is refined to "
+        f"{FINENESS} samples per period of the highest mode included. The roof motion continues "
+        "after the end of the ground motion until the building is at rest, to within "
         f"{100 * RESTING_SHARE:g} % of the peak.",
-        "Not in the model: the mass of the arrays, torsion, yielding, the soil below, a roof that "
-        "bends in its plane, and the way of the vertical motion, which is passed on unchanged. The "
-        "closed forms are among the checks of section 3; here a whole building is compared.",
+        "The model neglects the mass of the arrays, torsion, yielding, soil flexibility and "
+        "in-plane flexibility of the roof. The vertical motion of the ground is applied at the "
+        "roof without change. Section 3 has the closed-form checks; this section compares whole "
+        "buildings.",
     )
 
 
@@ -46,21 +48,21 @@ def _at_hand(found: Verification) -> str:
     real = [one.title for one in found.roofs if one.is_recorded]
     if real:
         return (
-            f"Records of a real building were at hand: {'; '.join(real)}. They say how well a "
-            "uniform beam stands for it. The made building says only that the software does what "
-            "it means to."
+            f"Records of a real building were given: {'; '.join(real)}. They show how well a "
+            "uniform beam represents that building. The model building verifies only the "
+            "software."
         )
     return (
-        "No records of a real building were given to this run (option --records). What follows is "
-        "a made building: it says that the software does what it means to, and nothing about how "
-        "well a uniform beam stands for a real building."
+        "No records of a real building were given to this run (option --records). The model "
+        "building below verifies the software; it does not show how well a uniform beam represents "
+        "a real building."
     )
 
 
 def _block(found: RoofComparison) -> Block:
     return Block(
         title=found.title,
-        texts=(found.story, *_results(found)),
+        texts=(found.description, *_results(found)),
         top=(_properties(found),),
         charts=(
             Chart(
@@ -68,7 +70,7 @@ def _block(found: RoofComparison) -> Block:
                 picture=Picture(
                     svg=figures.comparison(found),
                     caption=_caption(found),
-                    alt=f"Response of the roof, {_was(found)} and computed",
+                    alt=f"Response of the roof, {_reference(found)} and computed",
                 ),
             ),
         ),
@@ -77,23 +79,23 @@ def _block(found: RoofComparison) -> Block:
 
 
 def _caption(found: RoofComparison) -> str:
-    caption = f"{found.title}: spectra of ground and roof, with those computed"
+    caption = f"{found.title}: response spectra of ground, roof and computed roof motions"
     if found.is_recorded:
-        caption += f", and {figures.SHOWN_S:g} s of the roof's motion"
+        caption += f", and {figures.SHOWN_S:g} s of the roof acceleration"
     return f"{caption}."
 
 
 def _results(found: RoofComparison) -> tuple[str, ...]:
-    """UnitFormat what came out, the least and the greatest ratio of PRD for each prediction."""
+    """Return the least and the greatest ratio of PRD for each prediction, in words."""
     if not found.is_recorded:
         return ()
     words = [f"{one.name}: {_span(one, found)}" for one in figures.computed(found)]
     return (
-        "PRD with the computed roof motion over that with the recorded one, least to greatest of "
-        f"the scenes below: {'; '.join(words)}. What a building loses in one earthquake, to the "
-        "soil too, is not known beforehand: damping makes most of the difference. Scaled like "
-        "this a real building would not stay elastic. One building in one earthquake is no margin "
-        "for another.",
+        "Ratio of PRD with the computed roof motion to PRD with the recorded one, range over the "
+        f"cases below: {'; '.join(words)}. Damping, including radiation into the soil, causes most "
+        "of the difference and is not known in advance. At this scale factor a real building "
+        "would not remain elastic. One building in one earthquake does not establish a margin for "
+        "another building.",
     )
 
 
@@ -102,33 +104,34 @@ def _span(one: RoofPrediction, found: RoofComparison) -> str:
     return f"{ratios.min():.2f} to {ratios.max():.2f}"
 
 
-def _was(found: RoofComparison) -> str:
-    return "recorded" if found.is_recorded else "stepped"
+def _reference(found: RoofComparison) -> str:
+    return "recorded" if found.is_recorded else "integrated directly"
 
 
 def _properties(found: RoofComparison) -> Table:
-    """What each prediction is made with, and how it comes out as a whole."""
+    """Properties of each prediction, and its overall agreement."""
     peak = float(np.abs(found.roof_mps2).max()) / G_MPS2
     rows = [_property_row(one) for one in found.predictions]
-    cells = (f"As {_was(found)}", "—", "—", "—", "—", "—", number(peak, 3), "—")
+    cells = (_sentence(_reference(found)), "—", "—", "—", "—", "—", number(peak, 3), "—")
     return Table(
-        caption="The building, and the roof motion computed for it",
+        caption="Properties of the building and computed roof motion",
         columns=(
             TableColumn(head="Building", align="left", share=3.2),
             TableColumn(head="First period", unit="s", share=1.0),
             TableColumn(head="Damping", unit="%", share=0.9),
             TableColumn(head="Stiffness ratio", share=1.0),
-            TableColumn(head="Modes taken", share=0.9),
-            TableColumn(head="Left out", unit="%", share=0.8),
+            TableColumn(head="Modes included", share=0.9),
+            TableColumn(head="Neglected", unit="%", share=1.0),
             TableColumn(head="Peak", unit="g", share=0.8),
-            TableColumn(head="Not explained", unit="%", share=1.1),
+            TableColumn(head="Unexplained", unit="%", share=1.1),
         ),
         rows=(TableRow(cells=cells, kind="total"), *rows),
         notes=(
-            "Stiffness ratio: H √(GA/EI), 0 in bending, large in shear. Left out: what all further "
-            "modes change at most, of the roof's peak. Not explained: sum of squares of the "
-            f"computed less the {_was(found)} acceleration, of that of the latter; 0 is perfect, a "
-            "motion of the right size at the wrong times has 200.",
+            "Stiffness ratio: H √(GA/EI), 0 for pure bending, large for shear. Neglected: largest "
+            "contribution of the modes not included, relative to the peak roof acceleration. "
+            "Unexplained: sum of squares of the difference between the computed and the reference "
+            "acceleration (first row), relative to that of the reference; 0 is a perfect match, "
+            "and an uncorrelated motion of the same amplitude gives 200.",
         ),
     )
 
@@ -137,7 +140,7 @@ def _property_row(one: RoofPrediction) -> TableRow:
     has_building = one.n_modes > 0
     return TableRow(
         cells=(
-            _name(one),
+            _sentence(one.name),
             number(one.period_s, 2),
             number(100.0 * one.damping, 1),
             number(one.alpha0, 1),
@@ -149,13 +152,13 @@ def _property_row(one: RoofPrediction) -> TableRow:
     )
 
 
-def _name(one: RoofPrediction) -> str:
-    return one.name[0].upper() + one.name[1:]
+def _sentence(name: str) -> str:
+    return name[0].upper() + name[1:]
 
 
 def _bands(found: RoofComparison) -> Table:
     return Table(
-        caption=f"Response spectrum, computed over {_was(found)}, by period",
+        caption="Ratio of response spectra by period band, computed / reference",
         columns=(
             TableColumn(head="Building", align="left", share=3.2),
             *(TableColumn(head=f"{low:g} to {high:g}", unit="s") for low, high in found.bands_s),
@@ -163,7 +166,7 @@ def _bands(found: RoofComparison) -> Table:
         rows=tuple(
             TableRow(
                 cells=(
-                    _name(one),
+                    _sentence(one.name),
                     *(
                         f"{ratio:.2f} ({100.0 * scatter:.0f} %)"
                         for ratio, scatter in zip(one.band_ratios, one.band_scatters, strict=True)
@@ -173,8 +176,8 @@ def _bands(found: RoofComparison) -> Table:
             for one in found.predictions
         ),
         notes=(
-            "Geometric mean of the ratio in the band; in brackets its scatter, the standard "
-            "deviation of the logarithm.",
+            "Geometric mean of the ratio in the band; in parentheses, the standard deviation of "
+            f"its natural logarithm. Reference: the roof motion {_reference(found)}.",
         ),
     )
 
@@ -182,18 +185,18 @@ def _bands(found: RoofComparison) -> Table:
 def _slips(found: RoofComparison) -> Table:
     peaks = (number(1e3 * m, 0) for m in found.prd_m)
     return Table(
-        caption=f"PRD on a slope of {found.slope_deg:g}°; in brackets over that of the roof as "
-        f"{_was(found)}",
+        caption=f"PRD on a slope of {found.slope_deg:g}°; in parentheses, ratio to the reference "
+        "(first row)",
         columns=(
             TableColumn(head="Roof motion", align="left", share=3.2),
             *(TableColumn(head=f"μ = {mu:g}", unit="mm") for mu in found.mus),
         ),
         rows=(
-            TableRow(cells=(f"As {_was(found)}", *peaks), kind="total"),
+            TableRow(cells=(_sentence(_reference(found)), *peaks), kind="total"),
             *(
                 TableRow(
                     cells=(
-                        _name(one),
+                        _sentence(one.name),
                         *(
                             f"{number(1e3 * m, 0)} ({m / r:.2f})"
                             for m, r in zip(one.prd_m, found.prd_m, strict=True)
@@ -204,21 +207,22 @@ def _slips(found: RoofComparison) -> Table:
             ),
         ),
         notes=(
-            f"All motions times {found.scale:.3g}, which brings the roof as {_was(found)} to a "
-            "peak of 1 g. The larger of both signs of the slope; no vertical motion.",
+            f"All motions are multiplied by {found.scale:.3g}, which scales the reference roof "
+            "motion to a peak of 1 g. The larger PRD of both signs of the slope is given. No "
+            "vertical motion is applied.",
         ),
     )
 
 
 def answer(found: Verification) -> str:
-    """Return what the summary says of a real building; empty where none was at hand."""
+    """Return the summary's result for a recorded building; empty if none was given."""
     for one in found.roofs:
         if one.is_recorded:
             best = one.predictions[0]
             others = [p for p in one.predictions if p.name == BY_HEIGHT]
             return (
-                f"{best.name}: PRD {_span(best, one)} times that of the recorded roof, "
-                f"{100.0 * best.unexplained:.0f} % of the motion not explained"
+                f"{best.name}: PRD {_span(best, one)} times that of the recorded roof motion, "
+                f"{100.0 * best.unexplained:.0f} % of the motion unexplained"
                 + "".join(f"; {other.name}: PRD {_span(other, one)} times" for other in others)
             )
     return ""

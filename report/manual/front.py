@@ -1,4 +1,4 @@
-"""What the manual opens with: summary, scope and terms."""
+"""Front matter of the manual: summary, scope and terms."""
 
 from __future__ import annotations
 
@@ -29,26 +29,26 @@ from solver.verification.evidence import (
 )
 
 
-def summary(found: Verification) -> ManualSection:
-    """Return the page that says whether everything passed, and the figures that count."""
-    failed = [row for row in found.checks if not row.passed]
+def summary(verification: Verification) -> ManualSection:
+    """Return the summary: verdict, key results and checks by section."""
+    failed = [row for row in verification.checks if not row.passed]
     return ManualSection(
         id="summary",
         title="Summary",
         blocks=(
             Block(
-                texts=(verdict_line(found),),
-                tables=(_key_figures(found), _by_section(found.checks)),
+                texts=(verdict_line(verification),),
+                tables=(_key_figures(verification), _by_section(verification.checks)),
                 items=[f"{FAIL}: {row.section}, {row.problem}, {row.quantity}" for row in failed],
             ),
         ),
     )
 
 
-def verdict_line(found: Verification) -> str:
+def verdict_line(verification: Verification) -> str:
     """Return PASS or FAIL with the count."""
-    words = verdict(found.passed and len(found.checks) > 0, (PASS, FAIL))
-    return words + f" {passed(found.checks)} checks passed."
+    words = verdict(verification.passed and len(verification.checks) > 0, (PASS, FAIL))
+    return words + f" {passed(verification.checks)} checks passed."
 
 
 def passed(checks: Sequence[CheckRow]) -> str:
@@ -56,58 +56,59 @@ def passed(checks: Sequence[CheckRow]) -> str:
     return f"{sum(row.passed for row in checks)} of {len(checks)}"
 
 
-def _key_figures(found: Verification) -> Table:
+def _key_figures(verification: Verification) -> Table:
     return Table(
-        caption="What was found",
+        caption="Key results",
         columns=(
-            TableColumn(head="Question", align="left", share=2.6),
-            TableColumn(head="Answer", align="left", share=2.9),
-            TableColumn(head="ManualSection", align="left", share=0.7),
+            TableColumn(head="Quantity", align="left", share=2.6),
+            TableColumn(head="Result", align="left", share=2.9),
+            TableColumn(head="Section", align="left", share=0.7),
         ),
-        rows=tuple(TableRow(cells=cells) for cells in _answers(found)),
+        rows=tuple(TableRow(cells=cells) for cells in _answers(verification)),
     )
 
 
-def _answers(found: Verification) -> Iterator[tuple[str, str, str]]:
+def _answers(verification: Verification) -> Iterator[tuple[str, str, str]]:
     yield (
-        "Largest relative error of the exact method against many-digit arithmetic",
-        scientific(floor(found)),
+        "Largest relative error of the exact method against 50-digit arithmetic",
+        scientific(floor(verification)),
         "3",
     )
-    times = [p.seconds for p in found.work if p.method == "exact"]
+    times = [p.seconds for p in verification.work if p.method == "exact"]
     if times:
-        yield "Time per run of the exact method, median", seconds(float(np.median(times))), "5"
-    ratio = _times_longer(found.work)
+        yield "Median time per run of the exact method", seconds(float(np.median(times))), "5"
+    ratio = _times_longer(verification.work)
     if not math.isnan(ratio):
-        text = f"{ratio:.0f} times longer, with errors in PRD up to {percent(_paper_error(found))}"
-        yield "The paper's method with 64 sub-steps on the same runs, median", text, "5"
-    lost = sum(math.isnan(p.seconds) for p in found.work)
-    yield "Runs of all methods that failed", f"{lost} of {len(found.work)}", "5"
-    cells = sum(one.failed.size for one in found.maps)
+        error = percent(_paper_error(verification))
+        text = f"{ratio:.0f} times the run time (median), errors in PRD up to {error}"
+        yield "The paper's method with 64 sub-steps, same analysis cases", text, "5"
+    lost = sum(math.isnan(p.seconds) for p in verification.work)
+    yield "Failed runs, all methods", f"{lost} of {len(verification.work)}", "5"
+    cells = sum(one.failed.size for one in verification.maps)
     yield (
-        "Cells of the stability maps in which a rival failed",
-        f"{sum(int(one.failed.sum()) for one in found.maps)} of {cells}",
+        "Failed cells of the stability maps, other methods",
+        f"{sum(int(one.failed.sum()) for one in verification.maps)} of {cells}",
         "6",
     )
-    if found.links:
-        worst = max(found.links, key=lambda one: one.worst_percent)
-        mean = float(np.mean([one.mean_percent for one in found.links]))
+    if verification.links:
+        worst = max(verification.links, key=lambda one: one.worst_percent)
+        mean = float(np.mean([one.mean_percent for one in verification.links]))
         yield (
-            "Against the link of the paper's SAP 2000 model: difference in RRD",
-            f"{percent(worst.worst_percent)} worst, which is {worst_mm(worst):.2g} mm; "
-            f"{percent(mean)} mean; the paper had {PAPER_WORST_PERCENT} % and "
+            "Difference in RRD from the link of the paper's SAP 2000 model",
+            f"{percent(worst.worst_percent)} largest ({worst_mm(worst):.2g} mm), "
+            f"{percent(mean)} mean; the paper reports {PAPER_WORST_PERCENT} % and "
             f"{PAPER_MEAN_PERCENT} %",
             "8",
         )
-    runs = sum(one.runs for one in found.curves)
-    took = sum(one.seconds for one in found.curves)
+    runs = sum(one.runs for one in verification.curves)
+    took = sum(one.seconds for one in verification.curves)
     yield "The paper's parametric study", f"{runs:,} runs in {seconds(took)}", "9"
-    if told := answer(found):
-        yield "The roof of a real building, computed from its ground", told, "11"
-    for question, told in answers(found):
-        yield question, told, "12"
-    extent = "quick: fewer records, scenes and settings" if found.quick else "full"
-    yield "Extent of this verification", f"{extent}; {found.seconds:.0f} s in all", "2"
+    if result := answer(verification):
+        yield "Roof motion of a recorded building, computed from its ground motion", result, "11"
+    for quantity, result in answers(verification):
+        yield quantity, result, "12"
+    extent = "quick: fewer records, cases and settings" if verification.quick else "full"
+    yield "Extent of this verification", f"{extent}; {verification.seconds:.0f} s in total", "2"
 
 
 def _times_longer(points: Sequence[WorkPoint]) -> float:
@@ -120,8 +121,10 @@ def _times_longer(points: Sequence[WorkPoint]) -> float:
     return float(np.median(ratios)) if ratios else math.nan
 
 
-def _paper_error(found: Verification) -> float:
-    errors = [p.prd_error_percent for p in found.work if p.method == "paper" and p.setting == 64]
+def _paper_error(verification: Verification) -> float:
+    errors = [
+        p.prd_error_percent for p in verification.work if p.method == "paper" and p.setting == 64
+    ]
     return max(errors, default=math.nan)
 
 
@@ -131,11 +134,11 @@ def _by_section(checks: Sequence[CheckRow]) -> Table:
     return Table(
         caption="Checks by section",
         columns=(
-            TableColumn(head="ManualSection", align="left", share=3.0),
+            TableColumn(head="Section", align="left", share=3.0),
             TableColumn(head="Checks"),
             TableColumn(head="Passed"),
             TableColumn(head="Largest error", share=1.4),
-            TableColumn(head="of its tolerance", share=1.4),
+            TableColumn(head="Tolerance used", share=1.4),
             TableColumn(head="Result", align="center"),
         ),
         rows=tuple(
@@ -152,8 +155,8 @@ def _by_section(checks: Sequence[CheckRow]) -> Table:
             for name, rows in groups
         ),
         notes=(
-            "Errors are relative to the expected value, absolute where that is zero. Of its "
-            "tolerance: the largest share of a tolerance that any check uses up.",
+            "Errors are relative to the expected value, or absolute where it is zero. Tolerance "
+            "used: the largest ratio of error to tolerance of any check in the section.",
         ),
     )
 
@@ -163,8 +166,8 @@ def _used(rows: Sequence[CheckRow]) -> str:
     return f"{100.0 * max(shares):.2g} %" if shares else "—"
 
 
-def scope(found: Verification) -> ManualSection:
-    """Return what is verified, the terms, and the records."""
+def scope(verification: Verification) -> ManualSection:
+    """Return scope, terms and records."""
     return ManualSection(
         id="scope",
         title="Scope and terms",
@@ -172,70 +175,75 @@ def scope(found: Verification) -> ManualSection:
             Block(
                 title="What is verified",
                 texts=(
-                    "The solver: one rigid block on a sloped roof plane that is shaken along the "
-                    "slope's fall, across it and upright, held by friction alone. The records are "
-                    "samples joined by straight lines. Every number of a calculation package that "
-                    "is a displacement comes from this solver: in one axis with the method "
-                    "“exact”, in two axes with power series (section 12).",
-                    "The way from ground to roof, where the motions given are those of the ground: "
-                    "checks in section 3, whole buildings in section 11.",
-                    "Not verified here: code rules and their numbers (marked in each package "
-                    "where they have not been compared with the adopted text), the choice of "
-                    "motions and of friction, and whether a rigid block is the right model.",
+                    "This manual verifies the solver. The model is one rigid block on a sloped "
+                    "roof plane, restrained by friction only and shaken downslope, cross-slope "
+                    "and vertically. The acceleration varies linearly between samples of the "
+                    "record. This solver computes every displacement in a calculation package: "
+                    "in one axis by the method “exact”, in two axes by power series (section 12).",
+                    "Where ground motions are given, the program computes the roof motion. "
+                    "Section 3 has checks of this step, and section 11 compares whole buildings.",
+                    "This manual does not verify the code rules and their values (each package "
+                    "marks those not compared with the adopted text), the selection of motions "
+                    "and friction coefficients, or whether a rigid block is the appropriate model.",
                 ),
             ),
             Block(
                 title="Terms",
                 items=(
+                    "The paper: “Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to "
+                    "Seismic Motion”.",
                     "PRD: peak relative displacement, the largest horizontal displacement of the "
-                    "block from its place on the roof. RRD: the residual one, at the end.",
+                    "block from its initial position on the roof. RRD: residual relative "
+                    "displacement, at the end of the record.",
                     "θ: slope of the roof; μ: friction coefficient; PPA: peak horizontal "
-                    "acceleration of the roof plane; P: sub-steps in each sampling interval.",
-                    "Error in percent: difference from the exact displacement, in percent of it, "
-                    "or of 1 mm where it is less than that.",
-                    "Exact: the displacement of the method “exact”, which section 3 holds "
-                    "against many-digit arithmetic on the same records.",
-                    "Time per run: one thread, warm, the least of some repeats, without reading "
-                    "the record and checking the input. A failed run has no time.",
+                    "acceleration of the roof plane; P: number of sub-steps per sampling interval.",
+                    "Analysis case: one block, given by θ and μ, under one record scaled to one "
+                    "PPA.",
+                    "Error in percent: difference from the exact displacement, in percent of that "
+                    "displacement, or of 1 mm if that is larger.",
+                    "Exact: computed by the method “exact”, which section 3 compares with "
+                    "50-digit arithmetic on the same records.",
+                    "Time per run: one thread, after compilation, the least of several repeats, "
+                    "without reading the record and checking the input. A failed run has no time.",
                 ),
             ),
             Block(
                 title="Records",
-                texts=tuple(_records(found)),
+                texts=tuple(_records(verification)),
             ),
         ),
     )
 
 
-def _records(found: Verification) -> Iterator[str]:
+def _records(verification: Verification) -> Iterator[str]:
     yield (
-        f"{_count(len(found.records), 'record')} of one component: {joined(found.records)}. The "
-        "project makes its own from a fixed seed: motions that follow the AC156 spectrum at the "
-        "roof, and a near-fault pulse."
+        f"{_count(len(verification.records), 'record')} of one component: "
+        f"{joined(verification.records)}. The program generates its own records from a fixed seed: "
+        "motions matched to the AC156 spectrum at the roof, and a near-fault pulse."
     )
-    for one in found.rungs:
+    for one in verification.rungs:
         study = one.study
         made = len(study.motions) - study.n_recorded
         words = (
-            f"{_count(len(study.motions), 'motion')} of three components, for sections 12 and on: "
-            f"{joined(study.motions[:made])}, made likewise"
+            f"{_count(len(study.motions), 'motion')} of three components, for section 12 and "
+            f"following: {joined(study.motions[:made])}, generated in the same way"
         )
         if study.n_recorded:
             words += f"; {joined(study.motions[made:])}, recorded in earthquakes"
         yield words + "."
-    if buildings := [one.title for one in found.roofs[1:]]:
+    if buildings := [one.title for one in verification.roofs[1:]]:
         yield f"Recorded buildings, for section 11: {joined(buildings)}."
 
 
-def extent(found: Verification) -> str:
-    """Return how much was run, in a line."""
-    motions = [name for one in found.rungs for name in one.study.motions]
+def extent(verification: Verification) -> str:
+    """Return the number of records and buildings, in one line."""
+    motions = [name for one in verification.rungs for name in one.study.motions]
     counts = [
-        f"{_count(len(found.records), 'record')} of one component",
+        f"{_count(len(verification.records), 'record')} of one component",
         _count(len(motions), "motion") + " of three",
-        _count(len(found.roofs[1:]), "recorded building"),
+        _count(len(verification.roofs[1:]), "recorded building"),
     ]
-    return f"{'quick' if found.quick else 'full'}: {joined(counts)}"
+    return f"{'quick' if verification.quick else 'full'}: {joined(counts)}"
 
 
 def _count(number: int, name: str) -> str:

@@ -1,4 +1,4 @@
-"""What the verification ran on, and with which versions."""
+"""Machine and software versions of a verification."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ _CPU_INFO = Path("/proc/cpuinfo")
 
 @dataclass(frozen=True, slots=True)
 class Machine:
-    """Labels with versions or kinds, the program first."""
+    """Labels and versions or descriptions, the program first."""
 
     rows: tuple[tuple[str, str], ...]
 
     @property
     def line(self) -> str:
         """Processor, cores and system in one line."""
-        found = dict(self.rows)
-        return f"{found['Processor']}, {found['Cores']} cores, {found['System']}"
+        values = dict(self.rows)
+        return f"{values['Processor']}, {values['Cores']} cores, {values['System']}"
 
 
 def this_machine() -> Machine:
-    """Return this machine; names no person, host or path."""
+    """Return this machine, without names of persons, hosts or paths."""
     return Machine(
         (
             ("Roofslip", metadata.version("roofslip")),
@@ -47,7 +47,7 @@ def _version(library: str) -> str:
 
 
 def _processor() -> str:
-    """Return the processor's own name, where the system tells it."""
+    """Return the processor's model name, if the system reports it."""
     try:
         lines = _CPU_INFO.read_text(encoding="utf-8").splitlines()
     except OSError:

@@ -1,4 +1,4 @@
-"""Work against precision: charts and medians."""
+"""Accuracy against run time: charts and medians."""
 
 from __future__ import annotations
 
@@ -28,67 +28,71 @@ from solver.verification.evidence import (
 )
 
 LEAST_PERCENT = 1e-6
-"""Error that the charts of single methods draw as their least."""
+"""Smallest error drawn in the charts of single methods; smaller ones are drawn there."""
 
 
-def floor(found: Verification) -> float:
-    """Return the largest relative error of the exact method against many-digit arithmetic."""
-    errors = [row.error for row in found.checks if row.section.endswith("digits")]
+def floor(verification: Verification) -> float:
+    """Return the largest relative error of the exact method against 50-digit arithmetic."""
+    errors = [row.error for row in verification.checks if row.section.endswith("digits")]
     return max([1e-16, *errors])
 
 
-def work(found: Verification) -> ManualSection:
-    """Return work against precision."""
-    least = floor(found)
-    scenes = len({(p.record, p.scene) for p in found.work})
-    lost = [p for p in found.work if math.isnan(p.seconds) or math.isnan(p.prd_error_m)]
-    missing = f"{len(lost)} of {len(found.work)} runs failed and are not drawn" + (
-        f" ({_lost(lost)})." if lost else "."
-    )
-    metres = least * _typical_prd_m(found.work)
+def work(verification: Verification) -> ManualSection:
+    """Return accuracy against run time."""
+    least = floor(verification)
+    cases = len({(p.record, p.scene) for p in verification.work})
+    lost = [p for p in verification.work if math.isnan(p.seconds) or math.isnan(p.prd_error_m)]
+    missing = f"All {len(verification.work)} runs gave a result."
+    if lost:
+        missing = (
+            f"{len(lost)} of {len(verification.work)} runs failed and are not drawn "
+            f"({_lost(lost)})."
+        )
+    meters = least * _typical_prd_m(verification.work)
     return ManualSection(
         id="work",
-        title="Work against precision",
+        title="Accuracy against run time",
         blocks=(
             Block(
                 texts=(
-                    f"Every method over its settings from coarse to fine, on {scenes} scenes. A "
-                    "point further down is more accurate, further left faster. The exact method "
-                    f"has no setting; it is drawn at {scientific(100.0 * least)} %, its largest "
-                    "error against many-digit arithmetic (section 3).",
+                    f"Every method is run on {cases} analysis cases with its settings from coarse "
+                    "to fine. Lower points are more accurate; points further left are faster. The "
+                    f"exact method has no setting; it is drawn at {scientific(100.0 * least)} %, "
+                    "its largest error against 50-digit arithmetic (section 3).",
                 ),
                 charts=(
                     Chart(
                         name="work-percent",
                         picture=Picture(
-                            svg=figures.overview(found.work, "percent", 100.0 * least),
-                            caption=f"Error in percent: medians over the scenes. {missing}",
-                            alt="Time per run against error in percent, all methods",
+                            svg=figures.overview(verification.work, "percent", 100.0 * least),
+                            caption=f"Error in percent: medians over the analysis cases. {missing}",
+                            alt="Error in percent against time per run, all methods",
                         ),
                     ),
                     Chart(
-                        name="work-metres",
+                        name="work-meters",
                         picture=Picture(
-                            svg=figures.overview(found.work, "m", metres),
-                            caption="The same in metres; the exact method at its relative error "
-                            f"times the median PRD. {missing}",
-                            alt="Time per run against error in metres, all methods",
+                            svg=figures.overview(verification.work, "m", meters),
+                            caption="Error in meters: medians over the analysis cases. The exact "
+                            "method is drawn at its relative error times the median PRD. "
+                            f"{missing}",
+                            alt="Error in meters against time per run, all methods",
                         ),
                     ),
-                    *_envelopes(found),
+                    *_envelopes(verification),
                 ),
-                tables=(_work_table(found.work),),
+                tables=(_work_table(verification.work),),
             ),
         ),
     )
 
 
 def _typical_prd_m(points: Sequence[WorkPoint]) -> float:
-    """Return the median PRD, from errors that are given both in metres and in percent of it."""
-    found = [
+    """Return the median PRD [m], from errors given both in meters and in percent of the PRD."""
+    prds = [
         100.0 * p.prd_error_m / p.prd_error_percent for p in points if p.prd_error_percent > 0.0
     ]
-    return float(np.median(found)) if found else 1.0
+    return float(np.median(prds)) if prds else 1.0
 
 
 def _lost(points: Sequence[WorkPoint]) -> str:
@@ -96,17 +100,17 @@ def _lost(points: Sequence[WorkPoint]) -> str:
     return joined([f"{name}: {sum(p.method == name for p in points)}" for name in names])
 
 
-def _envelopes(found: Verification) -> Iterator[Chart]:
+def _envelopes(verification: Verification) -> Iterator[Chart]:
     for measure, name in figures.PANELS:
         yield Chart(
             name=f"work-each-{slug(name)}",
             picture=Picture(
-                svg=figures.by_method(found.work, measure, LEAST_PERCENT),
-                caption=f"Error in {name}, method by method. Dots: runs; band: from the least to "
-                "the largest over the scenes, at the median time; line: medians; pale: medians of "
-                "the others. "
-                f"Errors under {power_of_ten(LEAST_PERCENT)} % are drawn there.",
-                alt=f"Time per run against error in {name}, a panel for each method",
+                svg=figures.by_method(verification.work, measure, LEAST_PERCENT),
+                caption=f"Error in {name} by method. Dots: runs; band: least to largest error over "
+                "the analysis cases, at the median time; dark line: medians; light lines: medians "
+                f"of the other methods. Errors below {power_of_ten(LEAST_PERCENT)} % are drawn at "
+                f"{power_of_ten(LEAST_PERCENT)} %.",
+                alt=f"Error in {name} against time per run, a panel for each method",
             ),
         )
 
@@ -120,7 +124,7 @@ def _work_table(points: Sequence[WorkPoint]) -> Table:
         groups = [[p for p in own if p.setting == value] for value in shown] or [own]
         rows += [_work_row(name, group, is_first=n == 0) for n, group in enumerate(groups)]
     return Table(
-        caption="Medians and largest errors over the scenes",
+        caption="Median times, and median and largest errors, over the analysis cases",
         columns=(
             TableColumn(head="Method", align="left", share=3.6),
             TableColumn(head="Setting", align="left", share=1.4),
@@ -132,7 +136,10 @@ def _work_table(points: Sequence[WorkPoint]) -> Table:
             TableColumn(head="Failed", share=0.7),
         ),
         rows=tuple(rows),
-        notes=("Of long rows of settings every second one; all are in verification.csv.",),
+        notes=(
+            "Where a method has more than five settings, every second one is shown; all are in "
+            "verification.csv.",
+        ),
         kind="compact",
     )
 

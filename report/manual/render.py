@@ -1,4 +1,4 @@
-"""From what a verification found to the files that are handed over: PDF, CSV and charts.
+"""Output files of a verification: PDF, CSV and charts.
 
 Read `report.manual.sections` next.
 """
@@ -32,9 +32,9 @@ def files(
     """
     machine = this_machine()
     load_fonts(TEMPLATES / "fonts")
-    on_stage("drawing the charts")
+    on_stage("Drawing the charts")
     parts = sections(found, machine)
-    on_stage("laying out the manual")
+    on_stage("Laying out the manual")
     pdf = lay_out(manual_html(found, parts, machine, date))
     charts = [chart for part in parts for block in part.blocks for chart in block.charts]
     return {
@@ -47,7 +47,7 @@ def files(
 def manual_html(
     found: Verification, parts: tuple[ManualSection, ...], machine: Machine, date: dt.date
 ) -> str:
-    """Return the manual before it is laid out."""
+    """Return the manual as HTML, before layout."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(

@@ -1,4 +1,4 @@
-"""Where methods fail, and where the problem itself leaves no method a chance."""
+"""Where methods fail, and where the problem itself is ill-conditioned."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from solver.verification.evidence import (
 )
 
 
-def stability(found: Verification) -> ManualSection:
+def stability(verification: Verification) -> ManualSection:
     """Return the stability maps with their notes."""
     intro = (
-        "Where a method blows up, stalls, or is off: largest error in PRD of the scenes in each "
-        "cell. A hatched cell failed: the method gave no number. Where a line is drawn it is the "
-        "theoretical limit of the note below."
+        "The maps show where a method diverges, stalls or loses accuracy. Each cell shows the "
+        "largest error in PRD over the analysis cases of that cell. In a hatched cell the method "
+        "failed to give a result. A line, where drawn, is the theoretical limit given in the note."
     )
     return ManualSection(
         id="stability",
@@ -34,35 +34,39 @@ def stability(found: Verification) -> ManualSection:
                     Chart(
                         name=f"stability-{at // maps.MOST + 1}",
                         picture=Picture(
-                            svg=maps.stability(found.maps[at : at + maps.MOST], first=at + 1),
+                            svg=maps.stability(
+                                verification.maps[at : at + maps.MOST], first=at + 1
+                            ),
                             caption="Stability maps. Shading: error in PRD. Hatched: failed.",
-                            alt="Maps of the error in PRD over two settings of each method",
+                            alt="Maps of the error in PRD over two parameters of each method",
                         ),
                     ),
                 ),
                 items=[
                     f"({count}) {one.note} Failed: {int(one.failed.sum())} of "
                     f"{one.failed.size} cells."
-                    for count, one in enumerate(found.maps[at : at + maps.MOST], start=at + 1)
+                    for count, one in enumerate(
+                        verification.maps[at : at + maps.MOST], start=at + 1
+                    )
                 ],
             )
-            for at in range(0, len(found.maps), maps.MOST)
+            for at in range(0, len(verification.maps), maps.MOST)
         ],
     )
 
 
-def conditioning(found: Verification) -> ManualSection:
-    """Return what a small change of friction does."""
+def conditioning(verification: Verification) -> ManualSection:
+    """Return the effect of a small change of friction."""
     intro = (
-        "Where the answer hangs on the last digits of the friction coefficient, no method can be "
-        "better than that: the problem itself is ill-conditioned there. Below is what a small "
-        "change of μ does to the exact PRD. Friction is known to percents at best, and what 5 % of "
-        "it changes is far more than any error of the exact method: each package states it for its "
-        "own arrays."
+        "Where the result depends on the last digits of the friction coefficient, the problem "
+        "itself is ill-conditioned and no method can be accurate. The charts show the change of "
+        "the exact PRD due to a small change of μ. Friction is known to a few percent at best, "
+        "and a change of 5 % in friction has a far larger effect than the error of the exact "
+        "method. Each package states that effect for its own arrays."
     )
     return ManualSection(
         id="conditioning",
-        title="Where no method can help",
+        title="Sensitivity to the friction coefficient",
         blocks=[
             Block(
                 texts=(intro,) if at == 0 else (),
@@ -70,10 +74,10 @@ def conditioning(found: Verification) -> ManualSection:
                     Chart(
                         name=f"conditioning-{at // 2 + 1}",
                         picture=Picture(
-                            svg=maps.conditioning(found.conditioning[at : at + 2]),
-                            caption="Exact PRD over the friction coefficient, and its change when "
-                            "the coefficient changes as the title says.",
-                            alt="PRD and its change over the friction coefficient",
+                            svg=maps.conditioning(verification.conditioning[at : at + 2]),
+                            caption="Exact PRD against the friction coefficient (top), and its "
+                            "change for the change of μ stated in the title (bottom).",
+                            alt="PRD and its change against the friction coefficient",
                         ),
                     ),
                 ),
@@ -81,9 +85,9 @@ def conditioning(found: Verification) -> ManualSection:
                     f"{one.title} (θ = {one.slope_deg:g}°, PPA = {one.ppa_g:g} g, {one.record}): "
                     f"largest change {percent(float(np.nanmax(one.change_percent)))}, median "
                     f"{percent(float(np.nanmedian(one.change_percent)))}. {one.note}"
-                    for one in found.conditioning[at : at + 2]
+                    for one in verification.conditioning[at : at + 2]
                 ],
             )
-            for at in range(0, len(found.conditioning), 2)
+            for at in range(0, len(verification.conditioning), 2)
         ],
     )

@@ -1,4 +1,4 @@
-"""Rung against rung: what each fuller model changes, two axes against general solvers, speed."""
+"""Comparison of models: effect of each fuller model, two axes against general solvers, time."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def rungs(found: Verification) -> ManualSection:
     """Return the comparison of the models."""
     return ManualSection(
         id="rungs",
-        title="From one axis to two, and to rows of blocks",
+        title="Models: one axis, two axes and rows of blocks",
         blocks=tuple(block for one in found.rungs for block in _blocks(one)),
     )
 
@@ -43,7 +43,7 @@ def _blocks(found: RungEvidence) -> tuple[Block, ...]:
     return (
         Block(texts=_ladder()),
         Block(
-            title="Rung against rung",
+            title="Effect of each model on the PRD",
             texts=(
                 _scenes(found.study),
                 _underestimates(found.study),
@@ -55,23 +55,23 @@ def _blocks(found: RungEvidence) -> tuple[Block, ...]:
             charts=(_changes_chart(found.study),),
         ),
         Block(
-            title="What each rung takes",
+            title="Run time of each model",
             tables=(_times_table(found),),
         ),
         Block(
-            title="Work against precision in two axes",
+            title="Accuracy against run time in two axes",
             texts=(_work_words(found),),
             charts=(_work_chart(found),),
             tables=(_work_table(found.work),),
         ),
         Block(
-            title="How the stated bound holds",
+            title="Verification of the stated error bound",
             texts=(_bound_words(found.bounds),),
             charts=(_bound_chart(found.bounds),),
             tables=(_bound_table(found.bounds),),
         ),
         Block(
-            title="Near a stop",
+            title="Behavior at a stop",
             texts=(_stop_words(),),
             tables=(_stop_table(found.stops),),
         ),
@@ -81,37 +81,39 @@ def _blocks(found: RungEvidence) -> tuple[Block, ...]:
 
 def _ladder() -> tuple[str, ...]:
     return (
-        "A scene is answered by the least model that does: no slip (0), one axis (1), one axis "
-        "with vertical (2), two axes with vertical (3), friction that depends on speed (4). A row "
-        "of linked blocks (5) shows whether one rigid array is enough. One axis is followed to "
-        "rounding. Two axes have no closed form: they are followed by power series from event to "
-        "event, with a bound of the error, to a tolerance of 10⁻⁶ of the PRD unless another is "
-        "set; where SciPy is installed, the checks of section 3 hold every tolerance against it.",
+        "For each analysis case the program uses the simplest sufficient model: no slip (0), one "
+        "axis (1), one axis with vertical (2), two axes with vertical (3), or two axes with "
+        "velocity-dependent friction (4). A row of linked blocks (5) shows whether one rigid array "
+        "is an adequate model. One axis is solved to rounding error. Two axes have no closed form. "
+        "They are solved by power series from event to event, with an error bound and a tolerance "
+        "of 10⁻⁶ of the PRD unless another is set. Where SciPy is installed, section 3 compares "
+        "every tolerance with it.",
     )
 
 
 def _scenes(study: RungStudy) -> str:
     made = len(study.motions) - study.n_recorded
-    kinds = [f"{made} made motion{'s' if made > 1 else ''}"] if made else []
+    kinds = [f"{made} generated motion{'s' if made > 1 else ''}"] if made else []
     kinds += [f"{study.n_recorded} recorded in earthquakes"] if study.n_recorded else []
     words = (
-        f"{study.n_runs} runs: {joined(kinds)} (named in section 2), each on slopes of "
-        f"{_list(study.slopes_deg)}° with μ = {_list(study.mus)} at a PPA of "
-        f"{_list(study.ppas_g)} g, the larger horizontal component having that peak and all "
-        "components one factor; each horizontal component along the slope in both senses. "
+        f"The comparison has {study.n_runs} runs: {joined(kinds)} (listed in section 2), each on "
+        f"slopes of {_list(study.slopes_deg)}° with μ = {_list(study.mus)} at a PPA of "
+        f"{_list(study.ppas_g)} g. The larger horizontal component is scaled to the PPA, and all "
+        "components have the same factor. Each horizontal component is applied along the slope "
+        "with both signs. "
     )
     if study.n_uplift:
         words += (
-            f"In {study.n_uplift} runs the vertical lifts the block off the roof: no displacement, "
-            "and not counted here. "
+            f"In {study.n_uplift} runs the vertical component lifts the block off the roof; these "
+            "runs give no displacement and are excluded. "
         )
     if not study.n_recorded:
         words += (
-            "No records of three components were given to this run (option --records): what "
-            "follows is made motions alone. "
+            "No records of three components were given to this run (option --records); the results "
+            "below are for generated motions only. "
         )
     return words + (
-        f"Largest bound of the error in two axes: {scientific(study.largest_error)} of the PRD."
+        f"The largest error bound in two axes is {scientific(study.largest_error)} of the PRD."
     )
 
 
@@ -120,19 +122,23 @@ def _list(values: Sequence[float]) -> str:
 
 
 def _underestimates(study: RungStudy) -> str:
-    """UnitFormat plainly what one axis leaves out."""
+    """Return the effect of the second component that one axis neglects, in words."""
     one, worst = study.named(SECOND), study.named(WORST)
     if not one.ratios.size or not worst.ratios.size:
-        return f"No scene slides {1e3 * LEAST_M:g} mm or more in both models."
-    verdict = "One axis underestimates." if one.median > 1.0 else "Here one axis is enough."
+        return f"No run slides {1e3 * LEAST_M:g} mm or more in both models."
+    verdict = (
+        "One axis underestimates the PRD."
+        if one.median > 1.0
+        else "One axis does not underestimate the median PRD of these runs."
+    )
     return (
-        f"{verdict} Friction has one direction at a time: what pushes the block "
-        "across the slope uses it up, and what is left for the slope is less. With the second "
+        f"{verdict} Friction acts opposite to the total velocity; the part that resists "
+        "cross-slope motion is not available along the slope. With the second "
         f"component the PRD is {one.median:.2f} times that of one axis with the same heading "
         f"(median; 10 to 90 % of the runs: {one.at(10.0):.2f} to {one.at(90.0):.2f}; largest "
         f"{one.at(100.0):.1f}), and greater in {100.0 * one.share_above_one:.0f} % of the runs. "
-        "Running each horizontal component alone in both senses and taking the worst does not "
-        f"mend that: two axes give {worst.median:.2f} times the worst of those (10 to 90 %: "
+        "The largest PRD from each horizontal component run alone with both signs does not cover "
+        f"this effect: two axes give {worst.median:.2f} times that PRD (10 to 90 %: "
         f"{worst.at(10.0):.2f} to {worst.at(90.0):.2f}; largest {worst.at(100.0):.1f})."
     )
 
@@ -140,27 +146,30 @@ def _underestimates(study: RungStudy) -> str:
 def _friction(study: RungStudy) -> str:
     slow, fast = study.named(OVER_SLOW), study.named(OVER_FAST)
     words = (
-        f"Friction by speed: μ slow, the coefficient of the other rungs, is {study.slow_share:g} "
-        f"of μ fast, and it rises with {study.rate_s_per_m:g} s/m. "
+        "Velocity-dependent friction: the low-velocity coefficient, used by the other models, is "
+        f"{study.slow_share:g} of the high-velocity coefficient, and the rate of the increase is "
+        f"{study.rate_s_per_m:g} s/m. "
     )
     if not slow.ratios.size or not fast.ratios.size:
         return words
     return words + (
-        f"The PRD is {slow.median:.2f} times (median) that with the coefficient at a crawl for "
-        f"every speed, and less than that in {100.0 * (1.0 - slow.share_above_one):.0f} % of the "
-        f"runs; it is {fast.median:.2f} times that with the coefficient of fast sliding, and more "
-        f"in {100.0 * fast.share_above_one:.0f} %. Neither is a bound: a motion that comes back "
-        "may end anywhere."
+        f"The PRD is {slow.median:.2f} times (median) that with the low-velocity coefficient at "
+        f"all velocities, and not greater in {100.0 * (1.0 - slow.share_above_one):.0f} % of the "
+        f"runs. It is {fast.median:.2f} times (median) that with the high-velocity coefficient, "
+        f"and greater in {100.0 * fast.share_above_one:.0f} % of the runs. Neither coefficient "
+        "gives a bound on the PRD, because the displacement of a block that reverses direction "
+        "does not vary monotonically with friction."
     )
 
 
 def _rows(study: RungStudy) -> str:
     return (
-        f"A row of {len(study.row_shares)} blocks joined along the slope, whose friction is "
-        f"{_list(study.row_shares)} times μ from the top down, against one rigid array with their "
-        "mean: links that stretch by 1 mm or 10 mm under the weight of a block, damping 5 %; the "
-        f"first heading alone, at {study.row_ppa_g:g} g, vertical in, the second axis out. The "
-        "PRD of a row is that of the block that goes farthest."
+        f"Row of blocks: {len(study.row_shares)} blocks are linked along the slope, with "
+        f"coefficients of {_list(study.row_shares)} times μ from the upslope end. The row is "
+        "compared with one rigid array that has the mean coefficient. The links elongate 1 mm or "
+        "10 mm under the weight of a block and have 5 % damping. The row is run in the first "
+        f"heading only, at {study.row_ppa_g:g} g, with the vertical component and without the "
+        "second axis. The PRD of a row is the largest PRD of its blocks."
     )
 
 
@@ -169,17 +178,18 @@ def _changes_chart(study: RungStudy) -> Chart:
         name="rungs-changes",
         picture=Picture(
             svg=figures.changes(study.changes),
-            caption="What each step up changes: dots, runs; upright mark, median; bar, 10 to 90 %.",
-            alt="Ratios of the PRD of a fuller model to that of a lesser one",
+            caption="Ratio of PRD, fuller model / simpler model. Dots: runs; vertical mark: "
+            "median; bar: 10 to 90 %.",
+            alt="Ratios of the PRD of a fuller model to that of a simpler one",
         ),
     )
 
 
 def _changes_table(study: RungStudy) -> Table:
     return Table(
-        caption="PRD of the fuller model over that of the lesser",
+        caption="Ratio of PRD, fuller model / simpler model",
         columns=(
-            TableColumn(head="Step", align="left", share=3.0),
+            TableColumn(head="Comparison", align="left", share=4.0),
             TableColumn(head="Runs"),
             TableColumn(head="Least"),
             TableColumn(head="10 %"),
@@ -187,17 +197,18 @@ def _changes_table(study: RungStudy) -> Table:
             TableColumn(head="90 %"),
             TableColumn(head="Largest"),
             TableColumn(head="Above 1", unit="%"),
-            TableColumn(head="Not counted", share=1.2),
+            TableColumn(head="Excluded", share=1.1),
             TableColumn(head="Largest change", unit="mm", share=1.3),
         ),
         rows=tuple(_change_row(one) for one in study.changes),
         notes=(
-            f"Not counted: the PRD of one of them is under {1e3 * LEAST_M:g} mm. Largest change: "
-            "of all, these too. Vertical: rung 2 over rung 1. Second axis: rung 3 over rung 2. "
-            "Worst heading: the largest of four headings in two axes over the largest in one. "
-            "Friction by speed: rung 4 over rung 3 with the one or the other coefficient. Static "
-            "friction: rung 4 over rung 2 or 3 with the kinetic coefficient, at last over rung 3 "
-            "with the static one. TableRow: rung 5 over rung 2 with the mean coefficient.",
+            f"Excluded: runs in which either PRD is less than {1e3 * LEAST_M:g} mm. Largest "
+            "change: of all runs, including the excluded ones. Vertical: model 2 / model 1. Second "
+            "axis: model 3 / model 2. Worst heading: largest of four headings in two axes / "
+            "largest in one axis. Velocity-dependent μ: model 4 / model 3 with the low-velocity or "
+            "the high-velocity coefficient. Static friction: model 4 / model 2 or 3 with the "
+            "kinetic coefficient. Static and kinetic μ / static μ: model 4 / model 3 with the "
+            "static coefficient. Row: model 5 / model 2 with the mean coefficient.",
         ),
         kind="compact",
     )
@@ -218,17 +229,18 @@ def _change_row(one: RungChange) -> TableRow:
 
 def _work_words(found: RungEvidence) -> str:
     words = (
-        f"Scene: {found.work_scene}. Errors are against the power series with the tightest "
-        "tolerance, 10⁻¹⁰; that of the power series is the largest at any sample, of the others "
-        "that of the PRD. Fixed steps are compiled like the power series. "
+        f"The analysis case is {found.work_scene}. Errors are measured against the power series "
+        "with the tightest tolerance, 10⁻¹⁰. The error of the power series is the largest at any "
+        "sample; the errors of the other methods are those of the PRD. The fixed-step methods are "
+        "compiled, as is the power series. "
     )
     if any("SciPy" in one.method for one in found.work):
         return words + (
-            "SciPy's DOP853 is held against that tolerance in section 3. Its solvers call a "
-            "right-hand side in plain Python, so hold their evaluations against steps rather than "
-            "their times; friction is μN tanh(v/v₀) for them."
+            "Section 3 compares that tolerance with SciPy's DOP853. The SciPy solvers evaluate the "
+            "right-hand side in Python, so their number of evaluations, not their time, should be "
+            "compared with the number of steps. They use the regularized friction μN tanh(v/v₀)."
         )
-    return words + "SciPy is not installed here; its solvers are left out."
+    return words + "SciPy is not installed here; its solvers are not shown."
 
 
 def _work_chart(found: RungEvidence) -> Chart:
@@ -236,9 +248,10 @@ def _work_chart(found: RungEvidence) -> Chart:
         name="rungs-work",
         picture=Picture(
             svg=figures.work(found.work),
-            caption=f"Two axes, {found.work_scene}: further down is more accurate, further left "
-            "faster. With v₀ the regularised friction has a floor that no tolerance mends.",
-            alt="Time per run against error, methods in two axes",
+            caption=f"Two axes, {found.work_scene}. Lower points are more accurate; points further "
+            "left are faster. The error of regularized friction has a floor set by v₀, whatever "
+            "the tolerance.",
+            alt="Error against time per run, methods in two axes",
         ),
     )
 
@@ -261,7 +274,7 @@ def _work_table(points: Sequence[PlaneWork]) -> Table:
             for n, one in enumerate(shown)
         ]
     return Table(
-        caption="Two axes: steps, or evaluations for SciPy, times and errors",
+        caption="Two axes: steps (evaluations for SciPy), times and errors",
         columns=(
             TableColumn(head="Method", align="left", share=3.2),
             TableColumn(head="Setting", align="left", share=1.2),
@@ -270,7 +283,7 @@ def _work_table(points: Sequence[PlaneWork]) -> Table:
             TableColumn(head="Error", share=1.2),
         ),
         rows=tuple(rows),
-        notes=("Of long rows of settings every second one.",),
+        notes=("Where a method has more than three settings, every second one is shown.",),
         kind="compact",
     )
 
@@ -279,19 +292,21 @@ def _bound_words(found: Sequence[BoundRatios]) -> str:
     pairs, over = sum(one.n_pairs for one in found), sum(one.n_over for one in found)
     unanswered = sum(one.n_unanswered for one in found)
     verdict = (
-        "Every pair keeps to its bound."
+        "Every pair is within its bound."
         if over + unanswered == 0
-        else f"Pairs over their bounds: {over}; without an answer: {unanswered}."
+        else f"Pairs over their bounds: {over}; without a result: {unanswered}."
     )
     return (
-        f"{pairs:,} pairs of runs on random scenes, most of them nothing like an earthquake: equal "
-        "samples, jumps, pushes at the yield acceleration to the last digit, components in "
-        "proportion or next to none, steps of 0.0005 to 0.5 s, tolerances of 10⁻² to 10⁻¹⁰. The "
-        "two runs of a pair must give the same: with samples put between on the straight lines, "
-        "mirrored, rotated on a flat roof, or at two tolerances. Their difference, the largest of "
-        "the PRD, of the four excursions and of the place at the end, may be the sum of both "
-        "stated bounds, and where the input of the second is rounded anew, half a unit in the "
-        f"last place of every sample as a push for the whole record. {verdict}"
+        f"The error bound is tested with {pairs:,} pairs of runs on random cases. Most of the "
+        "motions are unlike an earthquake: equal samples, jumps, accelerations equal to the yield "
+        "acceleration to the last digit, proportional or negligible components, time steps of "
+        "0.0005 to 0.5 s, and tolerances of 10⁻² to 10⁻¹⁰. The two runs of a pair have the same "
+        "exact result: the second has interpolated samples added, is mirrored, is rotated on a "
+        "flat roof, or has another tolerance. The difference is the largest of the differences in "
+        "PRD, in the four excursions and in final position. The allowed difference is the sum of "
+        "both stated bounds; where the input of the second run is rounded again, the effect of "
+        "half a unit in the last place of every sample, applied as an acceleration over the whole "
+        f"record, is added. {verdict}"
     )
 
 
@@ -300,25 +315,26 @@ def _bound_chart(found: Sequence[BoundRatios]) -> Chart:
         name="rungs-bounds",
         picture=Picture(
             svg=figures.bounds(found),
-            caption="Share of the pairs whose difference over bound is above a value. Differences "
-            f"below {power_of_ten(figures.LEAST_RATIO)} of the bound are drawn there.",
-            alt="Distribution of the difference of two runs over the sum of their bounds",
+            caption="Share of the pairs whose ratio of difference to bound exceeds a value. "
+            f"Ratios below {power_of_ten(figures.LEAST_RATIO)} are drawn at "
+            f"{power_of_ten(figures.LEAST_RATIO)}.",
+            alt="Distribution of the ratio of the difference of two runs to the sum of bounds",
         ),
     )
 
 
 def _bound_table(found: Sequence[BoundRatios]) -> Table:
     return Table(
-        caption="Difference of the two runs of a pair over the sum of their bounds",
+        caption="Difference of the two runs of a pair / sum of their bounds",
         columns=(
-            TableColumn(head="Pairs", align="left", share=2.4),
-            TableColumn(head="Number"),
-            TableColumn(head="That move"),
+            TableColumn(head="Kind of pair", align="left", share=2.4),
+            TableColumn(head="Pairs"),
+            TableColumn(head="With slip"),
             TableColumn(head="Median"),
             TableColumn(head="99 %"),
             TableColumn(head="Largest"),
             TableColumn(head="Above 1"),
-            TableColumn(head="No answer"),
+            TableColumn(head="No result"),
         ),
         rows=tuple(
             TableRow(
@@ -339,24 +355,26 @@ def _bound_table(found: Sequence[BoundRatios]) -> Table:
 
 def _stop_words() -> str:
     return (
-        "A block is thrown down a flat roof while 2 m/s² push it across; μ = 0.4 stops it after "
-        "0.15 s and holds it from then on, at a place known in closed form (section 3). As the "
-        "speed goes to zero its direction turns faster and faster, and friction has a jump at "
-        "zero. Fixed steps that take friction against v alone chatter on; regularised friction "
-        "creeps for as long as the push lasts, by v₀ artanh(G/μN); without regularisation a "
-        "general solver does not get past the stop. The power series end in it."
+        "A block is set in motion on a flat roof while a transverse acceleration of 2 m/s² acts on "
+        "it. Friction with μ = 0.4 stops the block after 0.15 s. It stays at rest from then on, at "
+        "a position known in closed form (section 3). As the velocity approaches zero its "
+        "direction rotates faster and faster, and friction is discontinuous at zero. Fixed steps "
+        "without stick chatter. With regularized friction the block creeps at a velocity of "
+        "v₀ artanh(G/μN) as long as the acceleration acts. Without regularization a "
+        "general-purpose solver cannot integrate past the stop. The power series reach the stop "
+        "and end there."
     )
 
 
 def _stop_table(points: Sequence[StopPoint]) -> Table:
     return Table(
-        caption="Two seconds of a block that is stopped and should rest",
+        caption="Block that stops and should remain at rest: state after 2 s",
         columns=(
             TableColumn(head="Method", align="left", share=3.4),
             TableColumn(head="Setting", align="left", share=1.1),
             TableColumn(head="Steps", share=1.0),
-            TableColumn(head="Error in place", unit="mm", share=1.3),
-            TableColumn(head="Speed left", unit="mm/s", share=1.3),
+            TableColumn(head="Position error", unit="mm", share=1.3),
+            TableColumn(head="Final velocity", unit="mm/s", share=1.3),
         ),
         rows=tuple(
             TableRow(
@@ -364,7 +382,7 @@ def _stop_table(points: Sequence[StopPoint]) -> Table:
                     lettered(one.method),
                     _setting(one.setting),
                     str(one.steps),
-                    "did not end" if math.isnan(one.error_m) else _small(1e3 * one.error_m),
+                    "stalled" if math.isnan(one.error_m) else _small(1e3 * one.error_m),
                     _small(1e3 * one.end_speed_mps),
                 )
             )
@@ -386,11 +404,11 @@ def _small(value: float) -> str:
 
 def _times_table(found: RungEvidence) -> Table:
     return Table(
-        caption=f"Time per run of each rung, {found.times_motion}",
+        caption=f"Time per run of each model, {found.times_motion}",
         columns=(
-            TableColumn(head="Rung", align="left", share=3.0),
+            TableColumn(head="Model", align="left", share=3.0),
             TableColumn(head="Time per run", share=1.2),
-            TableColumn(head="of one axis", share=1.2),
+            TableColumn(head="Ratio to one axis", share=1.2),
         ),
         rows=tuple(
             TableRow(
@@ -403,23 +421,22 @@ def _times_table(found: RungEvidence) -> Table:
             for one in found.times
         ),
         notes=(
-            "Medians over three scenes, one thread, warm; two axes and friction by speed to the "
-            "tolerance of 10⁻⁶.",
+            "Medians over three analysis cases, one thread, after compilation. Two axes are run "
+            "with a tolerance of 10⁻⁶.",
         ),
         kind="compact",
     )
 
 
 def answers(found: Verification) -> tuple[tuple[str, str], ...]:
-    """Return what the summary says of two axes: questions and answers."""
+    """Return the summary's rows on two axes: quantity and result."""
     rows = []
     for one in found.rungs:
         second, worst = one.study.named(SECOND), one.study.named(WORST)
         if second.ratios.size and worst.ratios.size:
             text = (
-                f"{second.median:.2f} times, 10 to 90 % of the runs {second.at(10.0):.2f} to "
-                f"{second.at(90.0):.2f}; over the worst heading of one axis {worst.median:.2f} "
-                "times"
+                f"{second.median:.2f} times (10 to 90 % of the runs: {second.at(10.0):.2f} to "
+                f"{second.at(90.0):.2f}); {worst.median:.2f} times for the worst heading"
             )
-            rows.append(("PRD in two axes over that in one, median", text))
+            rows.append(("PRD in two axes relative to one axis, median", text))
     return tuple(rows)

@@ -14,21 +14,21 @@ from report.manual.tables import checks, methods, peers, software
 from solver.verification.evidence import Verification
 
 
-def sections(found: Verification, machine: Machine) -> tuple[ManualSection, ...]:
-    """Return all sections but cover and contents."""
+def sections(verification: Verification, machine: Machine) -> tuple[ManualSection, ...]:
+    """Return all sections except cover and contents."""
     return (
-        summary(found),
-        scope(found),
-        checks(found),
+        summary(verification),
+        scope(verification),
+        checks(verification),
         methods(),
-        work(found),
-        stability(found),
-        convergence(found),
-        links(found),
-        curves(found),
-        conditioning(found),
-        building(found),
-        *((rungs(found),) if found.rungs else ()),
-        *((peers(found.peers),) if found.peers else ()),
-        software(found, machine),
+        work(verification),
+        stability(verification),
+        convergence(verification),
+        links(verification),
+        curves(verification),
+        conditioning(verification),
+        building(verification),
+        *((rungs(verification),) if verification.rungs else ()),
+        *((peers(verification.peers),) if verification.peers else ()),
+        software(verification, machine),
     )

@@ -1,4 +1,4 @@
-"""Static above kinetic friction: what it does to the PRD, and where its answers are brittle."""
+"""Static above kinetic friction: its effect on the PRD, and where the result is sensitive."""
 
 from __future__ import annotations
 
@@ -27,54 +27,56 @@ from solver.verification.static_study import (
 )
 
 _TELLING = 1e-3
-"""Change of the PRD from which on a scene counts as changed."""
+"""Least relative change of the PRD for which a scene counts as changed."""
 
 
 def effect(study: RungStudy) -> str:
-    """UnitFormat what it does to the PRD, beside the other rungs."""
+    """Return the effect on the PRD relative to the other models, in words."""
     words = (
-        "Static above kinetic friction: μ is that in motion, and "
-        f"{1.0 / study.slow_share:.4g} μ holds the block until it slips and whenever it has "
-        "stopped. "
+        "Static friction above kinetic friction: the kinetic coefficient is μ. The static "
+        f"coefficient, {1.0 / study.slow_share:.4g} μ, applies before the first slip and after "
+        "every stop. "
     )
     one, two, static = (study.named(name) for name in (HELD_ONE, HELD, OVER_STATIC))
     if not (one.ratios.size and two.ratios.size and static.ratios.size):
         return words
     return words + (
-        f"The PRD is {one.median:.2f} times (median; 10 to 90 %: {one.at(10.0):.2f} to "
-        f"{one.at(90.0):.2f}) that with μ throughout in one axis, {two.median:.2f} times "
-        f"({two.at(10.0):.2f} to {two.at(90.0):.2f}) in two, and greater in "
-        f"{100.0 * two.share_above_one:.0f} % of the runs in two axes: a slip left out may be one "
-        "that would have brought the block back. With the static coefficient throughout it "
-        f"would be another matter: kinetic friction gives {static.median:.2f} times that."
+        f"Relative to μ throughout, the PRD is {one.median:.2f} times in one axis (median; 10 to "
+        f"90 %: {one.at(10.0):.2f} to {one.at(90.0):.2f}) and {two.median:.2f} times in two axes "
+        f"({two.at(10.0):.2f} to {two.at(90.0):.2f}). It is greater in "
+        f"{100.0 * two.share_above_one:.0f} % of the runs in two axes, because static friction can "
+        "prevent a slip that would have returned the block toward its initial position. Relative "
+        f"to the static coefficient throughout, the PRD is {static.median:.2f} times (median)."
     )
 
 
-def block(found: StaticEvidence) -> Block:
-    """Return what is left of it as the difference, or the second axis, fades."""
-    tables = (_difference_table(found), _fading_table(found)) if found.n_scenes else ()
+def block(evidence: StaticEvidence) -> Block:
+    """Return the limits of a small difference and of a small second component."""
+    tables = (_difference_table(evidence), _fading_table(evidence)) if evidence.n_scenes else ()
     return Block(
-        title="Static above kinetic friction",
-        texts=(_words(found),) if found.n_scenes else (),
-        tables=(*tables, _pushed_table(found)),
+        title="Static friction above kinetic friction",
+        texts=(_words(evidence),) if evidence.n_scenes else (),
+        tables=(*tables, _pushed_table(evidence)),
     )
 
 
-def _words(found: StaticEvidence) -> str:
-    last = found.fading[-1]
+def _words(evidence: StaticEvidence) -> str:
+    last = evidence.fading[-1]
     off = int((last.static_above > _TELLING).sum())
     return (
-        f"{found.n_scenes} of the scenes above, those that slide {1e3 * LEAST_M:g} mm or more in "
-        "one axis, in their first heading. As the difference falls, one axis tends to the exact "
-        f"method and two axes to rung 3: the largest change falls with the power {_power(found)} "
-        "of the difference. A slip that begins later by a difference lacks a speed of its "
-        "square. A second component that fades is another matter. In one axis a block that "
-        "turns back comes to rest, and static friction may hold it; with anything across it "
-        "turns without coming to rest and is not held. So two axes need not tend to one: with "
-        f"{last.share:g} of the second component {off} of {found.n_scenes} scenes are still more "
-        f"than {percent(100.0 * _TELLING)} away, the farthest {_farthest(last.static_above)}; "
-        f"with one coefficient the farthest is {_farthest(last.one_coefficient)}. "
-        "The last table has the extreme of it."
+        f"The first two tables use {evidence.n_scenes} of the cases above: those that slide "
+        f"{1e3 * LEAST_M:g} mm or more in one axis, in their first heading. As the difference of "
+        "the coefficients decreases, one axis converges to the exact method, and two axes "
+        "converge to model 3. The largest change decreases with the power "
+        f"{_power(evidence)} of the difference (one axis and two axes), because a later onset of "
+        "slip changes the velocity by the square of the delay. A small second component has a "
+        "different effect. In one axis, a block that reverses comes to rest, and static friction "
+        "may then prevent slip. With any cross-slope component, the block reverses without coming "
+        "to rest, and static friction does not act. Two axes therefore need not converge to one: "
+        f"with {last.share:g} of the second component, {off} of {evidence.n_scenes} cases still "
+        f"differ by more than {percent(100.0 * _TELLING)}, the largest difference being "
+        f"{_farthest(last.static_above)}. With one coefficient, the largest difference is "
+        f"{_farthest(last.one_coefficient)}. The last table shows an extreme case."
     )
 
 
@@ -82,20 +84,20 @@ def _farthest(changes: Floats) -> str:
     return percent(100.0 * float(changes[-1]))
 
 
-def _power(found: StaticEvidence) -> str:
-    """Powers of the difference between the last two, in one axis and in two."""
-    former, last = found.differences[-2:]
+def _power(evidence: StaticEvidence) -> str:
+    """Observed order from the last two differences, in one axis and in two."""
+    former, last = evidence.differences[-2:]
     step = math.log(former.excess / last.excess)
     pairs = (former.one_axis, last.one_axis), (former.two_axes, last.two_axes)
     powers = [math.log(more[-1] / less[-1]) / step for more, less in pairs]
     return " and ".join(f"{power:.1f}" for power in powers)
 
 
-def _difference_table(found: StaticEvidence) -> Table:
+def _difference_table(evidence: StaticEvidence) -> Table:
     return Table(
-        caption="Change of the PRD by static above kinetic friction",
+        caption="Change of the PRD due to static friction above kinetic friction",
         columns=(
-            TableColumn(head="Static over kinetic", share=1.4),
+            TableColumn(head="Static / kinetic μ", share=1.4),
             TableColumn(head="One axis", unit="median"),
             TableColumn(head="One axis", unit="largest"),
             TableColumn(head="Two axes", unit="median"),
@@ -103,18 +105,18 @@ def _difference_table(found: StaticEvidence) -> Table:
         ),
         rows=tuple(
             TableRow(cells=(f"{1.0 + d.excess:g}", *_middle_and_top(d.one_axis, d.two_axes)))
-            for d in found.differences
+            for d in evidence.differences
         ),
         kind="compact",
     )
 
 
-def _fading_table(found: StaticEvidence) -> Table:
-    static = f"Static {found.ratio:.4g} times kinetic"
+def _fading_table(evidence: StaticEvidence) -> Table:
+    static = f"Static / kinetic μ = {evidence.ratio:.4g}"
     return Table(
-        caption="Two axes against one as the second component fades: change of the PRD",
+        caption="Change of the PRD from one axis to two axes with a reduced second component",
         columns=(
-            TableColumn(head="Second component times", share=1.4),
+            TableColumn(head="Factor on second component", share=1.4),
             TableColumn(head="One coefficient", unit="median"),
             TableColumn(head="One coefficient", unit="largest"),
             TableColumn(head=static, unit="median"),
@@ -122,7 +124,7 @@ def _fading_table(found: StaticEvidence) -> Table:
         ),
         rows=tuple(
             TableRow(cells=(f"{f.share:g}", *_middle_and_top(f.one_coefficient, f.static_above)))
-            for f in found.fading
+            for f in evidence.fading
         ),
         kind="compact",
     )
@@ -132,23 +134,25 @@ def _middle_and_top(*changes: Floats) -> list[str]:
     return [percent(100.0 * float(value)) for one in changes for value in (np.median(one), one[-1])]
 
 
-def _pushed_table(found: StaticEvidence) -> Table:
+def _pushed_table(evidence: StaticEvidence) -> Table:
     return Table(
-        caption=f"A block that is stopped while {PUSHED_BACK_G:g} g pushes it back; "
-        f"μ = {JUMPING.mu_slow:g} in motion, {JUMPING.mu_static:g} at rest: distance from its "
-        "start after two seconds",
+        caption="Distance from the initial position after 2 s: a sliding block stops under an "
+        f"opposing acceleration of {PUSHED_BACK_G:g} g; kinetic μ = {JUMPING.mu_slow:g}, "
+        f"static μ = {JUMPING.mu_static:g}",
         columns=(
-            TableColumn(head="Push across", unit="m/s²"),
+            TableColumn(head="Transverse acceleration", unit="m/s²", share=1.5),
             TableColumn(head="Distance", unit="mm"),
-            TableColumn(head="Error as the run tells it", unit="mm", share=1.6),
-            TableColumn(head="Distance, friction falling with speed", unit="mm", share=2.2),
+            TableColumn(head="Error reported by the run", unit="mm", share=1.6),
+            TableColumn(head="Distance, gradual decrease of μ", unit="mm", share=2.0),
         ),
-        rows=tuple(_pushed_row(one) for one in found.pushed),
+        rows=tuple(_pushed_row(one) for one in evidence.pushed),
         notes=(
-            f"Tolerance {scientific(PUSHED_TOLERANCE)}. The error is the difference between two "
-            "tolerances: it tells of the jump where one of them takes the block for stopped and "
-            "the other does not, and is silent where both do. Falling: from one to the other with "
-            f"{FALLING.rate_s_per_m:g} s/m instead of at once, so that a crawl is held like rest.",
+            f"Tolerance {scientific(PUSHED_TOLERANCE)}. The error is the difference between the "
+            "results at two tolerances. It shows the jump if the block stops at one tolerance and "
+            "not at the other; it does not show the jump if the block stops at both. Gradual "
+            "decrease: μ falls from static to kinetic with velocity at a rate of "
+            f"{FALLING.rate_s_per_m:g} s/m instead of abruptly, so that static friction also acts "
+            "at low velocity.",
         ),
         kind="compact",
     )

@@ -1,4 +1,4 @@
-"""The paper's own studies made again: its Figs. 5 to 12."""
+"""The studies of the paper repeated: Figs. 5 to 12."""
 
 from __future__ import annotations
 
@@ -31,35 +31,37 @@ PAPER_WORST_PERCENT, PAPER_MEAN_PERCENT = 6.78, 1.69
 PAPER_READ_OFFS = "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm"
 
 
-def convergence(found: Verification) -> ManualSection:
+def convergence(verification: Verification) -> ManualSection:
     """Return the paper's Fig. 5."""
-    scenarios = found.convergence[0].scenarios if found.convergence else 0
+    scenarios = verification.convergence[0].scenarios if verification.convergence else 0
     return ManualSection(
         id="convergence",
         title="The paper's convergence study (Fig. 5)",
         blocks=(
             Block(
                 texts=(
-                    f"The paper's method in its {scenarios} scenarios (five slopes, three friction "
-                    "coefficients, four PPA) with more and more sub-steps P. The paper took its "
-                    "own result at P = 256 as the truth; both truths are shown. The paper reports "
-                    f"{paper.PAPER_P64_PERCENT} % and less than 0.09 s at P = 64, on a record that "
-                    "is not to be had here. Some scenarios end within millimetres of where they "
-                    "began, so that percents of the residual are large; percents of the PRD are "
-                    "in the table.",
+                    f"The paper's method is run in the paper's {scenarios} scenarios (five slopes, "
+                    "three friction coefficients, four PPA) with an increasing number of sub-steps "
+                    "P. The paper measures errors against its own result at P = 256; errors "
+                    "against the exact method are also shown. At P = 64 the paper reports "
+                    f"{paper.PAPER_P64_PERCENT} % and less than 0.09 s, on a record that is not "
+                    "available here. Some scenarios end within a few millimeters of the initial "
+                    "position, which makes errors in percent of the residual large; the table also "
+                    "gives errors in percent of the PRD.",
                 ),
                 charts=[
                     Chart(
                         name=f"convergence-{at // 3 + 1}",
                         picture=Picture(
-                            svg=paper.convergence(found.convergence[at : at + 3]),
-                            caption="Largest error and longest time over the scenarios, against P.",
-                            alt="Largest error and longest time against the number of sub-steps",
+                            svg=paper.convergence(verification.convergence[at : at + 3]),
+                            caption="Largest error and longest run time over the scenarios "
+                            "against P.",
+                            alt="Largest error and longest run time against number of sub-steps",
                         ),
                     )
-                    for at in range(0, len(found.convergence), 3)
+                    for at in range(0, len(verification.convergence), 3)
                 ],
-                tables=[_convergence_table(one) for one in found.convergence],
+                tables=[_convergence_table(one) for one in verification.convergence],
             ),
         ),
     )
@@ -67,13 +69,14 @@ def convergence(found: Verification) -> ManualSection:
 
 def _convergence_table(one: Convergence) -> Table:
     return Table(
-        caption=f"{one.record}: largest error in the residual, in percent of it and of the PRD",
+        caption=f"{one.record}: largest error in the residual, in percent of the residual and of "
+        "the PRD",
         columns=(
             TableColumn(head="P", share=0.6),
-            TableColumn(head="Truth: exact", share=1.2),
-            TableColumn(head=f"Truth: P = {one.substeps[-1]}", share=1.2),
-            TableColumn(head="of the PRD", share=1.2),
-            TableColumn(head="Longest time", share=1.1),
+            TableColumn(head="Against exact", share=1.2),
+            TableColumn(head=f"Against P = {one.substeps[-1]}", share=1.2),
+            TableColumn(head="Against exact, of the PRD", share=1.3),
+            TableColumn(head="Longest time", share=1.0),
             TableColumn(head="Worst scenario", align="left", share=2.2),
         ),
         rows=tuple(
@@ -93,31 +96,34 @@ def _convergence_table(one: Convergence) -> Table:
     )
 
 
-def links(found: Verification) -> ManualSection:
+def links(verification: Verification) -> ManualSection:
     """Return the paper's Figs. 6 to 9."""
     by_record = [
-        (name, tuple(rows)) for name, rows in groupby(found.links, key=lambda one: one.record)
+        (name, tuple(rows))
+        for name, rows in groupby(verification.links, key=lambda one: one.record)
     ]
     return ManualSection(
         id="links",
-        title="Comparison with a link (Figs. 6 to 9)",
+        title="Comparison with a link model (Figs. 6 to 9)",
         blocks=(
             Block(
                 texts=(
-                    "The exact method against a link with a friction cap, explicit, with the "
-                    "stiffness and sub-step of the paper's SAP 2000 model. As in the paper, "
-                    "differences are of the residual, in percent of the link's. The difference is "
-                    "the link's error: it stretches before it slips. Where the residual is of a "
-                    "millimetre or so, percents of it are large and say little.",
+                    "The exact method is compared with an elastic link with a friction limit, "
+                    "integrated explicitly, with the stiffness and sub-step of the paper's SAP "
+                    "2000 model. As in the paper, differences are in the residual, in percent of "
+                    "the residual of the link. The difference is an error of the link, which "
+                    "deforms elastically before it slips. Where the residual is about a "
+                    "millimeter, differences in percent are large and not meaningful.",
                 ),
-                top=(_link_table(found.links),),
+                top=(_link_table(verification.links),),
                 charts=[
                     Chart(
                         name=f"links-{slug(name)}",
                         picture=Picture(
                             svg=paper.links(rows),
-                            caption=f"{name}, PPA = {rows[0].ppa_g:g} g. Left: the friction "
-                            "coefficient whose residual differs most; right: PRD and RRD.",
+                            caption=f"{name}, PPA = {rows[0].ppa_g:g} g. Left: displacement "
+                            "history for the friction coefficient with the largest difference in "
+                            "percent; right: PRD and RRD.",
                             alt=f"Exact method and link compared on {name}",
                         ),
                     )
@@ -145,7 +151,7 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
     ]
     paper_row = TableRow(
         cells=(
-            "The paper, against SAP 2000, its record",
+            "The paper against SAP 2000, record of the paper",
             "0°",
             "10",
             f"{PAPER_WORST_PERCENT} %",
@@ -161,9 +167,9 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
             TableColumn(head="Record", align="left", share=3.0),
             TableColumn(head="θ", share=0.6),
             TableColumn(head="Runs", share=0.7),
-            TableColumn(head="Worst", share=1.0),
-            TableColumn(head="at μ", share=0.7),
-            TableColumn(head="which is", share=0.9),
+            TableColumn(head="Largest", share=1.0),
+            TableColumn(head="At μ", share=0.7),
+            TableColumn(head="Absolute", share=0.9),
             TableColumn(head="Mean", share=1.0),
         ),
         rows=(*rows, paper_row),
@@ -171,21 +177,21 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
 
 
 def worst_mm(one: LinkComparison) -> float:
-    """Return the difference in RRD [mm] where it is largest in percent."""
+    """Return the difference in RRD [mm] in the case where it is largest in percent."""
     at = int(np.abs(one.mus - one.history_mu).argmin())
     return 1e3 * abs(float(one.rrd_exact_m[at] - one.rrd_link_m[at]))
 
 
-def curves(found: Verification) -> ManualSection:
+def curves(verification: Verification) -> ManualSection:
     """Return the paper's Figs. 10 to 12."""
     charts = []
-    for one in found.curves:
+    for one in verification.curves:
         charts += [
             Chart(
                 name=f"curves-{slug(one.record)}",
                 picture=Picture(
                     svg=paper.curves(one),
-                    caption=f"{one.record}: PRD against PPA (Fig. 10) and against slope (Fig. 11), "
+                    caption=f"{one.record}: PRD against PPA (Fig. 10) and against slope (Fig. 11); "
                     "the larger of both signs of the slope.",
                     alt=f"PRD against PPA and slope for {one.record}",
                 ),
@@ -194,9 +200,10 @@ def curves(found: Verification) -> ManualSection:
                 name=f"contours-{slug(one.record)}",
                 picture=Picture(
                     svg=paper.contours(one),
-                    caption=f"{one.record}: contours of PRD over μ and θ at PPA = "
-                    f"{paper.FIG_12_PPA_G:g} g (Fig. 12). {_read_off_words(found, one.record)}",
-                    alt=f"Contours of PRD over friction and slope for {one.record}",
+                    caption=f"{one.record}: contours of PRD against μ and θ at PPA = "
+                    f"{paper.FIG_12_PPA_G:g} g (Fig. 12). "
+                    f"{_read_off_words(verification, one.record)}",
+                    alt=f"Contours of PRD against friction and slope for {one.record}",
                 ),
             ),
         ]
@@ -206,33 +213,34 @@ def curves(found: Verification) -> ManualSection:
         blocks=(
             Block(
                 texts=(
-                    "29 slopes, 15 friction coefficients and 16 PPA on each record, by the exact "
-                    f"method. The paper reads off, on its record: {PAPER_READ_OFFS}. Other records "
-                    "give other values: the curves show the way, not a design.",
+                    "The exact method is run for 29 slopes, 15 friction coefficients and 16 PPA on "
+                    f"each record. The paper gives, for its record: {PAPER_READ_OFFS}. Values "
+                    "differ between records; the curves illustrate the procedure and are not for "
+                    "design.",
                 ),
-                top=(_read_off_table(found),),
+                top=(_read_off_table(verification),),
                 charts=charts,
             ),
         ),
     )
 
 
-def _read_off_words(found: Verification, record: str) -> str:
-    one = next(one for one in found.curves if one.record == record)
+def _read_off_words(verification: Verification, record: str) -> str:
+    one = next(one for one in verification.curves if one.record == record)
     slope, wanted = paper.READ_OFF
     least = one.least_mu(slope, paper.FIG_12_PPA_G, wanted)
     if math.isnan(least):
-        return f"No μ of the study keeps {1e3 * wanted:g} mm at θ = {slope:g}°."
+        return f"No μ of the study limits the PRD to {1e3 * wanted:g} mm at θ = {slope:g}°."
     return (
-        f"Arrow: for a PRD of at most {1e3 * wanted:g} mm at θ = {slope:g}°, μ of at least "
+        f"Arrow: a PRD of at most {1e3 * wanted:g} mm at θ = {slope:g}° requires μ of at least "
         f"{least:.3f}."
     )
 
 
-def _read_off_table(found: Verification) -> Table:
+def _read_off_table(verification: Verification) -> Table:
     slope, wanted = paper.READ_OFF
     rows = []
-    for one in found.curves:
+    for one in verification.curves:
         prd = float(np.interp(0.5, one.mus, one.prd(4.0, paper.FIG_12_PPA_G)))
         least = one.least_mu(slope, paper.FIG_12_PPA_G, wanted)
         rows.append(
@@ -240,21 +248,21 @@ def _read_off_table(found: Verification) -> Table:
                 cells=(
                     one.record,
                     f"{1e3 * prd:.0f} mm",
-                    "none of the study" if math.isnan(least) else f"{least:.3f}",
+                    "none in study" if math.isnan(least) else f"{least:.3f}",
                     f"{one.runs:,}",
                     seconds(one.seconds),
                 )
             )
         )
     paper_row = TableRow(
-        cells=("The paper, its record", "1000 mm", "0.55", "6,960", "—"), kind="total"
+        cells=("The paper, record of the paper", "1000 mm", "0.55", "6,960", "—"), kind="total"
     )
     return Table(
-        caption=f"Read-offs at PPA = {paper.FIG_12_PPA_G:g} g",
+        caption=f"Values from the curves at PPA = {paper.FIG_12_PPA_G:g} g",
         columns=(
             TableColumn(head="Record", align="left", share=2.4),
             TableColumn(head="PRD at θ = 4°, μ = 0.5", share=1.6),
-            TableColumn(head=f"Least μ at θ = {slope:g}° for {1e3 * wanted:g} mm", share=2.0),
+            TableColumn(head=f"Least μ for {1e3 * wanted:g} mm at θ = {slope:g}°", share=2.0),
             TableColumn(head="Runs", share=0.8),
             TableColumn(head="Time", share=0.8),
         ),

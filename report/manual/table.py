@@ -9,7 +9,7 @@ from solver.verification.rung_evidence import PlaneWork
 
 
 def verification_csv(found: Verification) -> bytes:
-    """Return one table: checks, runs, those in two axes; a cell that does not apply is empty."""
+    """Return one table: checks, runs, runs in two axes; a cell that does not apply is empty."""
     rows = [*map(_check, found.checks), *map(_run, found.work)]
     rows += [_run_in_two_axes(one.work_scene, point) for one in found.rungs for point in one.work]
     text: str = pd.DataFrame(rows, columns=list(_COLUMNS)).to_csv(index=False, lineterminator="\n")
@@ -24,14 +24,14 @@ _COLUMNS = (
     "quantity",
     "unit",
     "expected",
-    "found",
+    "computed",
     "error [-]",
     "tolerance [-]",
     "passed",
     "method",
     "parameters",
     "record",
-    "scene",
+    "case",
     "time per run [s]",
     "PRD error [m]",
     "PRD error [%]",
@@ -50,7 +50,7 @@ def _check(row: CheckRow) -> dict[str, object]:
         "quantity": row.quantity,
         "unit": row.unit,
         "expected": row.expected,
-        "found": row.found,
+        "computed": row.found,
         "error [-]": row.error,
         "tolerance [-]": row.tolerance,
         "passed": "yes" if row.passed else "no",
@@ -63,7 +63,7 @@ def _run(point: WorkPoint) -> dict[str, object]:
         "method": point.method,
         "parameters": " ".join(f"{key}={value:g}" for key, value in point.parameters.items()),
         "record": point.record,
-        "scene": point.scene,
+        "case": point.scene,
         "time per run [s]": point.seconds,
         "PRD error [m]": point.prd_error_m,
         "PRD error [%]": point.prd_error_percent,
@@ -78,7 +78,7 @@ def _run_in_two_axes(scene: str, point: PlaneWork) -> dict[str, object]:
         "kind": "run in two axes",
         "method": point.method,
         "parameters": point.setting,
-        "scene": scene,
+        "case": scene,
         "time per run [s]": point.seconds,
         "PRD error [%]": point.error_percent,
     }

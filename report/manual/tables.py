@@ -1,4 +1,4 @@
-"""Sections that are tables: checks, methods, other programs, software."""
+"""Sections that consist of tables: checks, methods, other programs, software."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def _check_table(checks: Sequence[CheckRow]) -> Table:
             TableColumn(head="Problem", align="left", share=3.15),
             TableColumn(head="Quantity", align="left", share=1.95),
             TableColumn(head="Expected", share=1.55),
-            TableColumn(head="Found", share=1.55),
+            TableColumn(head="Computed", share=1.55),
             TableColumn(head="Error", share=1.1),
             TableColumn(head="Tolerance", share=1.1),
             TableColumn(head="Result", align="center", share=0.7),
@@ -87,7 +87,7 @@ def methods() -> ManualSection:
             TableColumn(head="Accuracy set by", align="left", share=1.5),
             TableColumn(head="Order", align="center", share=0.55),
             TableColumn(head="Vertical", align="center", share=0.75),
-            TableColumn(head="Not valid", align="left", share=3.6),
+            TableColumn(head="Limitations", align="left", share=3.6),
             TableColumn(head="Source", align="left", share=2.6),
         ),
         rows=tuple(
@@ -104,19 +104,21 @@ def methods() -> ManualSection:
             for method in METHODS.values()
         ),
         notes=(
-            "Order: of the error in the sub-step where the motion is smooth; stick and slip bring "
-            "each down to the first. Vertical: whether it takes vertical shaking.",
+            "Order: order of convergence in the sub-step where the motion is smooth; transitions "
+            "between stick and slip reduce it to one. Vertical: whether the method includes "
+            "vertical shaking.",
         ),
         kind="compact",
     )
     return ManualSection(
         id="methods",
-        title="The methods compared",
+        title="Methods compared",
         blocks=(
             Block(
                 texts=(
-                    "Each is written as the field knows it, under one signature and with one "
-                    "result record. Packages use the first; the others are here to be compared.",
+                    "Each method is implemented in its usual form, and all have the same input and "
+                    "output. Calculation packages use the first method; the others serve for "
+                    "comparison only.",
                 ),
                 tables=(table,),
             ),
@@ -125,31 +127,32 @@ def methods() -> ManualSection:
 
 
 _KNOBS = {
-    "": "nothing to set",
-    "substeps": "sub-steps in each interval",
-    "stiffness_per_m": "stiffness of the link [1/m]",
+    "": "no setting",
+    "substeps": "sub-steps per interval",
+    "stiffness_per_m": "link stiffness [1/m]",
     "tolerance": "relative tolerance",
     "velocity_mps": "velocity v0 [m/s]",
 }
 
 
 def peers(peers: Sequence[PeerPoint]) -> ManualSection:
-    """Return what other programs gave."""
+    """Return the results of other programs."""
     return ManualSection(
         id="peers",
         title="Other programs",
         blocks=(
             Block(
                 texts=(
-                    "Other programs on the same records and scenes, in the same run, where they "
-                    "are installed. None of them is needed by, or part of, this software.",
+                    "These programs were run on the same records and analysis cases during this "
+                    "verification, where installed. None of them is required by, or part of, "
+                    "this program.",
                 ),
                 tables=(
                     Table(
                         caption="",
                         columns=(
                             TableColumn(head="Record", align="left", share=2.0),
-                            TableColumn(head="Scene", align="left", share=2.0),
+                            TableColumn(head="Analysis case", align="left", share=2.0),
                             TableColumn(head="Time per run", share=1.0),
                             TableColumn(head="Error in PRD", share=1.0),
                         ),
@@ -163,7 +166,7 @@ def peers(peers: Sequence[PeerPoint]) -> ManualSection:
 
 
 def _peer_rows(peers: Sequence[PeerPoint]) -> Iterator[TableRow]:
-    """Give the runs of each program in each of its ways below a line that names them."""
+    """Yield the runs of each program and model below a row that names them."""
     named = [(f"{one.peer} {one.version}: {one.note}", one) for one in peers]
     for name in dict.fromkeys(name for name, _ in named):
         yield TableRow(cells=(Wide(name, 4),), kind="total")
@@ -176,7 +179,7 @@ def _peer_rows(peers: Sequence[PeerPoint]) -> Iterator[TableRow]:
 def _command(found: Verification) -> str:
     words = "roofslip verify --quick" if found.quick else "roofslip verify"
     if len(found.roofs) > 1 or any(one.study.n_recorded for one in found.rungs):
-        words += " --records, with the folder of the recorded motions of section 2"
+        words += " --records followed by the folder of the recorded motions of section 2"
     return words
 
 
@@ -188,17 +191,17 @@ def software(found: Verification, machine: Machine) -> ManualSection:
         blocks=(
             Block(
                 texts=(
-                    "Times are those of this machine with whatever else it did; errors do not "
-                    f"depend on it. To repeat: {_command(found)}. All checks and all runs of "
-                    "methods with their numbers are in verification.csv, the charts as files in "
-                    "charts/.",
+                    "Run times were measured on this machine under its load at the time; errors "
+                    f"do not depend on the machine. Command to repeat: {_command(found)}. The file "
+                    "verification.csv lists all checks and all runs of the methods; the folder "
+                    "charts has the charts as files.",
                 ),
                 tables=(
                     Table(
                         caption="",
                         columns=(
                             TableColumn(head="Item", align="left"),
-                            TableColumn(head="Version or kind", align="left", share=3.0),
+                            TableColumn(head="Version or description", align="left", share=3.0),
                         ),
                         rows=tuple(TableRow(cells=cells) for cells in machine.rows),
                     ),

@@ -1,1 +1,1 @@
-"""From the rows of a workbook to motions at the roof. Read `prepare`."""
+"""From the rows of a workbook to roof motions. Read `prepare`."""

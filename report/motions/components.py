@@ -1,6 +1,6 @@
-"""Reads the components of each motion that a workbook names, and processes them as asked.
+"""Reads the components of each motion that a workbook names, and processes them as requested.
 
-Owns how components go together; `files` reads them, `history` makes motions of them.
+Owns how components are combined; `files` reads them, `history` makes motions of them.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from solver.records.record import Record
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordFile:
-    """One component of a motion as it was found, before processing and scaling.
+    """One component of a motion as read, before processing and scaling.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class RecordFile:
     npts : int
     dt_s, peak_g : float
     notes : tuple of str
-        What a user should know of the reading.
+        Remarks on how the file was read.
     """
 
     motion_id: str
@@ -62,9 +62,9 @@ class Components:
     ----------
     files : tuple of RecordFile
     records : mapping of str to Record
-        By field of `MotionInput`: record, transverse, vertical; one step and one length.
+        By field of `MotionInput`: record, transverse, vertical; with equal time step and length.
     unfiltered : mapping of str to Record
-        The same without the high-pass; empty where there is none.
+        The same without the high-pass filter; empty if there is none.
     """
 
     files: tuple[RecordFile, ...]
@@ -73,16 +73,16 @@ class Components:
 
 
 def read_components(book: OpenBook, index: int, row: Mapping[str, Any]) -> Components | list[Fault]:
-    """Read and process the records of a motion, or say what is wrong with them.
+    """Read and process the records of a motion, or return their faults.
 
     Parameters
     ----------
     book : OpenBook
     index : int
-        Of the row in its table.
+        Row in its table.
     row : mapping
         Fields of `report.sheet.schema.MotionInput`; one that could not be read is absent. Without
-        units or time step records are looked for, not read.
+        units or time step, records are located but not read.
     """
     faults: list[Fault] = []
     found: dict[str, Component] = {}
@@ -112,7 +112,7 @@ def _faults(index: int, field: str, error: InputError) -> list[Fault]:
 
 
 def _read(book: OpenBook, row: Mapping[str, Any], field: str, read: Reader) -> Iterator[Component]:
-    """Yield the component of a field; nothing where its units or time step could not be read."""
+    """Yield the component of a field; nothing if its units or time step could not be read."""
     name = str(row[field])
     if "units" in row and "dt_s" in row:
         units = "" if row["units"] is AccelUnit.FROM_FILE else str(row["units"])
@@ -122,28 +122,28 @@ def _read(book: OpenBook, row: Mapping[str, Any], field: str, read: Reader) -> I
 
 
 def _cut(found: Mapping[str, Component], to_s: float | None) -> dict[str, Record]:
-    """Return the records up to where they are kept: components often end a little apart."""
+    """Return the records up to the end time: components often differ slightly in length."""
     kept = Processing(to_s=math.inf if to_s is None else to_s)
     return {field: process(component.record, kept) for field, component in found.items()}
 
 
 def _mismatches(index: int, found: Mapping[str, Record]) -> Iterator[Fault]:
-    """Yield components that do not go with the horizontal one sample by sample."""
+    """Yield components that do not match the horizontal one in time step or length."""
     horizontal = found["record"]
     for field, record in found.items():
         label, dt_s = f"{LABELS[field]} record", horizontal.dt_s
         if abs(record.dt_s - dt_s) > 1e-9 * dt_s:
             text = (
-                f"{label} has a time step of {record.dt_s:g} s, the horizontal one"
-                f" {dt_s:g} s; give both the same"
+                f"{label} has a time step of {record.dt_s:g} s, but the horizontal record has"
+                f" {dt_s:g} s; make them equal"
             )
             yield Fault(Place("motions", index, field), text)
         count, other = len(record.a_mps2), len(horizontal.a_mps2)
         if count != other:
             end = f"{(min(count, other) - 1) * dt_s:g} s"
             text = (
-                f"{label} has {count} samples, the horizontal one {other}; give both the same,"
-                f" or keep to {end} at most"
+                f"{label} has {count} samples, but the horizontal record has {other}; make them"
+                f" equal, or give an end time of {end} or less"
             )
             yield Fault(Place("motions", index, field), text)
 
@@ -156,8 +156,8 @@ def _unscalable(index: int, row: Mapping[str, Any], found: Mapping[str, Record])
     for field in _TO_A_LEVEL.get(scaling, ()) if scaling else ():
         if field in found and not found[field].a_mps2.any():
             goal = "a PPA" if scaling is Scaling.PPA else "a target spectrum"
-            text = f"{LABELS[field]} record is all zeros; {goal} cannot scale it"
-            yield Fault(Place("motions", index, field), text)
+            text = f"{LABELS[field]} record is all zeros and cannot be scaled to {goal}"
+            yield Fault(Place("motions", index, field), f"{text}; change the record or scaling")
 
 
 def _processed(
@@ -166,11 +166,11 @@ def _processed(
     found: Mapping[str, Component],
     records: Mapping[str, Record],
 ) -> Components | list[Fault]:
-    # Steps that differ by rounding are one step from here on.
+    # Time steps that differ by rounding error are equal from here on.
     raw = [replace(record, dt_s=records["record"].dt_s) for record in records.values()]
     processing = processing_of(row)
     if processing.problems():
-        return []  # told at their cells by `motion_checks`
+        return []  # reported at their cells by `motion_checks`
     try:
         done = process_together(raw, processing)
         bare = process_together(raw, replace(processing, highpass_hz=0.0))
@@ -189,7 +189,7 @@ def _processed(
 
 
 def processing_of(row: MotionInput) -> Processing:
-    """Return what a row of the sheet asks to be done to its records."""
+    """Return the processing that a row of the sheet requests."""
     return Processing(
         from_s=row.from_s or 0.0,
         to_s=math.inf if row.to_s is None else row.to_s,

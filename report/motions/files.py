@@ -1,6 +1,6 @@
 """Reads one record that a workbook names: a file beside it, or a column in one of its sheets.
 
-Owns what a workbook may reach on the disk. Formats of records are for `solver.formats`.
+Owns which files a workbook may access. `solver.formats` reads the record formats.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ MAX_TOLD = 5
 
 
 BAR = "|"
-"""Stands between a file and its channel: no name of a file in Windows has it."""
+"""Separates a file from its channel; not allowed in Windows file names."""
 
 Reader = Callable[..., MotionFile]
-"""`solver.formats.read_motion_file`, or one that keeps what it has read."""
+"""`solver.formats.read_motion_file`, or a cached version of it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Component:
-    """A record as it was found.
+    """A record as read.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Component:
     format : str
         Such as ``PEER AT2``, or ``pasted column``.
     notes : tuple of str
-        What a user should know of the reading.
+        Remarks on how the file was read.
     """
 
     record: Record
@@ -57,14 +57,14 @@ class Component:
 def read_component(
     book: OpenBook, name: str, units: str, dt_s: float | None, read: Reader = read_motion_file
 ) -> Component:
-    """Return the record of a name as the workbook gives it: file, file | channel, Sheet!Header.
+    """Return the record that a workbook names as file, file | channel, or Sheet!Header.
 
     Parameters
     ----------
     units : str
-        Empty where the file has to say it.
+        Empty if the file must state them.
     dt_s : float or None
-        None where the file has to say it.
+        None if the file must state it.
 
     Raises
     ------
@@ -75,22 +75,22 @@ def read_component(
     if heading is not None:
         return _read_column(book, name, heading, units, dt_s)
     path, channel = find_file(book, name)
-    found = read(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
+    motion_file = read(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
     return Component(
-        record=found.channel(channel),
+        record=motion_file.channel(channel),
         sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
-        format=found.format,
-        notes=found.notes,
+        format=motion_file.format,
+        notes=motion_file.notes,
     )
 
 
 def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
-    """Return the file of a name and the channel, which is empty where none is named.
+    """Return the file of a name and the channel, empty if none is named.
 
     Raises
     ------
     InputError
-        Where it is not there, or leads out of the workbook's folder.
+        If it does not exist, or is outside the workbook's folder.
     """
     file, _, channel = name.partition(BAR)
     return _path(book.path.parent, file.strip()), channel.strip()
@@ -99,24 +99,24 @@ def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
 def _path(folder: Path, name: str) -> Path:
     """Return the file of a name, which must lie within the workbook's folder."""
     name = name.replace("\\", "/")
-    where = "give a file within the workbook's folder, such as records/m1-x.csv"
+    where = "give a file in the workbook's folder, such as records/m1-x.csv"
     if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or ".." in name.split("/"):
-        raise InputError(f"'{name}' leads out of the workbook's folder; {where}")
+        raise InputError(f"'{name}' is outside the workbook's folder; {where}")
     try:
         path = (folder / name).resolve()
         if not path.is_relative_to(folder.resolve()):
-            raise InputError(f"'{name}' leads out of the workbook's folder by a link; {where}")
+            raise InputError(f"'{name}' is a link to a file outside the workbook's folder; {where}")
         if not path.exists():
-            raise InputError(f"'{name}' is not there; {where}")
+            raise InputError(f"'{name}' does not exist; {where}")
         if not path.is_file():
-            raise InputError(f"'{name}' is no file; {where}")
+            raise InputError(f"'{name}' is not a file; {where}")
         size = path.stat().st_size
     except (OSError, RuntimeError, ValueError) as error:
         if isinstance(error, InputError):
             raise
         raise InputError(f"'{name}' cannot be found; {where}") from error
     if size > MAX_BYTES:
-        raise InputError(f"'{name}' has {size / 1e6:.0f} MB; at most {MAX_BYTES / 1e6:.0f} MB do")
+        raise InputError(f"'{name}' has {size / 1e6:.0f} MB; give at most {MAX_BYTES / 1e6:.0f} MB")
     return path
 
 
@@ -126,7 +126,7 @@ def find_heading(book: OpenBook, name: str) -> CellPosition | None:
     Raises
     ------
     InputError
-        Where there is neither a sheet of that name nor a file.
+        If there is neither a sheet nor a file of that name.
     """
     if "!" not in name:
         return None
@@ -136,7 +136,7 @@ def find_heading(book: OpenBook, name: str) -> CellPosition | None:
                 return _heading_on(book, sheet.title, name[len(title) + 1 :].strip())
     if (book.path.parent / name.partition(BAR)[0].strip().replace("\\", "/")).is_file():
         return None
-    raise InputError(f"'{name}' names no sheet of this workbook; write Sheet!Header, or a file")
+    raise InputError(f"'{name}' names no sheet of this workbook; give Sheet!Header, or a file")
 
 
 def _heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
@@ -154,7 +154,7 @@ def _heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
         )
     if len(spots) > 1:
         places = " and ".join(position.address for position in spots[:2])
-        raise InputError(f"heading '{header}' is at {places}; give each its own")
+        raise InputError(f"heading '{header}' appears at {places}; rename one")
     return spots[0]
 
 
@@ -167,11 +167,11 @@ def _read_column(
     extent = book.extent(heading.sheet)
     if extent.last_row > heading.row + MAX_SAMPLES:
         raise InputError(
-            f"{heading.sheet}!{extent.row_cell} holds something more than {MAX_SAMPLES:,} rows"
+            f"{heading.sheet}!{extent.row_cell} contains data more than {MAX_SAMPLES:,} rows"
             " below the heading; clear it, or give the record as a file"
         )
     values = _numbers(cells_below(book, heading))
-    # A gal is a cm/s2; the solver's own table has one name for each unit.
+    # 1 gal = 1 cm/s2; the solver's table has one name for each unit.
     units = "cm/s2" if units == "gal" else units
     record = record_from_values(name, values, units=units, dt_s=float(dt_s or 0.0))
     data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()
@@ -198,6 +198,6 @@ def _numbers(cells: list[Found]) -> list[float]:
 
 def _number(cell: Found) -> float:
     if cell.is_blank:
-        raise CellError("is blank, with values below; close the gap")
+        raise CellError("is blank, with values below it; fill it in or delete it")
     check_saved(cell)
     return number(cell)

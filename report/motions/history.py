@@ -1,6 +1,6 @@
-"""From processed records to motions as run: scaled, and through the building where asked.
+"""From processed records to motions as run: scaled, and carried to the roof for ground motions.
 
-Owns the order of these steps and keeps what each of them did; the steps themselves are those of
+Owns the order of these steps and records what each did; the steps themselves are those of
 `solver.records.scaling` and `solver.building.roof`. Read `shake` first.
 """
 
@@ -36,7 +36,7 @@ SIGNS = {Polarity.BOTH: (1, -1), Polarity.AS_RECORDED: (1,), Polarity.REVERSED: 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PreparedMotion:
-    """What became of the records of one motion before they were run.
+    """Processing and scaling of the records of one motion before the runs.
 
     Attributes
     ----------
@@ -47,13 +47,13 @@ class PreparedMotion:
     scaling : str
         In words, without the factor.
     measures : mapping of str to Measures
-        By name of the component, processed and scaled, where it was recorded.
+        By name of the component, processed and scaled, at the recording level.
     scaled : mapping of str to Record
-        The same components themselves.
+        The same components as records.
     roof : mapping of str to RoofMotion
         Unscaled, by name of the horizontal component; empty for a motion recorded at the roof.
     unfiltered : tuple of Motion
-        The motion without its high-pass; empty where there is none.
+        The motion without its high-pass filter; empty if there is none.
     """
 
     motion_id: str
@@ -69,7 +69,7 @@ class PreparedMotion:
 def shake(
     data: ProjectInput, found: Sequence[Components]
 ) -> tuple[tuple[Motion, PreparedMotion], ...]:
-    """Return the motions of a project as run, each with what was done to it.
+    """Return the motions of a project as run, each with its processing and scaling.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def _shake(
 def _motion(
     data: ProjectInput, row: MotionInput, records: Mapping[str, Record], scale: float
 ) -> tuple[Motion, Mapping[str, RoofMotion]]:
-    """Return a motion at the roof, and how each horizontal component got there."""
+    """Return a motion at the roof, and the roof response of each horizontal component."""
     a = {field: record.a_mps2 for field, record in records.items()}
     dt_s, roof = records["record"].dt_s, {}
     if row.recorded_at is RecordedAt.GROUND:
@@ -150,7 +150,7 @@ def _known(value: float | None) -> list[float]:
 
 
 def first_period_s(data: ProjectInput) -> float:
-    """Return the building's first period [s]: as given, else approximate; NaN for neither."""
+    """Return the building's first period [s]: given, or else approximate; NaN for neither."""
     asked: BuildingInput = data.building
     if asked.period_s is not None:
         return asked.period_s
@@ -160,7 +160,7 @@ def first_period_s(data: ProjectInput) -> float:
 
 
 def _scale(data: ProjectInput, row: MotionInput, records: Mapping[str, Record]) -> float:
-    """Return the factor of all components, from the records where they were taken."""
+    """Return the factor of all components, from the records at the recording level."""
     horizontals = [record for field, record in records.items() if field != "vertical"]
     match row.scaling:
         case Scaling.FACTOR:

@@ -1,4 +1,4 @@
-"""The motions of a workbook, ready to run: records read, processed, scaled, through the building.
+"""The motions of a workbook, ready to run: records read, processed, scaled, carried to the roof.
 
 Orders the steps: `components` reads, `history` scales and carries to the roof. Read `prepare`.
 """
@@ -24,9 +24,9 @@ class Shaking:
     motions : tuple of Motion
         At the roof, as run.
     prepared : tuple of PreparedMotion
-        What was done to the records of each motion.
+        Processing and scaling of the records of each motion.
     records : tuple of RecordFile
-        Every component as it was found.
+        Every component as read.
     """
 
     motions: tuple[Motion, ...]
@@ -35,7 +35,7 @@ class Shaking:
 
 
 def prepare(sheet: Sheet) -> Shaking:
-    """Read the records that a workbook names and make its motions of them.
+    """Read the records that a workbook names and prepare its motions.
 
     Raises
     ------

@@ -1,6 +1,6 @@
-"""Links that are too stiff to be followed under the motions of a project, foreseen.
+"""Finds links that are too stiff to integrate under the motions of a project.
 
-What one row says, and what it says of its array, is for `checks`.
+`report.sheet.checks` checks a row by itself and against its array.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from solver.sliding.row import MOST_STEPS, BlockRow, least_steps
 
 
 def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault]:
-    """Yield the rows that take more than `MOST_STEPS` for all of their runs together."""
+    """Yield the rows whose runs together need more than `MOST_STEPS` steps."""
     seconds = sum(len(one.headings) * one.dt_s * len(one.ax_mps2) for one in motions)
     weights = {array.id: array.weight_n for array in data.arrays}
     for index, one in enumerate(data.links):
@@ -23,14 +23,14 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault
         if one.stiffness_n_per_m > most:
             yield Fault(
                 Place("links", index, "stiffness_n_per_m"),
-                f"link stiffness is {_said(one.stiffness_n_per_m)}, too much to be followed in "
-                f"{MOST_STEPS:.0e} steps; give {_said(0.9 * most)} or less: above that a row moves "
-                "as one rigid block of the mean coefficient",
+                f"link stiffness is {_said(one.stiffness_n_per_m)}, too stiff to integrate in "
+                f"{MOST_STEPS:.0e} steps; give {_said(0.9 * most)} or less (a stiffer row moves as "
+                "one rigid block with the mean coefficient)",
             )
 
 
 def _stiffest(one: Links, weight_n: float, seconds: float) -> float:
-    """Return the stiffness [N/m] that takes `MOST_STEPS`, which grow with its square root."""
+    """Return the stiffness [N/m] that needs `MOST_STEPS`; steps grow with its square root."""
     soft = BlockRow(mus=one.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * one.damping_ratio)
     per_s2 = (MOST_STEPS / least_steps(soft, seconds)) ** 2
     return per_s2 * weight_n / (len(one.mus) * G_MPS2)

@@ -1,6 +1,6 @@
-"""The spectra that motions are held against and scaled to, as a project asks for them.
+"""The target spectra of motions, for comparison and scaling, as a project requests them.
 
-Owns which spectrum counts where; the formulas are those of `solver.rules.provisions` and
+Owns which spectrum applies where; the formulas are those of `solver.rules.provisions` and
 `solver.records.scaling`. Read `targets` first.
 """
 
@@ -18,7 +18,7 @@ from solver.records.scaling import Target, corner_points, design_spectrum
 from solver.rules.provisions import RULE_SETS
 from solver.rules.spectra import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical
 
-OWN = "project's own"
+OWN = "project-specific"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,12 +28,12 @@ class TargetSpectrum:
     Attributes
     ----------
     name : str
-        Empty where there is no target: ordinates are NaN then.
+        Empty if there is no target; the ordinates are then NaN.
     at : callable
-        Spectral acceleration [g] at frequencies [Hz]; a target of points is flat beyond them. It
-        can be handed to another process: no closure.
+        Spectral acceleration [g] at frequencies [Hz]; a target given by points is constant
+        beyond them. Not a closure, so that it can be pickled.
     from_s, to_s : float
-        Periods over which it is given [s].
+        Range of periods for which it is given [s].
     """
 
     name: str
@@ -42,21 +42,21 @@ class TargetSpectrum:
     to_s: float
 
     def ordinates(self, periods_s: Floats) -> Floats:
-        """Return accelerations [g] at periods [s]; NaN where it is not given."""
+        """Return accelerations [g] at periods [s]; NaN outside its range."""
         given = (periods_s >= self.from_s * (1.0 - 1e-9)) & (periods_s <= self.to_s * (1.0 + 1e-9))
         return np.where(given, self.at(1.0 / periods_s), math.nan)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Targets:
-    """What the components at the roof, and the horizontal ones on the ground, are held against."""
+    """Target spectra of the roof components, and of the horizontal ground components."""
 
     roof: TargetSpectrum
     vertical: TargetSpectrum
     ground: TargetSpectrum
 
     def horizontal(self, at: RecordedAt) -> TargetSpectrum:
-        """Return the target of a motion where it was recorded."""
+        """Return the target at the recording level of a motion."""
         return self.ground if at is RecordedAt.GROUND else self.roof
 
 
@@ -68,13 +68,13 @@ NO_TARGET = TargetSpectrum(name="", at=_nowhere, from_s=0.0, to_s=math.inf)
 
 
 def targets(data: ProjectInput) -> Targets:
-    """Return the targets of a project: its own table where given, else those of its rule set."""
+    """Return the targets of a project: its own table if given, or else those of its rule set."""
     roof, vertical = ac156(data)
     own = data.spectrum
     across = _own(own, [row.horizontal_g for row in own]) if own else None
     upward = [row.vertical_g for row in own if row.vertical_g is not None]
     return Targets(
-        # With ground motions the project's own spectrum is one of the ground.
+        # If there are ground motions, the project-specific spectrum applies at the ground.
         roof=across if across and not _any_ground(data) else _ac156(roof),
         vertical=_own(own, upward) if upward else _ac156(vertical),
         ground=across or _design(data),

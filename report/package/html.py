@@ -1,4 +1,4 @@
-"""The calculation package: finished strings and pictures, placed by the templates, as HTML.
+"""The calculation package as HTML: formatted strings and pictures in templates.
 
 Runs nothing. The pages are those of `report.pages.registry`; read it first.
 """
@@ -17,7 +17,7 @@ from report.typeset.pdf import TEMPLATES
 
 
 def pages(assessment: Assessment, evidence: Evidence) -> str:
-    """Return the calculation package as HTML: finished strings and pictures; runs nothing."""
+    """Return the calculation package as HTML."""
     package = package_data(assessment)
     listed = parts(package)
     content = {page.id: page.fill(package, evidence) for page in PAGES}

@@ -1,11 +1,11 @@
-"""How sure the answer is: the method with its error on the governing run, and other friction."""
+"""Numerical error on the governing run, and sensitivity to the friction coefficient."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import SHIFT, Accuracy, MethodRun, Rivals
 from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
@@ -38,9 +38,8 @@ def picture(found: Rivals, us_first: bool) -> Picture:
     lost = f" {failed} failed run{'s are' if failed > 1 else ' is'} not drawn." if failed else ""
     return Picture(
         svg=work_precision(found, us_first),
-        caption="Work against precision on the governing run along the slope alone: error in PRD "
-        "against the exact value, each method from coarse to fine. Links grow stiffer from left "
-        f"to right and take the steps that they need.{lost}",
+        caption="Error in PRD for the governing run along the slope alone, each method from coarse "
+        f"to fine. Links stiffen to the right, with the steps required.{lost}",
         alt="Chart of the error in PRD against the steps of each method",
     )
 
@@ -57,55 +56,55 @@ def _run(package: PackageData, found: Rivals) -> str:
 
 
 def _plane(package: PackageData, found: Rivals) -> str:
-    """Return how sure a run in two axes is, and what the rest of the page is about; or nothing."""
+    """Return the error of a run in two axes and the scope of the comparison; or nothing."""
     run = found.motion.governing
     if run.solution.rung < Rung.TWO_AXES or math.isnan(run.result.prd_m):
         return ""
     kind = "a bound" if run.scene.friction.is_monotone else "from two tolerances"
-    slow = "" if run.scene.friction.is_constant else ", and with friction as at a crawl"
+    slow = "" if run.scene.friction.is_constant else ", and with the low-velocity friction"
     return (
-        "Two axes have no closed form: their motion is followed to a tolerance, and the error of "
-        f"this PRD is below {below_mm(run.result.error_m)} ({kind}). The methods that others "
-        "use know one axis only, and are compared on this run along the slope alone, "
-        f"without the component across it{slow}: a displacement of "
-        f"{package.fmt.both(found.exact.prd_m)}, no result of this package."
+        "Motion in two axes is computed to a tolerance: the error of this PRD is below "
+        f"{below_mm(run.result.error_m)} ({kind}). The other methods apply to one axis only and "
+        "are compared on this run along the slope alone, without the cross-slope component"
+        f"{slow}. That displacement, {package.fmt.both(found.exact.prd_m)}, is not a result of "
+        "this package."
     )
 
 
 def below_mm(error_m: float) -> str:
-    """Return a power of ten above an error, in mm: the digits themselves are the machine's."""
+    """Return the power of ten above an error, in mm: the digits depend on the machine."""
     if error_m == 0.0:
-        return "rounding"
+        return "rounding error"
     return f"{power_of_ten(math.floor(math.log10(1e3 * error_m)) + 1)} mm"
 
 
 def _method(found: Rivals) -> str:
-    """Return what is known of the exact method's error on this run."""
+    """Return the error of the exact method on this run."""
     result = found.motion.governing.result
     if result.status is Status.UPLIFT:
-        return "The block leaves the roof: there is no displacement, and no error to speak of."
+        return "The block lifts off the roof: the run gives no displacement and no error."
     if math.isnan(result.prd_m):
-        return f"There is no displacement, and no error to speak of: {result.status.sentence}."
+        return f"The run gives no displacement and no error: {result.status.sentence}."
     if not found.runs:
-        return "Nothing slides along the slope in this run: every method that sticks agrees."
+        return "No sliding along the slope in this run: all methods that model sticking agree."
     return (
-        "Along the slope: exact, event by event, one step or fewer in each sampling interval. With "
-        "a sample added midway between each two, which is the same motion, its PRD "
-        f"{_doubled(found.doubled)}. A run took less than {_decade_ms(found.seconds)} ms here. "
-        "The verification manual of this version (roofslip verify) "
-        "holds the method to closed forms and times each one."
+        "Along the slope the solution is exact, event by event, with at most one step per sampling "
+        "interval. With a sample added midway between samples (the same motion), the PRD "
+        f"{_doubled(found.doubled)}. A run took less than {_decade_ms(found.seconds)} ms. The "
+        "verification manual of this version (roofslip verify) compares the method with closed "
+        "forms and times each method."
     )
 
 
 def _decade_ms(seconds: float) -> str:
-    """Return a power of ten well above a time [ms], at least 10: packages stay alike."""
+    """Return a power of ten well above a time [ms], at least 10, for reproducible text."""
     return f"{10.0 ** max(math.ceil(math.log10(seconds * 1e4)), 1):g}"
 
 
 def _doubled(change: float) -> str:
-    # A power of ten above it: the digits themselves are the machine's.
+    # A power of ten above it: the digits depend on the machine.
     if change == 0.0:
-        return "stays the same to the last digit"
+        return "is identical to the last digit"
     return f"changes by less than {power_of_ten(math.floor(math.log10(change)) + 1)} of its value"
 
 
@@ -116,13 +115,13 @@ def _methods(package: PackageData, found: Rivals) -> Table:
             "Exact, event by event",
             "none",
             *fmt.cells(exact.prd_m),
-            "rounding",
+            "rounding error",
         ),
         kind="total",
     )
     rows = (_method_row(package, run) for run in found.runs if run.is_default)
     return Table(
-        caption="The governing run along the slope alone, by every method with its defaults",
+        caption="The governing run along the slope alone, by every method with default settings",
         columns=(
             TableColumn(head="Method", align="left", share=3.0),
             TableColumn(head="Parameters", align="left", share=2.4),
@@ -165,7 +164,7 @@ def _by_array(
 def _friction_table(package: PackageData, found: Accuracy) -> Table:
     fmt = package.fmt
     return Table(
-        caption="Design displacement at other friction, all motions run again",
+        caption="Design displacement with changed friction, all motions rerun",
         columns=(
             TableColumn(head="Array", align="left", share=1.2),
             TableColumn(head="μ", share=0.7),
@@ -209,20 +208,21 @@ def _change(value: float, given: float) -> str:
 
 
 def _sentences(package: PackageData, found: Accuracy) -> Iterator[str]:
-    """Yield a sentence for each array; those that the floor governs throughout share one."""
+    """Yield a sentence for each array; arrays always governed by the floor share one."""
     three = tuple(_by_array(found))
-    held = [given for given, *others in three if _on_floor(given, *others)]
+    floored = [given for given, *others in three if _on_floor(given, *others)]
     yield from (_sentence(package, *one) for one in three if not _on_floor(*one))
-    if held:
-        names = ", ".join(given.array.id for given in held)
+    if floored:
+        names = ", ".join(given.array.id for given in floored)
         yield (
-            f"Array{'s' if len(held) > 1 else ''} {names}: {_PERCENT} less or more friction "
-            f"changes nothing, because the floor governs at {_design(package, held[0])}."
+            f"Array{'s' if len(floored) > 1 else ''} {names}: ±{_PERCENT} friction does "
+            "not change the design displacement, governed by the floor of "
+            f"{_design(package, floored[0])}."
         )
 
 
 def _on_floor(*found: ArrayAssessment) -> bool:
-    return all(one.governs == "floor" for one in found)
+    return all(one.governs is DesignBasis.FLOOR for one in found)
 
 
 def _sentence(
@@ -230,7 +230,7 @@ def _sentence(
 ) -> str:
     start = f"Array {given.array.id}: "
     if any(math.isnan(one.design_m) for one in (given, less, more)):
-        return f"{start}no design displacement, so friction has nothing to change."
+        return f"{start}no design displacement, so no sensitivity to friction is given."
     ways = (
         f"with {_PERCENT} {word} friction the design displacement of "
         f"{_design(package, given)} {_becomes(package, given, other)}"
@@ -246,35 +246,35 @@ def _becomes(
 ) -> str:
     change = other.design_m - given.design_m
     if abs(change) <= 1e-9 * given.design_m:
-        return "it stays the same" if short else "stays the same"
-    verb = "it grows" if change > 0.0 else "it falls"
-    floor = ", the floor" if other.governs == "floor" else ""
+        return "it is unchanged" if short else "is unchanged"
+    verb = "it increases" if change > 0.0 else "it decreases"
+    floor = ", the floor" if other.governs is DesignBasis.FLOOR else ""
     share = _change(other.design_m, given.design_m)
     words = f"{verb} to {_design(package, other)}, {share}{floor}"
     return words if short else words.removeprefix("it ")
 
 
 def _clearances(found: Accuracy) -> Sequence[str]:
-    """Return what less friction does to clearances and to the outcome of runs."""
+    """Return the effect of less friction on clearances and on the outcome of runs."""
     texts = []
     if found.given.clearances:
         texts.append(_short_of(found))
     unfinished = _unfinished(found.less) - _unfinished(found.given)
     if unfinished > 0:
         texts.append(
-            f"With {_PERCENT} less friction {unfinished} more of the runs still slide when their "
-            "record ends: their displacement is not final."
+            f"With {_PERCENT} less friction {unfinished} more of the runs are still sliding at the "
+            "end of their record: their displacement is not final."
         )
     return texts
 
 
 def _short_of(found: Accuracy) -> str:
     if not found.newly_short:
-        return f"With {_PERCENT} less friction every clearance that is kept as given is still kept."
+        return f"With {_PERCENT} less friction all clearances that are satisfied remain satisfied."
     short = found.newly_short
     names = ", ".join(f"{gap.clearance.array} to {gap.clearance.object}" for gap in short)
     count = f"{len(short)} clearance{'s' if len(short) > 1 else ''}"
-    return f"With {_PERCENT} less friction {count} would no longer be kept: {names}."
+    return f"With {_PERCENT} less friction {count} would no longer be satisfied: {names}."
 
 
 def _unfinished(found: Assessment) -> int:

@@ -1,4 +1,4 @@
-"""Input echo naming each cell, record hashes, software."""
+"""Input echo with cell addresses, record hashes, software versions."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ LIBRARIES = (
     "jinja2",
     "weasyprint",
 )
-METHOD = "exact in one axis, to a tolerance in two; straight lines between samples"
+METHOD = "exact in one axis, to a tolerance in two; linear acceleration between samples"
 _WIDTHS = (11, 27, 33, 7, 38)
-_GAP = 2  # blanks between columns, at least
+_GAP = 2  # minimum number of blanks between columns
 _RECORD_WIDTHS = (10, 12, 9, 10, 10, 64)
 _SECOND_WIDTHS = (10, sum(_RECORD_WIDTHS[1:-1]), 64)
 LEAST_BLANK = 3
-"""So many blank cells side by side, or below each other, share a line of the echo."""
+"""Number of adjacent blank cells from which they share a line of the echo."""
 
-_HEADS = ("Cell", "Asked for", "Typed", "Unit", "Taken as")
+_HEADS = ("Cell", "Field", "Entered", "Unit", "Used as")
 
 
 def echo_page(package: PackageData) -> Mapping[str, object]:
@@ -42,13 +42,13 @@ def echo_page(package: PackageData) -> Mapping[str, object]:
 
 
 def records_page(package: PackageData) -> Mapping[str, object]:
-    """Return the records and what made the package."""
+    """Return the records and the software versions."""
     found = records(package.assessment.shaking.records)
     return {"files": found, "method": METHOD, "software": software()}
 
 
 def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, str], ...]:
-    """Return each sheet's name and its cells as lines of even columns."""
+    """Return the name of each sheet and its cells as lines of aligned columns."""
     return tuple(
         (sheet, "\n".join(_lines(tuple(found))))
         for sheet, found in groupby(rows, key=lambda row: row.sheet)
@@ -58,10 +58,10 @@ def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, str], ...]:
 def _lines(rows: Sequence[EchoRow]) -> Iterator[str]:
     yield _even(_HEADS, _WIDTHS)
     for row in _condensed(rows):
-        asked = (row.cell, row.label, row.typed, row.unit, row.value)
+        cells = (row.cell, row.label, row.typed, row.unit, row.value)
         wrapped = [
             textwrap.wrap(str(text), width - _GAP) or [""]
-            for text, width in zip(asked, _WIDTHS, strict=True)
+            for text, width in zip(cells, _WIDTHS, strict=True)
         ]
         for index in range(max(map(len, wrapped))):
             texts = [part[index] if index < len(part) else "" for part in wrapped]
@@ -69,7 +69,7 @@ def _lines(rows: Sequence[EchoRow]) -> Iterator[str]:
 
 
 def _condensed(rows: Sequence[EchoRow]) -> Iterator[EchoRow]:
-    """Yield the rows, cells left blank beside each other as one."""
+    """Yield the rows, adjacent blank cells merged into one."""
     blank: list[EchoRow] = []
     for row in rows:
         if blank and not (_is_blank(row) and _beside(blank[-1], row)):
@@ -119,7 +119,7 @@ def _even(texts: Sequence[str], widths: Sequence[int]) -> str:
 
 
 def records(rows: Sequence[RecordFile]) -> str:
-    """Return the record files with their hashes as lines of even columns."""
+    """Return the record files with their hashes as lines of aligned columns."""
     heads = ("Motion", "Component", "Samples", "Step [s]", "Peak [g]", "File, SHA-256")
     lines = [_even(heads, _RECORD_WIDTHS)]
     for row in rows:
@@ -143,7 +143,7 @@ def _notes(row: RecordFile) -> Iterator[str]:
 
 
 def software() -> Mapping[str, str]:
-    """Return what made this, with versions."""
+    """Return the software with its versions."""
     return {
         "roofslip": metadata.version("roofslip"),
         "python": platform.python_version(),

@@ -1,4 +1,4 @@
-"""From ground to roof: the building between them, and what it made of each motion."""
+"""From ground to roof: the building model, and the roof motion from each ground motion."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from solver.model import Motion
 
 SHOWN_MODES = 6
 NAMES = {"horizontal": "record", "transverse": "transverse"}
-"""Horizontal components as the tables of runs call them."""
+"""Names of the horizontal components in the tables of runs."""
 
 
 def building_part(
     package: PackageData, motions: Sequence[Motion], preparations: Sequence[PreparedMotion]
 ) -> Mapping[str, object]:
-    """Return sentences and tables on the way from ground to roof."""
+    """Return the texts and tables on the motion from ground to roof."""
     found = [
         (motion, NAMES[name], roof)
         for motion, prepared in zip(motions, preparations, strict=True)
@@ -39,25 +39,26 @@ _Carried = tuple[Motion, str, RoofMotion]
 
 def _texts(package: PackageData, found: Sequence[_Carried]) -> Iterator[str]:
     yield Markup("{} {}").format(
-        "Motions recorded on the ground go through an elastic building to the roof, each "
-        f"horizontal component by itself: {_words(found)}.",
+        "Motions recorded on the ground are transferred to the roof through an elastic building "
+        f"model, each horizontal component independently: {_words(found)}.",
         _period_words(package),
     )
     share = package.data.building.left_out_percent
     yield (
-        "As few modes are taken as leave out together no more than "
-        f"{number(share, 1)} % of the roof's peak; what is left out follows the ground as if it "
-        "were rigid. Oscillators follow the record exactly between its samples (Nigam and "
-        "Jennings, 1969), and go on until the free vibration has died down."
+        "The number of modes is the smallest for which the omitted modes together contribute no "
+        f"more than {number(share, 1)} % of the peak roof acceleration; omitted modes are treated "
+        "as rigid. The modal equations are solved exactly for acceleration that varies linearly "
+        "between samples (Nigam and Jennings, 1969), and the response is continued until the free "
+        "vibration has decayed."
     )
     yield (
-        "The answer hangs on period and damping, most on damping: values that were measured or "
-        "analysed are better than approximate ones."
+        "The result is sensitive to period and damping, most to damping: measured or analyzed "
+        "values are better than approximate ones."
     )
     yield (
-        "The array's mass is neglected: what slides does not act back on the building. The "
-        "vertical motion passes unchanged from ground to roof. No torsion, no yielding, no soil "
-        "below, a roof that is stiff in its plane."
+        "The mass of the array is neglected in the building response. The vertical motion at the "
+        "roof is that of the ground. Torsion, yielding and soil-structure interaction are "
+        "neglected; the roof is assumed rigid in its plane."
     )
 
 
@@ -72,17 +73,17 @@ def _words(found: Sequence[_Carried]) -> str:
 
 
 def _period_words(package: PackageData) -> Markup:
-    """Return where the first period comes from."""
-    asked, height = package.data.building, package.data.site.structure_height_m
-    if asked.period_s is not None or asked.structure is None:
+    """Return the source of the first period."""
+    building, height = package.data.building, package.data.site.structure_height_m
+    if building.period_s is not None or building.structure is None:
         return Markup("The period is as given in the workbook.")
-    coefficient, exponent = APPROXIMATE_PERIODS[asked.structure]
+    coefficient, exponent = APPROXIMATE_PERIODS[building.structure]
     return Markup(
         "The period is approximate, ASCE 7, 12.8.2.1, structure type “{}”: C<sub>t</sub> "
-        "h<sup>x</sup> = {} × {}<sup>{}</sup> = {} s, h in feet ({}). It is meant to be short: for "
-        "forces that is safe, for the motion of a roof it need not be."
+        "h<sup>x</sup> = {} × {}<sup>{}</sup> = {} s, h in feet ({}). It is intended "
+        "to be short, which is conservative for forces but not necessarily for roof motion."
     ).format(
-        asked.structure.value,
+        building.structure.value,
         f"{coefficient:g}",
         number(height / FOOT_M, 1),
         f"{exponent:g}",
@@ -94,10 +95,10 @@ def _period_words(package: PackageData) -> Markup:
 def _modes(found: Sequence[_Carried]) -> Table:
     """Return the slowest modes of the building in each direction."""
     buildings: dict[str, Building] = {}
-    taken: dict[str, int] = {}
+    included: dict[str, int] = {}
     for _, name, roof in found:
         buildings[name] = roof.building
-        taken[name] = max(taken.get(name, 0), roof.n_modes)
+        included[name] = max(included.get(name, 0), roof.n_modes)
     return Table(
         caption="Modes of the building",
         columns=(
@@ -106,7 +107,7 @@ def _modes(found: Sequence[_Carried]) -> Table:
             TableColumn(head="Period", unit="s"),
             TableColumn(head="Damping", unit="% of critical"),
             TableColumn(head="Roof factor", unit="Γφ"),
-            TableColumn(head="Taken", align="left", share=1.0),
+            TableColumn(head="Included", align="left", share=1.0),
         ),
         rows=tuple(
             TableRow(
@@ -116,30 +117,30 @@ def _modes(found: Sequence[_Carried]) -> Table:
                     f"{building.periods_s[mode]:.3g}",
                     number(100.0 * float(building.damping[mode]), 1),
                     number(float(building.roof_factors[mode]), 3),
-                    "yes" if mode < taken[name] else "left out",
+                    "yes" if mode < included[name] else "no",
                 )
             )
             for name, building in buildings.items()
-            for mode in range(min(max(SHOWN_MODES, taken[name] + 1), building.periods_s.size))
+            for mode in range(min(max(SHOWN_MODES, included[name] + 1), building.periods_s.size))
         ),
         kind="compact",
     )
 
 
 def _peaks(found: Sequence[_Carried]) -> Table:
-    """Return what the building made of each component."""
+    """Return the peaks of each component on the ground and at the roof."""
     return Table(
-        caption="Peaks on the ground and at the roof, scaled, and modes",
+        caption="Peak acceleration on the ground and at the roof, after scaling, and modes",
         columns=(
             TableColumn(head="Motion", align="left", share=1.2),
             TableColumn(head="Component", align="left", share=1.3),
             TableColumn(head="Peak", unit="ground, g"),
             TableColumn(head="Peak", unit="roof, g"),
             TableColumn(head="Roof / ground", share=1.0),
-            TableColumn(head="Modes taken", share=0.9),
-            TableColumn(head="Next mode", unit="% of roof's peak", share=1.2),
-            TableColumn(head="All left out", unit="% of roof's peak", share=1.2),
-            TableColumn(head="Goes on for", unit="s", share=0.9),
+            TableColumn(head="Modes included", share=0.9),
+            TableColumn(head="Next mode", unit="% of roof peak", share=1.2),
+            TableColumn(head="All omitted", unit="% of roof peak", share=1.2),
+            TableColumn(head="Extended by", unit="s", share=0.9),
         ),
         rows=tuple(_peak_row(*one) for one in found),
         kind="compact",

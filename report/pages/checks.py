@@ -1,4 +1,4 @@
-"""Clearances, limits, interconnection strength and the provisions they come from."""
+"""Clearances, limits, interconnection strength and the underlying provisions."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
 
 
 def clearance_table(package: PackageData, *, brief: bool) -> Table:
-    """Return the clearances, required against provided."""
+    """Return the clearances: required and provided separation."""
     fmt = package.fmt
     factor = " × I" if package.assessment.rules.importance_in_separation else ""
     more = (
@@ -34,7 +34,8 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
         if brief
         else (
             *fmt.columns("Displ.", share=0.75),
-            TableColumn(head="Of, going", align="left", share=1.55),
+            TableColumn(head="Array", align="left", share=0.8),
+            TableColumn(head="Direction", align="left", share=1.05),
             TableColumn(head="Factor" + factor, share=0.85),
             TableColumn(head="Clause", align="left", share=2.15),
         )
@@ -69,7 +70,8 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
         if brief
         else (
             *fmt.cells(gap.design_m),
-            f"{gap.governing_array}, {gap.governing_direction.value}",
+            gap.governing_array,
+            gap.governing_direction.value,
             number(gap.factor, 2) + package.mark(key),
             package.clause(key),
         )
@@ -91,7 +93,7 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
 
 
 def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
-    """Return every limit with what it is on."""
+    """Return every limit with the item that it applies to."""
     building = [("Building", check) for check in package.assessment.building_checks]
     arrays = [
         (f"Array {found.array.id}", check)
@@ -102,7 +104,7 @@ def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
 
 
 def failed_limits(package: PackageData) -> Sequence[str]:
-    """Return the limits that are not kept, in words."""
+    """Return the limits that are not satisfied, in words."""
     return [
         f"{place}: {check.title} is {check_value(check, check.found, package.fmt)}, limit "
         f"{check_value(check, check.limit, package.fmt)} "
@@ -113,10 +115,10 @@ def failed_limits(package: PackageData) -> Sequence[str]:
 
 
 def troubles(package: PackageData) -> Sequence[str]:
-    """Return everything that stands in the way of an OK, clearances apart, in words."""
+    """Return everything that prevents an OK, except clearances, in words."""
     few = [
-        f"Array {found.array.id}: {found.analysis.n_motions} are too few motions for the design "
-        f"value asked for (statistic: {package.data.options.statistic.value}); no design value."
+        f"Array {found.array.id}: too few motions ({found.analysis.n_motions}) for the requested "
+        f"statistic ({package.data.options.statistic.value}); no design value."
         for found in package.assessment.arrays
         if found.analysis.basis is Basis.TOO_FEW
     ]
@@ -136,17 +138,17 @@ def check_table(
     checks: Sequence[tuple[str, Check]],
     words: tuple[str, str] = (OK, NG),
 ) -> Table:
-    """Return limits against what the project has; `words` say kept and not kept."""
+    """Return limits and values of the project; `words` are for satisfied and not satisfied."""
     return Table(
         caption=caption,
         columns=(
-            TableColumn(head="On", align="left", share=0.9),
-            TableColumn(head="Limit on", align="left", share=3.1),
-            TableColumn(head="Found", share=1.6),
+            TableColumn(head="Item", align="left", share=0.9),
+            TableColumn(head="Quantity", align="left", share=3.3),
+            TableColumn(head="Value", share=1.5),
             TableColumn(head="", align="center", share=0.3),
-            TableColumn(head="Limit", share=1.7),
-            TableColumn(head="Clause", align="left", share=1.7),
-            TableColumn(head="Verdict", align="center", share=0.9),
+            TableColumn(head="Limit", share=1.6),
+            TableColumn(head="Clause", align="left", share=1.6),
+            TableColumn(head="Verdict", align="center", share=1.1),
         ),
         rows=tuple(
             TableRow(
@@ -169,11 +171,10 @@ def clearances(package: PackageData) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
     parapets = [gap for gap in package.assessment.clearances if "parapet" in gap.neighbor.value]
     notes = [
-        "Displ. is the design displacement of the array named behind it, in the direction named: "
-        "of its excursions down the slope, up, across (either way) or any, the largest of all "
-        f"runs of each motion ({package.part('results')}), never below the floor. Between two "
-        "arrays the larger of "
-        "the two counts, each seen from its own side."
+        "Displ. is the design displacement of the array in the next column, in the direction "
+        "shown (down, up, across either way, or any), from the largest of all runs of each motion "
+        f"({package.part('results')}) and not less than the floor. Between two arrays the larger "
+        "of the two displacements governs, each in its own direction."
     ]
     if parapets:
         notes.append(
@@ -181,14 +182,14 @@ def clearances(package: PackageData) -> Mapping[str, object]:
             f"{package.fmt.both(package.assessment.rules.length_m('parapet_height_in'))}"
             f"{package.mark('parapet_height_in')} above the roof and at least "
             f"{package.fmt.both(package.assessment.rules.length_m('parapet_over_cg_in'))}"
-            f"{package.mark('parapet_over_cg_in')} above the array's centre of gravity. An edge "
-            "whose parapet does not qualify counts as one without. The strength of the parapet is "
-            "not checked here."
+            f"{package.mark('parapet_over_cg_in')} above the array's center of gravity. An edge "
+            "whose parapet does not qualify is treated as an edge without a parapet. The strength "
+            "of the parapet is not checked."
         )
     if any(gap.is_least_value for gap in package.assessment.clearances):
         notes.append(
-            "Least separation to an edge without a qualifying parapet governs where the required "
-            "value exceeds factor × displacement: "
+            "The minimum separation to an edge without a qualifying parapet governs where the "
+            "required value exceeds factor × displacement: "
             f"{package.fmt.both(package.assessment.rules.length_m('separation_edge_min_in'))}"
             f"{package.mark('separation_edge_min_in')}."
         )
@@ -231,21 +232,21 @@ def _interconnection(package: PackageData) -> Table:
             )
             for found in package.assessment.arrays
         ),
-        notes=("The lighter side of any section through an array is at most half of it.",),
+        notes=("The lighter part on either side of a section is at most half of the array.",),
     )
 
 
 def provisions(package: PackageData) -> Mapping[str, object]:
-    """Return every number of the rule set with its standing, and the overrides."""
+    """Return every number of the rule set with its status, and the overrides."""
     rules = package.assessment.rules
     return {
         "table": Table(
-            caption=f"Numbers of {rules.name} used here",
+            caption=f"Numbers of {rules.name} used in this package",
             columns=(
                 TableColumn(head="Provision", align="left", share=4.6),
                 TableColumn(head="Value", share=0.9),
                 TableColumn(head="Clause", align="left", share=1.7),
-                TableColumn(head="Standing", align="left", share=1.9),
+                TableColumn(head="Status", align="left", share=1.9),
             ),
             rows=tuple(
                 TableRow(
@@ -282,7 +283,7 @@ def provisions(package: PackageData) -> Mapping[str, object]:
 
 
 def _sentence_case(text: str) -> Markup:
-    """Set a provision's meaning as a person would write it."""
+    """Return the name of a provision in sentence case with typeset symbols."""
     plain = escape(text[0].upper() + text[1:]).replace(" - ", " − ").replace("^2", "²")
     return plain.replace("S_DS", symbol("S_DS")).replace("W1", symbol("W_1"))
 

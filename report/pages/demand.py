@@ -1,4 +1,4 @@
-"""The seismic demand in equations: S_DS, and the spectra that the motions are held against."""
+"""The seismic demand in equations: S_DS and the target spectra of the motions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from report.words.units import number
 
 
 def demand_lines(package: PackageData) -> tuple[Line, ...]:
-    """Return S_DS, and the corners of the target spectra that count."""
+    """Return S_DS and the corners of the target spectra in use."""
     return (*_s_ds(package), *_ac156(package), *_design_spectrum(package))
 
 
@@ -36,22 +36,20 @@ def _s_ds(package: PackageData) -> Iterator[Line]:
 
 
 def _ac156(package: PackageData) -> Iterator[Line]:
-    """Yield the corners at the roof, of components that have no spectrum of the project's own."""
+    """Yield the corners at the roof, of components without a project-specific spectrum."""
     site, goals = package.data.site, package.assessment.targets
     found, vertical = package.assessment.horizontal_target, package.assessment.vertical_target
     s_ds, height = number(site.s_ds, 3), number(site.roof_height_m / site.structure_height_m, 3)
-    newer = package.assessment.rules.name == "ASCE 7-22"
-    flexible = (
-        r"A_{FLX}=S_{DS}\frac{1+2.5\,z/h}{1.3}\leq 1.6\,S_{DS}"
-        if newer
-        else r"A_{FLX}=S_{DS}\left(1+2\,\frac{z}{h}\right)\leq 1.6\,S_{DS}"
-    )
-    rigid = (
-        r"A_{RIG}=0.4\,S_{DS}\frac{1+2.5\,z/h}{1.3}"
-        if newer
-        else r"A_{RIG}=0.4\,S_{DS}\left(1+2\,\frac{z}{h}\right)"
-    )
-    amplified = f"(1 + 2.5 × {height}) / 1.3" if newer else f"(1 + 2 × {height})"
+    amplification = package.assessment.rules.amplification
+    slope, reduction = f"{amplification.slope:g}", f"{amplification.reduction:g}"
+    if reduction == "1":
+        formula = rf"S_{{DS}}\left(1+{slope}\,\frac{{z}}{{h}}\right)"
+        amplified = f"(1 + {slope} × {height})"
+    else:
+        formula = rf"S_{{DS}}\frac{{1+{slope}\,z/h}}{{{reduction}}}"
+        amplified = f"(1 + {slope} × {height}) / {reduction}"
+    flexible = rf"A_{{FLX}}={formula}\leq 1.6\,S_{{DS}}"
+    rigid = rf"A_{{RIG}}=0.4\,{formula}"
     if goals.roof.name != OWN:
         yield Line(
             latex=flexible,
@@ -83,7 +81,7 @@ def _ac156(package: PackageData) -> Iterator[Line]:
 
 
 def _design_spectrum(package: PackageData) -> Iterator[Line]:
-    """Yield the design spectrum where ground motions are held against it."""
+    """Yield the design spectrum where it is the target of ground motions."""
     site, t_l_s = package.data.site, package.data.target.t_l_s
     on_ground = any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
     has_own = package.assessment.targets.ground.name == OWN
@@ -105,7 +103,7 @@ def _design_spectrum(package: PackageData) -> Iterator[Line]:
             ),
         ),
         note=Markup(
-            "On the ground; below {} = 0.2 {} = {} s it falls to 0.4 {} at T = 0; {} = {} s, "
+            "At the ground. Below {} = 0.2 {} = {} s it decreases to 0.4 {} at T = 0; {} = {} s, "
             "{} = {} s."
         ).format(
             symbol("T_0"),

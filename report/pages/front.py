@@ -1,4 +1,4 @@
-"""What every page carries, the cover, the summary, and what the analysis rests on."""
+"""Page headers and footers, cover, summary, and basis of the analysis."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from report.words.units import number, ratio
 
 
 def sheet(package: PackageData) -> Mapping[str, str]:
-    """Return what every page carries."""
+    """Return the texts of the page headers and footers."""
     project = package.data.project
     return {
         "title": f"{project.number} {project.name}: seismic displacement of rooftop solar arrays",
@@ -73,7 +73,7 @@ def cover(package: PackageData) -> Mapping[str, object]:
 
 
 def summary(package: PackageData) -> Mapping[str, object]:
-    """Return the summary page: governing numbers and a verdict for everything."""
+    """Return the summary page: governing numbers and all verdicts."""
     return {
         "verdict": verdict(package.assessment.ok),
         "sentence": _sentence(package),
@@ -86,7 +86,7 @@ def summary(package: PackageData) -> Mapping[str, object]:
 
 def _sentence(package: PackageData) -> str:
     if package.assessment.ok:
-        return "Every limit and every clearance is kept, and every run gave a final value."
+        return "All limits and clearances are satisfied; every run reached a final value."
     counts = (
         ("array", [package.assessment.array_ok(found) for found in package.assessment.arrays]),
         ("clearance", [gap.ok for gap in package.assessment.clearances]),
@@ -123,7 +123,7 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
             rules.values[key].clause,
         ),
         (
-            "Design value from the peaks",
+            "Basis of the analysis value",
             f"{statistic(found.analysis.basis)} of {motions}{package.mark('analysis_factor')}",
             rules.values["analysis_factor"].clause,
         ),
@@ -153,8 +153,8 @@ def _array_table(package: PackageData) -> Table:
         ),
         rows=tuple(_array_row(package, found) for found in package.assessment.arrays),
         notes=(
-            "D/C: required over provided separation, rounded up; the largest among the array's "
-            "clearances, on either side of them.",
+            "D/C: required / provided separation, rounded up; the largest of the clearances that "
+            "involve the array.",
         ),
     )
 
@@ -180,7 +180,7 @@ def _array_row(package: PackageData, found: ArrayAssessment) -> TableRow:
 
 
 def basis(package: PackageData) -> Mapping[str, object]:
-    """Return what the page on basis and limits adds to its fixed text."""
+    """Return the computed texts of the page on basis and limits."""
     motions = [run.motion for run in package.governing.motions]
     count = len(motions)
     with_vertical = sum(motion.has_vertical for motion in motions)
@@ -189,41 +189,43 @@ def basis(package: PackageData) -> Mapping[str, object]:
     return {
         "title": package.assessment.rules.title,
         "vertical": f"{with_vertical} of {count} have a vertical component",
-        "moves": "the records say, those of the ground through the building of "
+        "moves": "the records prescribe, with ground records transferred through the building of "
         f"{package.part('motions')}"
         if any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
-        else "the records say",
+        else "the records prescribe",
         "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
         "friction": _friction(package),
-        "asked": _asked(package),
+        "requested": _requested(package),
         "linked": _linked(package),
         "both": f"{both} of {count} motions are run in both polarities",
         "peer": "is stated to be peer reviewed"
         if package.data.options.peer_reviewed
         else "is not stated to be peer reviewed",
+        "floor": "does not apply" if package.data.options.peer_reviewed else "applies",
         "failed": troubles(package),
     }
 
 
-def _asked(package: PackageData) -> str:
-    """Return which arrays are run by a model that the workbook asks for."""
+def _requested(package: PackageData) -> str:
+    """Return which arrays use a model that the workbook requests."""
     arrays = [item.array for item in package.assessment.arrays if item.is_model_asked_for]
-    return "".join(f"; {one.id} is run in {one.model.value}, as asked for" for one in arrays)
+    return "".join(f"; {one.id} uses the requested model, {one.model.value}" for one in arrays)
 
 
 def _linked(package: PackageData) -> str:
-    """Return which arrays are held against a row of linked blocks."""
+    """Return which arrays are compared with a row of linked blocks."""
     names = ", ".join(found.found.array.id for found in package.assessment.linked)
     return (
-        f" (but {package.part('model')} holds {names} against a row of linked blocks)"
-        if names
-        else ""
+        f" ({package.part('model')} compares {names} with a row of linked blocks)" if names else ""
     )
 
 
 def _friction(package: PackageData) -> str:
-    single = "a single coefficient μ for each array, at rest and while sliding, at any speed"
+    single = (
+        "a single coefficient μ for each array, at rest and while sliding, independent of velocity"
+    )
     tested = [one.id for one in package.data.arrays if not one.friction.is_constant]
     if not tested:
         return single
-    return f"{single}; by speed, as tested, for {', '.join(tested)} ({package.part('model')})"
+    names = ", ".join(tested)
+    return f"{single} (except {names}: velocity-dependent, as tested, see {package.part('model')})"

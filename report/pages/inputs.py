@@ -1,4 +1,4 @@
-"""Site parameters in the order of a permit sheet, arrays, objects."""
+"""Inputs: site parameters in the order of a permit sheet, arrays, objects."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def _site(package: PackageData) -> Table:
             TableColumn(head="Symbol", align="left", share=0.8),
             TableColumn(head="Value", share=2.0),
             TableColumn(head="Reference", align="left", share=2.4),
-            TableColumn(head="From", align="left", share=1.0),
+            TableColumn(head="Source", align="left", share=1.0),
         ),
         rows=tuple(
             TableRow(
@@ -69,8 +69,8 @@ def _parameters(package: PackageData) -> Sequence[tuple[str, str, str, str, str]
     s_m1 = None if site.s_1_g is None or site.f_v is None else site.f_v * site.s_1_g
     s_d1 = None if s_m1 is None else 2.0 / 3.0 * s_m1
     t_s = None if s_d1 is None else s_d1 / site.s_ds
-    given, made = "input", "computed"
-    s_ds_origin = made if site.s_ds_g is None else given
+    given, computed = "input", "computed"
+    s_ds_origin = computed if site.s_ds_g is None else given
     site_class = NOT_GIVEN if site.site_class is None else site.site_class.value
     return (
         ("Rule set", "", package.assessment.rules.name, "adopted provisions", given),
@@ -96,7 +96,7 @@ def _parameters(package: PackageData) -> Sequence[tuple[str, str, str, str, str]
             "z/h",
             number(site.roof_height_m / site.structure_height_m, 3),
             "ASCE 7 13.3",
-            made,
+            computed,
         ),
         ("Mapped acceleration, 0.2 s", "S_S", _g(site.s_s_g), "ASCE 7 11.4", given),
         ("Mapped acceleration, 1 s", "S_1", _g(site.s_1_g), "ASCE 7 11.4", given),
@@ -110,16 +110,16 @@ def _parameters(package: PackageData) -> Sequence[tuple[str, str, str, str, str]
         ("Site class", "", site_class, "ASCE 7 Chapter 20", given),
         ("Site coefficient, 0.2 s", "F_a", _plain(site.f_a), "ASCE 7 11.4", given),
         ("Site coefficient, 1 s", "F_v", _plain(site.f_v), "ASCE 7 11.4", given),
-        ("MCE acceleration, 0.2 s", "S_MS", _g(s_ms), "ASCE 7 Eq. 11.4-1", made),
-        ("MCE acceleration, 1 s", "S_M1", _g(s_m1), "ASCE 7 Eq. 11.4-2", made),
+        ("MCE acceleration, 0.2 s", "S_MS", _g(s_ms), "ASCE 7 Eq. 11.4-1", computed),
+        ("MCE acceleration, 1 s", "S_M1", _g(s_m1), "ASCE 7 Eq. 11.4-2", computed),
         ("Design acceleration, 0.2 s", "S_DS", _g(site.s_ds), "ASCE 7 Eq. 11.4-3", s_ds_origin),
-        ("Design acceleration, 1 s", "S_D1", _g(s_d1), "ASCE 7 Eq. 11.4-4", made),
+        ("Design acceleration, 1 s", "S_D1", _g(s_d1), "ASCE 7 Eq. 11.4-4", computed),
         (
             "Corner period",
             "T_S",
             _seconds(t_s),
             "ASCE 7 11.4",
-            made,
+            computed,
         ),
         ("Seismic design category", "SDC", site.sdc.value, "ASCE 7 11.6", given),
     )
@@ -140,13 +140,13 @@ def _plain(value: float | None) -> str:
 def _s_ds_note(site: Site) -> str:
     if site.s_ds_g is None:
         return Markup(
-            "{} is computed from {} and {} in full precision, rounded only for print."
+            "{} is computed from {} and {} in full precision and rounded only for printing."
         ).format(symbol("S_DS"), symbol("S_S"), symbol("F_a"))
     if site.s_s_g is None or site.f_a is None:
-        return Markup("{} is taken as given in the workbook.").format(symbol("S_DS"))
+        return Markup("{} is as given in the workbook.").format(symbol("S_DS"))
     other = 2.0 / 3.0 * site.f_a * site.s_s_g
     return Markup(
-        "{} is taken as given in the workbook. From {} and {} it would be {} g, not used here."
+        "{} is as given in the workbook. The value from {} and {} is {} g; it is not used."
     ).format(symbol("S_DS"), symbol("S_S"), symbol("F_a"), number(other, 3))
 
 
@@ -177,20 +177,20 @@ def _arrays(package: PackageData) -> Table:
             for array in package.data.arrays
         ),
         notes=(
-            "Down-slope direction counter-clockwise from +x of the roof plan.",
+            "Downslope direction: counterclockwise from +x of the roof plan.",
             *_by_speed(package),
         ),
     )
 
 
 def _by_speed(package: PackageData) -> Iterator[str]:
-    """Yield which arrays have friction by speed, and which ask for a model."""
+    """Yield which arrays have velocity-dependent friction or a requested model."""
     for array in package.data.arrays:
         if not array.friction.is_constant:
-            yield f"{array.id}:{friction(array)}"
+            yield f"Array {array.id}.{friction(array)}"
         if array.model in RUNGS:
             where = package.part("model")
-            yield f"{array.id}: the model asked for is {array.model.value} ({where})."
+            yield f"Array {array.id}. Requested model: {array.model.value} ({where})."
 
 
 def _sizes(package: PackageData) -> Table:
@@ -200,7 +200,7 @@ def _sizes(package: PackageData) -> Table:
         columns=(
             TableColumn(head="Array", align="left", share=0.9),
             *fmt.columns("Weight", Quantity.WEIGHT),
-            *fmt.columns("Centre of gravity", Quantity.SIZE),
+            *fmt.columns("Center of gravity", Quantity.SIZE),
             *fmt.columns("Support spacing", Quantity.SIZE),
             *fmt.columns("Plan x", Quantity.PLAN),
             *fmt.columns("Plan y", Quantity.PLAN),
@@ -218,18 +218,20 @@ def _sizes(package: PackageData) -> Table:
             )
             for array in package.data.arrays
         ),
-        notes=("Centre of gravity above the roof surface; plan x and y: the array's own size.",),
+        notes=(
+            "Center of gravity: height above the roof surface. Plan x and y: size of the array.",
+        ),
     )
 
 
 def _links(package: PackageData) -> Table:
     fmt = package.fmt
     return Table(
-        caption="Arrays to be held against a row of linked blocks",
+        caption="Arrays to be compared with a row of linked blocks",
         columns=(
             TableColumn(head="Array", align="left", share=0.9),
             TableColumn(head="Blocks", share=0.8),
-            TableColumn(head="μ of the blocks, from the highest down", align="left", share=4.2),
+            TableColumn(head="μ of the blocks, from the upslope end", align="left", share=4.2),
             *fmt.columns("Link stiffness", Quantity.STIFFNESS, share=1.1),
             TableColumn(head="Link damping", unit="of critical", share=1.3),
         ),
@@ -245,7 +247,7 @@ def _links(package: PackageData) -> Table:
             )
             for one in package.data.links
         ),
-        notes=(f"Blocks of equal weight in a row down the slope ({package.part('model')}).",),
+        notes=(f"Blocks of equal weight, in a row along the slope ({package.part('model')}).",),
     )
 
 

@@ -1,6 +1,6 @@
-"""Arrays held against a row of linked blocks: what it is, what came of it, what would do.
+"""Comparison of arrays with a row of linked blocks: model, results, corrective measures.
 
-Runs nothing: `report.assessment.links` did. Read `report.pages.parts` first.
+Runs nothing: `report.assessment.links` does. Read `report.pages.parts` first.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from solver.model import Status
 
 
 def part(package: PackageData, matters: str) -> Mapping[str, object]:
-    """Return what the page on the models says of rows; tables without rows where none is asked.
+    """Return the rows of linked blocks for the page on the models; empty tables if none.
 
     Parameters
     ----------
     matters : str
-        Up to where a change of a displacement is none, in words.
+        Tolerance of a displacement that matters to the choice of model, in words.
     """
     return {
         "text": _text(package),
@@ -42,15 +42,15 @@ def part(package: PackageData, matters: str) -> Mapping[str, object]:
 
 
 def link_troubles(package: PackageData) -> Iterator[str]:
-    """Yield in words for which arrays one rigid block is not enough, and what would do."""
+    """Yield in words for which arrays one rigid block is not adequate, and the remedy."""
     for found in package.assessment.linked:
         yield from _unfinished(found)
         if not found.is_within and not math.isnan(found.estimated_m):
-            yield f"{_too_far(package, found)} {_what_would_do(found)}"
+            yield f"{_too_far(package, found)} {_remedy(found)}"
 
 
 def _unfinished(found: LinkedArray) -> Iterator[str]:
-    """Yield the outcomes of rows that give no final displacement, each with its runs."""
+    """Yield the outcomes of rows without a final displacement, each with its runs."""
     for status in Status:
         runs = [
             f"{motion.motion.id} {run.heading.name}"
@@ -67,28 +67,28 @@ def _too_far(package: PackageData, found: LinkedArray) -> str:
     name, fmt, used = found.found.array.id, package.fmt, found.found.design_m
     if math.isinf(found.estimated_m):
         return (
-            f"Array {name}: one rigid block does not slide in one axis, a row of linked blocks by "
-            f"{fmt.both(found.linked.value_m)}."
+            f"Array {name}: in one axis, one rigid block does not slide; a row of linked blocks "
+            f"slides {fmt.both(found.linked.value_m)}."
         )
     return (
-        f"Array {name}: a row of linked blocks goes {_ratio(found.ratio)} times as far as one "
-        f"rigid block, estimated design displacement {fmt.both(found.estimated_m)}, used "
-        f"{fmt.both(used)}."
+        f"Array {name}: a row of linked blocks slides {_ratio(found.ratio)} times as far as one "
+        f"rigid block; the estimated design displacement is {fmt.both(found.estimated_m)}, the "
+        f"value used is {fmt.both(used)}."
     )
 
 
-def _what_would_do(found: LinkedArray) -> str:
+def _remedy(found: LinkedArray) -> str:
     least = min(found.row.mus)
     if found.found.array.mu > least:
         return (
-            f"Enter {number(least, 3)}, the least of its blocks, as its friction coefficient, or "
-            "give it stiffer links."
+            f"Enter {number(least, 3)}, the smallest value of its blocks, as its friction "
+            "coefficient, or provide stiffer links."
         )
-    return "Give it stiffer links."
+    return "Provide stiffer links."
 
 
 def _ratio(value: float) -> str:
-    """Return a ratio, rounded up, so that it never reads less than it is."""
+    """Return a ratio, rounded up."""
     if math.isnan(value):
         return NO_VALUE
     return "∞" if math.isinf(value) else number(math.ceil(value * 1e3 - 1e-6) / 1e3, 3)
@@ -96,14 +96,15 @@ def _ratio(value: float) -> str:
 
 def _text(package: PackageData) -> str:
     names = [found.found.array.id for found in package.assessment.linked]
-    are = "is" if len(names) == 1 else "are"
+    arrays = "array" if len(names) == 1 else "arrays"
     return (
-        f"The workbook asks it of {', '.join(names)}, which {are} run once more as a row of blocks "
-        "of equal weight down the slope, each with its own friction and stick-slip state, with a "
-        "spring and a dashpot between neighbors. All feel the same roof motion, in one axis, with "
-        "the vertical where there is one. Beside it stands one rigid block with the array's own "
-        "friction coefficient in that same axis, so that their ratio is the effect of links and of "
-        "uneven friction alone; the ratio is taken to hold for the model that the design uses too."
+        f"The workbook requests this check for {arrays} {', '.join(names)}. Each array is also run "
+        "as a row of blocks of equal weight along the slope, each with its own friction and "
+        "stick-slip state, with a spring and a dashpot between adjacent blocks. All blocks are "
+        "subject to the same roof motion, in one axis, with the vertical component where there is "
+        "one. One rigid block with the friction coefficient of the array is run in the same axis, "
+        "so the ratio of the two is the effect of links and nonuniform friction alone. This ratio "
+        "is assumed to apply to the model used in design."
     )
 
 
@@ -114,9 +115,9 @@ def _lines(package: PackageData) -> Sequence[Line]:
                 r"m\ddot{s}_i=G-\mu_i N\,\mathrm{sign}(\dot{s}_i)+F_i-F_{i-1},"
                 r"\quad F_i=k\,e_i+c\,\dot{e}_i,\quad e_i=s_{i+1}-s_i"
             ),
-            reference="block i, link i below it",
-            note=f"m, N and G are those of one block ({package.part('method')}), c = 2ζ√(km). A block "
-            "rests while what pushes it, F included, is not above its friction.",
+            reference="block i, link i on its downslope side",
+            note=f"m, N and G are those of one block ({package.part('method')}), c = 2ζ√(km). "
+            "A block rests while the driving force, including F, does not exceed its friction.",
         ),
         Line(
             latex=(
@@ -125,8 +126,8 @@ def _lines(package: PackageData) -> Sequence[Line]:
             ),
             reference="estimated with links",
             steps=tuple(_step(package, found) for found in package.assessment.linked),
-            note="Where a model is asked for, the value from analysis is the larger of its own and "
-            "that of the model that the motions need."
+            note="Where a model is requested, the value from analysis is the larger of its value "
+            "and that of the adequate model."
             if any(found.found.is_model_asked_for for found in package.assessment.linked)
             else "",
         ),
@@ -163,8 +164,8 @@ def _row_table(package: PackageData) -> Table:
         ),
         rows=tuple(TableRow(cells=_row(package, found)) for found in package.assessment.linked),
         notes=(
-            "Block: the one that goes farthest, counted from the highest. Link force: the largest "
-            f"in any link; it stands beside the strength that {package.part('limits')} asks for.",
+            "Block: the one with the largest PRD, numbered from the upslope end. Link force: the "
+            f"largest in any link; compare with the strength required in {package.part('limits')}.",
         ),
         kind="compact",
     )
@@ -190,7 +191,7 @@ def _design_table(package: PackageData, matters: str) -> Table:
     linked = package.assessment.linked
     ways = sorted({statistic(found.found.analysis.basis) for found in linked})
     return Table(
-        caption="Whether one rigid block is enough",
+        caption="Adequacy of one rigid block",
         columns=(
             TableColumn(head="Array", align="left", share=0.9),
             *fmt.columns("Rigid, one axis"),
@@ -202,9 +203,9 @@ def _design_table(package: PackageData, matters: str) -> Table:
         ),
         rows=tuple(TableRow(cells=_design(package, found)) for found in linked),
         notes=(
-            f"Rigid and row: {', '.join(ways)} of the motions' PRDs, of the row those of the block "
-            "that goes farthest. OK where the design with links is above the one used by no more "
-            f"than {matters}, whichever is larger, and every run ends at rest.",
+            f"Rigid and row: {', '.join(ways)} of the motions' PRDs; for the row, of the block "
+            "with the largest PRD. OK where the design value with links exceeds the value used by "
+            f"no more than {matters}, whichever is larger, and every run ends at rest.",
         ),
         kind="compact",
     )

@@ -1,4 +1,4 @@
-"""The calculation line by line: symbols, numbers put in, result, where it comes from."""
+"""The calculation line by line: equation, source, substituted numbers, result."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from report.pages.parts import Line, PackageData, nan_is_worst, statistic
 from report.sheet.schema import Direction
 from report.typeset.equations import fraction, symbol
 from report.words.units import Quantity, number
-from solver.rules.provisions import SEPARATION_KEYS, Basis, Neighbor
+from solver.rules.provisions import SEPARATION_KEYS, Basis, Neighbor, PrescriptiveBasis
 
 
 def below(_: PackageData) -> tuple[tuple[str, str], ...]:
@@ -64,7 +64,7 @@ def motion_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
             reference="Eqs. 8, 9",
             steps=(
                 (
-                    f"Roof at rest: {number(math.sin(theta), 4)} against "
+                    f"Roof at rest: {number(math.sin(theta), 4)} compared with "
                     f"{number(mu, 3)} × {number(math.cos(theta), 4)}",
                     number(mu * math.cos(theta), 4)
                     + (", rests" if math.tan(theta) <= mu else ", slides"),
@@ -74,18 +74,19 @@ def motion_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
         Line(
             latex=r"m\ddot{s}=G-\mu N\,\mathrm{sign}(\dot{s})",
             reference="Eqs. 11–18, along the slope",
-            note="s is the distance slid down the slope; the horizontal relative displacement is "
-            "u = s cos θ.",
+            note="s is the sliding displacement, positive downslope; the horizontal relative "
+            "displacement is u = s cos θ.",
         ),
         Line(
             latex=(
                 r"m\dot{\mathbf{v}}=\mathbf{G}-\mu N\,\frac{\mathbf{v}}{\left|\mathbf{v}\right|},"
                 r"\quad\mathbf{G}=(G,\,-m\,a_y)"
             ),
-            reference="the same in two axes",
-            note="With shaking across the slope the array slides along v, down the slope and "
-            "across it, and rests while |G| ≤ μN. PRD is the largest resultant of u and of the "
-            f"displacement across. {package.part('model').capitalize()} says where this is used.",
+            reference="the same equation in two axes",
+            note="With cross-slope shaking, v is the sliding velocity, along and across the slope; "
+            "the array is at rest while |G| ≤ μN. PRD is the largest resultant of u and the "
+            f"cross-slope displacement. {package.part('model').capitalize()} lists where this "
+            "applies.",
         ),
         Line(
             latex=r"\phi=\arctan\mu",
@@ -96,7 +97,7 @@ def motion_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
             latex=r"a_{down}=-g\tan(\phi-\theta)",
             reference=Markup("Eqs. 6–9, {} = 0").format(symbol("a_v")),
             steps=((f"−g tan({friction}° − {degrees}°)", f"{number(-down, 3)} g"),),
-            note="Below this horizontal roof acceleration sliding down the slope begins.",
+            note="Downslope sliding begins below this horizontal roof acceleration.",
         ),
         Line(
             latex=r"a_{up}=g\tan(\phi+\theta)",
@@ -104,18 +105,16 @@ def motion_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
             steps=(
                 (
                     f"g tan({friction}° + {degrees}°)",
-                    "none: the array cannot be driven up the slope"
-                    if up <= 0.0
-                    else f"{number(up, 3)} g",
+                    "none: the array cannot slide upslope" if up <= 0.0 else f"{number(up, 3)} g",
                 ),
             ),
-            note="Above this horizontal roof acceleration sliding up the slope begins.",
+            note="Upslope sliding begins above this horizontal roof acceleration.",
         ),
     )
 
 
 def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
-    """Return the friction coefficient by speed, where a test gave it."""
+    """Return the friction coefficient as a function of velocity, where a test gave it."""
     law = found.array.friction
     if law.mu_fast == law.mu_slow or law.rate_s_per_m == 0.0:
         return ()
@@ -132,7 +131,7 @@ def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
                     number(tenth, 3),
                 ),
             ),
-            note="Below, for the roof at rest and where sliding begins, "
+            note="The equations below, for the roof at rest and the onset of sliding, use "
             f"μ = {number(law.mu_static, 3)}.",
         ),
     )
@@ -143,7 +142,7 @@ def prescriptive_line(package: PackageData, found: ArrayAssessment) -> Line:
     site, rules, fmt = package.data.site, package.assessment.rules, package.fmt
     key = package.prescriptive_key(found)
     value, minimum = found.prescriptive.value_m, found.prescriptive.minimum_m
-    if found.prescriptive.governs == "SDC A, B, C":
+    if found.prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY:
         return Line(
             latex=r"\Delta_{MPV}=\Delta_{A,B,C}",
             reference=package.clause(key),
@@ -163,16 +162,16 @@ def prescriptive_line(package: PackageData, found: ArrayAssessment) -> Line:
         reference=package.clause("prescriptive_factor_in"),
         steps=(
             (
-                Markup("{}{} × {}, not below {}").format(factor, inside, bracket, least),
+                Markup("{}{} × {}, not less than {}").format(factor, inside, bracket, least),
                 fmt.both(value) + package.mark(key),
             ),
         ),
-        note=f"{found.prescriptive.governs.capitalize()} governs. The same for every array.",
+        note=f"The {found.prescriptive.governs} governs. The value is the same for every array.",
     )
 
 
 def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]:
-    """Return the way from the peaks of an array to its design displacement."""
+    """Return the steps from the peaks of an array to its design displacement."""
     fmt, analysis, rules = package.fmt, found.analysis, package.assessment.rules
     unit = fmt.units()[0]
     peaks = [run.governing.result.prd_m for run in found.motions]
@@ -213,7 +212,7 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
             reference=package.clause("analysis_floor"),
             steps=(
                 (
-                    "peer reviewed, no floor"
+                    "peer reviewed: no floor"
                     if package.data.options.peer_reviewed
                     else f"{floor} × {fmt.both(found.prescriptive.value_m)}",
                     fmt.both(found.floor_m) + package.mark("analysis_floor"),
@@ -236,7 +235,7 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
 
 
 def _directions_line(package: PackageData, found: ArrayAssessment) -> Line:
-    """Return the design displacements down, up and across, from the peaks in each direction."""
+    """Return the design displacements downslope, upslope and cross-slope."""
     fmt, factor = package.fmt, number(found.analysis.factor, 2) + package.mark("analysis_factor")
     largest = found.analysis.basis is Basis.LARGEST_FACTORED
     ways = (Direction.DOWN, Direction.UP, Direction.ACROSS)
@@ -256,14 +255,14 @@ def _directions_line(package: PackageData, found: ArrayAssessment) -> Line:
             for way in ways
             for one in (found.directions[way],)
         ),
-        note="From the farthest of all runs of each motion in that direction "
-        f"({package.part('results')}), by the same statistic. A clearance takes the "
-        "displacement in its own direction, any the largest.",
+        note="Based on the largest displacement of all runs of each motion in that direction "
+        f"({package.part('results')}), with the same statistic. A clearance uses the displacement "
+        "in its own direction; direction any uses the largest.",
     )
 
 
 def separation_line(package: PackageData) -> Line:
-    """Return the separations, each condition that occurs at its largest displacement."""
+    """Return the largest required separation of each condition that occurs."""
     latex = (
         r"s_{req}=k\,I_e\,\Delta"
         if package.assessment.rules.importance_in_separation
@@ -286,7 +285,7 @@ def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
     key = SEPARATION_KEYS[gap.neighbor]
     inside = f" × {number(package.data.site.i_e, 2)}" if rules.importance_in_separation else ""
     least = (
-        f", not below {fmt.both(rules.length_m('separation_edge_min_in'))}"
+        f", not less than {fmt.both(rules.length_m('separation_edge_min_in'))}"
         f"{package.mark('separation_edge_min_in')}"
         if gap.is_least_value
         else ""

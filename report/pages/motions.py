@@ -1,4 +1,4 @@
-"""The part on roof motions: what they are, what was done to them, their spectra and the target."""
+"""The part on roof motions: list, processing, response spectra and target."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from solver.records.processing import AS_RECORDED
 from solver.rules.spectra import Tail
 
 DRIFT_M = 0.010
-"""Displacement left at the end from which a component is marked."""
+"""Final displacement above which a component is marked."""
 
 
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
@@ -44,9 +44,9 @@ def has_ground(package: PackageData) -> bool:
 
 
 def motion_table(motions: Sequence[Motion], preparations: Sequence[PreparedMotion]) -> Table:
-    """Return what each motion is, as run."""
+    """Return the list of the motions as run."""
     grounds = [prepared.recorded_at is RecordedAt.GROUND for prepared in preparations]
-    where = [TableColumn(head="From", align="left", share=0.9)] if any(grounds) else []
+    where = [TableColumn(head="Recorded", align="left", share=0.9)] if any(grounds) else []
     return Table(
         caption="Roof motions as run, after scaling",
         columns=(
@@ -92,13 +92,13 @@ def _peak(values: Floats, scale: float) -> str:
 
 
 def drift_table(package: PackageData, preparations: Sequence[PreparedMotion]) -> Table:
-    """Return what was done to each motion, and the drift that is left in it."""
+    """Return the processing of each motion and its residual drift."""
     unit = package.fmt.units()[0]
     names = ("horizontal", "transverse", "vertical")
     short = {"horizontal": "record", "transverse": "transv.", "vertical": "vertical"}
     limit = package.fmt.both(DRIFT_M)
     return Table(
-        caption="Processing, and what is left at the end of each component",
+        caption="Processing, and final velocity and displacement of each component",
         columns=(
             TableColumn(head="Motion", align="left", share=1.1),
             TableColumn(head="Processing", align="left", share=3.6),
@@ -114,16 +114,16 @@ def drift_table(package: PackageData, preparations: Sequence[PreparedMotion]) ->
         ),
         rows=tuple(_drift_row(prepared, names, unit.si) for prepared in preparations),
         notes=(
-            "Each component where it was recorded, processed and scaled. Drift in the input "
-            f"becomes slip: a motion with a component that ends more than {limit} from where it "
-            "began is marked.",
+            "Each component at the place of its record, ground or roof, after processing and "
+            "scaling. Drift in the input becomes slip: a motion is marked where a component has a "
+            f"final displacement of more than {limit}.",
         ),
         kind="compact",
     )
 
 
 def drift_sentence(package: PackageData, preparations: Sequence[PreparedMotion]) -> str:
-    """Return the same in words, where every motion is as recorded and none drifts; else nothing."""
+    """Return the same as text if all motions are as recorded and none drifts; else nothing."""
     if any(drifts(prepared) or prepared.done != AS_RECORDED for prepared in preparations):
         return ""
     unit = package.fmt.units()[0]
@@ -131,10 +131,11 @@ def drift_sentence(package: PackageData, preparations: Sequence[PreparedMotion])
     speed = max(abs(m.final_velocity_mps) for m in found) / unit.si
     place = max(abs(m.final_displacement_m) for m in found) / unit.si
     return (
-        "All motions are run as recorded: nothing is cut, filtered or taken off. At the end no "
-        f"component moves faster than {number(speed, 2)} {unit.symbol}/s or lies farther than "
-        f"{number(place, 2)} {unit.symbol} from where it began: none drifts. Drift in the input "
-        f"would become slip, and is marked from {package.fmt.both(DRIFT_M)} on."
+        "All motions are run as recorded, without trimming, filtering or baseline correction. The "
+        f"final velocity of every component is at most {number(speed, 2)} {unit.symbol}/s and its "
+        f"final displacement at most {number(place, 2)} {unit.symbol}: none drifts. Drift in the "
+        "input would become slip; a final displacement of more than "
+        f"{package.fmt.both(DRIFT_M)} would be marked."
     )
 
 
@@ -154,22 +155,22 @@ def _drift_row(prepared: PreparedMotion, names: Sequence[str], si: float) -> Tab
 
 
 def drifts(prepared: PreparedMotion) -> bool:
-    """Whether a component of a motion ends away from where it began."""
+    """Whether a component of a motion has a final displacement above the limit."""
     return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
 
 
 def beyond_table(package: PackageData, found: Sequence[Beyond]) -> Table:
-    """Return how much of the slip comes from periods that a high-pass takes away."""
+    """Return the part of the slip caused by periods that a high-pass filter removes."""
     fmt = package.fmt
     return Table(
-        caption=f"Periods beyond the high-pass corner: PRD of array {package.governing.array.id}",
+        caption=f"Effect of the high-pass filter: PRD of array {package.governing.array.id}",
         columns=(
             TableColumn(head="Motion", align="left", share=1.2),
             TableColumn(head="Corner", unit="Hz"),
             TableColumn(head="Period", unit="s"),
             *fmt.columns("With the high-pass, as run", share=1.3),
             *fmt.columns("Without it", share=1.3),
-            TableColumn(head="From beyond", unit="%", share=1.2),
+            TableColumn(head="Removed", unit="%", share=1.2),
         ),
         rows=tuple(
             TableRow(
@@ -185,16 +186,16 @@ def beyond_table(package: PackageData, found: Sequence[Beyond]) -> Table:
             for one in found
         ),
         notes=(
-            "The same motion at the same scale without the high-pass, all else alike. The largest "
-            "run counts; where the part is negative the high-pass makes it larger. What is taken "
-            "away may be motion or drift of the instrument alike: judge the corner.",
+            "The same motion at the same scale, with and without the high-pass filter: the largest "
+            "PRD of all runs. A negative value means that the filter increases the PRD. The filter "
+            "may remove ground motion as well as instrument drift: review the corner frequency.",
         ),
         kind="compact",
     )
 
 
 def spectrum_table(part: Spectra) -> Table:
-    """Return the target and what the motions have at a few periods, and the one over the other."""
+    """Return target, achieved ordinates and their ratios at a few periods."""
     at = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
     target, sa = part.target_g[at], part.sa_g[:, at]
     count = f"{len(part.ids)} motion{'s' if len(part.ids) > 1 else ''}"
@@ -205,11 +206,11 @@ def spectrum_table(part: Spectra) -> Table:
             _ordinates(f"Target, {part.target.name} [g]", target),
             *rows,
             _ordinates("Mean / target", share.mean(axis=0), kind="total", decimals=2),
-            _ordinates("Least motion / target", share.min(axis=0), kind="total", decimals=2),
+            _ordinates("Smallest motion / target", share.min(axis=0), kind="total", decimals=2),
             _ordinates("Largest motion / target", share.max(axis=0), kind="total", decimals=2),
         ]
     return Table(
-        caption=f"{part.title}: pseudo-acceleration, 5 % damping, achieved against the target",
+        caption=f"{part.title}: pseudo-acceleration, 5 % damping, achieved and target",
         columns=(
             TableColumn(head="Period", align="left", share=2.9),
             *(
@@ -227,20 +228,20 @@ def _ordinates(name: str, values: Floats, *, kind: str = "", decimals: int = 3) 
 
 
 def achieved_table(found: Sequence[Spectra]) -> Table:
-    """Return how the motions lie to the target over the band, a row for each component."""
+    """Return the ratios of the motions to the target over the band, a row per component."""
     return Table(
-        caption="Achieved over target, 0.3 to 33 Hz in 1/12 octaves",
+        caption="Achieved / target, 0.3 to 33 Hz in 1/12 octaves",
         columns=(
             TableColumn(head="Component", align="left", share=1.7),
             TableColumn(head="Motions", share=0.9),
-            TableColumn(head="Mean of motions", unit="least", share=0.9),
-            TableColumn(head="Mean of motions", unit="largest", share=0.9),
-            TableColumn(head="Mean below 1.3 Hz", unit="least", share=0.9),
-            TableColumn(head="Mean below 1.3 Hz", unit="largest", share=0.9),
-            TableColumn(head="Single motion", unit="least", share=0.7),
-            TableColumn(head="Single motion", unit="of, at", align="left", share=1.6),
-            TableColumn(head="Single motion", unit="largest", share=0.7),
-            TableColumn(head="Single motion", unit="of, at", align="left", share=1.6),
+            TableColumn(head="Mean of motions", unit="min.", share=0.9),
+            TableColumn(head="Mean of motions", unit="max.", share=0.9),
+            TableColumn(head="Mean below 1.3 Hz", unit="min.", share=0.9),
+            TableColumn(head="Mean below 1.3 Hz", unit="max.", share=0.9),
+            TableColumn(head="Single motion", unit="min.", share=0.7),
+            TableColumn(head="Single motion", unit="motion, T", align="left", share=1.6),
+            TableColumn(head="Single motion", unit="max.", share=0.7),
+            TableColumn(head="Single motion", unit="motion, T", align="left", share=1.6),
         ),
         rows=tuple(_achieved(part) for part in found if part.in_band.any()),
         kind="compact",
@@ -267,7 +268,7 @@ def _extreme(values: Floats, fold: Callable[[Floats], float]) -> str:
 
 
 def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
-    """Return one ratio, and which motion has it at which period."""
+    """Return one ratio, with the motion and the period at which it occurs."""
     motion, period = np.unravel_index(at, each.shape)
     return (
         number(float(each[motion, period]), 2),
@@ -276,17 +277,17 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
 
 
 def target_words(package: PackageData) -> Sequence[str]:
-    """Return which spectra the motions are held against, a sentence each."""
+    """Return the target spectra of the motions, a sentence each."""
     goals, tail = package.assessment.targets, Tail(package.data.target.tail)
     roof = (
-        "the project's own spectrum (sheet Spectrum of the workbook), which replaces that of AC156"
+        "the project-specific spectrum (workbook sheet Spectrum), which replaces that of AC156"
         if goals.roof.name == OWN
         else Markup("AC156 required response spectrum, corners in {}; {}").format(
             package.part("method"), symbol("A_FLX").join(map(escape, tail.sentence.split("A_FLX")))
         )
     )
     texts: list[str] = [
-        Markup("Target at the roof: {}. Sliding is driven by long periods.").format(roof)
+        Markup("Target at the roof: {}. Sliding is governed by long periods.").format(roof)
     ]
     if has_ground(package):
         texts.append(_GROUND.get(goals.ground.name, _GROUND[""]))
@@ -294,18 +295,18 @@ def target_words(package: PackageData) -> Sequence[str]:
 
 
 _GROUND = {
-    OWN: "Target of ground motions: the project's own spectrum (sheet Spectrum of the workbook).",
+    OWN: "Target of ground motions: the project-specific spectrum (workbook sheet Spectrum).",
     "": "Ground motions have no target: the workbook gives neither a spectrum nor S_1, F_v and "
     "T_L for the design spectrum of ASCE 7.",
-    "ASCE 7 design spectrum": "Target of ground motions: the design response spectrum of ASCE 7, "
-    "11.4.6, of two periods.",
+    "ASCE 7 design spectrum": "Target of ground motions: the two-period design response spectrum "
+    "of ASCE 7, 11.4.6.",
 }
 
 
 def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
-    """Return what is to be known of the reading of records, each once for a motion."""
-    said = (f"Motion {row.motion_id}: {note}" for row in records for note in row.notes)
-    return tuple(dict.fromkeys(f"{text.rstrip('.')}." for text in said))
+    """Return the notes from reading the records, without repetition within a motion."""
+    notes = (f"Motion {row.motion_id}: {note}" for row in records for note in row.notes)
+    return tuple(dict.fromkeys(f"{text.rstrip('.')}." for text in notes))
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:

@@ -1,6 +1,6 @@
-"""What pages are made of: tables, pictures, formula lines; and how values are put in words.
+"""Elements of a page: tables, pictures, equation lines; and the formatting of values.
 
-Templates place these and nothing else. Owns no content: see the other `report.pages` modules.
+Templates print these and nothing else. Owns no content: see the other `report.pages` modules.
 """
 
 from __future__ import annotations
@@ -13,17 +13,24 @@ from itertools import groupby
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
 from report.sheet.schema import Direction, ProjectInput
 from report.typeset.equations import formula
 from report.words.units import Quantity, Unit, measured, number, pair
 from solver.model import DefectError
-from solver.rules.provisions import SEPARATION_KEYS, Basis, Check, Measure, Provision
+from solver.rules.provisions import (
+    SEPARATION_KEYS,
+    Basis,
+    Check,
+    Measure,
+    PrescriptiveBasis,
+    Provision,
+)
 
 NO_VALUE = "no value"
-WHOLE_ROWS = 24  # longer tables may go on over the page, with their heads repeated
+WHOLE_ROWS = 24  # longer tables may break across pages, with the heading repeated
 OK, NG = "OK", "NG"
 
 
@@ -44,7 +51,7 @@ class TableColumn:
 
 @dataclass(frozen=True, slots=True)
 class Wide:
-    """A cell over several columns, set from the left."""
+    """A cell that spans several columns, left-aligned."""
 
     text: str
     span: int
@@ -52,7 +59,7 @@ class Wide:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableRow:
-    """A row of finished strings; `kind` is a style: total, counts or empty."""
+    """A row of formatted strings; `kind` is a style: total, counts or empty."""
 
     cells: tuple[str | Wide, ...]
     kind: str = ""
@@ -60,7 +67,7 @@ class TableRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table:
-    """A table with its caption; heads of neighbors that read the same are joined."""
+    """A table with its caption; equal headings of adjacent columns are merged."""
 
     caption: str
     columns: tuple[TableColumn, ...]
@@ -70,28 +77,28 @@ class Table:
 
     @property
     def heads(self) -> tuple[tuple[str, int, str, str], ...]:
-        """Headings with how many columns each spans, their alignment and width."""
-        groups = [list(found) for _, found in groupby(self.columns, key=lambda c: c.head)]
+        """Headings, with number of columns spanned, alignment and width."""
+        groups = [list(group) for _, group in groupby(self.columns, key=lambda c: c.head)]
         whole = sum(column.share for column in self.columns)
         return tuple(
             (
-                found[0].head,
-                len(found),
-                "center" if len(found) > 1 else found[0].align,
-                f"{100.0 * sum(column.share for column in found) / whole:.2f}%",
+                group[0].head,
+                len(group),
+                "center" if len(group) > 1 else group[0].align,
+                f"{100.0 * sum(column.share for column in group) / whole:.2f}%",
             )
-            for found in groups
+            for group in groups
         )
 
     @property
     def body(self) -> tuple[tuple[str, tuple[tuple[str, str, int, str], ...]], ...]:
-        """Rows as style and cells: text, marks behind it, columns spanned, alignment."""
+        """Rows as style and cells: text, marks after it, columns spanned, alignment."""
         aligns = [column.align for column in self.columns]
         return tuple((row.kind, tuple(_placed(row.cells, aligns))) for row in self.rows)
 
     @property
     def hold(self) -> str:
-        """Whether the table is short enough to stay on one page, as a style."""
+        """Style that keeps a short table on one page and lets a long one break."""
         return "whole" if len(self.rows) <= WHOLE_ROWS else "split"
 
     @property
@@ -109,7 +116,7 @@ def _placed(
             yield cell.text, "", cell.span, "left"
             at += cell.span
             continue
-        # Behind a numeral marks hang, so that the digits stay below each other.
+        # Marks after a number hang outside the column, so that the digits stay aligned.
         text = cell.rstrip("†‡") if aligns[at] == "right" else cell
         yield text, cell[len(text) :], 1, aligns[at]
         at += 1
@@ -119,7 +126,7 @@ def _placed(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Picture:
-    """A figure: address, caption and what it shows in words."""
+    """A figure: SVG, caption and alternative text."""
 
     svg: str
     caption: str
@@ -127,15 +134,15 @@ class Picture:
 
     @property
     def src(self) -> str:
-        """Its address."""
+        """Its `data:` address."""
         return data_uri(self.svg)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """A step of the calculation: formula, where it comes from, numbers put in with results.
+    """A step of the calculation: equation, source, substituted numbers with results.
 
-    The formula is drawn where the line is placed, by the process that draws.
+    The equation is rendered by the template, in the process that draws.
     """
 
     latex: str
@@ -145,14 +152,14 @@ class Line:
 
     @property
     def src(self) -> str:
-        """Address of the formula."""
+        """`data:` address of the equation."""
         return data_uri(formula(self.latex).svg)
 
     @property
     def size(self) -> str:
         """Its size on the page, as a style."""
-        found = formula(self.latex)
-        return f"width: {found.width_pt:.2f}pt; height: {found.height_pt:.2f}pt"
+        image = formula(self.latex)
+        return f"width: {image.width_pt:.2f}pt; height: {image.height_pt:.2f}pt"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -166,13 +173,13 @@ class Part:
 
     @property
     def set(self) -> str:
-        """How the contents set the parts below, as a style."""
+        """Style of the list of its parts in the table of contents."""
         return "many" if len(self.parts) > 6 else "few"
 
 
 @dataclass(frozen=True, slots=True)
 class UnitFormat:
-    """Puts values into words, the wanted system of units first."""
+    """Formats values, the preferred system of units first."""
 
     us_first: bool
 
@@ -190,7 +197,7 @@ class UnitFormat:
         return measured(value_si, first) + mark, measured(value_si, second) + mark
 
     def units(self, quantity: Quantity = Quantity.DISPLACEMENT) -> tuple[Unit, Unit]:
-        """Return the units of a quantity in order."""
+        """Return the units of a quantity, the preferred one first."""
         return (quantity.us, quantity.si) if self.us_first else (quantity.si, quantity.us)
 
     def columns(
@@ -205,28 +212,28 @@ class UnitFormat:
 
 
 def nan_is_worst(value: float) -> float:
-    """Return a value to sort by: NaN over all."""
+    """Return a sort key in which NaN is the largest."""
     return math.inf if math.isnan(value) else value
 
 
 def statistic(basis: Basis) -> str:
-    """Return the way from peaks to one value, in words."""
+    """Return the statistic of the peaks, in words."""
     return basis.value.replace(" x ", " × ")
 
 
 def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
-    """Return OK or NG, the latter not to be overlooked."""
+    """Return OK, or NG highlighted."""
     good, bad = words
     return Markup('<b class="{}">{}</b>').format(*(("ok", good) if ok else ("ng", bad)))
 
 
 def dagger(provision: Provision) -> str:
-    """Return the marks of a number: unverified, overridden."""
+    """Return the marks of a number: † unverified, ‡ overridden."""
     return ("" if provision.verified else "†") + ("‡" if provision.reason else "")
 
 
 def check_value(check: Check, value: float, fmt: UnitFormat) -> str:
-    """Return a number of a check in its measure."""
+    """Return a number of a check with the units of its measure."""
     match check.measure:
         case Measure.ANGLE_DEG:
             percent = 100.0 * math.tan(math.radians(value))
@@ -241,13 +248,13 @@ def check_value(check: Check, value: float, fmt: UnitFormat) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PackageData:
-    """All that the pages are made from."""
+    """Everything that the pages are made from."""
 
     assessment: Assessment
     numbers: Mapping[str, str]
 
     def part(self, name: str) -> str:
-        """Return how the text calls a part."""
+        """Return the reference to a part, as in `part 6`."""
         number = self.numbers[name]
         return f"part {number}" if number.isdigit() else f"appendix {number}"
 
@@ -258,7 +265,7 @@ class PackageData:
 
     @property
     def fmt(self) -> UnitFormat:
-        """How values are put into words."""
+        """Format of values."""
         return UnitFormat(us_first=self.data.project.units_first == "US")
 
     def mark(self, key: str) -> str:
@@ -277,13 +284,14 @@ class PackageData:
     def prescriptive_key(self, found: ArrayAssessment) -> str:
         """Return which provision the prescriptive displacement comes from."""
         return {
-            "formula": "prescriptive_factor_in",
-            "minimum": "prescriptive_minimum_in",
-        }.get(found.prescriptive.governs, "prescriptive_low_sdc_in")
+            PrescriptiveBasis.FORMULA: "prescriptive_factor_in",
+            PrescriptiveBasis.MINIMUM: "prescriptive_minimum_in",
+            PrescriptiveBasis.LOW_CATEGORY: "prescriptive_low_sdc_in",
+        }[found.prescriptive.governs]
 
     def design_mark(self, found: ArrayAssessment) -> str:
         """Return the marks of a design displacement."""
-        key = "analysis_floor" if found.governs == "floor" else "analysis_factor"
+        key = "analysis_floor" if found.governs is DesignBasis.FLOOR else "analysis_factor"
         return "" if math.isnan(found.design_m) else self.mark(key)
 
     def towards_mark(self, found: ArrayAssessment, direction: Direction) -> str:
@@ -293,12 +301,12 @@ class PackageData:
         return "" if math.isnan(value) else self.mark(key)
 
     def separation_mark(self, gap: ClearanceCheck) -> str:
-        """Return the marks of what a required separation is taken from."""
+        """Return the marks of the provision that gives a required separation."""
         key = SEPARATION_KEYS[gap.neighbor]
         return self.mark("separation_edge_min_in" if gap.is_least_value else key)
 
 
 def shortened(text: str, most: int) -> str:
-    """Return a text cut to a length for places that cannot grow."""
+    """Return a text truncated to a length, for places of fixed size."""
     text = " ".join(text.split())
     return text if len(text) <= most else text[: most - 1].rstrip() + "…"

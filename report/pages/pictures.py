@@ -1,6 +1,6 @@
 """The pictures of the package.
 
-Says what each picture is called; `report.figures` draws it.
+Gives each picture its caption; `report.figures` draws it.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
 
-PANELS, CHART_ROWS = 12, 16  # most that one figure holds: it must fit on a page
+PANELS, CHART_ROWS = 12, 16  # maximum in one figure: it must fit on a page
 Pictures = Mapping[str, Sequence[Picture]]
 
 
 def load_charts() -> None:
-    """Load what draws, which takes its time, and the fonts."""
+    """Load the plotting library, which is slow, and the fonts."""
     from report.figures.base import load_fonts
 
     load_fonts(TEMPLATES / "fonts")
 
 
 def draw_assessment(package: PackageData) -> Pictures:
-    """Return the pictures that need no evidence, by the id of the part that they belong to."""
+    """Return the pictures that need no evidence, by the id of their part."""
     from report.figures import charts as figures
 
     load_charts()
@@ -36,8 +36,8 @@ def draw_assessment(package: PackageData) -> Pictures:
         "inputs-plan": [
             Picture(
                 svg=figures.roof_plan(package.data, us_first),
-                caption="Roof plan to scale: arrays with their fall and slope, objects, roof "
-                f"edges, and the clearances by their numbers in {package.part('clearances')}.",
+                caption="Roof plan to scale: arrays with downslope direction and slope, objects, "
+                f"roof edges, and clearances, numbered as in {package.part('clearances')}.",
                 alt="Roof plan with arrays, objects, edges and clearances",
             )
         ],
@@ -55,7 +55,7 @@ def draw_assessment(package: PackageData) -> Pictures:
                 svg=figures.clearances(
                     assessment.clearances[at : at + CHART_ROWS], us_first, start=at + 1
                 ),
-                caption="Required against provided separation.",
+                caption="Required and provided separation.",
                 alt="Chart of required and provided separations",
             )
             for at in range(0, len(assessment.clearances), CHART_ROWS)
@@ -64,7 +64,7 @@ def draw_assessment(package: PackageData) -> Pictures:
 
 
 def draw_evidence(package: PackageData, found: Evidence) -> Pictures:
-    """Return the other pictures, by the id of the part that they belong to."""
+    """Return the other pictures, by the id of their part."""
     from report.figures import charts as figures
 
     us_first = package.fmt.us_first
@@ -103,12 +103,16 @@ def _histories(
     from report.figures.charts import histories
 
     two = any(m.governing.has_across for m in found.motions)
-    lines = ": blue down the slope, orange across it, to the left" if two else ", down the slope"
+    lines = (
+        ": downslope (blue) and cross-slope, positive to the left (orange)"
+        if two
+        else ", downslope"
+    )
     for start in range(0, len(found.motions), PANELS):
         here = slice(start, start + PANELS)
         yield Picture(
             svg=histories(found.motions[here], followed[here], us_first),
-            caption=f"Array {found.array.id}: displacement relative to the roof in the run that "
-            f"counts{lines}. Dot: when the PRD, the largest distance in plan, is reached.",
+            caption=f"Array {found.array.id}: displacement relative to the roof in the "
+            f"governing run{lines}. Dot: time of the PRD, the largest distance in plan.",
             alt=f"Relative displacement histories of array {found.array.id}",
         )

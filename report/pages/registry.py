@@ -1,6 +1,6 @@
-"""The pages of the package in order: what each is called, what fills it, and its template.
+"""The pages of the package in order: title, function that fills it, template.
 
-A page is added here, with the function that fills it; where it is tables and texts alone it needs
+To add a page, add it here with the function that fills it; a page of tables and texts only needs
 no template of its own. Parts refer to each other by id (`PackageData.part`). Read `PAGES`.
 """
 
@@ -40,15 +40,15 @@ class Page:
     Attributes
     ----------
     id, title : str
-        Its address and name within the package, and that of its content in the template.
+        Anchor and heading in the package; the id is also the name of the content in the template.
     fill : callable
-        Returns what the template places.
+        Returns the content for the template.
     below : callable
         Returns the ids and titles of the parts below it.
     template : str
-        `plain.html` places `texts` and `tables`.
+        `plain.html` prints `texts` and `tables`.
     is_appendix : bool
-        Numbered by letters.
+        Whether it is an appendix, numbered by a letter.
     """
 
     id: str
@@ -153,7 +153,7 @@ PAGES = (
 
 
 def package_data(assessment: Assessment) -> PackageData:
-    """Return an assessment with the number of each part."""
+    """Return an assessment with the part numbers."""
     return PackageData(assessment=assessment, numbers=_numbers(PAGES))
 
 

@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.project import run_warnings
 from report.assessment.runs import MotionRun
 from report.pages.checks import check_table
 from report.pages.parts import NO_VALUE, PackageData, Table, TableColumn, TableRow, Wide, statistic
@@ -37,16 +38,11 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 
 def array_results(package: PackageData, found: ArrayAssessment) -> Mapping[str, object]:
-    """Return the table of one array and the lines above and below it."""
-    troubles = [
-        text
-        for text in package.assessment.warnings
-        if text.casefold().startswith(f"array {found.array.id},".casefold())
-    ]
+    """Return the table of one array and the texts above and below it."""
     return {
         "table": _peaks(package, found),
         "facts": f"{_facts(found)} {_spread(found)}".rstrip(),
-        "troubles": troubles,
+        "troubles": run_warnings(found),
     }
 
 
@@ -60,15 +56,15 @@ def _facts(found: ArrayAssessment) -> str:
 
 
 def _spread(found: ArrayAssessment) -> str:
-    """Return which motions lie farthest from the mean; nothing where there is no mean."""
+    """Return the motions farthest from the mean; nothing where there is no mean."""
     if not found.analysis.mean_m > 0.0:
         return ""
     ordered = sorted(found.motions, key=lambda run: run.governing.result.prd_m)
     least, most = ordered[0], ordered[-1]
     return (
         f"Motion {most.motion.id} ({most.governing.heading.name}) governs with "
-        f"{_over_mean(found, most)} of the mean PRD; the least is {least.motion.id} with "
-        f"{_over_mean(found, least)}. Coefficient of variation {number(found.variation, 2)}."
+        f"{_over_mean(found, most)} times the mean PRD; the smallest is {least.motion.id} with "
+        f"{_over_mean(found, least)} times. Coefficient of variation {number(found.variation, 2)}."
     )
 
 
@@ -81,14 +77,17 @@ def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
     fmt, headings = package.fmt, _headings(found)
     first = fmt.units()[0].symbol
     return Table(
-        caption=f"Array {found.array.id}: every motion in every run",
+        caption=f"Array {found.array.id}: PRD of every motion in every run",
         columns=(
             TableColumn(head="Motion", align="left", share=1.1),
-            *(TableColumn(head="PRD of each run", unit=_short(heading)) for heading in headings),
-            *fmt.columns("PRD that counts"),
-            *(TableColumn(head=f"Farthest of all runs, {first}", unit=d.value) for d in _WAYS),
-            *(TableColumn(head=f"Ends at, {first}", unit=way) for way in ("down", "across")),
-            TableColumn(head="t PRD", unit="s", share=0.9),
+            *(
+                TableColumn(head=f"PRD of each run, {first}", unit=_short(heading))
+                for heading in headings
+            ),
+            *fmt.columns("Governing PRD"),
+            *(TableColumn(head=f"Largest of all runs, {first}", unit=d.value) for d in _WAYS),
+            *(TableColumn(head=f"Residual, {first}", unit=way) for way in ("down", "across")),
+            TableColumn(head="Time of PRD", unit="s", share=0.9),
             TableColumn(head="N/(m g)", share=1.0),
             TableColumn(head="Status", align="left", share=1.05),
         ),
@@ -97,11 +96,11 @@ def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
             *_statistics(package, found, len(headings)),
         ),
         notes=(
-            f"{_meaning(headings)}; bold what counts. PRD is the largest distance from the start "
-            "in plan, relative to the roof. Farthest: down the slope, up and across, the largest "
-            "of all runs; clearances follow from these. The columns behind belong to the run that "
-            "counts; N/(m g) is the least. The file results.xlsx has every run in both systems of "
-            "units.",
+            f"{_meaning(headings)}; bold: the governing run. PRD is the largest distance in plan "
+            "from the starting position, relative to the roof. Largest of all runs: downslope, "
+            "upslope and cross-slope; clearances are based on these. The columns to the right "
+            "belong to the governing run; N/(m g) is its minimum. The file results.xlsx has every "
+            "run in both systems of units.",
             *_stand_in(package, found),
         ),
         kind="compact",
@@ -109,12 +108,12 @@ def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
 
 
 def _stand_in(package: PackageData, found: ArrayAssessment) -> Sequence[str]:
-    """Return that the PRD stands for motion across, where it does."""
+    """Return that the PRD is used as the cross-slope displacement, where it is."""
     runs = [run for motion in found.motions for run in motion.runs]
     if all(run.has_across for run in runs):
         return ()
     part = package.part("model")
-    return (f"Where a run has one axis alone ({part}), its PRD stands for the motion across.",)
+    return (f"For a run in one axis ({part}), its PRD is used as the cross-slope displacement.",)
 
 
 def _headings(found: ArrayAssessment) -> tuple[Heading, ...]:
@@ -128,9 +127,9 @@ def _short(heading: Heading) -> str:
 
 
 def _meaning(headings: Sequence[Heading]) -> str:
-    """Return what the runs are, in words."""
-    two = ", transv. the transverse component" if any(h.swapped for h in headings) else ""
-    return f"Rec.: the horizontal record along the slope{two}; − reversed"
+    """Return the meaning of the run headings."""
+    two = "; transv.: the transverse component" if any(h.swapped for h in headings) else ""
+    return f"Rec.: the horizontal record along the slope{two}; −: reversed"
 
 
 def _motion_row(
@@ -165,10 +164,10 @@ def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequ
     factor = rules.values["analysis_factor"].clause + package.mark("analysis_factor")
     floor = rules.values["analysis_floor"].clause + package.mark("analysis_floor")
     ways = [found.directions[direction] for direction in _WAYS]
-    towards = [found.design_towards_m(direction) for direction in _WAYS]
+    toward = [found.design_towards_m(direction) for direction in _WAYS]
     lines: tuple[tuple[str, float, str, str, list[float]], ...] = (
-        ("Mean", analysis.mean_m, "", "over the motions", [way.mean_m for way in ways]),
-        ("Largest", analysis.largest_m, "", "over the motions", [way.largest_m for way in ways]),
+        ("Mean", analysis.mean_m, "", "of the motions", [way.mean_m for way in ways]),
+        ("Largest", analysis.largest_m, "", "of the motions", [way.largest_m for way in ways]),
         (
             f"Analysis: {statistic(analysis.basis)}, {factor}",
             analysis.value_m,
@@ -188,7 +187,7 @@ def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequ
             found.design_m,
             package.design_mark(found),
             f"governed by: {found.governs}",
-            towards,
+            toward,
         ),
     )
     return [
@@ -207,7 +206,7 @@ def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequ
 
 def _floor_words(package: PackageData, clause: str) -> str:
     if package.data.options.peer_reviewed:
-        return "none, the analysis being peer reviewed"
+        return "none; the analysis is peer reviewed"
     share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
     return f"{share} % of the prescriptive displacement, {clause}"
 
@@ -222,7 +221,7 @@ def comparison(package: PackageData) -> Mapping[str, object]:
     return {
         "table": _ratios(package),
         "routes": check_table(
-            "Whether the prescriptive route is open", package, checks, ("kept", "not kept")
+            "Limits of the prescriptive route", package, checks, ("satisfied", "not satisfied")
         ),
         "sentences": tuple(_sentence(package, found) for found in package.assessment.arrays),
     }
@@ -231,7 +230,7 @@ def comparison(package: PackageData) -> Mapping[str, object]:
 def _ratios(package: PackageData) -> Table:
     fmt = package.fmt
     return Table(
-        caption="Displacement by analysis against the prescriptive displacement",
+        caption="Displacement by analysis and prescriptive displacement",
         columns=(
             TableColumn(head="Array", align="left", share=1.1),
             *fmt.columns("Prescriptive"),
@@ -270,32 +269,36 @@ def _ratio_row(package: PackageData, found: ArrayAssessment) -> TableRow:
 def _sentence(package: PackageData, found: ArrayAssessment) -> str:
     failed = [check.title for check in found.prescriptive_checks if not check.ok]
     route = (
-        f"the prescriptive route is not open ({'; '.join(failed)})"
+        f"the prescriptive route is not permitted ({'; '.join(failed)})"
         if failed
-        else "the prescriptive route is open as well"
+        else "the prescriptive route is also permitted"
     )
     if math.isnan(found.design_m):
-        return f"Array {found.array.id}: no value from analysis, {route}."
+        return f"Array {found.array.id}: no value from analysis; {route}."
     if package.data.options.peer_reviewed:
-        floor = "no floor applies, the analysis being peer reviewed"
+        floor = "no floor applies because the analysis is peer reviewed"
     else:
         share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
         floor = (
             f"the floor of {share} % of the prescriptive value"
             f"{package.mark('analysis_floor')} "
-            f"{'governs' if found.governs == 'floor' else 'does not govern'}"
+            f"{'governs' if found.governs is DesignBasis.FLOOR else 'does not govern'}"
         )
     return f"Array {found.array.id}: {_exceeds(package, found)}{floor}; {route}."
 
 
 def _exceeds(package: PackageData, found: ArrayAssessment) -> str:
-    """Return where the analysis is above the prescriptive value; it governs then all the same."""
+    """Return where the analysis exceeds the prescriptive value; it still governs."""
     over = found.analysis.value_m / found.prescriptive.value_m
     peaks = sum(m.governing.result.prd_m > found.prescriptive.value_m for m in found.motions)
     count = f"{peaks} of {len(found.motions)} PRDs"
     if over > 1.0:
         return (
-            f"the analysis gives more than the prescriptive displacement ({number(over, 2)} of "
-            f"it; {count} exceed it) and governs; "
+            f"the displacement by analysis is {number(over, 2)} times the prescriptive "
+            f"displacement ({count} exceed it) and governs; "
         )
-    return f"{count} exceed the prescriptive displacement, the analysis not; " if peaks else ""
+    return (
+        f"{count} exceed the prescriptive displacement, the displacement by analysis does not; "
+        if peaks
+        else ""
+    )

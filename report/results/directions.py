@@ -1,6 +1,6 @@
 """The sheets Peaks and Directions of results.xlsx: from runs to displacements in each direction.
 
-Live formulas, each written with the value that `report.assessment.project` found. Read
+Live formulas, each written with the value computed by `report.assessment.project`. Read
 `report.results.xlsx`.
 """
 
@@ -15,22 +15,18 @@ from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
-from report.results.sheets import METRES_PER_INCH, Pages, write_headings
+from report.results.sheets import DIRECTION_HEADINGS, Pages, write_headings
 from report.sheet.schema import Direction
+from solver.model import INCH_M
 from solver.rules.provisions import Basis
 
 PeakRanges = Mapping[tuple[str, Direction], str]
-"""The cells of the peaks of an array in a direction, one for each motion."""
+"""Cells of the peaks of an array in a direction, one for each motion."""
 
 DirectionCells = Mapping[tuple[str, Direction], str]
-"""The cell of the design displacement of an array, its id case-folded, in a direction."""
+"""Cell of the design displacement of an array (case-folded id) in a direction."""
 
-_RUNS_COLUMNS = {
-    Direction.DOWN: "Down [in]",
-    Direction.UP: "Up [in]",
-    Direction.ACROSS: "Across [in]",
-    Direction.ANY: "PRD [in]",
-}
+_RUNS_COLUMNS = DIRECTION_HEADINGS | {Direction.ANY: "PRD [in]"}
 _DIRECTIONS_HEADINGS = (
     "Array", "Direction", "Mean of peaks [in]", "Largest peak [in]", "Analysis factor",
     "Computed [in]", "Floor [in]", "Design [in]", "Design by Roofslip [in]", "Difference [in]",
@@ -40,10 +36,10 @@ _DIRECTIONS_HEADINGS = (
 def write_peaks(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> PeakRanges:
     """Write the largest excursion of all runs of each motion, by direction; return its cells."""
     sheet = pages.sheet(
-        "Peaks", "Peaks", "The largest of all runs of a motion, by direction, from the sheet Runs."
+        "Peaks", "Peaks", "Largest of all runs of each motion, by direction, from the sheet Runs."
     )
     write_headings(
-        pages, sheet, 3, ("Array", "Motion", *(f"{d.value.capitalize()} [in]" for d in Direction))
+        pages, sheet, 3, ("Array", "Motion", *(DIRECTION_HEADINGS[d] for d in Direction))
     )
     columns = {d: list(runs.columns).index(name) for d, name in _RUNS_COLUMNS.items()}
     row, first, found = 4, 1, {}
@@ -55,7 +51,7 @@ def write_peaks(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> Pea
             sheet.write_string(row, 1, motion.motion.id)
             for column, direction in enumerate(Direction, start=2):
                 cells = _range("Runs", columns[direction], first, last)
-                value = motion.peak_m(direction) / METRES_PER_INCH
+                value = motion.peak_m(direction) / INCH_M
                 if math.isnan(value):
                     sheet.write_string(row, column, "no value")
                 else:
@@ -75,7 +71,7 @@ def write_directions(pages: Pages, assessment: Assessment, peaks: PeakRanges) ->
     sheet = pages.sheet(
         "Directions",
         "Design displacement by direction",
-        "A clearance takes the displacement in its own direction. From the sheets Peaks and "
+        "Each clearance uses the displacement in its own direction. From the sheets Peaks and "
         "Design.",
     )
     write_headings(pages, sheet, 3, _DIRECTIONS_HEADINGS)
@@ -84,7 +80,7 @@ def write_directions(pages: Pages, assessment: Assessment, peaks: PeakRanges) ->
         for direction in Direction:
             found = peaks[item.array.id, direction]
             _write_row(pages, sheet, row, item, direction, found, design_row)
-            cells[item.array.id.casefold(), direction] = f"Directions!$H${row + 1}"
+            cells[item.array.id, direction] = f"Directions!$H${row + 1}"
             row += 1
     return cells
 
@@ -98,7 +94,7 @@ def _write_row(
     peaks: str,
     design_row: int,
 ) -> None:
-    found, inch, r = item.directions[direction], METRES_PER_INCH, row + 1
+    found, inch, r = item.directions[direction], INCH_M, row + 1
     sheet.write_string(row, 0, item.array.id)
     sheet.write_string(row, 1, direction.value)
     if math.isnan(found.value_m):

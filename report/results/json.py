@@ -1,4 +1,4 @@
-"""results.json, and putting finished files in place: all of them or none.
+"""results.json: the assessment in SI units.
 
 Computes nothing: the numbers come from `report.assessment.project`.
 """
@@ -25,7 +25,7 @@ from solver.rules.provisions import Check
 
 
 def results_json(assessment: Assessment) -> bytes:
-    """Return everything as JSON: SI, units in the keys, null where there is no value."""
+    """Return everything as JSON in SI, with units in the keys and null for no value."""
     sheet, shaking, project = assessment.sheet, assessment.shaking, assessment.project
     document = {
         "roofslip_version": version("roofslip"),
@@ -163,7 +163,7 @@ def _clearance(item: ClearanceCheck) -> dict[str, Any]:
         "array": item.clearance.array,
         "object": item.clearance.object,
         "direction": item.clearance.direction,
-        "neighbour": item.neighbour,
+        "neighbor": item.neighbor,
         "governing_array": item.governing_array,
         "governing_direction": item.governing_direction,
         "design_m": item.design_m,
@@ -221,7 +221,7 @@ def _check(check: Check) -> dict[str, Any]:
 
 
 def _nan_to_none(value: Any) -> Any:
-    """Return the document with null for every NaN or infinity: JSON has neither."""
+    """Return the document with null for every NaN or infinity, which JSON does not have."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, Mapping):

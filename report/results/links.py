@@ -1,6 +1,6 @@
-"""The sheets LinkRuns and Links of results.xlsx: rows of linked blocks beside one rigid block.
+"""The sheets LinkRuns and Links of results.xlsx: rows of linked blocks against one rigid block.
 
-Live formulas, each written with the value that `report.assessment.links` found. Read
+Live formulas, each written with the value computed by `report.assessment.links`. Read
 `report.results.xlsx`.
 """
 
@@ -15,8 +15,9 @@ from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
-from report.results.sheets import METRES_PER_INCH, Pages, write_headings
+from report.results.sheets import Pages, write_headings
 from report.words.units import NEWTONS_PER_POUND
+from solver.model import INCH_M
 from solver.rules.provisions import Basis
 from solver.sliding.least_model import DEFAULT
 
@@ -24,28 +25,28 @@ _RIGID, _ROW = "PRD, rigid [in]", "PRD, row [in]"
 _HEADINGS = (
     "Array", "Mean, rigid [in]", "Largest, rigid [in]", "Mean, row [in]", "Largest, row [in]",
     "Analysis factor", "Rigid [in]", "Row [in]", "Ratio", "Computed [in]", "Floor [in]",
-    "Design with links [in]", "Design used [in]", "Within [in]", "Result",
+    "Design with links [in]", "Design used [in]", "Tolerance [in]", "Result",
     "With links by Roofslip [in]", "Difference [in]",
 )  # fmt: skip
 
 
 def link_runs_table(assessment: Assessment) -> pd.DataFrame:
-    """One row for each run of an array that is held against a row of linked blocks."""
+    """One row for each run of an array that is compared with a row of linked blocks."""
     return pd.DataFrame(
         {
             "Array": found.found.array.id,
             "Motion": motion.motion.id,
-            "Along the slope": run.heading.component,
+            "Component along slope": run.heading.component,
             "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
-            _RIGID: run.rigid.prd_m / METRES_PER_INCH,
-            _ROW: run.prd_m / METRES_PER_INCH,
-            "Farthest block": "no value" if math.isnan(run.prd_m) else str(run.block),
-            "PRD of blocks, from the highest down [in]": _listed(run.row.prd_m),
-            "Largest stretch [in]": run.row.stretch_m / METRES_PER_INCH,
+            _RIGID: run.rigid.prd_m / INCH_M,
+            _ROW: run.prd_m / INCH_M,
+            "Block with largest PRD": "no value" if math.isnan(run.prd_m) else str(run.block),
+            "PRD of blocks, from the upslope end [in]": _listed(run.row.prd_m),
+            "Largest link elongation [in]": run.row.stretch_m / INCH_M,
             "Largest link force [lb]": run.row.link_force * found.block_n / NEWTONS_PER_POUND,
-            "Error below [in]": run.row.error_m / METRES_PER_INCH,
+            "Error bound [in]": run.row.error_m / INCH_M,
             "Stops": run.row.n_stops,
-            "Outcome of the row": run.row.status.sentence,
+            "Outcome": run.row.status.sentence,
         }
         for found in assessment.linked
         for motion in found.motions
@@ -56,18 +57,18 @@ def link_runs_table(assessment: Assessment) -> pd.DataFrame:
 def _listed(places_m: tuple[float, ...]) -> str:
     if any(map(math.isnan, places_m)):
         return "no value"
-    return ", ".join(f"{place / METRES_PER_INCH:.2f}" for place in places_m)
+    return ", ".join(f"{place / INCH_M:.2f}" for place in places_m)
 
 
 def write_links(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> None:
-    """Write for each array what links change in its design displacement, from the sheet LinkRuns.
+    """Write the effect of links on the design displacement of each array, from the sheet LinkRuns.
 
-    The peaks of the motions stand below the arrays.
+    The peaks of the motions are below the arrays.
     """
     sheet = pages.sheet(
         "Links",
         "Rows of linked blocks",
-        "From the sheets LinkRuns and Design. Ratio: row / rigid, in one axis. Design with links: "
+        "From the sheets LinkRuns and Design. Ratio: row / rigid, one axis. Design with links: "
         "max(max(1, ratio) x computed, floor).",
     )
     write_headings(pages, sheet, 3, _HEADINGS)
@@ -95,7 +96,7 @@ def _write_peaks(
                 (2, 3), columns, (motion.rigid_m, motion.linked_m), strict=True
             ):
                 cells = f"LinkRuns!{_range(column, first, last)}"
-                _write(pages, sheet, row, to, f"=MAX({cells})", value / METRES_PER_INCH)
+                _write(pages, sheet, row, to, f"=MAX({cells})", value / INCH_M)
             row, first = row + 1, last + 1
         yield _range(2, top, row - 1), _range(3, top, row - 1)
 
@@ -112,7 +113,7 @@ def _write_row(
     peaks: tuple[str, str],
     design_row: int,
 ) -> None:
-    inch, r, d = METRES_PER_INCH, row + 1, design_row
+    inch, r, d = INCH_M, row + 1, design_row
     rigid, linked, design, estimated = found.rigid, found.linked, found.found, found.estimated_m
     sheet.write_string(row, 0, design.array.id)
     if not math.isfinite(estimated):
@@ -135,7 +136,7 @@ def _write_row(
         (10, f"=Design!M{d}", design.floor_m / inch),
         (11, f"=MAX(MAX(1,I{r})*J{r},K{r})", estimated / inch),
         (12, f"=Design!N{d}", design.design_m / inch),
-        (13, f"=MAX({DEFAULT.matters_m}/0.0254,{DEFAULT.matters_share}*M{r})", bound / inch),
+        (13, f"=MAX({DEFAULT.matters_m}/{INCH_M},{DEFAULT.matters_share}*M{r})", bound / inch),
         (16, f"=L{r}-P{r}", 0.0),
     ):
         _write(pages, sheet, row, column, formula, value, 4 if column == 16 else 3)
@@ -148,9 +149,9 @@ def _write_row(
 
 
 def _computed(found: LinkedArray, design_row: int) -> str:
-    """Return the value from analysis: a number where it is not that of the design."""
+    """Return the value from analysis, as a number if it differs from the value for design."""
     is_used = found.value_m == found.found.analysis.value_m
-    return f"=Design!K{design_row}" if is_used else f"={found.value_m / METRES_PER_INCH!r}"
+    return f"=Design!K{design_row}" if is_used else f"={found.value_m / INCH_M!r}"
 
 
 def _write(

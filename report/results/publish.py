@@ -1,4 +1,4 @@
-"""Puts finished files into a folder: all of them or none."""
+"""Writes finished files to a folder: all of them or none."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from solver.model import InputError
 
 
 def publish(files: Mapping[str, bytes], folder: Path) -> None:
-    """Put files into a folder, all of them or none; what was there stays until then.
+    """Write files to a folder, all of them or none; existing files stay until all are ready.
 
-    A name may lead into a folder below.
+    A name may include a subfolder.
 
     Raises
     ------
     InputError
-        If the folder or a file in it cannot be written, with what would do.
+        If the folder or a file in it cannot be written.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -36,7 +36,7 @@ def publish(files: Mapping[str, bytes], folder: Path) -> None:
 
 
 def _stage(files: Mapping[str, bytes], folder: Path, staging: Path) -> None:
-    """Write the new files, and copies of the old ones to go back to."""
+    """Write the new files, and backup copies of the old ones."""
     try:
         for name, content in files.items():
             (staging / name).parent.mkdir(parents=True, exist_ok=True)
@@ -46,8 +46,8 @@ def _stage(files: Mapping[str, bytes], folder: Path, staging: Path) -> None:
                 shutil.copy2(folder / name, staging / f"{name}.old")
     except OSError as error:
         raise InputError(
-            f"{folder}: cannot be written ({error.strerror}); make room or choose another folder "
-            "with --out"
+            f"{folder}: cannot be written ({error.strerror}); free disk space, or choose another "
+            "folder with --out"
         ) from error
 
 
@@ -60,8 +60,8 @@ def _replace_all(files: Mapping[str, bytes], folder: Path, staging: Path) -> Non
             for earlier in done:
                 _put_back(earlier, folder, staging)
             raise InputError(
-                f"{folder / name}: cannot be replaced ({error.strerror}); close it where it is "
-                "open, or choose another folder with --out. Nothing was changed"
+                f"{folder / name}: cannot be replaced ({error.strerror}); close it in other "
+                "programs, or choose another folder with --out. No file was changed"
             ) from error
         done.append(name)
 

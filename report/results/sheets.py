@@ -1,4 +1,4 @@
-"""What the sheets of results.xlsx share: formats, titles, headings.
+"""Shared by the sheets of results.xlsx: formats, titles, headings.
 
 Owns no content: see `report.results.xlsx`.
 """
@@ -8,7 +8,15 @@ from __future__ import annotations
 from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
-METRES_PER_INCH = 0.0254
+from report.sheet.schema import Direction
+
+DIRECTION_HEADINGS = {
+    Direction.DOWN: "Downslope [in]",
+    Direction.UP: "Upslope [in]",
+    Direction.ACROSS: "Cross-slope [in]",
+    Direction.ANY: "Any direction [in]",
+}
+"""Headings of displacements by direction."""
 
 
 class Pages:
@@ -36,7 +44,7 @@ class Pages:
 
 
 def write_headings(pages: Pages, sheet: Worksheet, row: int, headings: tuple[str, ...]) -> None:
-    """Write a row of headings that stays in view."""
+    """Write a row of headings and freeze it."""
     for column, heading in enumerate(headings):
         sheet.write_string(row, column, heading, pages.head)
     sheet.set_row(row, 48)

@@ -1,7 +1,7 @@
 """results.xlsx: the tables, and live formulas from the peaks to the separations.
 
-Computes nothing of its own: each formula is written with the value that `report.assessment.project`
-found, and beside it that value as a number, so that a checker can follow, change and compare.
+Computes nothing: each formula is written with the value from `report.assessment.project`, and that
+value is repeated beside it as a number, so that a checker can trace, change and compare it.
 """
 
 from __future__ import annotations
@@ -23,16 +23,17 @@ from report.assessment.spectra import Spectra
 from report.motions.prepare import Shaking
 from report.results.directions import DirectionCells, PeakRanges, write_directions, write_peaks
 from report.results.links import link_runs_table, write_links
-from report.results.sheets import METRES_PER_INCH, Pages, write_headings
+from report.results.sheets import DIRECTION_HEADINGS, Pages, write_headings
 from report.sheet.schema import Direction
 from report.words.units import G_MPS2
-from solver.rules.provisions import Basis
+from solver.model import INCH_M
+from solver.rules.provisions import Basis, PrescriptiveBasis
 
 
 def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     """Return the tables as a workbook, with live formulas from the peaks to the separations."""
     buffer = io.BytesIO()
-    # Text from a stranger's workbook stays text, whatever it begins with.
+    # Text from an untrusted workbook stays text, even if it starts with =.
     options = {"strings_to_formulas": False, "strings_to_urls": False, "nan_inf_to_errors": True}
     with pd.ExcelWriter(buffer, engine="xlsxwriter", engine_kwargs={"options": options}) as writer:
         workbook: Workbook = writer.book
@@ -53,7 +54,7 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
             write_links(pages, assessment, link_runs)
         _write_clearances(pages, assessment, write_directions(pages, assessment, peaks))
         workbook.set_calc_mode("auto")
-        # Two runs give the same bytes: the date is the project's, not the clock's.
+        # Two runs give the same bytes: the date is that of the project, not the current date.
         workbook.set_properties(
             {"created": dt.datetime.combine(assessment.project.project.date, dt.time())}
         )
@@ -66,29 +67,29 @@ def _runs_table(assessment: Assessment) -> pd.DataFrame:
         {
             "Array": item.array.id,
             "Motion": motion.motion.id,
-            "Along the slope": run.heading.component,
+            "Component along slope": run.heading.component,
             "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
             "Governs": "yes" if run is motion.governing else "",
             "Scale": motion.motion.scale,
-            "PRD [in]": run.result.prd_m / METRES_PER_INCH,
+            "PRD [in]": run.result.prd_m / INCH_M,
             "PRD [mm]": run.result.prd_m * 1e3,
             "PRD / mean": _over(run.result.prd_m, item.analysis.mean_m),
-            "Residual [in]": run.result.residual_m / METRES_PER_INCH,
+            "Residual [in]": run.result.residual_m / INCH_M,
             "Residual [mm]": run.result.residual_m * 1e3,
-            "Residual across [in]": run.result.residual_across_m / METRES_PER_INCH,
+            "Residual cross-slope [in]": run.result.residual_across_m / INCH_M,
             **{
-                f"{direction.value.capitalize()} [in]": run.excursion_m(direction) / METRES_PER_INCH
+                DIRECTION_HEADINGS[direction]: run.excursion_m(direction) / INCH_M
                 for direction in (Direction.DOWN, Direction.UP, Direction.ACROSS)
             },
             "Time of PRD [s]": run.result.t_prd_s,
             "Stops": run.result.n_stops,
-            "Least N/(m g)": run.result.n_min_g,
+            "Minimum N/(m g)": run.result.n_min_g,
             "Friction demand": run.solution.friction_demand,
             "Model": f"{int(run.solution.rung)}, {run.solution.rung.title}",
-            "Why": run.solution.reason,
+            "Reason": run.solution.reason,
             "Next model": f"{int(run.solution.next_rung)}, {run.solution.next_rung.title}",
-            "It would change [in]": run.solution.next_effect_m / METRES_PER_INCH,
-            "Error below [in]": run.result.error_m / METRES_PER_INCH,
+            "Effect of next model [in]": run.solution.next_effect_m / INCH_M,
+            "Error bound [in]": run.result.error_m / INCH_M,
             "Outcome": run.result.status.sentence,
         }
         for item in assessment.arrays
@@ -118,7 +119,7 @@ def _records_table(shaking: Shaking) -> pd.DataFrame:
 
 
 def _motions_table(shaking: Shaking) -> pd.DataFrame:
-    """One row for each component of a motion, processed and scaled, where it was recorded."""
+    """One row for each component of a motion, processed and scaled, at the recording level."""
     return pd.DataFrame(
         {
             "Motion": motion.id,
@@ -141,7 +142,7 @@ def _motions_table(shaking: Shaking) -> pd.DataFrame:
 
 
 def _spectra_table(found: Sequence[Spectra]) -> pd.DataFrame:
-    """One row for each period; targets and motions as columns, component by component."""
+    """One row for each period; targets and motions in columns, by component."""
     columns = {"Period [s]": found[0].periods_s}
     for part in found:
         columns[f"{part.title}, target [g]"] = part.target_g
@@ -176,8 +177,8 @@ def _write_design(pages: Pages, assessment: Assessment, peaks: PeakRanges) -> No
     sheet = pages.sheet(
         "Design",
         "Design displacement",
-        f"{assessment.rules.name}. From the sheet Peaks, any direction; change a number and "
-        "follow. The sheet Directions goes on from here.",
+        f"{assessment.rules.name}. From the sheet Peaks, any direction. Change a number to see "
+        "its effect. The sheet Directions continues from here.",
     )
     write_headings(pages, sheet, 3, _DESIGN_HEADINGS)
     for row, item in enumerate(assessment.arrays, start=4):
@@ -194,16 +195,16 @@ def _write_design_row(
     peaks: str,
 ) -> None:
     rules, analysis, prescriptive = assessment.rules, item.analysis, item.prescriptive
-    flat = prescriptive.governs == "SDC A, B, C"
+    flat = prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY
     importance = 1.0 if rules.importance_in_separation else assessment.project.site.i_e
     r = row + 1
     statistic = "I" if analysis.basis is Basis.LARGEST_FACTORED else "H"
     floor_share = 0.0 if assessment.project.options.peer_reviewed else rules["analysis_floor"]
     no_value = math.isnan(analysis.value_m)
-    inch = METRES_PER_INCH
+    inch = INCH_M
     sheet.write_string(row, 0, item.array.id)
     sheet.write_number(row, 1, assessment.project.site.s_ds, pages.numbers[4])
-    # The flat value of the low categories leaves nothing to the formula.
+    # The constant value for SDC A, B and C replaces the formula.
     sheet.write_number(row, 2, 0.0 if flat else rules["prescriptive_factor_in"], pages.numbers[1])
     sheet.write_number(row, 3, importance, pages.numbers[2])
     sheet.write_number(row, 4, prescriptive.minimum_m / inch, pages.numbers[1])
@@ -235,7 +236,7 @@ def _write_design_row(
 
 _CLEARANCE_HEADINGS = (
     "Array", "Object", "Direction", "Condition", "Governing array, direction", "Design [in]",
-    "Factor", "Least [in]", "Required [in]", "Required [mm]", "Provided [in]", "D/C", "Result",
+    "Factor", "Minimum [in]", "Required [in]", "Required [mm]", "Provided [in]", "D/C", "Result",
     "Required by Roofslip [in]", "Difference [in]",
 )  # fmt: skip
 
@@ -244,7 +245,7 @@ def _write_clearances(pages: Pages, assessment: Assessment, design_cells: Direct
     sheet = pages.sheet(
         "Clearances",
         "Clearances",
-        f"{assessment.rules.name}. Factor includes the importance factor where it belongs here.",
+        f"{assessment.rules.name}. The factor includes I_e if the rule set applies it here.",
     )
     write_headings(pages, sheet, 3, _CLEARANCE_HEADINGS)
     for row, item in enumerate(assessment.clearances, start=4):
@@ -259,9 +260,9 @@ def _write_clearance_row(
     item: ClearanceCheck,
     design_cells: DirectionCells,
 ) -> None:
-    clearance, inch, r = item.clearance, METRES_PER_INCH, row + 1
+    clearance, inch, r = item.clearance, INCH_M, row + 1
     texts = (
-        clearance.array, clearance.object, clearance.direction, item.neighbour,
+        clearance.array, clearance.object, clearance.direction, item.neighbor,
         f"{item.governing_array}, {item.governing_direction.value}",
     )  # fmt: skip
     for column, text in enumerate(texts):
@@ -274,7 +275,7 @@ def _write_clearance_row(
             sheet.write_string(row, column, "no value")
         sheet.write_string(row, 12, "NG")
         return
-    design = design_cells[item.governing_array.casefold(), item.governing_direction]
+    design = design_cells[item.governing_array, item.governing_direction]
     numbers = [
         (5, f"={design}", item.design_m / inch, 2),
         (8, f"=MAX(F{r}*G{r},H{r})", item.required_m / inch, 2),

@@ -1,1 +1,1 @@
-"""The input sheet: what is asked, how the workbook is made, how it is read and checked."""
+"""The input workbook: its fields, its template, how it is read and checked."""

@@ -1,7 +1,7 @@
-"""Opens a workbook that comes from anywhere, or says what it is instead.
+"""Opens an untrusted workbook, or reports why it cannot be used.
 
-Owns every guard that has to act before openpyxl: kind of file, size, far-away cells, XML entities.
-Nothing here knows what the sheets ask. Read `workbook` next.
+Owns every check that must precede openpyxl: file type, size, far-away cells, XML entities.
+Independent of the fields of the sheets. Read `report.sheet.read` next.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ MAX_FILE = 100 * MB
 MAX_TOTAL = 100 * MB
 MAX_MEMBER = 50 * MB
 MAX_MEMBERS = 2000
-# Deflate gives at most 1032; sheets of equal rows reach about 100.
+# Deflate reaches at most 1032; sheets with identical rows reach about 100.
 MAX_RATIO = 200
 MAX_CELLS = 3_000_000
 MAX_SPREAD_CELLS = 100_000
@@ -51,7 +51,7 @@ REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
 
 @dataclass(slots=True)
 class Extent:
-    """How far a sheet's values reach: last row and column, each with the cell that reaches it."""
+    """Extent of a sheet's values: last row and last column, each with the cell that sets it."""
 
     last_row: int = 0
     last_column: int = 0
@@ -59,7 +59,7 @@ class Extent:
     column_cell: str = ""
 
     def grow(self, row: int, column: int) -> None:
-        """Take in a cell that holds something."""
+        """Include a cell that has content."""
         if row > self.last_row:
             self.last_row, self.row_cell = row, f"{get_column_letter(column)}{row}"
         if column > self.last_column:
@@ -76,7 +76,7 @@ class OpenBook:
     sha256 : str
         Of the file.
     typed, computed : Workbook
-        The same object where there is no formula.
+        The same object if there is no formula.
     extents : mapping of sheet title to Extent
     """
 
@@ -87,7 +87,7 @@ class OpenBook:
     extents: Mapping[str, Extent]
 
     def extent(self, title: str) -> Extent:
-        """Return how far a sheet's values reach."""
+        """Return the extent of a sheet's values."""
         return self.extents.get(title, Extent())
 
 
@@ -97,7 +97,7 @@ def open_book(path: Path) -> OpenBook:
     Raises
     ------
     InputError
-        If there is none, or it is another kind of file, damaged, or larger than any input.
+        If there is none, or it is another type of file, damaged, or too large.
     """
     path = _located(path)
     data = _read(path)
@@ -125,7 +125,7 @@ def _located(path: Path) -> Path:
     if not path.is_file():
         raise InputError("not a file; give a workbook, or a folder that holds input.xlsx")
     if path.suffix.lower() != ".xlsx":
-        kind = OTHER_KINDS.get(path.suffix.lower(), "not a workbook by its name")
+        kind = OTHER_KINDS.get(path.suffix.lower(), "not a workbook file name")
         raise InputError(f"{kind} ({path.suffix or 'no extension'}); {SAVE_AS}")
     return path
 
@@ -136,7 +136,9 @@ def _read(path: Path) -> bytes:
             raise InputError(f"larger than {MAX_FILE // MB} MB; keep records in files beside it")
         return path.read_bytes()
     except OSError as error:
-        raise InputError(f"cannot be read ({error.strerror}); close it elsewhere") from error
+        raise InputError(
+            f"cannot be read ({error.strerror}); close it in other programs"
+        ) from error
 
 
 def _zip(data: bytes) -> zipfile.ZipFile:
@@ -144,35 +146,35 @@ def _zip(data: bytes) -> zipfile.ZipFile:
         raise InputError("empty file; start again from a fresh workbook (roofslip new)")
     if data.startswith(b"\xd0\xcf\x11\xe0"):
         if "EncryptedPackage".encode("utf-16-le") in data:
-            raise InputError("locked with a password; save it without one")
+            raise InputError("protected with a password; save it without one")
         raise InputError(f"an old Excel workbook (.xls) by its content; {SAVE_AS}")
     try:
         return zipfile.ZipFile(io.BytesIO(data))
     except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
-        raise InputError(f"not a workbook, or cut short; {REOPEN}") from error
+        raise InputError(f"not a workbook, or truncated; {REOPEN}") from error
 
 
 def _check_sizes(archive: zipfile.ZipFile) -> None:
     members = archive.infolist()
-    # zipfile never gives more of a member than the directory states, so the stated sizes bind.
+    # zipfile never returns more of a member than the directory states, so these sizes are limits.
     total = sum(m.file_size for m in members)
     largest = max((m.file_size for m in members), default=0)
     packed = sum(m.compress_size for m in members)
     if len(members) > MAX_MEMBERS:
-        raise InputError(f"made of {len(members)} parts, over {MAX_MEMBERS}; {REOPEN}")
+        raise InputError(f"has {len(members)} parts, more than {MAX_MEMBERS}; {REOPEN}")
     if total > MAX_TOTAL or largest > MAX_MEMBER:
         raise InputError(
-            f"unpacks to {total / MB:.0f} MB, over {MAX_TOTAL // MB} MB in all or"
+            f"unpacks to {total / MB:.0f} MB, more than {MAX_TOTAL // MB} MB in total or"
             f" {MAX_MEMBER // MB} MB in one part; keep records in files beside it"
         )
     if total > MB and total > MAX_RATIO * packed:
-        raise InputError(f"unpacks to over {MAX_RATIO} times its size; {REOPEN}")
+        raise InputError(f"unpacks to more than {MAX_RATIO} times its size; {REOPEN}")
 
 
 def _check_kind(archive: zipfile.ZipFile) -> None:
     names = set(archive.namelist())
     if any(member.flag_bits & 1 for member in archive.infolist()):
-        raise InputError("locked with a password; save it without one")
+        raise InputError("protected with a password; save it without one")
     if any(name.lower().endswith("vbaproject.bin") for name in names):
         raise InputError(f"a workbook with macros; {SAVE_AS}")
     if "xl/workbook.bin" in names:
@@ -190,13 +192,13 @@ def _content(archive: zipfile.ZipFile, name: str) -> bytes:
         return archive.read(name)
     except (zipfile.BadZipFile, EOFError, OSError, NotImplementedError, ValueError) as error:
         raise InputError(f"damaged at {name}; {REOPEN}") from error
-    except Exception as error:  # zlib, lzma and bz2 have errors of their own
+    except Exception as error:  # zlib, lzma and bz2 raise errors of their own
         raise InputError(f"damaged at {name} ({error}); {REOPEN}") from error
 
 
 @dataclass(slots=True)
 class _Scan(ContentHandler):
-    """Walks the XML of a part: how far values reach, whether formulas are there, spread ranges."""
+    """Scans the XML of a part for the extent of values, formulas and large ranges."""
 
     budget: list[int]
     extent: Extent = field(default_factory=Extent)
@@ -225,10 +227,10 @@ class _Scan(ContentHandler):
             self.row, self.column = coordinate_to_tuple(reference)
         self.budget[0] -= 1
         if self.budget[0] < 0:
-            raise InputError(f"over {MAX_CELLS:,} cells; keep records in files beside it")
+            raise InputError(f"more than {MAX_CELLS:,} cells; keep records in files beside it")
 
     def _spread(self, reference: str | None) -> None:
-        # openpyxl makes an object for every cell of such a range.
+        # openpyxl creates an object for every cell of such a range.
         if not reference or ":" not in reference:
             return
         left, top, right, bottom = (side or 0 for side in range_boundaries(reference))
@@ -260,15 +262,15 @@ def _walk(name: str, data: bytes, scan: _Scan) -> None:
     try:
         defusedxml.sax.parseString(data, scan, forbid_dtd=True)
     except DefusedXmlException as error:
-        raise InputError(f"declares XML entities at {name}, as no workbook does") from error
+        raise InputError(f"contains XML entity declarations at {name}; {REOPEN}") from error
     except InputError as error:
         raise InputError(f"{name}: {error.problems[0]}") from error
-    except (SAXException, ValueError, LookupError) as error:  # the last for odd encodings
+    except (SAXException, ValueError, LookupError) as error:  # LookupError: unknown encodings
         raise InputError(f"damaged at {name}; {REOPEN}") from error
 
 
 def _parts(archive: zipfile.ZipFile) -> Iterator[tuple[str, str]]:
-    """Yield each sheet's title with the name of the part that holds it."""
+    """Yield each sheet's title with the name of its part."""
     targets = {}
     if "xl/_rels/workbook.xml.rels" in archive.namelist():
         relations = _tree(archive, "xl/_rels/workbook.xml.rels")
@@ -289,7 +291,7 @@ def _load(data: bytes, computed: bool) -> Workbook:
         raise DefectError("openpyxl does not read through defusedxml")
     try:
         with warnings.catch_warnings():
-            # It warns of features that it leaves out, none of which is an input.
+            # It warns about features that it drops, none of which is an input.
             warnings.simplefilter("ignore")
             return load_workbook(io.BytesIO(data), data_only=computed, keep_links=False)
     except Exception as error:  # a damaged workbook makes openpyxl raise almost anything

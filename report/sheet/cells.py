@@ -1,6 +1,6 @@
-"""From what a cell holds to the value of a field, or to a sentence that says what would do.
+"""Converts the content of a cell to the value of a field, or to an error message.
 
-Knows neither sheets nor files: `workbook` finds the cells.
+Independent of sheets and files: `report.sheet.locate` finds the cells.
 """
 
 from __future__ import annotations
@@ -28,22 +28,22 @@ _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]")
 
 
 class CellError(InputError):
-    """A cell that does not hold what its field asks; the message says `is ...; give ...`."""
+    """A cell with invalid content; the message has the form `is ...; give ...`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found:
-    """What a cell holds.
+    """The content of a cell.
 
     Attributes
     ----------
     sheet, cell : str
     value : object
-        As typed, or as last computed where a formula was typed.
+        As typed; for a formula, the last computed value.
     formula : str
-        Empty where none was typed.
+        Empty if none was typed.
     is_error : bool
-        Whether the value is one of Excel's, such as ``#DIV/0!``.
+        Whether the value is an Excel error, such as ``#DIV/0!``.
     number_format : str
     """
 
@@ -56,24 +56,24 @@ class Found:
 
     @property
     def address(self) -> str:
-        """Where it stands: `Arrays!D7`."""
+        """Its address: `Arrays!D7`."""
         return f"{self.sheet}!{self.cell}"
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing was typed, or only blanks."""
+        """Whether nothing but spaces was typed."""
         blank = self.value is None or (isinstance(self.value, str) and not self.value.strip())
         return blank and not self.formula
 
     @property
     def text(self) -> str:
-        """What was typed, for the echo; a formula with what came of it."""
+        """What was typed, for the echo; for a formula, with its value."""
         shown = "" if self.value is None else plain(self.value)
         return f"{self.formula} → {shown}" if self.formula else shown
 
 
 def plain(value: object) -> str:
-    """Return a cell's value as a person would type it."""
+    """Return a cell's value as a user would type it."""
     match value:
         case bool():
             return "TRUE" if value else "FALSE"
@@ -116,7 +116,7 @@ def read_cell(found: Found, entry: Entry, model: type[Frozen], unit: str, si: fl
 
 
 def check_saved(found: Found) -> None:
-    """Raise if a cell holds one of Excel's errors, or a formula that was never computed."""
+    """Raise if a cell contains an Excel error, or a formula that was never computed."""
     if found.is_error:
         cause = f" (from {_cut(found.formula)})" if found.formula else ""
         raise CellError(f"is {found.value}{cause}; correct it")
@@ -128,7 +128,7 @@ def check_saved(found: Found) -> None:
 
 
 def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
-    """Return what would do for a field: `give a number from 0 to 1.5`."""
+    """Return what a field accepts: `give a number from 0 to 1.5`."""
     if entry.choices:
         return f"choose {_either(entry.choices)}"
     if entry.kind in (int, float):
@@ -137,7 +137,7 @@ def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
         return f"give {noun}{_range(entry, si)}{suffix}"
     if entry.kind is date:
         return "give a date such as 2026-03-05"
-    return f"give a text of at most {entry.max_length} characters"
+    return f"give text of at most {entry.max_length} characters"
 
 
 def _range(entry: Entry, si: float) -> str:
@@ -180,7 +180,7 @@ def _converted(found: Found, entry: Entry, wanted: str) -> Any:
 
 
 def number(found: Found, wanted: str = "give a number") -> float:
-    """Return the number in a cell, in the cell's unit; clean numeric text counts.
+    """Return the number in a cell, in the cell's unit; numeric text is accepted.
 
     Raises
     ------
@@ -190,7 +190,7 @@ def number(found: Found, wanted: str = "give a number") -> float:
     if isinstance(value, str):
         return _number_in_text(value.strip(), wanted)
     if isinstance(value, bool):
-        raise CellError(f"is {plain(value)}, a truth value; {wanted}")
+        raise CellError(f"is {plain(value)}, a logical value; {wanted}")
     if isinstance(value, date | time | timedelta):
         raise CellError(f"is a date or time ({plain(value)}); {wanted}, formatted as a number")
     if "%" in _QUOTED.sub("", found.number_format):
@@ -240,10 +240,10 @@ def _choice(found: Found, entry: Entry, wanted: str) -> StrEnum | bool:
 def _text(found: Found) -> str:
     if isinstance(found.value, date | time | timedelta | bool):
         raise CellError(
-            f"is {plain(found.value)}, which is no text; format the cell as text and type it again"
+            f"is {plain(found.value)}, which is not text; format the cell as text and retype it"
         )
-    # Excel writes what XML cannot hold, and a pasted CR, as _x000D_.
+    # Excel writes characters that XML does not allow, and a pasted CR, as _x000D_.
     text = unescape(plain(found.value)).replace("\r\n", "\n").replace("\r", "\n").strip()
     if _CONTROL.search(text):
-        raise CellError(f"is '{_cut(text)}', with control characters; type it again")
+        raise CellError(f"is '{_cut(text)}', with control characters; retype it")
     return text

@@ -1,7 +1,7 @@
-"""Checks of the input that look at more than one cell; each fault names the cell to change.
+"""Checks of the input that involve more than one cell; each fault names the cell to change.
 
-Works on a draft: rows of the values that were readable, so that one bad cell hides no other fault.
-Single cells are checked by `schema`; files and sheets by `workbook`.
+Works on a draft, the rows of readable values, so that one invalid cell hides no other fault.
+`schema` checks single cells; `locate` and `archive` check sheets and files.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from report.sheet.schema import (
     slope_rad,
 )
 from report.words.units import Quantity, pair
+from solver.model import INCH_M
 
 LEAST_I_E = {
     RiskCategory.I: 1.0,
@@ -35,22 +36,23 @@ LEAST_I_E = {
     RiskCategory.IV: 1.5,
 }
 MAX_SLOPE_DEG = 45.0
-# Between a permit sheet's S_DS, rounded to three decimals or cut to two, and 2/3 F_a S_S.
+# Difference allowed between S_DS from a permit sheet, rounded to three decimals or truncated to
+# two, and 2/3 F_a S_S.
 S_DS_AGREES_G = 0.0051
 GAP_TOLERANCE = 0.01
-GAP_TOLERANCE_M = 0.5 * 0.0254
+GAP_TOLERANCE_M = 0.5 * INCH_M
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
 
 
 def faults(draft: Draft, where: Where) -> list[Fault]:
-    """Return everything in a draft that contradicts itself.
+    """Return all inconsistencies of a draft.
 
     Parameters
     ----------
     draft : mapping of section to rows
         A row lacks the fields that could not be read; a blank optional field is its default.
     where : callable
-        Gives the address of a place, for faults that point to a second cell.
+        Returns the address of a place, for faults that refer to a second cell.
     """
     checks = (
         _tables,
@@ -67,7 +69,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
 
 
 def rectangle(row: DraftRow) -> Rectangle | None:
-    """Return a row's rectangle, where all four sides are given and in order."""
+    """Return a row's rectangle, if all four sides are given and in order."""
     sides = [row[side] for side in SIDES if row.get(side) is not None]
     if len(sides) < len(SIDES):
         return None
@@ -76,14 +78,14 @@ def rectangle(row: DraftRow) -> Rectangle | None:
 
 
 def gap_m(a: Rectangle, b: Rectangle) -> float:
-    """Return the least distance of two rectangles [m]; negative where they overlap."""
+    """Return the smallest distance of two rectangles [m]; negative if they overlap."""
     dx = max(a.x_from_m - b.x_to_m, b.x_from_m - a.x_to_m)
     dy = max(a.y_from_m - b.y_to_m, b.y_from_m - a.y_to_m)
     return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
 
 
 def least_sdc(s_ds_g: float, risk_category: RiskCategory, s_1_g: float | None) -> Sdc:
-    """Return the mildest category that S_DS and S_1 allow (ASCE 7 section 11.6, Table 11.6-1)."""
+    """Return the lowest category that S_DS and S_1 permit (ASCE 7 section 11.6, Table 11.6-1)."""
     is_essential = risk_category is RiskCategory.IV
     if s_1_g is not None and s_1_g >= 0.75:
         return Sdc.F if is_essential else Sdc.E
@@ -94,17 +96,17 @@ def least_sdc(s_ds_g: float, risk_category: RiskCategory, s_1_g: float | None) -
 def _tables(draft: Draft, where: Where) -> Iterator[Fault]:
     for section, noun in (("arrays", "array"), ("motions", "motion")):
         if not draft[section]:
-            yield Fault(Place(section), f"no {noun} is given; fill at least one row")
+            yield Fault(Place(section), f"no {noun} is given; fill in at least one row")
 
 
 def _ids(draft: Draft, where: Where) -> Iterator[Fault]:
-    # Objects are named after arrays, so that an array keeps the name that both have.
+    # Arrays come first, so that a duplicate is reported at the object.
     for sections in (("arrays", "objects"), ("motions",)):
         seen: dict[str, Place] = {}
         for place, value in _column(draft, sections, "id"):
             first = seen.setdefault(value.casefold(), place)
             if first is not place:
-                text = f"ID is '{value}', as at {where(first)}; give each its own"
+                text = f"ID is '{value}', already used at {where(first)}; give a unique ID"
                 yield Fault(place, text)
 
 
@@ -168,8 +170,8 @@ def _sdc(row: DraftRow) -> Iterator[Fault]:
     clause = "ASCE 7 section 11.6" if near_fault else "ASCE 7 Table 11.6-1"
     yield Fault(
         Place("site", 0, "sdc"),
-        f"seismic design category is '{sdc}'; {reason} in risk category {risk_category} needs"
-        f" {least} or more severe ({clause})",
+        f"seismic design category is '{sdc}'; {reason} in risk category {risk_category} requires"
+        f" {least} or higher ({clause})",
     )
 
 
@@ -190,28 +192,29 @@ def _slope(index: int, row: DraftRow) -> Iterator[Fault]:
 
 
 def _friction(index: int, row: DraftRow) -> Iterator[Fault]:
-    """Yield what contradicts itself in friction by speed, and models that leave it out."""
+    """Yield inconsistencies of velocity-dependent friction, and models that neglect it."""
     fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static", "model")
     if any(field not in row for field in fields):
         return
     mu, fast, rate, static, model = (row[field] for field in fields)
     for given, field, label in (
-        (rate, "mu_fast", "friction at speed"),
+        (rate, "mu_fast", "high-velocity friction"),
         (fast, "mu_rate_s_per_m", "friction rate"),
     ):
         if given is not None and row[field] is None:
-            text = f"{label} is missing; give friction at speed with its rate, or neither"
+            text = f"{label} is missing; give high-velocity friction and friction rate, or neither"
             yield Fault(Place("arrays", index, field), text)
     if static is not None and static < mu:
         text = f"static friction is {static:g}; give the friction coefficient, {mu:g}, or more"
         yield Fault(Place("arrays", index, "mu_static"), text)
     if _by_speed(row) and model is not Model.CHOOSE:
-        text = f"model is '{model}', which leaves friction by speed out; leave it at choose, or"
-        yield Fault(Place("arrays", index, "model"), f"{text} blank friction at speed and static")
+        text = f"model is '{model}', which neglects velocity-dependent and static friction; select"
+        more = f"{text} '{Model.CHOOSE}', or leave high-velocity and static friction blank"
+        yield Fault(Place("arrays", index, "model"), more)
 
 
 def _by_speed(array: DraftRow) -> list[str]:
-    """Return the fields that make the friction of an array more than one coefficient."""
+    """Return the fields that give an array more than one friction coefficient."""
     one = (None, array["mu"])
     return [name for name in ("mu_fast", "mu_static") if array.get(name) not in one]
 
@@ -268,7 +271,7 @@ def _suggestion(value: str, ids: Collection[str]) -> str:
     folded = {name.casefold(): name for name in ids}
     close = difflib.get_close_matches(value.casefold(), folded, n=1)
     if close:
-        return f"write '{folded[close[0]]}'?"
+        return f"did you mean '{folded[close[0]]}'?"
     names = ", ".join(list(ids)[:8])
     return f"give one of {names}" if names else "add it there first"
 
@@ -282,7 +285,7 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
         first = seen.setdefault(key, index)
         if first != index:
             at = where(Place("clearances", first, "array"))
-            text = f"array is '{key[0]}', with the same object and direction as at {at}; keep one"
+            text = f"array is '{key[0]}', with the same object and direction as at {at}; delete one"
             yield Fault(Place("clearances", index, "array"), text)
 
 
@@ -300,12 +303,12 @@ def _room(
     gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
     found = pair(provided, Quantity.SIZE, us_first)
     if gap < -1e-9:
-        text = f"provided is {found}, but {array} and {other} overlap in plan; correct their"
-        yield Fault(place, f"{text} rectangles")
+        text = f"provided clearance is {found}, but {array} and {other} overlap in plan; correct"
+        yield Fault(place, f"{text} their rectangles")
     elif provided > gap + max(GAP_TOLERANCE * gap, GAP_TOLERANCE_M):
         most = pair(max(gap, 0.0), Quantity.SIZE, us_first)
-        text = f"provided is {found}, but the plan leaves {most} between {array} and {other}"
-        yield Fault(place, f"{text}; give no more, or correct the rectangles")
+        text = f"provided clearance is {found}, but {array} and {other} are {most} apart in plan"
+        yield Fault(place, f"{text}; reduce it, or correct the rectangles")
 
 
 def _links(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -315,7 +318,7 @@ def _links(draft: Draft, where: Where) -> Iterator[Fault]:
     for place, name in _column(draft, ("links",), "array"):
         first = seen.setdefault(name, place)
         if first is not place:
-            yield Fault(place, f"array is '{name}', as at {where(first)}; keep one")
+            yield Fault(place, f"array is '{name}', already given at {where(first)}; delete one")
         if name in arrays:
             yield from _one_coefficient(place, name, draft["arrays"][arrays[name].row])
     for place, text in _column(draft, ("links",), "friction"):
@@ -325,24 +328,24 @@ def _links(draft: Draft, where: Where) -> Iterator[Fault]:
 
 def _one_coefficient(place: Place, name: str, array: DraftRow) -> Iterator[Fault]:
     if "mu" in array and _by_speed(array):
-        text = f"array is '{name}', whose friction is not one coefficient; blank its friction at"
-        yield Fault(place, f"{text} speed and static friction, or take this row out")
+        text = f"array is '{name}', which has high-velocity or static friction; leave both blank on"
+        yield Fault(place, f"{text} the sheet Arrays, or delete this row")
 
 
 def _blocks(
     place: Place, text: str, draft: Draft, where: Where, home: Place | None
 ) -> Iterator[Fault]:
-    """Yield what is wrong with the coefficients of a row, by themselves and beside their array."""
+    """Yield errors in the coefficients of a row, and inconsistencies with its array."""
     mus = coefficients(text)
     if not mus:
         wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points"
-        yield Fault(place, f"friction of blocks is '{text}'; {wanted}, such as 0.40, 0.45, 0.50")
+        yield Fault(place, f"block friction is '{text}'; {wanted}, such as 0.40, 0.45, 0.50")
         return
     mu = draft["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
-        found = f"friction of blocks is '{text}', all {'above' if mu < min(mus) else 'below'} the"
+        found = f"block friction is '{text}', all {'above' if mu < min(mus) else 'below'} the"
         at = where(home._replace(field="mu"))
-        yield Fault(place, f"{found} {mu:g} at {at}; give coefficients that reach it, or change it")
+        yield Fault(place, f"{found} {mu:g} at {at}; give a range that includes it, or change it")
 
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -353,7 +356,7 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:
             text = f"provision is '{key}'; choose one of {', '.join(PROVISION_KEYS)}"
             yield Fault(place, text)
         elif first is not place:
-            yield Fault(place, f"provision is '{key}', as at {where(first)}; keep one")
+            yield Fault(place, f"provision is '{key}', already given at {where(first)}; delete one")
 
 
 def _us_first(draft: Draft) -> bool:

@@ -1,7 +1,7 @@
-"""A field of the input taken apart: label, unit, range, choices.
+"""The parts of an input field: label, unit, range, choices.
 
-Template, reader, echo and documentation ask here and never look at pydantic themselves. What the
-fields are is in `schema`.
+Template, reader and echo use this module and never inspect pydantic models themselves. The fields
+are defined in `schema`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from report.words.units import Quantity
 
 
 class Place(NamedTuple):
-    """A cell by meaning: section, row of its table, field; a whole table without the last two."""
+    """A cell by meaning: section, row of its table, field; without the last two, a whole table."""
 
     section: str
     row: int = 0
@@ -30,24 +30,24 @@ class Place(NamedTuple):
 
 
 class Fault(NamedTuple):
-    """What is wrong at a place: what it is, and what would do."""
+    """An input error at a place: what was found, and what would be accepted."""
 
     place: Place
     text: str
 
 
 DraftRow = Mapping[str, Any]
-"""Fields of a row of a draft; one that could not be read is absent."""
+"""Fields of a row of a draft; a field that could not be read is absent."""
 
 Draft = Mapping[str, Sequence[DraftRow]]
-"""Rows by section, so far as they could be read."""
+"""Rows by section, as far as they could be read."""
 
 Where = Callable[[Place], str]
-"""Gives the address of a place."""
+"""Returns the address of a place."""
 
 
 class YesNo(StrEnum):
-    """A yes or a no, as a cell shows it."""
+    """Yes or no, as shown in a cell."""
 
     YES = "Yes"
     NO = "No"
@@ -55,16 +55,16 @@ class YesNo(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """How a field is put to a person.
+    """How a field is presented to the user.
 
     Attributes
     ----------
     label, help : str
-        Heading, and the message shown when the cell is chosen.
+        Heading, and the message shown when the cell is selected.
     example : str, float, int or date
         A plausible value, in the US unit of `unit` where that is a quantity.
     unit : Quantity or str
-        What the number measures, or a unit that is the same everywhere; empty for none.
+        Quantity with a choice of units, or a fixed unit; empty for none.
     """
 
     label: str
@@ -74,7 +74,7 @@ class Cell:
 
 
 class Frozen(BaseModel):
-    """What all models here share: frozen, complete, finite."""
+    """Base of all models: frozen, complete, finite."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, str_strip_whitespace=True
@@ -88,13 +88,13 @@ class Section:
     Attributes
     ----------
     key : str
-        Its attribute of `ProjectInput`, and the stem of its names in the workbook.
+        Its attribute of `ProjectInput`, and the prefix of its names in the workbook.
     sheet, title, hint : str
-        Sheet it is made on, its heading, and one line of instruction.
+        Its sheet, its heading, and one line of instruction.
     model : type
-        What one block or one row is.
+        Model of the block or of one row.
     is_table, may_be_absent : bool
-        Whether a workbook may be without it, as those of earlier versions are.
+        Whether a workbook may lack it, as workbooks of earlier versions do.
     """
 
     key: str
@@ -143,7 +143,7 @@ class Bounds:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """One field of a model, taken apart for template, reader and echo.
+    """One field of a model, as used by template, reader and echo.
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ class Entry:
         float, int, str, bool, date or one of the enums here.
     is_required : bool
     default : object
-        What a blank cell means; None where it is required.
+        Meaning of a blank cell; None if the field is required.
     bounds : Bounds
     max_length : int
         Of a text.
@@ -169,18 +169,18 @@ class Entry:
 
     @property
     def quantity(self) -> Quantity | None:
-        """What the number measures, where its unit is a choice."""
+        """The quantity of the number, if its unit can be chosen."""
         return self.cell.unit if isinstance(self.cell.unit, Quantity) else None
 
     @property
     def spoken(self) -> str:
-        """The label as it reads within a sentence."""
+        """The label in the form used within a sentence."""
         label = self.cell.label
         return label[0].lower() + label[1:] if label[1:2].islower() else label
 
     @property
     def choices(self) -> tuple[str, ...]:
-        """The texts to choose from; empty where it is no choice."""
+        """The texts to choose from; empty if the field is not a choice."""
         if self.kind is bool:
             return tuple(YesNo)
         return tuple(self.kind) if issubclass(self.kind, StrEnum) else ()
@@ -188,7 +188,7 @@ class Entry:
 
 @cache
 def entries(model: type[Frozen]) -> tuple[Entry, ...]:
-    """Return the fields of a model in order, those without a `Cell` left out."""
+    """Return the fields of a model in order, omitting those without a `Cell`."""
     fields = model.model_fields.items()
     return tuple(_entry(name, info) for name, info in fields if _cells(info))
 

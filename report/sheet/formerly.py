@@ -1,6 +1,6 @@
-"""What the workbooks of earlier versions call things: they go on being read.
+"""Labels, keys and choices of earlier workbooks, which can still be read.
 
-A name that changes is entered here and in the changelog; nothing is ever taken out.
+Enter every renamed label here and in the changelog; never remove an entry.
 """
 
 from __future__ import annotations
@@ -8,7 +8,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
-    ("site", "stories"): ("Storeys",),
+    ("project", "units_first"): ("Units first",),
+    ("site", "stories"): ("Storeys", "Stories"),
+    ("arrays", "mu_fast"): ("Friction at speed",),
+    ("clearances", "provided_m"): ("Provided",),
+    ("motions", "from_s"): ("Keep from",),
+    ("motions", "to_s"): ("Keep to",),
+    ("motions", "pad_s"): ("Zeros at the end",),
+    ("building", "left_out_percent"): ("Modes may leave out",),
+    ("links", "friction"): ("Friction of blocks",),
+    ("options", "statistic"): ("Design value from peaks",),
+    ("options", "peer_reviewed"): ("Analysis is peer reviewed",),
+    ("target", "from_s"): ("Scaling periods from",),
+    ("target", "to_s"): ("Scaling periods to",),
 }
 """Earlier labels and headings, by section and field."""
 
@@ -18,7 +30,7 @@ FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {
 """Earlier names of a field, which defined names of cells end with."""
 
 CHOICES: dict[str, str] = {}
-"""Earlier choices, in small letters, and what they are called now."""
+"""Earlier choices, in lowercase, with the present ones."""
 
 PROVISIONS: Mapping[str, str] = {"max_storeys": "max_stories"}
-"""Earlier keys of provisions to override, and what they are called now."""
+"""Earlier keys of provisions to override, with the present ones."""

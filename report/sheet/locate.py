@@ -1,6 +1,6 @@
-"""Finds the inputs of a workbook by defined name, table name and heading, wherever they stand.
+"""Finds the inputs of a workbook by defined name, table name and heading.
 
-Never looks at positions or styles, which people change. What the cells hold is for `cells`.
+Never uses positions or styles, which users change. `cells` converts the content of the cells.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ FRESH = "copy it from a fresh workbook (roofslip new)"
 
 @dataclass(frozen=True, slots=True)
 class CellPosition:
-    """A cell by its place."""
+    """A cell by its position."""
 
     sheet: str
     row: int
@@ -41,13 +41,13 @@ class CellPosition:
 
     @property
     def address(self) -> str:
-        """Where it stands: `Arrays!D7`."""
+        """Its address: `Arrays!D7`."""
         return f"{self.sheet}!{self.cell}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FieldColumn:
-    """A column of a table: where it is, and the unit that its heading names."""
+    """A column of a table: its number, and the unit in its heading."""
 
     number: int
     unit: str
@@ -63,14 +63,14 @@ class TableFound:
     heading : CellPosition
         Its first heading.
     columns : mapping of field to FieldColumn
-        Of the headings that are there and readable.
+        Of the headings that are present and readable.
     rows : range
-        Rows that may hold inputs.
+        Rows that may contain inputs.
     others : tuple of CellPosition
-        Headings that no field has.
+        Headings that belong to no field.
     absent : tuple of str
-        Optional fields without a column: workbooks of earlier versions, and columns that someone
-        took out.
+        Optional fields without a column, as in workbooks of earlier versions or after a column was
+        deleted.
     problems : tuple of str
         Finished lines about headings and merged cells.
     """
@@ -84,7 +84,7 @@ class TableFound:
 
 
 def found_at(book: OpenBook, position: CellPosition) -> Found:
-    """Return what a cell holds, as typed and as computed."""
+    """Return the content of a cell, as typed and as computed."""
     return _found(position, book.typed[position.sheet], book.computed[position.sheet])
 
 
@@ -93,7 +93,7 @@ def _found(position: CellPosition, typed_sheet: Worksheet, computed_sheet: Works
     computed = computed_sheet.cell(position.row, position.column)
     formula = ""
     if typed.data_type == "f":
-        # Array formulas are objects that have a text, data tables such that have none.
+        # Array formulas are objects with a text; data tables are objects without one.
         is_text = isinstance(typed.value, str)
         formula = str(typed.value if is_text else getattr(typed.value, "text", None) or "=TABLE()")
     return Found(
@@ -107,7 +107,7 @@ def _found(position: CellPosition, typed_sheet: Worksheet, computed_sheet: Works
 
 
 def find_cell(book: OpenBook, section: Section, entry: Entry) -> CellPosition:
-    """Return the cell of a single field, by its defined name, else beside its label.
+    """Return the cell of a single field, by its defined name, or else beside its label.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def find_cell(book: OpenBook, section: Section, entry: Entry) -> CellPosition:
     position = _field_named(book, section, entry) or _beside_label(book, section, entry)
     if position is None:
         raise InputError(
-            f"{section.sheet}: {entry.spoken} is not there (no name {section.cell_name(entry.name)}"
+            f"{section.sheet}: {entry.spoken} is missing (no name {section.cell_name(entry.name)}"
             f" and no label '{entry.cell.label}'); {FRESH}"
         )
     return position
@@ -125,15 +125,15 @@ def find_cell(book: OpenBook, section: Section, entry: Entry) -> CellPosition:
 def find_unit_cell(
     book: OpenBook, section: Section, entry: Entry, value: CellPosition
 ) -> CellPosition:
-    """Return the cell that holds the unit of a single field, by name, else next to the value."""
+    """Return the cell that holds the unit of a single field, by name, or else next to the value."""
     names = _fields(section, entry)
     found = (_named(book, section.unit_name(name)) for name in names)
-    position = next((one for one in found if one is not None), None)
+    position = next((spot for spot in found if spot is not None), None)
     return position or CellPosition(value.sheet, value.row, value.column + 1)
 
 
 def is_absent(book: OpenBook, section: Section) -> bool:
-    """Whether a workbook has nothing of a section, neither its names nor its labels."""
+    """Whether a workbook has neither names nor labels of a section."""
     if section.is_table:
         return sheet_titled(book, section.sheet) is None and _table_named(book, section) is None
     return not any(
@@ -147,25 +147,25 @@ def _sheets(book: OpenBook) -> list[Worksheet]:
 
 
 def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
-    """Return the sheet of a title, whatever its capitals."""
+    """Return the sheet with a title, ignoring case."""
     wanted = title.strip().casefold()
     return next((s for s in _sheets(book) if s.title.strip().casefold() == wanted), None)
 
 
 def _fields(section: Section, entry: Entry) -> tuple[str, ...]:
-    """Return the name of a field and what it was called before."""
+    """Return the name of a field and its earlier names."""
     return entry.name, *formerly.FIELDS.get((section.key, entry.name), ())
 
 
 def _labels(section: Section, entry: Entry) -> set[str]:
-    """Return the label of a field and what it was called before, as they are compared."""
+    """Return the label of a field and its earlier labels, in the form that is compared."""
     earlier = formerly.LABELS.get((section.key, entry.name), ())
     return {_key(label) for label in (entry.cell.label, *earlier)}
 
 
 def _field_named(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:
     found = (_named(book, section.cell_name(name)) for name in _fields(section, entry))
-    return next((one for one in found if one is not None), None)
+    return next((spot for spot in found if spot is not None), None)
 
 
 def _named(book: OpenBook, name: str) -> CellPosition | None:
@@ -182,7 +182,7 @@ def _named(book: OpenBook, name: str) -> CellPosition | None:
 
 
 def _bounds(reference: str) -> tuple[int, int, int, int] | None:
-    """Return left, top, right, bottom of a range that has all four."""
+    """Return left, top, right, bottom of a range that states all four."""
     try:
         left, top, right, bottom = range_boundaries(reference)
     except (ValueError, TypeError):
@@ -210,7 +210,7 @@ def _scanned(book: OpenBook, sheet: Worksheet) -> Iterator[CellPosition]:
 
 
 def _key(text: object) -> str:
-    """Return a label as it is compared: without unit, star, capitals and extra blanks."""
+    """Return a label in the form that is compared: no unit, asterisk, case or extra spaces."""
     return " ".join(_split(text)[0].replace("*", " ").split()).casefold()
 
 
@@ -221,12 +221,12 @@ def _split(text: object) -> tuple[str, str]:
 
 
 def find_table(book: OpenBook, section: Section) -> TableFound:
-    """Return a table of inputs, by its name, else by a row of its headings.
+    """Return a table of inputs, by its name, or else by a row of its headings.
 
     Raises
     ------
     InputError
-        If there is neither, or the sheet reaches absurdly far.
+        If there is neither, or the sheet has data too far away.
     """
     sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
     _check_reach(book, sheet, top)
@@ -266,7 +266,7 @@ def _table_named(book: OpenBook, section: Section) -> _Place | None:
 
 
 def _headings(book: OpenBook, section: Section) -> _Place:
-    """Return the row that has most of a section's headings, its own sheet first."""
+    """Return the row with the most headings of a section; its own sheet is searched first."""
     own = sheet_titled(book, section.sheet)
     fields = entries(section.model)
     wanted = set[str]().union(*(_labels(section, entry) for entry in fields))
@@ -291,7 +291,7 @@ def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
         far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
     if far:
         raise InputError(
-            [f"{sheet.title}!{cell}: holds something {where}; clear it" for cell, where in far]
+            [f"{sheet.title}!{cell}: contains data {where}; clear it" for cell, where in far]
         )
 
 
@@ -317,7 +317,7 @@ def _columns(
             others += [position] if text is not None else []
         elif entry.name in seen:
             problems.append(
-                f"{position.address}: heading '{entry.cell.label}' is there twice; keep one"
+                f"{position.address}: heading '{entry.cell.label}' appears twice; keep one"
             )
         else:
             seen.add(entry.name)
@@ -331,9 +331,9 @@ def _columns(
 def _unseen(
     section: Section, first: CellPosition, seen: set[str], others: Sequence[CellPosition]
 ) -> tuple[tuple[str, ...], list[str]]:
-    """Return optional fields that have no column, and a problem for any other.
+    """Return optional fields that have no column, and a problem for each other missing field.
 
-    Beside a heading that is not ours none counts as absent: it may be that very one, renamed.
+    If a table has an unknown heading, no field counts as absent: the heading may be a renamed one.
     """
     unseen = [entry for entry in entries(section.model) if entry.name not in seen]
     absent = [e.name for e in unseen if not e.is_required and not others]
@@ -354,7 +354,7 @@ def _column(position: CellPosition, entry: Entry, unit: str) -> FieldColumn:
 
 
 def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
-    """Return a unit's symbol and its size in SI, as a field accepts it.
+    """Return a unit's symbol and its size in SI, as accepted by a field.
 
     Raises
     ------
@@ -373,7 +373,7 @@ def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
 
 
 def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
-    """Return the row at which another table begins below, or one that is never reached."""
+    """Return the first row of the next table below, or the row after the last one."""
     starts = [sheet.max_row + 1]
     for table in sheet.tables.values():
         bounds = _bounds(table.ref)
@@ -392,7 +392,7 @@ def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -
 
 
 def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:
-    """Return what the cells below a heading hold, as far as the sheet's values reach."""
+    """Return the content of the cells below a heading, down to the last row of the sheet."""
     last = book.extent(heading.sheet).last_row
     typed, computed = book.typed[heading.sheet], book.computed[heading.sheet]
     return [

@@ -1,6 +1,6 @@
-"""Checks of motions, building and target that look at more than one cell.
+"""Checks of motions, building and target spectrum that involve more than one cell.
 
-Each fault names the cell to change. Works on a draft, as `checks` does, and reads no record.
+Each fault names the cell to change. Works on a draft, like `checks`, and reads no record.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from report.sheet.schema import RecordedAt, Scaling, s_ds
 from solver.building.beam import MOST_STORIES
 
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
-"""Fields of a motion that name a record, each with what the component is called."""
+"""Fields of a motion that name a record, each with the name of its component."""
 
 
 def motion_faults(draft: Draft, where: Where) -> Iterator[Fault]:
-    """Yield everything in the motions of a draft that contradicts itself."""
+    """Yield all inconsistencies in the motions of a draft."""
     for index, row in enumerate(draft["motions"]):
         yield from _same_component(index, row)
         yield from _scale_value(index, row)
@@ -35,16 +35,16 @@ def _same_component(index: int, row: DraftRow) -> Iterator[Fault]:
             continue
         first = seen.setdefault(" ".join(row[field].split()), label)
         if first != label:
-            text = f"{label} record is '{row[field]}', as the {first} one; give its own"
-            yield Fault(Place("motions", index, field), text)
+            text = f"{label} record is '{row[field]}', the same as the {first} record"
+            yield Fault(Place("motions", index, field), f"{text}; give another record")
 
 
 def _scale_value(index: int, row: DraftRow) -> Iterator[Fault]:
     scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
     value = row.get("scale_value")
     if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
-        text = f"factor or PPA is {value:g}, but scaling is '{scaling}'; choose another scaling or"
-        yield Fault(place, f"{text} leave it blank")
+        text = f"factor or PPA is {value:g}, but scaling is '{scaling}'; change the scaling or"
+        yield Fault(place, f"{text} leave this blank")
     elif scaling in (Scaling.FACTOR, Scaling.PPA) and "scale_value" in row and value is None:
         wanted = "the PPA in g" if scaling is Scaling.PPA else "the factor"
         yield Fault(place, f"factor or PPA is missing; give {wanted}")
@@ -53,7 +53,7 @@ def _scale_value(index: int, row: DraftRow) -> Iterator[Fault]:
 def _processing(index: int, row: DraftRow) -> Iterator[Fault]:
     start, end = row.get("from_s"), row.get("to_s")
     if end is not None and end <= (start or 0.0):
-        text = f"keep to is {end:g} s; give more than keep from, {start or 0.0:g} s"
+        text = f"end time is {end:g} s; give more than the start time, {start or 0.0:g} s"
         yield Fault(Place("motions", index, "to_s"), text)
     high, low = row.get("highpass_hz"), row.get("lowpass_hz")
     if high is not None and low is not None and low <= high:
@@ -71,7 +71,7 @@ def _building(draft: Draft, where: Where) -> Iterator[Fault]:
             text = f"period T1 is missing; give it, or a structure type: {at} is 'ground'"
             yield Fault(Place("building", 0, "period_s"), text)
         if second is not None and (first is None or second > first):
-            longest = "period T1 with it" if first is None else f"at most period T1, {first:g} s"
+            longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
             text = f"period T2 is {second:g} s; give {longest}, or leave it blank"
             yield Fault(Place("building", 0, "period_2_s"), text)
     if ground is not None:
@@ -82,8 +82,10 @@ def _stories(draft: Draft) -> Iterator[Fault]:
     for row in draft["site"]:
         count = row.get("stories", 1)
         if count > MOST_STORIES:
-            text = f"stories is {count}; ground motions reach the roof of at most {MOST_STORIES}"
-            yield Fault(Place("site", 0, "stories"), f"{text}, give motions of the roof")
+            text = (
+                f"number of stories is {count}, more than the {MOST_STORIES} of the building model"
+            )
+            yield Fault(Place("site", 0, "stories"), f"{text}; give roof motions")
 
 
 def _first_row(draft: Draft, field: str, value: object) -> int | None:
@@ -100,7 +102,7 @@ def _own_spectrum(draft: Draft, where: Where) -> Iterator[Fault]:
     for (before, first), (after, second) in pairwise(sorted(given)):
         if after - before <= 1e-9 * after:
             at = where(Place("spectrum", first, "period_s"))
-            text = f"period is {after:g} s, as at {at}; give each once"
+            text = f"period is {after:g} s, already given at {at}; give each period once"
             yield Fault(Place("spectrum", second, "period_s"), text)
     verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
     if any(verticals) and not all(verticals):
@@ -110,13 +112,13 @@ def _own_spectrum(draft: Draft, where: Where) -> Iterator[Fault]:
 
 
 def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Fault]:
-    """Yield what stands against scaling to the target, and against the target itself."""
+    """Yield errors of the target spectrum and of scaling to it."""
     row = draft["target"][0] if draft["target"] else {}
     start, end = row.get("from_s"), row.get("to_s")
     if start is None or end is None:
         return
     if end <= start:
-        text = f"scaling periods to is {end:g} s; give more than scaling periods from, {start:g} s"
+        text = f"longest scaling period is {end:g} s; give more than the shortest, {start:g} s"
         yield Fault(Place("target", 0, "to_s"), text)
         return
     scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
@@ -133,8 +135,8 @@ def _within_passband(draft: Draft, index: int, end_s: float) -> Iterator[Fault]:
     corner = draft["motions"][index].get("highpass_hz")
     if corner is not None and corner * end_s > 1.0 + 1e-9:
         text = (
-            f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the motion"
-            f" is scaled up to periods of {end_s:g} s; lower one of them"
+            f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the longest"
+            f" scaling period is {end_s:g} s; reduce one of them"
         )
         yield Fault(Place("motions", index, "highpass_hz"), text)
 
@@ -144,14 +146,14 @@ def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Fault]:
     if len(periods) < 2 or (min(periods) <= start_s and end_s <= max(periods)):
         return
     text = (
-        f"periods reach from {min(periods):g} to {max(periods):g} s, but motions are scaled over"
+        f"periods range from {min(periods):g} to {max(periods):g} s, but motions are scaled over"
         f" {start_s:g} to {end_s:g} s; add rows, or change the scaling periods"
     )
     yield Fault(Place("spectrum"), text)
 
 
 def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[Fault]:
-    """Yield what the design spectrum lacks where a ground motion is scaled to it."""
+    """Yield missing values of the design spectrum if a ground motion is scaled to it."""
     site = draft["site"][0] if draft["site"] else {}
     target = draft["target"][0]
     parts = {
@@ -163,7 +165,7 @@ def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[
         if ground and value is None:
             at = where(Place("motions", ground[0], "scaling"))
             text = f"{label} is missing; {at} scales a ground motion to the design spectrum, which"
-            yield Fault(place, f"{text} needs S_1, F_v and T_L")
+            yield Fault(place, f"{text} requires S_1, F_v and T_L")
     if all(value is not None and value == value for _, value in parts.values()):
         yield from _transition(site, target)
 
@@ -179,5 +181,5 @@ def _transition(site: DraftRow, target: DraftRow) -> Iterator[Fault]:
 
 
 def site_s_ds(row: DraftRow) -> float | None:
-    """Return S_DS [g] of a draft of the site; None where it cannot be known."""
+    """Return S_DS [g] of a draft of the site; None if it cannot be determined."""
     return s_ds(row.get("s_ds_g"), row.get("s_s_g"), row.get("f_a"))

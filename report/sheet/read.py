@@ -1,7 +1,7 @@
 """Reads an input workbook: every value with its cell, or every error with its cell.
 
-Joins opening (`archive`), finding (`locate`), converting (`cells`), checking
-(`checks`); records are for `report.motions`. Start at `read`.
+Combines opening (`archive`), finding (`locate`), converting (`cells`) and checking (`checks`);
+`report.motions` reads the records. Start at `read`.
 """
 
 from __future__ import annotations
@@ -41,15 +41,15 @@ SI_SYMBOLS = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EchoRow:
-    """One cell as it was read, in finished text.
+    """One cell as read, as finished text.
 
     Attributes
     ----------
     sheet, cell, label : str
     typed, unit : str
-        As typed; a formula with the value that it had when the workbook was saved.
+        As typed; for a formula, with its value when the workbook was saved.
     value : str
-        As taken, in SI where the unit is a choice.
+        As used; in SI if the unit can be chosen.
     """
 
     sheet: str
@@ -62,7 +62,7 @@ class EchoRow:
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """A workbook as data, with every problem that was found in it.
+    """A workbook as data, with every problem found in it.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Sheet:
     sha256 : str
         Of the workbook.
     book : OpenBook
-        For columns pasted into it, and files beside it.
+        For columns pasted into it and files beside it.
     draft : mapping
         Rows of each section by field; a field that could not be read is absent.
     echo : tuple of EchoRow
@@ -98,7 +98,7 @@ class Sheet:
         Raises
         ------
         InputError
-            With every problem, each as `Sheet!Cell: what is found; what would do`.
+            With every problem, each as `Sheet!Cell: what was found; what to give`.
         """
         self.refuse(())
         return ProjectInput(**{section.key: self._made(section) for section in SECTIONS})
@@ -108,7 +108,7 @@ class Sheet:
         return rows if section.is_table else rows[0]
 
     def refuse(self, faults: Iterable[Fault]) -> None:
-        """Raise the problems of the workbook together with more faults, if there are any.
+        """Raise the problems of the workbook together with further faults, if there are any.
 
         Raises
         ------
@@ -126,8 +126,8 @@ def read(path: Path) -> Sheet:
     Raises
     ------
     InputError
-        Where there is no workbook to read. What is wrong within it is told by `Sheet.project`, or
-        with the faults of its records by `report.motions.prepare`.
+        If there is no workbook to read. `Sheet.project` raises the errors within it, and
+        `report.motions.prepare` those together with the errors of its records.
     """
     book = open_book(path)
     gathered = _Gathered()
@@ -147,7 +147,7 @@ def read(path: Path) -> Sheet:
 
 
 def _where(place: Place, addresses: Mapping[Place, str]) -> str:
-    """Return the address of a place; of its table or sheet where it has no cell."""
+    """Return the address of a place; that of its table or sheet if it has no cell."""
     whole = addresses.get(Place(place.section), place.section)
     return addresses.get(place, whole)
 
@@ -155,7 +155,7 @@ def _where(place: Place, addresses: Mapping[Place, str]) -> str:
 def _lines(
     faults: Iterable[Fault], addresses: Mapping[Place, str], unfound: Set[str]
 ) -> Iterator[tuple[Place, str]]:
-    """Yield faults as lines, apart from those that only follow from a table that is not there."""
+    """Yield faults as lines, except those that only follow from a missing table."""
     sources = {"clearances": {"arrays", "objects"}, "links": {"arrays"}}
     for place, text in faults:
         if place.section not in unfound and not sources.get(place.section, set()) & unfound:
@@ -180,7 +180,7 @@ def _ordered(problems: Sequence[tuple[Place, str]]) -> list[str]:
 
 @dataclass(slots=True)
 class _Gathered:
-    """What has been read so far; problems are lines with the place that orders them."""
+    """What has been read so far; problems are lines with the place used for sorting."""
 
     draft: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
     echo: list[EchoRow] = field(default_factory=list)
@@ -193,11 +193,11 @@ class _Gathered:
         return _where(place, self.addresses)
 
     def add(self, place: Place, lines: Iterable[str]) -> None:
-        """Take in finished lines."""
+        """Add finished lines."""
         self.problems += [(place, line) for line in lines]
 
     def take(self, found: Iterable[Fault]) -> None:
-        """Take in faults."""
+        """Add faults."""
         self.problems += _lines(found, self.addresses, self.unfound)
 
 
@@ -330,5 +330,5 @@ def _ignored(book: OpenBook, position: CellPosition) -> EchoRow:
         label=f"column '{text}'",
         typed="",
         unit="",
-        value="not an input: not read",
+        value="not an input, ignored",
     )

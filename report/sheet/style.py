@@ -1,6 +1,6 @@
-"""How a made sheet looks and helps: colours, cells, dropdowns, input messages, print set-up.
+"""Appearance of the input sheets: colors, cells, dropdowns, input messages, print setup.
 
-Knows fields (`fields`) but no section of the workbook. Read `template` next.
+Uses `fields` but no section of the workbook. Read `template` next.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from report.sheet.fields import Entry, YesNo
 from report.words.units import Unit
 
 INK = "1F3A4D"
-GREY = "7A7F85"
+GRAY = "7A7F85"
 WHITE = "FFFFFF"
 INPUT_FILL = PatternFill("solid", start_color="FFF6CC")
 REQUIRED_FILL = PatternFill("solid", start_color=INK)
@@ -51,7 +51,7 @@ def put(
 ) -> SheetCell:
     """Write a locked text and return its cell."""
     cell = sheet.cell(row, column)
-    assert isinstance(cell, SheetCell)  # nothing is merged here
+    assert isinstance(cell, SheetCell)  # no cell is merged here
     cell.value = text
     cell.data_type = "s"
     cell.font = Font(name="Calibri", size=size, bold=bold, italic=italic, color=color)
@@ -61,20 +61,20 @@ def put(
 
 
 def put_input(cell: Any, entry: Entry, value: object, unit: Unit | None) -> None:
-    """Make a cell an input of a field, holding a value in SI or nothing."""
+    """Format a cell as input of a field and write a value given in SI, if any."""
     style_input(cell, entry.kind)
     shown = in_cell(value, unit)
     if shown is None:
         return
     cell.value = shown
     if isinstance(shown, str):
-        cell.data_type = "s"  # a text that starts with = is no formula
+        cell.data_type = "s"  # text that starts with = is not a formula
     elif isinstance(shown, date):
         cell.number_format = "yyyy-mm-dd"
 
 
 def style_input(cell: Any, kind: type[Any]) -> None:
-    """Give a cell the look of an input; texts keep what is typed, such as 3-5."""
+    """Format a cell as input; text cells keep entries such as 3-5 as typed."""
     cell.font = Font(name="Calibri", size=11, color="000000")
     cell.fill, cell.border, cell.protection = INPUT_FILL, BOX, OPEN
     cell.alignment = Alignment(vertical="center", horizontal="left", wrap_text=True, indent=1)
@@ -85,7 +85,7 @@ def style_input(cell: Any, kind: type[Any]) -> None:
 
 
 def in_cell(value: object, unit: Unit | None) -> str | float | int | date | None:
-    """Return a value as a cell holds it: in the sheet's unit, free of rounding dust."""
+    """Return a value as written to a cell: in the sheet's unit, without rounding error."""
     match value:
         case None | "":
             return None
@@ -99,18 +99,18 @@ def in_cell(value: object, unit: Unit | None) -> str | float | int | date | None
             return _ESCAPE.sub("_x005F_", value)  # else Excel reads _x0041_ as A
         case int() | float() | date():
             return value
-    raise TypeError(f"no cell holds a {type(value).__name__}")
+    raise TypeError(f"cannot write a {type(value).__name__} to a cell")
 
 
 def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
-    """Add the dropdown or the range of a field to cells, with its message and its alert."""
+    """Add the dropdown or the range check of a field to cells, with its messages."""
     if entry.choices:
         offer(sheet, cells, entry.choices, entry.cell.label, entry.cell.help)
     elif entry.kind in (int, float):
         _add(sheet, cells, _number_rule(entry, si), entry.cell.label, _message(entry, si))
     elif entry.kind is date:
         rule = DataValidation(type="date", operator="greaterThan", formula1="36526")
-        _add(sheet, cells, rule, entry.cell.label, f"{entry.cell.help} Such as 2026-03-05.")
+        _add(sheet, cells, rule, entry.cell.label, f"{entry.cell.help} For example 2026-03-05.")
     else:
         rule = DataValidation(type="textLength", operator="lessThanOrEqual")
         rule.formula1 = str(entry.max_length)
@@ -120,13 +120,13 @@ def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
 def offer(
     sheet: Worksheet, cells: str, choices: Iterable[str] | str, title: str, message: str
 ) -> None:
-    """Add a dropdown of texts, or of a range of cells, that admits nothing else."""
+    """Add a dropdown of texts, or of a range of cells, that accepts nothing else."""
     formula = choices if isinstance(choices, str) else f'"{",".join(choices)}"'
     _add(sheet, cells, DataValidation(type="list", formula1=formula), title, message)
 
 
 def suggest(sheet: Worksheet, cells: str, source: str, title: str, message: str) -> None:
-    """Add a dropdown of a range of cells that admits other texts too."""
+    """Add a dropdown of a range of cells that also accepts other texts."""
     rule = DataValidation(type="list", formula1=source)
     _add(sheet, cells, rule, title, message)
     rule.showErrorMessage = False
@@ -160,12 +160,12 @@ def _number_rule(entry: Entry, si: float) -> DataValidation:
 
 
 def finish(sheet: Worksheet, is_us: bool) -> None:
-    """Protect a sheet against slips, without a password, and set it up for print."""
+    """Protect a sheet against accidental changes, without a password, and set up printing."""
     sheet.sheet_view.showGridLines = False
     sheet.sheet_view.zoomScale = 100
     protection = sheet.protection
     protection.sheet = True
-    # False means that the action stays allowed.
+    # False means that the action is permitted.
     for action in ("formatCells", "formatColumns", "formatRows", "insertRows", "deleteRows"):
         setattr(protection, action, False)
     page = sheet.page_setup

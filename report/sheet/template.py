@@ -1,7 +1,7 @@
-"""Makes the input workbook from the schema, blank or filled.
+"""Writes the input workbook from the schema, blank or filled in.
 
-Owns where things stand on the sheets; `style` has the looks. `workbook` reads
-the sheets back by names and headers, so positions here are free to change.
+Owns the layout of the sheets; `style` owns their appearance. `read` finds the cells by names and
+headings, so positions here may change.
 """
 
 from __future__ import annotations
@@ -28,36 +28,41 @@ SPARE_ROWS = 5
 LAST_ROW = 500
 BLOCK_HEADS = ("", "Value", "Unit", "Allowed", "Example", "Note")
 BLOCK_WIDTHS = (28, 36, 13, 36, 32, 48)
-HINT_ROWS = ("Needed", "Allowed", "Example")
+HINT_ROWS = ("Required", "Allowed", "Example")
 PROVISIONS = "Provisions"
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 14, 14, 32
 
 STEPS = (
-    "Fill the yellow cells, sheet by sheet. Each says what it wants when you choose it.",
-    "Put the acceleration records into the folder “records” beside this workbook, or paste them"
-    " as columns into a sheet of their own.",
+    "Fill in the yellow cells, sheet by sheet. Select a cell to see its instructions.",
+    "Put the acceleration records in the folder “records” beside this workbook, or paste them"
+    " as columns into a new sheet.",
     "Save the workbook as .xlsx and close it.",
-    "Check it: the command below names every cell that needs another look.",
-    "Make the package and read it: out/calc-package.pdf in the same folder.",
+    "Check the input with the command below, which lists every cell to correct.",
+    "Write the calculation package, out/calc-package.pdf in the same folder.",
 )
 COMMANDS = (
-    ("roofslip check FOLDER", "reads and checks only"),
-    ("roofslip report FOLDER", "writes the package into FOLDER/out"),
+    ("roofslip check FOLDER", "reads and checks the input; writes nothing"),
+    ("roofslip report FOLDER", "writes the package to FOLDER/out"),
 )
 NOTES = (
-    "FOLDER is the folder that holds this workbook under the name input.xlsx.",
-    "Units stand in brackets in the headings of tables, elsewhere in the column Unit. Both may be"
-    f" changed: lengths to {', '.join(LENGTHS)}; weights to {', '.join(WEIGHTS)}; stiffnesses to"
+    "FOLDER is the folder that contains this workbook, named input.xlsx.",
+    "Units are in brackets in the table headings and elsewhere in the column Unit. You may change"
+    f" them: lengths to {', '.join(LENGTHS)}; weights to {', '.join(WEIGHTS)}; stiffnesses to"
     f" {', '.join(STIFFNESSES)}.",
-    "Sheets are protected against slips, without a password (Review, Unprotect Sheet). Sheets may"
-    " be renamed, rows inserted, columns reordered or added.",
-    "Formulas are welcome. Macros are not: .xlsm is refused.",
+    "Sheets are protected against accidental changes, without a password (Review, Unprotect Sheet)."
+    " You may rename sheets, insert rows, and reorder or add columns.",
+    "Formulas are accepted. Macros are not: .xlsm files are rejected.",
 )
 LEGEND = (
-    ("input", "000000", style.INPUT_FILL, "Yours to fill."),
-    ("heading", style.WHITE, style.REQUIRED_FILL, "A column that every row needs; elsewhere *."),
-    ("heading", style.WHITE, style.OPTIONAL_FILL, "A column that may stay blank."),
-    ("example", style.GREY, style.HINT_FILL, "Range and example. Never read as input."),
+    ("input", "000000", style.INPUT_FILL, "Input cell."),
+    (
+        "heading",
+        style.WHITE,
+        style.REQUIRED_FILL,
+        "Required column. Other required cells are marked *.",
+    ),
+    ("heading", style.WHITE, style.OPTIONAL_FILL, "Optional column."),
+    ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
 )
 
 
@@ -67,11 +72,11 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
     Parameters
     ----------
     path : Path
-        An .xlsx to make or to replace.
+        The .xlsx file to write or replace.
     units : UnitsFirst
-        System that the sheets are made in.
+        System of units of the sheets.
     example : ProjectInput, optional
-        Values to fill in; without it the inputs are blank, apart from defaults.
+        Values to fill in; without it the inputs are blank except for defaults.
     """
     book = Workbook()
     _write_readme(book)
@@ -97,10 +102,10 @@ def _rows(section: Section, example: ProjectInput | None) -> Sequence[Frozen]:
 
 
 def _title(sheet: Worksheet, title: str, hint: str) -> int:
-    """Write a heading below what is there and return the next free row."""
+    """Write a heading below the existing content and return the next free row."""
     row = 1 if sheet.max_row == 1 else sheet.max_row + 3
     style.put(sheet, row, 1, title, bold=True, size=16 if row == 1 else 13, wrap=False)
-    style.put(sheet, row + 1, 1, hint, color=style.GREY, wrap=False)
+    style.put(sheet, row + 1, 1, hint, color=style.GRAY, wrap=False)
     sheet.row_dimensions[row].height = 28
     return row + 3
 
@@ -131,20 +136,20 @@ def _write_block_row(
 ) -> None:
     sheet, needed = book[section.sheet], entry.is_required
     style.put(sheet, row, 1, f"{entry.cell.label}{' *' if needed else ''}", bold=needed)
-    # Bounds of quantities are 0 or open, so they hold in whichever unit is chosen.
+    # Bounds of quantities are 0 or open, so they are valid in any unit.
     texts = (_allowed(entry, 1.0), _example(entry, unit), entry.cell.help)
     for column, text in enumerate(texts, start=4):
-        style.put(sheet, row, column, text, color=style.GREY, italic=column == 5)
+        style.put(sheet, row, column, text, color=style.GRAY, italic=column == 5)
     sheet.row_dimensions[row].height = 9 + 13 * _lines(texts, BLOCK_WIDTHS[3:])
     _name(book, section.cell_name(entry.name), sheet, row, 2)
     style.validate(sheet, f"B{row}", entry, 1.0)
     if entry.quantity is None or unit is None:
-        style.put(sheet, row, 3, str(entry.cell.unit), color=style.GREY)
+        style.put(sheet, row, 3, str(entry.cell.unit), color=style.GRAY)
         return
     sheet.cell(row, 3).value = unit.symbol
     style.style_input(sheet.cell(row, 3), str)
     _name(book, section.unit_name(entry.name), sheet, row, 3)
-    style.offer(sheet, f"C{row}", entry.quantity.accepted, "Unit", "Unit of the value beside.")
+    style.offer(sheet, f"C{row}", entry.quantity.accepted, "Unit", "Unit of the value to the left.")
 
 
 def _name(book: Workbook, name: str, sheet: Worksheet, row: int, column: int) -> None:
@@ -177,20 +182,20 @@ def _write_table(
 
 
 def _unless_default(value: object, entry: Entry) -> object:
-    """Return a value, or nothing where a blank cell means the same."""
+    """Return a value, or None if a blank cell means the same."""
     return None if not entry.is_required and value == entry.default else value
 
 
 def _write_hints(sheet: Worksheet, top: int, fields: Sequence[Entry], units: UnitsFirst) -> None:
     for offset, name in enumerate(HINT_ROWS):
-        style.put(sheet, top + offset, 1, name, color=style.GREY, size=9)
+        style.put(sheet, top + offset, 1, name, color=style.GRAY, size=9)
     for column, entry in enumerate(fields, start=2):
         unit = _unit(entry, units)
         needed = "required" if entry.is_required else "optional"
         texts = (needed, _allowed(entry, unit.si if unit else 1.0), _example(entry, unit))
         for row, text in enumerate(texts, start=top):
             is_example = row == top + 2
-            hint = style.put(sheet, row, column, text, color=style.GREY, size=9, italic=is_example)
+            hint = style.put(sheet, row, column, text, color=style.GRAY, size=9, italic=is_example)
             hint.fill, hint.border = style.HINT_FILL, style.BOX
     widths = [_width(entry) for entry in fields]
     for row in (top + 1, top + 2):
@@ -219,7 +224,7 @@ def _write_inputs(
         lines = _lines([str(value or "")], [max(int(dimension.width), _width(entry))])
         height = sheet.row_dimensions[row].height or 0
         sheet.row_dimensions[row].height = max(height, 3 + 14 * lines)
-    # Below the prepared rows the column stays open: what is typed there is read as well.
+    # Cells below the prepared rows stay unlocked: they are read as well.
     dimension.protection = style.OPEN
 
 
@@ -240,14 +245,14 @@ def _add_table(
 ) -> None:
     last = get_column_letter(1 + len(headers))
     table = Table(displayName=section.table_name, ref=f"B{header}:{last}{header + size}")
-    # Columns named by hand: openpyxl would add filter buttons, which a protected sheet disables.
+    # Columns are named here: openpyxl would add filter buttons, which a protected sheet disables.
     table.tableColumns = [TableColumn(id=i, name=name) for i, name in enumerate(headers, start=1)]
     table.tableStyleInfo = TableStyleInfo(name="TableStyleLight1", showRowStripes=False)
     sheet.add_table(table)
 
 
 def _source(book: Workbook, section: Section, entry: Entry) -> str:
-    """Return the range that a table's column offers to choose from; empty for none."""
+    """Return the range that supplies the dropdown of a table's column; empty for none."""
     if section.key == "overrides" and entry.name == "provision":
         first = book[PROVISIONS].max_row - len(PROVISION_KEYS) + 1
         return f"{PROVISIONS}!$A${first}:$A${book[PROVISIONS].max_row}"
@@ -263,11 +268,11 @@ def _write_readme(book: Workbook) -> None:
     sheet.title = "README"
     for column, width in zip("ABC", (5, 30, 92), strict=True):
         sheet.column_dimensions[column].width = width
-    row = _title(sheet, "Roofslip input workbook", "From this sheet to a calc package.")
+    row = _title(sheet, "Roofslip input workbook", "From this workbook to the calculation package.")
     row = _write_steps(sheet, row)
     row = _write_pairs(sheet, row, "Commands", COMMANDS)
     row = _write_legend(sheet, row)
-    _write_pairs(sheet, row, "Good to know", tuple(("", note) for note in NOTES))
+    _write_pairs(sheet, row, "Notes", tuple(("", note) for note in NOTES))
 
 
 def _write_steps(sheet: Worksheet, row: int) -> int:
@@ -286,7 +291,7 @@ def _write_pairs(sheet: Worksheet, row: int, title: str, pairs: Sequence[tuple[s
         row += 1
         style.put(sheet, row, 2, left or right, bold=bool(left), wrap=bool(left))
         if left:
-            style.put(sheet, row, 3, right, color=style.GREY)
+            style.put(sheet, row, 3, right, color=style.GRAY)
         elif len(right) > 120:
             sheet.merge_cells(start_row=row, end_row=row, start_column=2, end_column=3)
             sheet.cell(row, 2).alignment = style.WRAPPED
@@ -295,26 +300,26 @@ def _write_pairs(sheet: Worksheet, row: int, title: str, pairs: Sequence[tuple[s
 
 
 def _write_legend(sheet: Worksheet, row: int) -> int:
-    style.put(sheet, row, 1, "Colours", bold=True, size=13, wrap=False)
+    style.put(sheet, row, 1, "Colors", bold=True, size=13, wrap=False)
     sheet.row_dimensions[row].height = 24
     for sample, color, fill, meaning in LEGEND:
         row += 1
         cell = style.put(sheet, row, 2, sample, color=color, bold=color == style.WHITE)
         cell.fill, cell.border = fill, style.BOX
-        style.put(sheet, row, 3, meaning, color=style.GREY)
+        style.put(sheet, row, 3, meaning, color=style.GRAY)
         sheet.row_dimensions[row].height = 21
     return row + 2
 
 
 def _write_provisions(book: Workbook) -> None:
     sheet = book.create_sheet(PROVISIONS)
-    hint = "Numbers that the sheet Options can replace. Nothing is typed here."
+    hint = "Numbers that can be overridden on the sheet Options. This sheet has no input cells."
     top = _title(sheet, "Provisions", hint)
     for column, width in zip("AB", (30, 90), strict=True):
         sheet.column_dimensions[column].width = width
     for row, (key, meaning) in enumerate(PROVISION_KEYS.items(), start=top):
         style.put(sheet, row, 1, key, bold=True).border = style.LINE
-        style.put(sheet, row, 2, meaning, color=style.GREY).border = style.LINE
+        style.put(sheet, row, 2, meaning, color=style.GRAY).border = style.LINE
         sheet.row_dimensions[row].height = 18
 
 
@@ -341,7 +346,7 @@ def _allowed(entry: Entry, si: float) -> str:
 def _example(entry: Entry, unit: Unit | None) -> str:
     value = entry.cell.example
     if unit is not None and entry.quantity is not None and isinstance(value, float):
-        # Enough for 42000 lb, and 187 rather than 186.825 kN.
+        # 42000 lb keeps all digits; 186.825 kN becomes 187.
         digits = 5 if unit == entry.quantity.us else 3
         return f"{value * entry.quantity.us.si / unit.si:.{digits}g}"
     return f"{value:g}" if isinstance(value, float) else str(value)
@@ -356,7 +361,7 @@ def _width(entry: Entry) -> int:
 
 
 def _lines(texts: Sequence[str], widths: Sequence[int]) -> int:
-    """Return how many lines the tallest of some texts takes at its column's width."""
+    """Return the number of lines of the tallest text at its column's width."""
     return max(
         math.ceil(max(len(text), 1) / (1.2 * width))
         for text, width in zip(texts, widths, strict=True)

@@ -1,1 +1,1 @@
-"""Made suites of motions: targets, files, tables. Read `files`."""
+"""Generated suites of motions: targets, files, tables. Read `files`."""

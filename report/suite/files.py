@@ -1,6 +1,6 @@
-"""What `roofslip motion suite` gives: every file as finished bytes, and the printed table.
+"""Output of `roofslip motion suite`: every file as finished bytes, and the printed table.
 
-Prints nothing and touches no folder; the motions are `solver.synthesis`'s. Read
+Prints nothing and writes no file; `solver.synthesis` generates the motions. Read
 `suite_files` first.
 """
 
@@ -33,16 +33,16 @@ from solver.synthesis import (
 )
 
 LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.05
-"""What a suite promises of every component's ratios to its target, at 1/12 octave."""
+"""Limits on every component's ratios to its target, at 1/12 octave."""
 
 _DRAWN_HZ: Floats = np.geomspace(0.1, 50.0, 180)
-# A drift below this part of the peak is rounding of sums.
+# A drift below this fraction of the peak is rounding error.
 _NO_DRIFT = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Component:
-    """One component of a made motion, as it is reported."""
+    """One component of a generated motion, as reported."""
 
     motion: str
     component: str
@@ -52,20 +52,20 @@ class Component:
     measures: Measures
 
     @property
-    def keeps(self) -> bool:
-        """Whether the promised ratios hold."""
+    def is_within_limits(self) -> bool:
+        """Whether the ratios to the target satisfy the limits."""
         fit = self.fit
         in_range = fit.least >= LEAST and fit.greatest <= GREATEST
         return in_range and abs(fit.mean - 1.0) <= MEAN_OFF
 
     @property
     def final_velocity_mps(self) -> float:
-        """Velocity at the end, 0 where it is rounding [m/s]."""
+        """Velocity at the end [m/s]; 0 if it is rounding error."""
         return _cleared(self.measures.final_velocity_mps, self.measures.pgv_mps)
 
     @property
     def final_displacement_m(self) -> float:
-        """Displacement at the end, 0 where it is rounding [m]."""
+        """Displacement at the end [m]; 0 if it is rounding error."""
         return _cleared(self.measures.final_displacement_m, self.measures.pgd_m)
 
 
@@ -104,7 +104,7 @@ def suite_files(
     targets : SuiteTargets
     seed : int
     records : mapping of str to str
-        The files that seeded it, with their SHA-256.
+        The seed files, with their SHA-256.
     """
     parts = components(suite, targets)
     files = {f"{part.record.name}.csv": record_csv(part.record).encode() for part in parts}
@@ -172,7 +172,7 @@ def _motion(
 
 
 def _component(part: Component, files: Mapping[str, bytes]) -> dict[str, Any]:
-    name, found = f"{part.record.name}.csv", part.measures
+    name, values = f"{part.record.name}.csv", part.measures
     return {
         "component": part.component,
         "file": name,
@@ -182,11 +182,11 @@ def _component(part: Component, files: Mapping[str, bytes]) -> dict[str, Any]:
         "least_ratio": part.fit.least,
         "greatest_ratio": part.fit.greatest,
         "mean_ratio": part.fit.mean,
-        "pga_g": found.pga_mps2 / G_MPS2,
-        "pgv_mps": found.pgv_mps,
-        "pgd_m": found.pgd_m,
-        "arias_mps": found.arias_mps,
-        "d5_95_s": found.d5_95_s,
+        "pga_g": values.pga_mps2 / G_MPS2,
+        "pgv_mps": values.pgv_mps,
+        "pgd_m": values.pgd_m,
+        "arias_mps": values.arias_mps,
+        "d5_95_s": values.d5_95_s,
         "final_velocity_mps": part.final_velocity_mps,
         "final_displacement_m": part.final_displacement_m,
     }
@@ -202,22 +202,22 @@ def _panel(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> Pa
 _COLUMNS = (
     ("motion", ""),
     ("", ""),
-    ("least", ">"),
-    ("greatest", ">"),
+    ("min", ">"),
+    ("max", ">"),
     ("mean", ">"),
     ("PGA [g]", ">"),
     ("PGV [cm/s]", ">"),
     ("PGD [cm]", ">"),
     ("D5-95 [s]", ">"),
-    ("end [cm/s]", ">"),
-    ("end [cm]", ">"),
+    ("final v [cm/s]", ">"),
+    ("final d [cm]", ">"),
     ("correlation", ""),
-    ("from", ""),
+    ("seed", ""),
 )
 
 
 def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str]:
-    """Return the lines to print: targets, limits, a line a component, and whether all hold."""
+    """Return the lines to print: targets, one line per component, and whether limits are met."""
     parts = components(suite, targets)
     pairs = [
         f"{name} {value:+.2f}"
@@ -226,28 +226,28 @@ def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str
     ]
     rows = [tuple(name for name, _ in _COLUMNS)]
     rows += [_cells(part, pair) for part, pair in zip(parts, pairs, strict=True)]
-    kept = sum(part.keeps for part in parts)
+    n_within = sum(part.is_within_limits for part in parts)
     return [
         *targets.lines,
         *_aligned(rows),
-        f"{kept} of {len(parts)} components within {LEAST:.2f} to {GREATEST:.2f} of the target, "
-        f"mean within {100 * MEAN_OFF:g} %, at 1/12 octave from {BAND_HZ[0]:g} to "
-        f"{BAND_HZ[1]:g} Hz, 5 % damping",
+        f"{n_within} of {len(parts)} components have spectra of {LEAST:.2f} to {GREATEST:.2f} "
+        f"times the target and a mean ratio within {100 * MEAN_OFF:g} % of 1 (1/12 octave, "
+        f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz, 5 % damping)",
     ]
 
 
 def _cells(part: Component, pair: str) -> tuple[str, ...]:
-    found = part.measures
+    values = part.measures
     return (
         part.motion if part.component == "x" else "",
         part.component,
         f"{part.fit.least:.3f}",
         f"{part.fit.greatest:.3f}",
         f"{part.fit.mean:.3f}",
-        f"{found.pga_mps2 / G_MPS2:.3f}",
-        f"{100.0 * found.pgv_mps:.1f}",
-        f"{100.0 * found.pgd_m:.1f}",
-        f"{found.d5_95_s:.1f}",
+        f"{values.pga_mps2 / G_MPS2:.3f}",
+        f"{100.0 * values.pgv_mps:.1f}",
+        f"{100.0 * values.pgd_m:.1f}",
+        f"{values.d5_95_s:.1f}",
         f"{100.0 * part.final_velocity_mps:.3g}",
         f"{100.0 * part.final_displacement_m:.3g}",
         pair,

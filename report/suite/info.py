@@ -1,6 +1,6 @@
-"""What `roofslip motion info` says of a file of records: numbers by name, and their table.
+"""Output of `roofslip motion info`: measures of the records of a file, and their table.
 
-Prints nothing and draws nothing. Read `report.cli.motion` for the command.
+Prints and plots nothing. Read `report.cli.motion` for the command.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from solver.records.spectrum import response_spectrum
 
 PERIODS_S: Floats = np.geomspace(0.02, 10.0, 200)
 
-# Heading, key of the numbers, and their size in what is printed.
+# Heading, key of the number, and factor for the printed unit.
 _COLUMNS = (
     ("dt [s]", "dt_s", 1.0),
-    ("points", "npts", 1.0),
+    ("samples", "npts", 1.0),
     ("length [s]", "duration_s", 1.0),
     ("PGA [g]", "pga_g", 1.0),
     ("PGV [cm/s]", "pgv_mps", 100.0),
@@ -32,31 +32,31 @@ _COLUMNS = (
     ("final d [cm]", "final_displacement_m", 100.0),
 )
 
-# A drift below this part of the peak is rounding.
+# A drift below this fraction of the peak is rounding error.
 _NO_DRIFT = 1e-9
 
 
 def summary(record: Record) -> dict[str, Any]:
-    """Return what a record amounts to: SI but for g, units in the keys."""
-    found = measures(record)
+    """Return the measures of a record, in SI except g, with units in the keys."""
+    values = measures(record)
     npts = len(record.a_mps2)
     return {
         "name": record.name,
         "dt_s": record.dt_s,
         "npts": npts,
         "duration_s": (npts - 1) * record.dt_s,
-        "pga_g": found.pga_mps2 / G_MPS2,
-        "pgv_mps": found.pgv_mps,
-        "pgd_m": found.pgd_m,
-        "arias_mps": found.arias_mps,
-        "d5_95_s": found.d5_95_s,
-        "final_velocity_mps": found.final_velocity_mps,
-        "final_displacement_m": found.final_displacement_m,
+        "pga_g": values.pga_mps2 / G_MPS2,
+        "pgv_mps": values.pgv_mps,
+        "pgd_m": values.pgd_m,
+        "arias_mps": values.arias_mps,
+        "d5_95_s": values.d5_95_s,
+        "final_velocity_mps": values.final_velocity_mps,
+        "final_displacement_m": values.final_displacement_m,
     }
 
 
 def table(channels: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Return summaries as lines of a table, a channel each, under a heading."""
+    """Return summaries as lines of a table, one channel per line, under a heading."""
     rows = [("", "channel", *(heading for heading, _, _ in _COLUMNS))]
     rows += [(str(number), *_row(one)) for number, one in enumerate(channels, start=1)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
@@ -83,7 +83,7 @@ def _number(value: float, key: str) -> str:
 
 
 def _aligned(row: Sequence[str], widths: Sequence[int]) -> str:
-    """Names to the left, numbers to the right."""
+    """Align names left and numbers right."""
     number, name, *values = row
     cells = [text.rjust(width) for text, width in zip(values, widths[2:], strict=True)]
     return "  ".join([number.rjust(widths[0]), name.ljust(widths[1]), *cells])

@@ -1,6 +1,6 @@
-"""What a made suite is asked for: targets by code or table, records as seeds, a folder to fill.
+"""Inputs of a generated suite: targets by code or table, records as seeds, the output folder.
 
-Makes nothing: `report.suite.files` does. Read `SuiteTargets` first.
+`report.suite.files` makes the output. Read `SuiteTargets` first.
 """
 
 from __future__ import annotations
@@ -21,23 +21,23 @@ from solver.rules.provisions import RULE_SETS
 from solver.rules.spectra import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical
 from solver.synthesis import Target
 
-CODES = {"asce7-16": "ASCE 7-16", "asce7-22": "ASCE 7-22", "pv1": "SEAOC PV1-2012"}
+CODES = {rules.code: rules.name for rules in RULE_SETS.values()}
 """Rule sets by their names on the command line."""
 
 _MOST_S_DS_G = 5.0
-_UPRIGHT = re.compile(r"(?<![a-z])(up|ud|u-d|vert|vertical|v|z)(?![a-z])", re.IGNORECASE)
-_MADE = re.compile(r"motion-\d{2,}-[xyz]\.csv")
+_VERTICAL = re.compile(r"(?<![a-z])(up|ud|u-d|vert|vertical|v|z)(?![a-z])", re.IGNORECASE)
+_GENERATED = re.compile(r"motion-\d{2,}-[xyz]\.csv")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SuiteTargets:
-    """What x and y, and z, are to follow, and how that is said.
+    """Target spectra of x and y, and of z, and their description.
 
     Attributes
     ----------
     horizontal, vertical : Target
     lines : tuple of str
-        For a reader.
+        Printed description.
     facts : mapping
         For suite.json.
     """
@@ -63,13 +63,15 @@ def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> S
     Raises
     ------
     InputError
-        Where a number is out of its range.
+        If a number is out of range.
     """
     problems = _s_ds_problems(s_ds_g)
     if not 0.0 <= z_over_h <= 1.0:
         problems.append(f"z/h is {z_over_h:g}; give a number from 0 (ground) to 1 (roof)")
     if problems:
         raise InputError(problems)
+    if code not in CODES:
+        raise InputError(f"--code is {code!r}; give one of {', '.join(CODES)}")
     rules = RULE_SETS[CODES[code]]
     across = ac156_horizontal(rules, s_ds_g=s_ds_g, z_over_h=z_over_h, tail=tail)
     upward = ac156_vertical(s_ds_g=s_ds_g, tail=tail)
@@ -94,16 +96,16 @@ def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> S
 
 
 def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTargets:
-    """Return the targets of a table; without its own vertical, AC156's for S_DS.
+    """Return the targets of a table; if it has no vertical, the vertical is AC156 for S_DS.
 
     Raises
     ------
     InputError
-        Where the table has no vertical and S_DS is NaN.
+        If the table has no vertical and S_DS is NaN.
     """
     slowest_s = 1.0 / table.freq_hz[0]
     lines = [
-        f"target: {table.source}, {len(table.freq_hz)} points to a period of {slowest_s:.4g} s"
+        f"target: {table.source}, {len(table.freq_hz)} points, periods up to {slowest_s:.4g} s"
     ]
     facts: dict[str, Any] = {"source": table.source}
     if table.has_vertical:
@@ -111,8 +113,8 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
     else:
         if math.isnan(s_ds_g):
             raise InputError(
-                f"{table.source}: has no vertical; add a column vertical [g], or give --sds for "
-                "the vertical of AC156"
+                f"{table.source}: has no vertical column; add vertical [g], or give --sds for the "
+                "AC156 vertical spectrum"
             )
         if problems := _s_ds_problems(s_ds_g):
             raise InputError(problems)
@@ -120,7 +122,7 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
         vertical = (upward.freq_hz, upward.sa_g)
         lines += [
             f"vertical: AC156, S_DS {s_ds_g:g} g: {_plateaus(upward)}",
-            f"tail of the vertical: {tail.sentence}",
+            f"vertical tail: {tail.sentence}",
         ]
         facts |= {"vertical_source": "AC156", "s_ds_g": s_ds_g, "tail": tail.value}
     return SuiteTargets(
@@ -131,7 +133,7 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
 def _s_ds_problems(s_ds_g: float) -> list[str]:
     if 0.0 < s_ds_g <= _MOST_S_DS_G:
         return []
-    return [f"S_DS is {s_ds_g:g} g; give a number above 0, at most {_MOST_S_DS_G:g}"]
+    return [f"S_DS is {s_ds_g:g} g; give a number greater than 0 and at most {_MOST_S_DS_G:g}"]
 
 
 def _plateaus(upward: RequiredSpectrum) -> str:
@@ -140,16 +142,16 @@ def _plateaus(upward: RequiredSpectrum) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Seeds:
-    """Records that a suite grows from.
+    """Records used as seeds of a suite.
 
     Attributes
     ----------
     groups : tuple of tuple of Record
-        A group a motion; a vertical record among three comes last.
+        One group for each motion; a vertical record among three is last.
     sha256 : mapping of str to str
         Of each file.
     notes : tuple of str
-        What a user should know of the reading.
+        Remarks on how the files were read.
     """
 
     groups: tuple[tuple[Record, ...], ...]
@@ -158,7 +160,7 @@ class Seeds:
 
 
 def read_seeds(names: Sequence[str], *, units: str, dt_s: float) -> Seeds:
-    """Read the records of seeds: a motion for each name, or for files joined by commas.
+    """Read the seed records: one motion for each name; a name may be files joined by commas.
 
     Raises
     ------
@@ -186,24 +188,24 @@ def read_seeds(names: Sequence[str], *, units: str, dt_s: float) -> Seeds:
 
 
 def _group(name: str, files: Iterable[MotionFile]) -> tuple[Record, ...]:
-    """Return the channels of all files, named after them, a vertical among three last."""
+    """Return the channels of all files with the file names; a vertical among three is last."""
     channels = [(file, record) for file in files for record in file.channels]
     group = [_named(file, record) for file, record in channels]
     if len(group) > 3:
         raise InputError(
-            f"{name}: found {len(group)} channels; give one, two or three for a motion "
-            "(roofslip motion convert takes one out of a file)"
+            f"{name}: has {len(group)} channels; give one, two or three for each motion "
+            "(roofslip motion convert extracts a channel)"
         )
-    upright = [_is_upright(file, record) for file, record in channels]
-    if len(group) == 3 and sum(upright) == 1:
-        group.append(group.pop(upright.index(True)))
+    is_vertical = [_is_vertical(file, record) for file, record in channels]
+    if len(group) == 3 and sum(is_vertical) == 1:
+        group.append(group.pop(is_vertical.index(True)))
     return tuple(group)
 
 
-def _is_upright(file: MotionFile, record: Record) -> bool:
-    """Whether a channel, or a lone one's file, is named as vertical."""
+def _is_vertical(file: MotionFile, record: Record) -> bool:
+    """Whether a channel, or the file of a single channel, has the name of a vertical."""
     name = Path(file.name).stem if record.name == file.name else record.name
-    return bool(_UPRIGHT.search(name))
+    return bool(_VERTICAL.search(name))
 
 
 def _named(file: MotionFile, record: Record) -> Record:
@@ -212,7 +214,7 @@ def _named(file: MotionFile, record: Record) -> Record:
 
 
 def check_folder(folder: Path, count: int) -> None:
-    """Refuse a folder in which motions of an older suite would be left beside the new ones.
+    """Refuse a folder in which motions of an earlier suite would remain beside the new ones.
 
     Raises
     ------
@@ -226,9 +228,9 @@ def check_folder(folder: Path, count: int) -> None:
             f"{folder}: cannot be read ({error.strerror}); choose another folder"
         ) from error
     new = {f"motion-{k:02d}-{axis}.csv" for k in range(1, count + 1) for axis in "xyz"}
-    left = [name for name in names if _MADE.fullmatch(name) and name not in new]
+    left = [name for name in names if _GENERATED.fullmatch(name) and name not in new]
     if left:
         raise InputError(
-            f"{folder}: {left[0]} and {len(left) - 1} others of an older suite would be left "
-            "beside the new ones; remove them, or choose another folder"
+            f"{folder}: {left[0]} and {len(left) - 1} other files of an earlier suite would "
+            "remain; remove them, or choose another folder"
         )

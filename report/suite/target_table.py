@@ -1,7 +1,6 @@
-"""Target spectra that people bring: a sheet of a workbook, or csv, read into corner points.
+"""User-defined target spectra: a workbook sheet or CSV file, read into corner points.
 
-Knows no code rules and makes no motions. Read `read_target` first; `report.sheet.archive` guards
-what a workbook may do.
+Independent of code rules. Read `read_target` first; `report.sheet.archive` checks the workbook.
 """
 
 from __future__ import annotations
@@ -46,23 +45,23 @@ _LIMITS = {
 }
 _SHOWN = {_FREQUENCY: "Hz", _PERIOD: "s", _HORIZONTAL: "g", _VERTICAL: "g"}
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
-_WANTED = "frequency [Hz] or period [s], horizontal [g] and, if there is one, vertical [g]"
-# Printed ends of the band, such as 3.33 s, are rounded.
+_WANTED = "frequency [Hz] or period [s], horizontal [g] and, optionally, vertical [g]"
+# Allows for band limits given as rounded periods, such as 3.33 s.
 _ROUNDED = 0.01
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetTable:
-    """A target spectrum as it was found.
+    """A target spectrum as read.
 
     Attributes
     ----------
     source : str
-        File, with the sheet.
+        File and sheet.
     freq_hz, horizontal_g : array, shape (m,)
-        Rising frequencies [Hz], accelerations [g].
+        Increasing frequencies [Hz], accelerations [g].
     vertical_g : array, shape (m,) or (0,)
-        Empty where the table has no vertical.
+        Empty if the table has no vertical.
     """
 
     source: str
@@ -77,18 +76,18 @@ class TargetTable:
 
     @property
     def horizontal(self) -> Target:
-        """Corners of the horizontal target."""
+        """Corner points of the horizontal target."""
         return self.freq_hz, self.horizontal_g
 
     @property
     def vertical(self) -> Target:
-        """Corners of the vertical target."""
+        """Corner points of the vertical target."""
         return self.freq_hz, self.vertical_g
 
 
 @dataclass(frozen=True, slots=True)
 class _Cell:
-    """A cell, or a field of csv, with its place for messages."""
+    """A cell, or a field of a CSV file, with its place for messages."""
 
     place: str
     found: Found
@@ -106,11 +105,11 @@ _Rows = Sequence[Sequence[_Cell]]
 
 
 def read_target(named: str) -> TargetTable:
-    """Read a target spectrum: `BOOK.xlsx!Sheet`, `BOOK.xlsx` of one sheet, or a csv file.
+    """Read a target spectrum: `BOOK.xlsx!Sheet`, `BOOK.xlsx` with one sheet, or a CSV file.
 
-    One row, among the first ten, holds the headings frequency [Hz] or period [s], horizontal [g]
-    and perhaps vertical [g]; other columns are left alone. The rows below may come in any order;
-    between them the spectrum is straight on log-log axes.
+    One of the first ten rows has the headings frequency [Hz] or period [s], horizontal [g] and,
+    optionally, vertical [g]; other columns are ignored. The rows below may be in any order; the
+    spectrum is interpolated on log-log axes.
 
     Raises
     ------
@@ -141,7 +140,7 @@ def _title(book: OpenBook, sheet: str) -> str:
             return title
     name, there = book.path.name, ", ".join(f"'{title}'" for title in titles[:MAX_TOLD])
     if not sheet:
-        raise InputError(f"{name}: has {len(titles)} sheets; write {name}!Sheet, one of {there}")
+        raise InputError(f"{name}: has {len(titles)} sheets; give {name}!Sheet, one of {there}")
     raise InputError(f"{name}: has no sheet '{sheet}'; give one of {there}")
 
 
@@ -149,7 +148,7 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
     extent = book.extent(title)
     if extent.last_row > MAX_ROWS + HEADING_ROWS:
         raise InputError(
-            f"{title}!{extent.row_cell}: holds something beyond row {MAX_ROWS + HEADING_ROWS}; "
+            f"{title}!{extent.row_cell}: contains data beyond row {MAX_ROWS + HEADING_ROWS}; "
             f"give at most {MAX_ROWS} rows"
         )
     columns = range(1, min(extent.last_column, MAX_COLUMNS) + 1)
@@ -170,7 +169,7 @@ def _text_rows(path: Path) -> _Rows:
     try:
         rows = list(csv.reader(lines, delimiter=separator, strict=True))
     except csv.Error as error:
-        raise InputError(f"{path.name}: not csv ({error}); give {_WANTED}") from error
+        raise InputError(f"{path.name}: not CSV ({error}); give {_WANTED}") from error
     if len(rows) > MAX_ROWS + HEADING_ROWS:
         raise InputError(f"{path.name}: has {len(rows)} lines; give at most {MAX_ROWS} rows")
     return [
@@ -182,16 +181,18 @@ def _text_rows(path: Path) -> _Rows:
 def _text(path: Path) -> str:
     try:
         if not path.is_file():
-            raise InputError(f"{path}: no such file; give BOOK.xlsx!Sheet or a csv of {_WANTED}")
+            raise InputError(
+                f"{path}: no such file; give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
+            )
         if path.stat().st_size > MAX_BYTES:
             raise InputError(f"{path.name}: larger than 1 MB; give at most {MAX_ROWS} rows")
         text = path.read_bytes().decode("utf-8-sig")
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(f"{path}: cannot be read as text; give csv of {_WANTED}") from error
+        raise InputError(f"{path}: cannot be read as text; give CSV with {_WANTED}") from error
     if re.search(r"[\x00-\x08\x0e-\x1f]", text):
-        raise InputError(f"{path.name}: not a text file; give csv of {_WANTED}")
+        raise InputError(f"{path.name}: not a text file; give CSV with {_WANTED}")
     return text
 
 
@@ -237,23 +238,23 @@ def _columns(row: Sequence[_Cell], kinds: Sequence[str]) -> Mapping[str, int]:
         if unit not in ("", _UNITS[kind]):
             problems.append(f"{cell.place}: is '{cell.text}'; give {kind} [{_SHOWN[kind]}]")
         if kind in columns:
-            problems.append(f"{cell.place}: a second {kind}; give one")
+            problems.append(f"{cell.place}: a second {kind} column; delete one")
         columns[kind] = column
     if _FREQUENCY in columns and _PERIOD in columns:
         place = row[columns[_PERIOD]].place
-        problems.append(f"{place}: both frequency and period; give one of them")
+        problems.append(f"{place}: both frequency and period; delete one of them")
     if problems:
         raise InputError(problems)
     return columns
 
 
 def _value(row: Sequence[_Cell], column: int, kind: str, problems: list[str]) -> float:
-    """Return a number above 0; where there is none, NaN with the problem noted."""
+    """Return a number greater than 0; NaN, with a problem added, if there is none."""
     if column >= len(row) or row[column].is_blank:
         place = row[min(column, len(row) - 1)].place
-        problems.append(f"{place}: {kind} is blank; give a number above 0")
+        problems.append(f"{place}: {kind} is blank; give a number greater than 0")
         return float("nan")
-    cell, wanted = row[column], f"give a number above 0 [{_SHOWN[kind]}]"
+    cell, wanted = row[column], f"give a number greater than 0 [{_SHOWN[kind]}]"
     try:
         check_saved(cell.found)
         value = number(cell.found, wanted)
@@ -279,11 +280,11 @@ def _range_problems(source: str, freq_hz: Floats) -> Iterator[str]:
     apart = np.diff(np.sort(freq_hz)) > 1e-9 * np.sort(freq_hz)[1:]
     if not apart.all():
         at = float(np.sort(freq_hz)[1:][~apart][0])
-        yield f"{source}: {at:g} Hz ({1 / at:g} s) is there twice; give each frequency once"
+        yield f"{source}: {at:g} Hz ({1 / at:g} s) appears twice; give each frequency once"
     low, high = BAND_HZ[0] * (1.0 + _ROUNDED), BAND_HZ[1] * (1.0 - _ROUNDED)
     if freq_hz.min() > low or freq_hz.max() < high:
         yield (
-            f"{source}: reaches from {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz; give "
+            f"{source}: covers {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz; give "
             f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz (periods from 0.03 to 3.33 s) or more"
         )
 

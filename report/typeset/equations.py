@@ -1,6 +1,6 @@
-"""Symbolic formulas as pictures, and the little markup that substituted lines are made of.
+"""Equations as pictures, and the markup of symbols and fractions in text.
 
-Knows no values of a project: `report.pages.method` puts numbers beside the symbols.
+Knows no values of a project: `report.pages.method` adds the numbers.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ class Formula:
 def formula(latex: str) -> Formula:
     """Return a LaTeX formula as a picture."""
     svg = _typeset(latex)
-    found = _SIZE.match(svg)
+    size = _SIZE.match(svg)
     outlines = _PATH.findall(svg)
     # Fraction bars are rectangles.
     bars = ["M{0} {1}h{2}v{3}h-{2}Z".format(*_bar(bar)) for bar in _BAR.findall(svg)]
-    if found is None or not outlines:
+    if size is None or not outlines:
         raise DefectError(f"no outlines in the picture of {latex}")
-    width, height, box = found.groups()
+    width, height, box = size.groups()
     return Formula(
         svg=f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
         f'viewBox="{box}"><path d="{" ".join([*outlines, *bars])}"/></svg>',
@@ -52,11 +52,11 @@ def formula(latex: str) -> Formula:
 
 def _typeset(latex: str) -> str:
     with warnings.catch_warnings():
-        # On import ziamath asks for its font in a way that Python is going to drop.
+        # On import, ziamath loads its font through a deprecated Python interface.
         warnings.simplefilter("ignore", DeprecationWarning)
         from ziamath.config import config
         from ziamath.zmath import Latex
-    config.svg2 = False  # outlines in place: symbols that are used again cost the page far more
+    config.svg2 = False  # inline outlines: reused symbols cost the page much more
     return str(Latex(latex, size=SIZE_PT).svg())
 
 
@@ -65,14 +65,14 @@ def _bar(tag: str) -> list[str]:
 
 
 def symbol(text: str) -> Markup:
-    """Return a symbol with its subscript: `S_DS` reads S with a lowered DS."""
+    """Return a symbol with its subscript: `S_DS` is S with subscript DS."""
     stem, _, below = text.partition("_")
-    lowered = Markup("<sub>{}</sub>").format(below) if below else Markup("")
-    return Markup("<i>{}</i>{}").format(stem, lowered)
+    subscript = Markup("<sub>{}</sub>").format(below) if below else Markup("")
+    return Markup("<i>{}</i>{}").format(stem, subscript)
 
 
 def fraction(above: str, below: str) -> Markup:
-    """Return a fraction set on two lines."""
+    """Return a fraction with numerator above denominator."""
     return Markup(
         '<span class="frac"><span class="above">{}</span><span class="below">{}</span></span>'
     ).format(escape(above), escape(below))

@@ -1,7 +1,7 @@
 """From finished HTML to PDF: the only module that knows the renderer.
 
-Reads nothing but the HTML, `data:` addresses and the fonts and styles shipped in the template
-folder. Whatever the renderer logs as a warning or worse is a defect.
+Reads only the HTML, `data:` addresses and the fonts and styles in the template folder. Any warning
+in the renderer's log is an internal error.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 from solver.model import DefectError
 
 _HERE = Path(__file__).resolve().parents[1]
-# A wheel carries the folder within the package, a checkout beside it.
+# In a wheel the folder is inside the package, in a checkout beside it.
 TEMPLATES = next(
     (path for path in (_HERE / "templates", _HERE.parent / "templates") if path.is_dir()),
     _HERE / "templates",
@@ -30,7 +30,7 @@ def lay_out(html: str) -> bytes:
     Raises
     ------
     DefectError
-        With the renderer's log, where it has any line of warning level or above.
+        If the renderer logs a line of warning level or above; with these lines.
     """
     from weasyprint import HTML
     from weasyprint.text.fonts import FontConfiguration
@@ -72,16 +72,18 @@ def _clean_log() -> Iterator[None]:
     finally:
         logger.removeHandler(lines)
     if lines.found:
-        raise DefectError("the PDF renderer complained:\n" + "\n".join(dict.fromkeys(lines.found)))
+        raise DefectError(
+            "the PDF renderer logged warnings:\n" + "\n".join(dict.fromkeys(lines.found))
+        )
 
 
 class _Lines(logging.Handler):
-    """Keeps what is logged."""
+    """Collects the logged lines."""
 
     def __init__(self, level: int) -> None:
         super().__init__(level)
         self.found: list[str] = []
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Keep one line."""
+        """Append one line."""
         self.found.append(record.getMessage())

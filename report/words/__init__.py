@@ -1,1 +1,1 @@
-"""Units and letters: how values are written. Read `units`."""
+"""Units and symbols: how values are printed. Read `units`."""

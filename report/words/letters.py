@@ -1,4 +1,4 @@
-"""Letters for their names, as the solver writes `mu` and a page prints μ; raised exponents."""
+"""Greek letters for their names (the solver writes `mu`, a page prints μ); superscripts."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def power_of_ten(exponent: int) -> str:
 
 
 def lettered(text: str) -> str:
-    """Return a text with letters for their names, roots, raised twos and true minus signs."""
+    """Return a text with Greek letters, root signs, superscript twos and true minus signs."""
     named = _NAMES.sub(lambda found: _LETTERS[found[1]], text)
     for plain, set_well in _SIGNS.items():
         named = named.replace(plain, set_well)

@@ -1,6 +1,6 @@
 """US and SI side by side: quantities, their units in both systems, and the one number formatter.
 
-Values are SI everywhere else; only what a person reads or types passes through here.
+Values are in SI everywhere else; values that a user reads or enters are converted here.
 """
 
 from __future__ import annotations
@@ -10,12 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from solver.model import STANDARD_GRAVITY_MPS2
+from solver.model import INCH_M, STANDARD_GRAVITY_MPS2
 
 NEWTONS_PER_POUND = 4.4482216152605
 G_MPS2 = STANDARD_GRAVITY_MPS2
 
-LENGTHS = {"in": 0.0254, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+LENGTHS = {"in": INCH_M, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
 """Lengths in m."""
 
 WEIGHTS = {
@@ -25,11 +25,11 @@ WEIGHTS = {
     "kN": 1e3,
     "kg": G_MPS2,
 }
-"""Weights in N; a mass counts with standard gravity."""
+"""Weights in N; a mass is multiplied by standard gravity."""
 
 STIFFNESSES = {
-    "lb/in": NEWTONS_PER_POUND / 0.0254,
-    "kip/in": 1e3 * NEWTONS_PER_POUND / 0.0254,
+    "lb/in": NEWTONS_PER_POUND / INCH_M,
+    "kip/in": 1e3 * NEWTONS_PER_POUND / INCH_M,
     "N/m": 1.0,
     "N/mm": 1e3,
     "kN/m": 1e3,
@@ -39,9 +39,9 @@ STIFFNESSES = {
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit: its symbol, its size in SI, and how many decimals a page prints.
+    """A unit: its symbol, its size in SI, and the number of decimals printed.
 
-    From 1000 up, `significant` digits are printed where that is not 0: 2072 mm reads 2070 mm.
+    At 1000 or more, `significant` digits are printed if that is not 0: 2072 mm is 2070 mm.
     """
 
     symbol: str
@@ -51,28 +51,28 @@ class Unit:
 
 
 class Quantity(Enum):
-    """What a number measures: (US unit, SI unit)."""
+    """A physical quantity: (US unit, SI unit)."""
 
-    DISPLACEMENT = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0, significant=3))
-    SIZE = (Unit("in", 0.0254, 1), Unit("mm", 1e-3, 0))
+    DISPLACEMENT = (Unit("in", INCH_M, 1), Unit("mm", 1e-3, 0, significant=3))
+    SIZE = (Unit("in", INCH_M, 1), Unit("mm", 1e-3, 0))
     PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
     WEIGHT = (Unit("lb", NEWTONS_PER_POUND, 0), Unit("kN", 1e3, 2))
-    STIFFNESS = (Unit("lb/in", NEWTONS_PER_POUND / 0.0254, 0), Unit("kN/m", 1e3, 1))
+    STIFFNESS = (Unit("lb/in", NEWTONS_PER_POUND / INCH_M, 0), Unit("kN/m", 1e3, 1))
 
     @property
     def accepted(self) -> Mapping[str, float]:
-        """Symbols that an input may use, each with its size in SI."""
+        """Symbols accepted in the input, each with its size in SI."""
         others = {Quantity.WEIGHT: WEIGHTS, Quantity.STIFFNESS: STIFFNESSES}
         return others.get(self, LENGTHS)
 
     @property
     def us(self) -> Unit:
-        """The unit in the US system."""
+        """The US unit."""
         return self.value[0]
 
     @property
     def si(self) -> Unit:
-        """The unit in the SI."""
+        """The SI unit."""
         return self.value[1]
 
 
@@ -95,7 +95,7 @@ def measured(value_si: float, unit: Unit) -> str:
 
 
 def pair(value_si: float, quantity: Quantity, us_first: bool = True) -> str:
-    """Return a value in both systems, such as `81.6 in (2070 mm)`, the wanted one first."""
+    """Return a value in both systems, such as `81.6 in (2070 mm)`, the preferred one first."""
     first, second = (
         f"{measured(value_si, unit)} {unit.symbol}"
         for unit in (quantity.value if us_first else quantity.value[::-1])

@@ -1,1 +1,1 @@
-"""From ground to roof: an elastic building of a few modes. Read `roof`."""
+"""From ground to roof through an elastic building of a few modes. Read `roof`."""

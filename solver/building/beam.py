@@ -1,12 +1,12 @@
 """Modes of uniform buildings: a beam in shear and bending, or equal stories with lumped floors.
 
-Owns shapes without dimension: no periods in seconds, no damping, no motions.
-Read `beam_modes` first; `solver.building.roof` gives the modes their periods.
+Contains dimensionless shapes only: no periods in seconds, no damping, no motions.
+Read `beam_modes` first; `solver.building.structure` assigns periods to the modes.
 
-A shear beam and a bending beam of one height stand side by side and move as one, as a frame and a
-wall tied at every floor do (Miranda, J. Struct. Eng. 125 (1999) 417-425; Miranda and Taghavi, J.
-Struct. Eng. 131 (2005) 203-211, doi:10.1061/(ASCE)0733-9445(2005)131:2(203)). With x = height / H
-and stiffness ratio alpha0 = H sqrt(GA / EI) a mode phi(x) of frequency omega satisfies
+A shear beam and a flexural beam of equal height deflect together, like a frame and a wall tied at
+every floor (Miranda, J. Struct. Eng. 125 (1999) 417-425; Miranda and Taghavi, J. Struct. Eng. 131
+(2005) 203-211, doi:10.1061/(ASCE)0733-9445(2005)131:2(203)). With x = height / H and the lateral
+stiffness ratio alpha0 = H sqrt(GA / EI), a mode phi(x) of circular frequency omega satisfies
 
     phi'''' - alpha0^2 phi'' = lambda phi,   lambda = m H^4 omega^2 / EI
     phi = phi' = 0 at x = 0;   phi'' = phi''' - alpha0^2 phi' = 0 at x = 1
@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from solver.model import Floats, InputError
 
 MOST_ALPHA0 = 1000.0
-"""Largest finite lateral stiffness ratio; infinite is the shear beam."""
+"""Largest finite lateral stiffness ratio; infinity is the shear beam."""
 
 MOST_STORIES = 100
 
@@ -32,15 +32,15 @@ _HALVINGS = 60
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Modes:
-    """Modes without dimension, the slowest first.
+    """Dimensionless modes, the longest period first.
 
     Attributes
     ----------
     period_ratios : array, shape (n,)
-        Period of each over that of the first.
+        Period of each mode / period of the first.
     factors : array, shape (n, m)
-        Participation factor times shape, Gamma phi, of each at each of m heights: what a ground
-        acceleration excites of the mode there. Over all modes they sum to 1 above the base.
+        Participation factor times mode shape, Gamma phi, of each mode at each of m heights. The sum
+        over all modes is 1 above the base.
     """
 
     period_ratios: Floats
@@ -52,7 +52,7 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
 
     With gamma and beta = sqrt(gamma^2 + alpha0^2), lambda = gamma^2 beta^2, the shape is
     sin(gamma x) - (gamma / beta) sinh(beta x) + eta (cosh(beta x) - cos(gamma x)), and gamma is a
-    root of
+    root of (g = gamma, b = beta)
 
         2 g^2 b^2 + (2 g^2 b^2 + alpha0^4) cos g cosh b + alpha0^2 g b sin g sinh b = 0,
 
@@ -61,13 +61,13 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
     Parameters
     ----------
     alpha0 : float
-        Lateral stiffness ratio: 0 bends only, infinite shears only. Common values: walls 0 to 2,
-        walls with frames 2 to 6, moment frames 5 to 20 (Miranda and Reyes, J. Struct. Eng. 128
-        (2002) 238-246).
+        Lateral stiffness ratio: 0 for bending only, infinity for shear only. Common values: walls
+        0 to 2, walls with frames 2 to 6, moment frames 5 to 20 (Miranda and Reyes, J. Struct. Eng.
+        128 (2002) 238-246).
     count : int
-        How many, >= 1.
+        Number of modes, >= 1.
     heights : array_like, shape (m,)
-        Over the height of the building, in [0, 1].
+        Heights / height of the building, in [0, 1].
 
     Raises
     ------
@@ -82,7 +82,7 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
     gamma = _roots(alpha0, count)
     beta = np.hypot(gamma, alpha0)
     eta, low, high = _weights(gamma, beta)
-    below = (gamma**2 + beta**2) / (gamma * beta**2)  # integral of phi, by its equation
+    below = (gamma**2 + beta**2) / (gamma * beta**2)  # integral of phi, from its equation
     gain = below / _squared(gamma, beta, eta, low, high)
     wave = gamma[:, None] * x
     shape = np.sin(wave) - eta[:, None] * np.cos(wave)
@@ -92,10 +92,11 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
 
 
 def story_modes(alpha0: float, stories: int) -> Modes:
-    """Return all modes of a building of equal stories with equal masses at its floors, at the roof.
+    """Return all modes, at the roof, of a building of equal stories with equal floor masses.
 
-    The floors are tied to a bending and a shear beam; between them the beams have no mass. One
-    story is a plain oscillator; with many stories the modes become those of `beam_modes`.
+    The floors are tied to a flexural and a shear beam, which are massless between floors. One
+    story is a single-degree-of-freedom oscillator; with many stories the modes approach those of
+    `beam_modes`.
 
     Parameters
     ----------
@@ -117,10 +118,10 @@ def story_modes(alpha0: float, stories: int) -> Modes:
 
 
 def floor_stiffness(alpha0: float, stories: int) -> Floats:
-    """Return the lateral stiffness between the floors of equal stories, up to a factor.
+    """Return the lateral stiffness matrix of the floors of equal stories, up to a factor.
 
-    Shape (stories, stories), the lowest floor first; EI = H = 1, or GA = 1 where alpha0 is
-    infinite. It is the stiffness of both beams, one added to the other.
+    Shape (stories, stories), the lowest floor first; EI = H = 1, or GA = 1 if alpha0 is infinite.
+    It is the sum of the stiffness matrices of both beams.
     """
     x = np.arange(1, stories + 1) / stories
     shear = stories * (2.0 * np.eye(stories) - np.eye(stories, k=1) - np.eye(stories, k=-1))
@@ -133,7 +134,7 @@ def floor_stiffness(alpha0: float, stories: int) -> Floats:
 
 
 def check_alpha0(alpha0: float) -> None:
-    """Refuse a lateral stiffness ratio out of range.
+    """Raise if the lateral stiffness ratio is out of range.
 
     Raises
     ------
@@ -141,12 +142,12 @@ def check_alpha0(alpha0: float) -> None:
     """
     if not (0.0 <= alpha0 <= MOST_ALPHA0 or alpha0 == math.inf):
         raise InputError(
-            f"lateral stiffness ratio: found {alpha0}; give 0 to {MOST_ALPHA0:g}, or infinite"
+            f"lateral stiffness ratio: found {alpha0}; give 0 to {MOST_ALPHA0:g}, or infinity"
         )
 
 
 def _roots(alpha0: float, count: int) -> Floats:
-    """Roots gamma, by bisection: at n pi the left side over cosh(beta) has the sign of (-1)^n."""
+    """Roots gamma by bisection: at n pi, `_frequency_equation` has the sign of (-1)^n."""
     n = np.arange(1, count + 1)
     low, high, sign = (n - 1) * math.pi, n * math.pi, (-1.0) ** n
     for _ in range(_HALVINGS):
@@ -157,7 +158,7 @@ def _roots(alpha0: float, count: int) -> Floats:
 
 
 def _frequency_equation(gamma: Floats, alpha0: float) -> Floats:
-    """Left side of the frequency equation over cosh(beta)."""
+    """Left side of the frequency equation / cosh(beta)."""
     beta = np.hypot(gamma, alpha0)
     product = gamma * beta
     squared = 2.0 * product**2
@@ -173,10 +174,10 @@ def _sech(beta: Floats) -> Floats:
 
 
 def _weights(gamma: Floats, beta: Floats) -> tuple[Floats, Floats, Floats]:
-    """Weights eta of -cos(gamma x), and those of exp(-beta x) and exp(-beta (1 - x)).
+    """Coefficients eta of -cos(gamma x), and those of exp(-beta x) and exp(-beta (1 - x)).
 
-    The hyperbolic part of a shape is written in exponentials that decay from either end: the
-    difference of sinh and cosh would lose every digit once beta is above 36.
+    The hyperbolic part of a shape is written with exponentials that decay from either end: the
+    difference of sinh and cosh would lose all digits for beta above 36.
     """
     sine, cosine, sech = np.sin(gamma), np.cos(gamma), _sech(beta)
     whole = beta**2 + gamma**2 * cosine * sech

@@ -1,6 +1,7 @@
-"""Approximate periods of buildings by ASCE 7, for who has no analysis and no measurement.
+"""Approximate periods of buildings by ASCE 7, when no analysis or measurement is available.
 
-Owns one equation and its table. Read `approximate_period_s`; `solver.building.roof` uses periods.
+Contains one equation and its table. Read `approximate_period_s`; `solver.building.structure` uses
+periods.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ FOOT_M = 0.3048
 def approximate_period_s(system: str, height_m: float) -> float:
     """Return T_a = C_t h_n^x of ASCE 7, 12.8.2.1 (Eq. 12.8-7).
 
-    It is meant to be short: for forces that is safe, for the motion of a roof it need not be.
+    T_a is intentionally short, which is conservative for design forces but not necessarily for the
+    motion of a roof.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
-"""From ground to roof: an elastic building of a few modes between a ground motion and its roof.
+"""From ground to roof: the roof motion of an elastic building of a few modes.
 
-Owns the roof's motion; what a building is made of is `solver.building.structure`'s. Slides nothing.
+Computes the roof motion; `solver.building.structure` defines the building. Slides no blocks.
 Read `to_roof` first, then `shaking_to_roof` for all components of a motion.
 """
 
@@ -33,34 +33,34 @@ __all__ = [
 ]
 
 SHARE = 0.05
-"""All modes left out together may change the roof acceleration by this share of its peak."""
+"""All neglected modes together may change the roof acceleration by this fraction of its peak."""
 
 RESTING_SHARE = 0.01
-"""A roof motion ends where its free vibration stays below this share of its peak."""
+"""A roof motion ends when its free vibration stays below this fraction of its peak."""
 
 FINENESS, MOST_STEPS = 20, 16
-"""Samples in a period of the fastest mode taken: straight lines between them miss up to 1.2 % of
-its peaks; and most steps for each interval of the ground's record.
+"""Samples per period of the highest mode included (linear interpolation between them misses up to
+1.2 % of its peaks), and the maximum number of steps per interval of the ground record.
 """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoofMotion:
-    """The absolute acceleration of a roof, and what the model was cut to.
+    """The absolute acceleration of a roof, and the modes included.
 
     Attributes
     ----------
     dt_s : float
     a_mps2 : array, shape (n,)
-        [m/s2], read-only; longer than the ground's by `pad_s`.
+        Absolute acceleration [m/s2], read-only; longer than the ground record by `pad_s`.
     pad_s : float
-        Time that the free vibration goes on after the ground's record [s].
+        Duration of free vibration after the end of the ground record [s].
     n_modes : int
-        Modes in it, the slowest ones.
+        Number of modes included, those of longest period.
     shares : array, shape (m,)
-        Largest contribution of each mode of the building, over the roof's peak with all of them.
+        Largest contribution of each mode of the building / peak of the roof with all modes.
     left_out_share : float
-        Largest contribution of all modes that are left out, together, over that peak.
+        Largest contribution of all neglected modes together / that peak.
     ground_peak_mps2, roof_peak_mps2 : float
     building : Building
     """
@@ -77,7 +77,7 @@ class RoofMotion:
 
     @property
     def next_share(self) -> float:
-        """Share of the first mode that is left out; 0 where none is."""
+        """Value of `shares` for the first neglected mode; 0 if none is neglected."""
         return float(self.shares[self.n_modes]) if self.n_modes < self.shares.size else 0.0
 
 
@@ -90,7 +90,7 @@ class RoofShaking:
     dt_s : float
     horizontal : tuple of RoofMotion
     vertical_mps2 : array, shape (n,) or (0,)
-        That of the ground [m/s2], read-only; empty where there is none.
+        Vertical acceleration, equal to that of the ground [m/s2], read-only; empty for none.
     """
 
     dt_s: float
@@ -105,19 +105,20 @@ def to_roof(
 
         a_roof = a_ground + sum Gamma_i phi_i (A_i - a_ground)
 
-    A_i being the absolute acceleration of an oscillator of the mode's period and damping, exact at
-    the samples of the linearly interpolated record (Nigam and Jennings, Bull. Seism. Soc. Am. 59
-    (1969) 909-922). As few modes are taken as bring all others together under `share` of the
-    roof's peak at every instant; what is left out follows the ground as if it were rigid, a weight
-    of 1 - sum Gamma_i phi_i.
+    A_i is the absolute acceleration of an oscillator with the period and damping of mode i, exact
+    at the samples for the linearly interpolated record (Nigam and Jennings, Bull. Seism. Soc. Am.
+    59 (1969) 909-922). The number of modes is the smallest for which all others together stay below
+    `share` of the roof's peak at all times. The neglected modes are treated as rigid: they follow
+    the ground, with a weight of 1 - sum Gamma_i phi_i.
 
-    The mass of the arrays is neglected: what slides does not act back on the building. One
-    direction at a time: no torsion, no yielding, no soil below, a roof that is stiff in its plane.
-    The vertical motion passes unchanged from ground to roof, see `shaking_to_roof`.
+    Assumptions: the mass of the arrays is neglected, so their sliding does not affect the building.
+    Each direction is independent: no torsion, no yielding, no soil-structure interaction, and a
+    rigid roof diaphragm. The vertical motion of the roof equals that of the ground, see
+    `shaking_to_roof`.
 
-    The motion goes on after the ground's until the free vibration stays below `RESTING_SHARE` of
-    the peak, because a block may still slide then. Where the roof would swing between the samples
-    the step is refined, see `FINENESS`.
+    The motion continues after the end of the ground record until the free vibration stays below
+    `RESTING_SHARE` of the peak, because a block may still slide. The step is refined if the highest
+    mode needs it, see `FINENESS`.
 
     Parameters
     ----------
@@ -126,7 +127,7 @@ def to_roof(
     dt_s : float
         Sampling interval [s], > 0.
     share : float
-        In [0, 1); 0 takes every mode.
+        In [0, 1); 0 includes every mode.
 
     Raises
     ------
@@ -141,8 +142,8 @@ def roof_motion(
     ground_mps2: ArrayLike, dt_s: float, building: Building, *, share: float = SHARE
 ) -> Floats:
     """Return the roof's absolute acceleration [m/s2] at the ground's own samples; see `to_roof`."""
-    found = to_roof(ground_mps2, dt_s, building, share=share)
-    return found.a_mps2[:: round(dt_s / found.dt_s)]
+    motion = to_roof(ground_mps2, dt_s, building, share=share)
+    return motion.a_mps2[:: round(dt_s / motion.dt_s)]
 
 
 def shaking_to_roof(
@@ -153,16 +154,16 @@ def shaking_to_roof(
     *,
     share: float = SHARE,
 ) -> RoofShaking:
-    """Return all components at the roof, with the finest step and the greatest length of any.
+    """Return all components at the roof, with the smallest step and the greatest length of any.
 
     Parameters
     ----------
     horizontal_mps2 : sequence of array_like
-        Horizontal components of the ground's motion [m/s2].
+        Horizontal components of the ground motion [m/s2].
     vertical_mps2 : array_like
-        Vertical one, which passes unchanged; empty for none.
+        Vertical component [m/s2], unchanged at the roof except for step and length; empty for none.
     buildings : sequence of Building
-        One for each horizontal component; the same one may stand for several.
+        One for each horizontal component; one building may be given several times.
 
     Raises
     ------
@@ -174,26 +175,26 @@ def shaking_to_roof(
     steps = max(
         (_steps(c.n_modes, dt_s, b) for c, b in zip(cuts, buildings, strict=True)), default=1
     )
-    found = [_carried(a, dt_s, b, c, steps) for (a, b), c in zip(pairs, cuts, strict=True)]
+    motions = [_carried(a, dt_s, b, c, steps) for (a, b), c in zip(pairs, cuts, strict=True)]
     vertical = np.asarray(vertical_mps2, dtype=np.float64)
-    count = max([(vertical.size - 1) * steps + 1, *(one.a_mps2.size for one in found)])
+    count = max([(vertical.size - 1) * steps + 1, *(motion.a_mps2.size for motion in motions)])
     if vertical.size:
         vertical = lengthened(vertical, math.ceil((count - 1) / steps) + 1)
         vertical = refined(vertical, steps)[:count]
     return RoofShaking(
         dt_s=dt_s / steps,
-        horizontal=tuple(_as_long(one, count) for one in found),
+        horizontal=tuple(_as_long(motion, count) for motion in motions),
         vertical_mps2=_read_only(vertical),
     )
 
 
-def _as_long(one: RoofMotion, count: int) -> RoofMotion:
-    more_s = (count - one.a_mps2.size) * one.dt_s
-    return replace(one, a_mps2=lengthened(one.a_mps2, count), pad_s=one.pad_s + more_s)
+def _as_long(motion: RoofMotion, count: int) -> RoofMotion:
+    more_s = (count - motion.a_mps2.size) * motion.dt_s
+    return replace(motion, a_mps2=lengthened(motion.a_mps2, count), pad_s=motion.pad_s + more_s)
 
 
 class _Cut(NamedTuple):
-    """What a model is cut to: modes taken, and shares as in `RoofMotion`."""
+    """The modes included, and fractions as in `RoofMotion`."""
 
     n_modes: int
     shares: Floats
@@ -201,7 +202,7 @@ class _Cut(NamedTuple):
 
 
 def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
-    # Between the samples as well: what is left out swings fastest.
+    # Evaluated between samples as well, because the neglected modes have the shortest periods.
     steps = _steps(building.periods_s.size, dt_s, building)
     a = refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
     parts = absolute_accelerations(a, dt_s / steps, building.periods_s, building.damping)
@@ -209,7 +210,8 @@ def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
     parts *= building.roof_factors
     peak = float(np.abs(a + parts.sum(axis=1)).max())
     each = np.maximum(parts.max(axis=0), -parts.min(axis=0))
-    # Column n: all modes from n on together. Few enough: no later column is over the limit.
+    # Column n is the sum of all modes from n on. No column after the modes included is over the
+    # limit.
     rest = np.cumsum(parts[:, ::-1], axis=1, out=parts[:, ::-1])[:, ::-1]
     left_out = np.append(np.maximum(rest.max(axis=0), -rest.min(axis=0)), 0.0)
     over = np.flatnonzero(left_out > share * peak)
@@ -219,12 +221,12 @@ def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
 
 
 def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: int) -> RoofMotion:
-    """Return the roof's motion in so many steps for each interval of the ground's."""
+    """Return the roof motion with `steps` steps per interval of the ground record."""
     dt, taken, n = dt_s / steps, slice(cut.n_modes), (ground.size - 1) * steps + 1
     a = refined(lengthened(ground, ground.size + _free_samples(building, dt_s)), steps)
     factors = building.roof_factors[taken]
-    found = absolute_accelerations(a, dt, building.periods_s[taken], building.damping[taken])
-    roof = a * (1.0 - factors.sum()) + found @ factors
+    modal = absolute_accelerations(a, dt, building.periods_s[taken], building.damping[taken])
+    roof = a * (1.0 - factors.sum()) + modal @ factors
     top = float(np.abs(roof).max())
     end = min(max(n, _last_over(roof, RESTING_SHARE * top) + 2), roof.size)
     return RoofMotion(
@@ -243,28 +245,28 @@ def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: 
 def absolute_accelerations(
     a_mps2: ArrayLike, dt_s: float, periods_s: ArrayLike, damping: ArrayLike
 ) -> Floats:
-    """Return absolute accelerations of oscillators, shape (n, m): a row for each sample [m/s2]."""
+    """Return absolute accelerations of oscillators, shape (n, m), one row per sample [m/s2]."""
     a, zeta = _read_only(a_mps2), _read_only(damping)
     omega = _read_only(2.0 * math.pi / np.asarray(periods_s, dtype=np.float64))
-    found = np.empty((a.size, omega.size))
-    oscillator.histories(a, float(dt_s), omega, zeta, found)
-    return found
+    accelerations = np.empty((a.size, omega.size))
+    oscillator.histories(a, float(dt_s), omega, zeta, accelerations)
+    return accelerations
 
 
 def lengthened(a_mps2: ArrayLike, count: int) -> Floats:
-    """Return a record with zeros after it up to so many samples, read-only."""
+    """Return a record extended with zeros to `count` samples, read-only."""
     a = np.asarray(a_mps2, dtype=np.float64)
     return _read_only(np.append(a, np.zeros(max(count - a.size, 0))))
 
 
 def _free_samples(building: Building, dt_s: float) -> int:
-    """Samples in which the free vibration of every mode falls to `RESTING_SHARE` of itself."""
+    """Samples in which the free vibration of every mode decays to `RESTING_SHARE`."""
     slowest = float((2.0 * math.pi * building.damping / building.periods_s).min())
     return math.ceil(-math.log(RESTING_SHARE) / slowest / dt_s)
 
 
 def _steps(n_modes: int, dt_s: float, building: Building) -> int:
-    """Steps for each interval that the fastest of the first modes needs."""
+    """Steps per interval that the highest of the first `n_modes` modes needs."""
     if n_modes == 0:
         return 1
     fastest = float(building.periods_s[n_modes - 1])
@@ -277,7 +279,7 @@ def _last_over(a: Floats, limit: float) -> int:
 
 
 def _read_only(values: ArrayLike) -> Floats:
-    # numba compiles a second version for writable arrays, so kernels see read-only ones only.
+    # numba compiles a second version for writable arrays, so kernels get read-only arrays only.
     array = np.ascontiguousarray(values, dtype=np.float64).view()
     array.setflags(write=False)
     return array
@@ -291,7 +293,7 @@ def _checked(ground_mps2: ArrayLike, dt_s: float, share: float) -> Floats:
     if not (math.isfinite(dt_s) and dt_s > 0.0):
         problems.append(f"time step dt is {dt_s!r}; give a number of seconds above 0")
     if not 0.0 <= share < 1.0:
-        problems.append(f"share of modes left out is {share!r}; give 0 to below 1")
+        problems.append(f"limit on neglected modes is {share!r}; give 0 to below 1")
     if problems:
         raise InputError(problems)
     return ground

@@ -1,6 +1,6 @@
-"""Elastic buildings of a few modes: periods, damping and what the roof feels of each.
+"""Elastic buildings of a few modes: period, damping and roof factor of each mode.
 
-Owns no motions (`solver.building.roof`) and no shapes of modes (`solver.building.beam`).
+Contains no motions (`solver.building.roof`) and no mode shapes (`solver.building.beam`).
 Read `building_of_periods` first.
 """
 
@@ -18,7 +18,7 @@ from solver.building.beam import MOST_STORIES, Modes, beam_modes, check_alpha0, 
 from solver.model import Floats, InputError
 
 BEAM_MODES = 40
-"""Modes of a building without stories; beyond them each roof factor is under 0.04."""
+"""Number of modes of a continuous beam; the roof factors of higher modes are below 0.04."""
 
 LEAST_DAMPING, MOST_DAMPING = 0.01, 0.5
 MOST_PERIOD_S = 10.0
@@ -26,16 +26,16 @@ MOST_PERIOD_S = 10.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Building:
-    """An elastic building, as far as its roof feels the ground; arrays are read-only.
+    """An elastic building, as needed for the motion of its roof; arrays are read-only.
 
     Attributes
     ----------
     periods_s, damping : array, shape (n,)
-        Of each mode, the longest period first [s]; fraction of critical damping.
+        Period [s] and fraction of critical damping of each mode, the longest period first.
     roof_factors : array, shape (n,)
-        Participation factor times shape at the roof, Gamma phi, of each.
+        Participation factor times mode shape at the roof, Gamma phi, of each mode.
     words : str
-        How it was made, for a reader.
+        Description for the reader.
     """
 
     periods_s: Floats
@@ -53,20 +53,20 @@ def building_of_periods(
 ) -> Building:
     """Return a uniform building whose first modes have the given periods.
 
-    Roof factors, and the periods of higher modes over the last one given, are those of
-    `solver.building.beam`. With few stories the floors' masses matter: one story has a roof factor
-    of 1, where a beam without stories has up to 1.57.
+    The roof factors, and the ratios of the periods of higher modes to the last one given, are those
+    of `solver.building.beam`. With few stories the lumped floor masses matter: one story has a roof
+    factor of 1, whereas the first mode of a continuous beam has up to 1.57.
 
     Parameters
     ----------
     periods_s : sequence of float
-        Of the first mode or modes [s], falling.
+        Periods of the first mode or modes [s], the longest first.
     damping : sequence of float
-        Fraction of critical damping of the first modes; the last value holds for all others.
+        Fraction of critical damping of the first modes; the last value applies to all others.
     alpha0 : float
-        Lateral stiffness ratio, see `solver.building.beam.beam_modes`; infinite: shear building.
+        Lateral stiffness ratio, see `solver.building.beam.beam_modes`; infinity: shear building.
     stories : int
-        Equal stories with equal floor masses; 0 for a beam.
+        Number of equal stories with equal floor masses; 0 for a continuous beam.
 
     Raises
     ------
@@ -91,12 +91,12 @@ def building_of_periods(
 def building_of_modes(
     periods_s: Sequence[float], damping: Sequence[float], roof_factors: Sequence[float]
 ) -> Building:
-    """Return a building from the modes of an analysis of it.
+    """Return a building from modes given by the user's own analysis.
 
     Parameters
     ----------
-    periods_s, damping, roof_factors : sequence of float, equally long
-        As in `Building`; Gamma phi at the roof, in the direction of the motion.
+    periods_s, damping, roof_factors : sequence of float, of equal length
+        As in `Building`; Gamma phi at the roof in the direction of the motion.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def building_of_modes(
         periods_s=_read_only(periods_s),
         damping=_read_only(damping),
         roof_factors=_read_only(roof_factors),
-        words=f"{len(periods_s)} modes as given, roof factors adding up to {total:.3f}",
+        words=f"{len(periods_s)} modes as given, sum of roof factors {total:.3f}",
     )
 
 
@@ -127,7 +127,7 @@ def _modes(alpha0: float, stories: int) -> Modes:
 
 
 def _words(given: Floats, damping: Sequence[float], alpha0: float, stories: int) -> str:
-    """Return how a uniform building was made."""
+    """Describe a uniform building."""
     periods = ", ".join(f"{period:.3g}" for period in given)
     ratios = ", ".join(f"{100.0 * value:.3g}" for value in damping)
     if stories == 1:

@@ -1,6 +1,6 @@
-"""Files of records as people have them: the format is told by the content, never by the name.
+"""Record files in common formats: the format is identified by content, never by file name.
 
-Public names are listed here; knows no code rules and changes no sample. Read
+The public names are listed here. Knows no code rules and changes no sample. Read
 `reader.read_motion_file` first, then one format, such as `peer`.
 """
 

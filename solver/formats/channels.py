@@ -1,7 +1,6 @@
-"""From a channel's values to records, with what a user should know of them.
+"""From the values of channels to records, with notes for the user.
 
-Owns the comparison of a record with the peak that its header states; knows no format. Read
-`motion_file` first.
+Compares a record with the peak stated in its header; knows no format. Read `motion_file` first.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from solver.records.record import UNITS, Record, read_only
 
 MAX_CHANNELS = 1000
 
-# A header's peak may be of other processing, or rounded; a factor of two is another unit.
+# The peak in a header may be rounded or of other processing; a factor of two means another unit.
 _PEAK_WITHIN = 0.01
 _PEAK_FACTOR = 2.0
 _OFFSET = 0.01
@@ -26,12 +25,12 @@ _OFFSET = 0.01
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Channel:
-    """One component as it was read.
+    """One component as read.
 
     Attributes
     ----------
     name : str
-        As the file prints it; "" where it has none.
+        As printed in the file; "" if it has none.
     dt_s : float
     a_mps2 : array, shape (n,)
     notes : tuple of str
@@ -46,13 +45,15 @@ class Channel:
 def motion_file(
     source: Source, form: str, channels: Sequence[Channel], notes: Sequence[str] = ()
 ) -> MotionFile:
-    """Make the result of a reader: names that differ, notes that say which channel they are of."""
+    """Build the result of a reader, with distinct names, and notes that name their channel."""
     if not channels:
-        raise InputError(f"{source.name}: found no acceleration in this {form} file; give one")
+        raise InputError(
+            f"{source.name}: found no acceleration in this {form} file; give a file of acceleration"
+        )
     check_number(source, len(channels))
     alone = len(channels) == 1
     names = distinct(channel.name or (source.name if alone else "") for channel in channels)
-    records, told = [], list(notes)
+    records, all_notes = [], list(notes)
     for name, channel in zip(names, channels, strict=True):
         if len(channel.a_mps2) < 2:
             found = len(channel.a_mps2)
@@ -60,14 +61,17 @@ def motion_file(
             raise InputError(f"{source.name}: found {samples}; give at least 2")
         a_mps2 = read_only(channel.a_mps2)
         records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
-        told += channel.notes if alone else [f"{name}: {note}" for note in channel.notes]
+        all_notes += channel.notes if alone else [f"{name}: {note}" for note in channel.notes]
     return MotionFile(
-        name=source.name, format=form, channels=tuple(records), notes=tuple(dict.fromkeys(told))
+        name=source.name,
+        format=form,
+        channels=tuple(records),
+        notes=tuple(dict.fromkeys(all_notes)),
     )
 
 
 def check_number(source: Source, channels: int) -> None:
-    """Refuse a file of more channels than any instrument has."""
+    """Raise if a file has more channels than any instrument."""
     if channels > MAX_CHANNELS:
         raise InputError(
             f"{source.name}: found {channels} channels; give at most {MAX_CHANNELS} in a file"
@@ -75,12 +79,12 @@ def check_number(source: Source, channels: int) -> None:
 
 
 def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -> tuple[str, ...]:
-    """Compare values with the peak that a header states; nan or 0 states none.
+    """Compare values with the peak stated in a header; NaN or 0 if it states none.
 
     Raises
     ------
     InputError
-        Where they differ by a factor of two: then the unit, the scale or the values are wrong.
+        If they differ by a factor of two or more: the unit, the scale or the values are wrong.
     """
     stated, found = abs(stated_mps2), float(np.abs(a_mps2).max(initial=0.0))
     if not 0.0 < stated < np.inf:
@@ -93,7 +97,7 @@ def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -
 
 
 def offset_notes(a_mps2: Floats) -> tuple[str, ...]:
-    """Say that uncorrected values stand off zero: their mean times the length is velocity."""
+    """Note an offset of uncorrected values: its integral over the record is a velocity."""
     mean, peak = float(np.mean(a_mps2)), float(np.abs(a_mps2).max())
     if abs(mean) <= _OFFSET * peak:
         return ()

@@ -1,8 +1,8 @@
 """COSMOS files, format V1.20 (.V1C, .V2, .V2c): one or more channels, each with its own heading.
 
-Owns this format only. A channel has lines of text, then blocks that say themselves how many whole
-numbers, real numbers, comments and values follow, and in which format. Accelerations are taken;
-velocities and displacements behind them are left, raw counts are refused. Read `read` first.
+Handles this format only. A channel has lines of text, then blocks that state how many integers,
+real numbers, comments and values follow, and in which format. Accelerations are read; velocities
+and displacements after them are ignored; raw counts are refused. Read `read` first.
 
 Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
 tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the series
@@ -43,7 +43,7 @@ _NAME = re.compile(r"\s*STA\s+CHA", re.IGNORECASE)
 # Table 2: codes of the units of acceleration.
 _UNITS = {2: "g", 4: "cm/s2", 7: "in/s2", 10: "gal", 11: "mg"}
 
-# Places of the real numbers, from 1.
+# Positions of the real numbers, from 1.
 _RECORD_STEP_S, _SERIES_STEP_MS, _PEAK = 34, 62, 64
 
 
@@ -57,7 +57,7 @@ class _Part:
     line: re.Match[str]
 
 
-def recognises(lines: Sequence[str]) -> bool:
+def recognizes(lines: Sequence[str]) -> bool:
     """Whether the first line names the quantity and the version of the format."""
     return bool(lines and _FIRST.match(lines[0]))
 
@@ -69,7 +69,7 @@ def read(source: Source) -> MotionFile:
 
 
 def _parts(source: Source) -> list[_Part]:
-    """All series: those of one heading follow each other, or each has its own."""
+    """All series: several may follow one heading, or each may have its own."""
     headings = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
     lines = [(i, found) for i, line in enumerate(source.lines) if (found := _DATA.match(line))]
     check_number(source, len(lines))
@@ -120,7 +120,7 @@ def _stage(source: Source, part: _Part) -> str:
 
 
 def _scale(source: Source, part: _Part) -> float:
-    """Size [m/s2] of the unit, which is named, coded or both."""
+    """Value [m/s2] of the unit, which is given by name, by code or both."""
     name, code = part.line[4], part.line[5]
     coded = _UNITS.get(int(code), "") if code else ""
     if code and not coded:
@@ -150,13 +150,13 @@ def _reals(source: Source, part: _Part) -> list[Stated]:
 
 
 def _real(reals: Sequence[Stated], place: int) -> Stated | None:
-    """Real number of a place, counted from 1; None where it is unknown, which is -999 or so."""
+    """Real number at a position, counted from 1; None if unknown, which is coded as about -999."""
     number = reals[place - 1] if place <= len(reals) else None
     return number if number and number.value > -990.0 else None
 
 
 def _step(part: _Part, reals: Sequence[Stated]) -> Stated:
-    """Step of the series, or else of the record that it was made of."""
+    """Step of the series, or else that of the original record."""
     for place, seconds in ((_SERIES_STEP_MS, 0.001), (_RECORD_STEP_S, 1.0)):
         number = _real(reals, place)
         if number and number.value > 0.0:
@@ -167,7 +167,7 @@ def _step(part: _Part, reals: Sequence[Stated]) -> Stated:
 
 
 def _check_length(source: Source, part: _Part, length_s: float, dt_s: float) -> None:
-    """Compare count times step with the length in whole seconds that the data line states."""
+    """Compare count times step with the length in whole seconds stated in the data line."""
     stated = printed(part.line[3], part.at).value
     if abs(length_s - stated) > 1.0 + dt_s + 0.01 * stated:
         raise InputError(
@@ -177,10 +177,10 @@ def _check_length(source: Source, part: _Part, length_s: float, dt_s: float) -> 
 
 
 def _stop(source: Source, part: _Part) -> tuple[int, tuple[str, ...]]:
-    """Index of the line that ends a series, with a note where there is none."""
+    """Index of the line that ends a series, with a note if there is none."""
     for index in range(part.at + 1, part.stop):
         if _END.match(source.lines[index]):
             return index, ()
     if part.stop < len(source.lines):
         return part.stop, ()
-    return part.stop, ("no end-of-data line stands behind the values: the file may be cut",)
+    return part.stop, ("no end-of-data line follows the values: the file may be truncated",)

@@ -1,10 +1,10 @@
-"""CSMIP volumes 1 and 2 (.V1, .RAW, .V2), and RENADIC's files, which are of volume 1.
+"""CSMIP volumes 1 and 2 (.V1, .RAW, .V2), and RENADIC files, which are volume 1.
 
-Owns this format only. A file has one or more channels, each with lines of text, 100 whole and 50
-or 100 real numbers of heading, then values. Volume 1 is uncorrected: pairs of time and
-acceleration (10F7.3), which may be uneven, or even values under a line that says how they are set.
-Volume 2 is corrected: even accelerations, velocities and displacements, of which the first are
-taken. Read `read` first.
+Handles this format only. A file has one or more channels, each with lines of text, 100 integers and
+50 or 100 real numbers of heading, then values. Volume 1 is uncorrected: pairs of time and
+acceleration (10F7.3), which may be unevenly spaced, or evenly spaced values after a line that
+states their format. Volume 2 is corrected: evenly spaced accelerations, velocities and
+displacements, of which the accelerations are read. Read `read` first.
 
 Source: A.F. Shakal and M.J. Huang, Standard tape format for CSMIP strong-motion data tapes,
 California Division of Mines and Geology, OSMS 85-03, 1985.
@@ -43,7 +43,7 @@ _REALS_1, _REALS_2 = 50, 100
 _REAL = Layout(per_line=8, width=10)
 _PAIRS = Layout(per_line=10, width=7)
 
-# Places of real numbers, from 1: length of the record [s], and its step [s].
+# Positions of real numbers, from 1: length of the record [s], and its step [s].
 _LENGTH_1, _LENGTH_2, _STEP_2 = 3, 44, 45
 
 _POINTS = re.compile(r"NO\. OF POINTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
@@ -71,7 +71,7 @@ class _Part:
     stop: int
 
 
-def recognises(lines: Sequence[str]) -> bool:
+def recognizes(lines: Sequence[str]) -> bool:
     """Whether the first line is that of a volume of CSMIP."""
     first = lines[0] if lines else ""
     return any(pattern.match(first) for pattern in (_VOLUME_1, _VOLUME_2, _VOLUME_3))
@@ -110,7 +110,7 @@ def _volume_1(source: Source, part: _Part) -> Channel:
 
 
 def _pair_values(source: Source, part: _Part) -> tuple[float, Floats, tuple[str, ...]]:
-    """Pairs of time and acceleration, ten numbers to a line."""
+    """Pairs of time and acceleration, ten numbers per line."""
     found = _search(source, part, _POINTS)
     unit = _search(source, part, _PAIR_UNIT)
     if not found or not unit:
@@ -133,7 +133,7 @@ def _pair_values(source: Source, part: _Part) -> tuple[float, Floats, tuple[str,
 def _even_values(
     source: Source, part: _Part, at: int, found: re.Match[str]
 ) -> tuple[float, Floats, tuple[str, ...]]:
-    """Even values under a line with their count, rate, unit and format."""
+    """Evenly spaced values after a line with their count, rate, unit and format."""
     rate, count = printed(found[2], at).value, int(found[1])
     layout = layout_of(found[4])
     if not rate > 0.0 or not layout:
@@ -189,7 +189,7 @@ def _step_2(source: Source, part: _Part, at: int, stated: Stated) -> Stated:
 
 
 def _check_length(source: Source, part: _Part, length_s: float, dt_s: float) -> None:
-    """Compare count times step with the length that the heading states: a step may be rounded."""
+    """Compare count times step with the length stated in the heading: a step may be rounded."""
     stated = _reals_2(source, part)[_LENGTH_2 - 1]
     if stated.value > 0.0 and abs(length_s - stated.value) > 2.0 * dt_s + 0.005 * stated.value:
         raise InputError(
@@ -205,7 +205,7 @@ def _reals_2(source: Source, part: _Part) -> list[Stated]:
 def _search(
     source: Source, part: _Part, pattern: re.Pattern[str]
 ) -> tuple[int, re.Match[str]] | None:
-    """First line of a channel's heading in which the pattern is found."""
+    """First line of a channel's heading that contains the pattern."""
     for index in _heading(part):
         if found := pattern.search(source.lines[index]):
             return index, found
@@ -218,11 +218,11 @@ def _heading(part: _Part) -> Iterator[int]:
 
 
 def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
-    """Index of the line that ends a channel, with a note where there is none."""
+    """Index of the line that ends a channel, with a note if there is none."""
     for index in range(stop - 1, first - 1, -1):
         if _END.match(source.lines[index]):
             return index, ()
-    return stop, ("no end-of-data line (/&) stands behind the values: the file may be cut",)
+    return stop, ("no end-of-data line (/&) follows the values: the file may be truncated",)
 
 
 def _peak(source: Source, part: _Part, pattern: re.Pattern[str]) -> tuple[int, float]:

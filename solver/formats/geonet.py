@@ -1,13 +1,13 @@
 """GeoNet files of New Zealand (.V1A uncorrected, .V2A corrected): three components, in mm/s2.
 
-Owns this format only. Each component has 16 lines of text, 40 whole numbers (10I8), 60 real ones
-(10F8.0), then accelerations (10F8.1) and, in V2A, velocities and displacements, which are left.
+Handles this format only. Each component has 16 lines of text, 40 integers (10I8), 60 real numbers
+(10F8.0), then accelerations (10F8.1) and, in V2A, velocities and displacements, which are ignored.
 Read `read` first.
 
 Source: GeoNet, Strong motion file formats, geonet.org.nz/data/supplementary/
-strong_motion_file_formats (W.J. Cousins, GNS accelerogram data files, 2008): whole numbers 34, 35
-and 36 are the counts of accelerations, velocities and displacements. Real numbers 26 (step [s]),
-31 (peak of V1A) and 36 (peak of V2A) are read off the files, and off their text.
+strong_motion_file_formats (W.J. Cousins, GNS accelerogram data files, 2008): integers 34, 35 and 36
+are the counts of accelerations, velocities and displacements. The meaning of real numbers 26 (step
+[s]), 31 (peak of V1A) and 36 (peak of V2A) was inferred from files and their text.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _WHOLE = Layout(per_line=10, width=8)
 _WHOLES, _REALS = 40, 60
 _HEADING = _TEXT + _WHOLE.lines(_WHOLES) + _WHOLE.lines(_REALS)
 
-# Places of the heading's numbers, from 1.
+# Positions of the numbers in the heading, from 1.
 _ACCELERATIONS, _VELOCITIES, _DISPLACEMENTS = 34, 35, 36
 _STEP, _PEAK_1, _PEAK_2 = 26, 31, 36
 _UNIT_LINE, _COMPONENT_LINE, _PEAK_LINE = 11, 13, 14
@@ -48,7 +48,7 @@ class _Part:
     stop: int
 
 
-def recognises(lines: Sequence[str]) -> bool:
+def recognizes(lines: Sequence[str]) -> bool:
     """Whether the first two lines are those of a GNS accelerogram."""
     if len(lines) < 2 or not _FIRST.match(lines[0]):
         return False
@@ -96,7 +96,7 @@ def _component(source: Source, part: _Part) -> Channel:
 
 
 def _block(part: _Part, whole: Sequence[Stated]) -> Block:
-    """Where the accelerations stand: up to the velocities, if there are any."""
+    """Lines of the accelerations: up to the velocities, if there are any."""
     first, count = part.first + _HEADING, whole[_ACCELERATIONS - 1]
     end = first + _WHOLE.lines(int(count.value))
     alone = not whole[_VELOCITIES - 1].value > 0.0
@@ -105,7 +105,7 @@ def _block(part: _Part, whole: Sequence[Stated]) -> Block:
 
 
 def _step(source: Source, part: _Part, exact: Stated) -> Stated:
-    """Step of the real heading, held against the one in the text."""
+    """Step in the real numbers of the heading, compared with the one in the text."""
     at = part.first + _UNIT_LINE - 1
     line = source.line(at)
     found = _STEP_LINE.search(line) if _INTERVAL.search(line) else None
@@ -123,7 +123,7 @@ def _step(source: Source, part: _Part, exact: Stated) -> Stated:
 
 
 def _scale(source: Source, part: _Part) -> float:
-    """Size [m/s2] of one unit of the values: `Raw readings in units of 1.00 mm/s/s`, or mm/s/s."""
+    """Value [m/s2] of one unit: from `Raw readings in units of 1.00 mm/s/s`, or of the peak."""
     at = part.first + _UNIT_LINE - 1
     if found := _UNIT.search(source.line(at)):
         readings = printed(found[1], at).value
@@ -140,10 +140,10 @@ def _scale(source: Source, part: _Part) -> float:
 
 
 def _rest(source: Source, part: _Part, whole: Sequence[Stated]) -> tuple[str, ...]:
-    """Say that a file is cut behind its accelerations."""
+    """Note that a file is truncated after its accelerations."""
     counts = [whole[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
     counts = [count for count in counts if 0.0 < count < 1e8]
     lines = sum(_WHOLE.lines(int(count)) for count in [whole[_ACCELERATIONS - 1].value, *counts])
     if part.first + _HEADING + lines <= part.stop:
         return ()
-    return ("velocities or displacements are not all there: the file may be cut",)
+    return ("velocities or displacements are incomplete: the file may be truncated",)

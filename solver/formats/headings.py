@@ -1,6 +1,6 @@
 """Headings of columns of text: their names, and the units that they state.
 
-Owns what a heading means; reads no numbers. Read `parse` first.
+Interprets headings; reads no numbers. Read `parse` first.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _STEP = re.compile(
 
 
 class Kind(Enum):
-    """What a column holds, as far as its heading says."""
+    """Content of a column according to its heading."""
 
     TIME = "time"
     ACCELERATION = "acceleration"
@@ -44,14 +44,14 @@ class Heading:
     Attributes
     ----------
     text : str
-        As it is written.
+        As written.
     name : str
-        Without its unit.
+        The heading without its unit.
     kind : Kind
     unit : str
-        As it is written; "" where there is none.
+        As written; "" if there is none.
     seconds : float
-        Size [s] of the unit of a time; 1 else.
+        Value [s] of the unit of a time; otherwise 1.
     """
 
     text: str
@@ -62,7 +62,7 @@ class Heading:
 
 
 def parse(text: str) -> Heading:
-    """Understand a heading such as ``t_s``, ``acc_g``, ``EW [cm/s2]`` or ``a in gal``."""
+    """Interpret a heading such as ``t_s``, ``acc_g``, ``EW [cm/s2]`` or ``a in gal``."""
     text = text.strip().strip("\"'").strip()
     name, unit = _split(text)
     kind, seconds = _kind(name, unit)
@@ -70,7 +70,7 @@ def parse(text: str) -> Heading:
 
 
 def settled(headings: list[Heading]) -> list[Heading]:
-    """Headings where the g of ``ch_g`` is a letter, if its neighbours ``ch_f`` state no unit."""
+    """Treat the g of ``ch_g`` as a letter, not a unit, if neighbors like ``ch_f`` have no unit."""
     if not any(heading.kind is Kind.UNSAID for heading in headings[1:]):
         return headings
     return [
@@ -82,12 +82,12 @@ def settled(headings: list[Heading]) -> list[Heading]:
 
 
 def words(line: str, separator: str | None) -> list[str]:
-    """Headings of a line: between separators, or words, each with the bracket that follows it."""
+    """Headings in a line: between separators, or words, each with the bracket that follows it."""
     return _WORD.findall(line) if separator is None else line.split(separator)
 
 
 def remark(line: str, separator: str | None, width: int) -> list[Heading]:
-    """Headings that a comment begins with, prose behind them aside; none if it has none."""
+    """Headings at the beginning of a comment, without any text after them; empty if none."""
     texts = words(line, separator)[:width]
     if len(texts) < width or width < 2 or parse(texts[0]).kind is not Kind.TIME:
         return []
@@ -98,7 +98,7 @@ def remark(line: str, separator: str | None, width: int) -> list[Heading]:
 
 
 def units_in(line: str) -> list[str]:
-    """Units of acceleration that a line of prose states."""
+    """Units of acceleration stated in a line of text."""
     places = [*_IN_BRACKETS.findall(line), *_UNITS_OF.findall(line), *_IN_PROSE.findall(line)]
     named = [parse(word) for word in re.split(r"[\s,;]+", line)]
     places += [heading.unit for heading in named if heading.kind is Kind.ACCELERATION]
@@ -107,7 +107,7 @@ def units_in(line: str) -> list[str]:
 
 
 def step_in(line: str) -> tuple[str, float]:
-    """Time step that a line of prose states, as printed, and the size [s] of its unit; else ""."""
+    """Time step stated in a line of text, as printed ("" for none), and its unit [s]."""
     found = _STEP.search(line)
     return (found[1], 0.001 if found[2] else 1.0) if found else ("", 1.0)
 
@@ -127,7 +127,7 @@ def _split(text: str) -> tuple[str, str]:
 def _is_unit(text: str, *, bracketed: bool) -> bool:
     if bracketed and text.strip().lower() in _SECONDS:
         return True
-    # Behind an underscore, `in` and `ft` are as likely words.
+    # After an underscore, `in` and `ft` may as well be words.
     other = is_other_unit(text) and (bracketed or text.lower() not in ("in", "ft"))
     return other or not math.isnan(unit_size(text))
 

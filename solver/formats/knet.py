@@ -1,7 +1,7 @@
 """K-NET and KiK-net ASCII files of Japan (.NS, .EW, .UD, .NS2, ...): one component, as counts.
 
-Owns this format only. Seventeen lines of heading by name, then counts, eight to a line. The scale
-factor gives gal to a count; counts keep the instrument's offset. Read `read` first.
+Handles this format only. Seventeen named lines of heading, then counts, eight per line. The scale
+factor is in gal per count; the counts include the offset of the instrument. Read `read` first.
 
 Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and
 the KiK-net notes there (channels 1 to 3 in the borehole, 4 to 6 at the surface; the stated peak is
@@ -36,7 +36,7 @@ class _Entry:
     index: int
 
 
-def recognises(lines: Sequence[str]) -> bool:
+def recognizes(lines: Sequence[str]) -> bool:
     """Whether the heading begins with the origin time and has a scale factor."""
     near = lines[:_HEADING_LINES]
     begins = bool(near) and near[0].startswith("Origin Time")
@@ -56,8 +56,8 @@ def read(source: Source) -> MotionFile:
     values = free_values(source, block) * _scale(source)
     peak = _entry(source, "Max. Acc. (gal)", "Max Acc. (gal)")
     stated_mps2 = 0.01 * printed(peak.text, peak.index).value
-    centred = values - values.mean() if len(values) else values
-    notes = [*peak_notes(source, peak.index, stated_mps2, centred), *offset_notes(values)]
+    centered = values - values.mean() if len(values) else values
+    notes = [*peak_notes(source, peak.index, stated_mps2, centered), *offset_notes(values)]
     direction = _entry(source, "Dir.").text
     name = _KIK_NET.get(direction, direction)
     if name.endswith("1"):
@@ -87,7 +87,7 @@ def _number(source: Source, name: str) -> Stated:
 
 
 def _scale(source: Source) -> float:
-    """Size [m/s2] of a count."""
+    """Value of one count [m/s2]."""
     entry = _entry(source, "Scale Factor")
     found = _SCALE.match(entry.text)
     over, under = (printed(found[i], entry.index).value for i in (1, 3)) if found else (0.0, 0.0)

@@ -1,6 +1,6 @@
-"""What a file of records holds, and how one of its channels is chosen.
+"""The content of a record file, and the selection of one of its channels.
 
-Owns no reading. Read `MotionFile.channel` first.
+Reads no files. Read `MotionFile.channel` first.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ _LISTED = 30
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionFile:
-    """A file of records as it was read: nothing is filtered and no offset is removed.
+    """A record file as read, not filtered and with no offset removed.
 
     Attributes
     ----------
     name : str
-        Of the file, without its folder.
+        File name without its folder.
     format : str
         Such as ``PEER AT2`` or ``text``.
     channels : tuple of Record
-        In the order of the file, at least one. Each is named as the file names it, a lone one
-        without a name after the file. No two names are alike.
+        In the order of the file, at least one. Each has its name in the file; a single channel
+        without a name has that of the file. All names are different.
     notes : tuple of str
-        What a user should know of the reading, such as that uneven times were resampled.
+        Notes for the user, such as that uneven times were resampled.
     """
 
     name: str
@@ -37,14 +37,14 @@ class MotionFile:
     notes: tuple[str, ...]
 
     def channel(self, name: str = "") -> Record:
-        """Return the channel of a name, case and blanks aside, or of a number, counted from 1.
+        """Return the channel with a name (ignoring case and blanks) or a number, counted from 1.
 
-        The name may be left out where the file has one channel only.
+        The name may be omitted if the file has only one channel.
 
         Raises
         ------
         InputError
-            Which lists the names.
+            If there is no such channel; the message lists the names.
         """
         wanted = _folded(name)
         if not wanted and len(self.channels) == 1:
@@ -53,16 +53,16 @@ class MotionFile:
         by_number = {str(i): record for i, record in enumerate(self.channels, start=1)}
         found = (by_number | by_name).get(wanted)
         if found is None:
-            said = f"channel {shown(name)} is not there" if wanted else "found several channels"
+            what = f"found no channel {shown(name)}" if wanted else "found several channels"
             names = "; ".join(f"{i} {record.name}" for i, record in [*by_number.items()][:_LISTED])
             more = len(by_number) - _LISTED
             names += f"; ... and {more} more" if more > 0 else ""
-            raise InputError(f"{self.name}: {said}; give one by name or number: {names}")
+            raise InputError(f"{self.name}: {what}; give one by name or number: {names}")
         return found
 
 
 def distinct(names: Iterable[str]) -> list[str]:
-    """Names with their blanks collapsed, a repeated one told apart by a number in brackets."""
+    """Names with single blanks; a number in parentheses distinguishes a repeated name."""
     given: list[str] = []
     taken: set[str] = set()
     for i, name in enumerate(names, start=1):

@@ -1,7 +1,7 @@
-"""Numbers in lines of text: columns of fixed width as Fortran writes them, and free ones.
+"""Numbers in lines of text: in columns of fixed width, as written by Fortran, or free format.
 
-Owns what is wrong with a number, a count or the end of a file; knows no format. Read
-`fixed_values` first.
+Reports errors in numbers, counts and the end of a file; knows no file format. Read `fixed_values`
+first.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _NUMBERS = re.compile(r"[\s+\-.*eEdD]*\d[\s\d+\-.*eEdD]*", re.ASCII)
 
 _TOUCHING = re.compile(r"(?<=[\d.])(?=[+-])", re.ASCII)
 
-# Fortran prints the exponent of a double after a D.
+# Fortran prints the exponent of a double-precision number after a D.
 _FORTRAN = str.maketrans("dD", "eE")
 
 _Item = TypeVar("_Item")
@@ -35,31 +35,31 @@ _Result = TypeVar("_Result")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
-    """Fields of fixed width: 8F10.3 has 8 to a line, each 10 wide."""
+    """Fields of fixed width: 8F10.3 has 8 per line, each 10 characters wide."""
 
     per_line: int
     width: int
 
     def lines(self, count: int) -> int:
-        """Lines that so many values take."""
+        """Number of lines for `count` values."""
         return -(-count // self.per_line)
 
     def fields(self, line: str) -> int:
-        """Fields that a line has, a started one included."""
+        """Number of fields in a line, including an incomplete one."""
         return -(-len(line.rstrip()) // self.width)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Block:
-    """Where the values of a record stand, and the line that promises how many.
+    """Location of the values of a record, and the line that states their number.
 
     Attributes
     ----------
     first, stop : int
-        Index of the first line, and of the one after the last that may hold values.
+        Index of the first line of values, and of the line after the last one that may have values.
     count : int
     promised : int
-        Index of the line with the count.
+        Index of the line that states the count.
     """
 
     first: int
@@ -69,14 +69,14 @@ class Block:
 
 
 def layout_of(text: str) -> Layout | None:
-    """Layout of a Fortran format such as ``8f10.3`` or ``1E15.6``; None where it is none."""
+    """Layout of a Fortran format such as ``8f10.3`` or ``1E15.6``; None if it is not one."""
     found = _FORMAT.match(text)
     per_line, width = (int(found[1]), int(found[2])) if found else (0, 0)
     return Layout(per_line=per_line, width=width) if per_line and width else None
 
 
 def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
-    """Values of a block of fixed columns, every line but the last being full.
+    """Values of a block of fixed columns, in which every line but the last is full.
 
     Returns
     -------
@@ -85,7 +85,7 @@ def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
     Raises
     ------
     InputError
-        With every field at fault, or where the values end before the promised count.
+        With every invalid field, or if there are fewer values than stated.
     """
     _check_enough(source, block)
     last = min(block.first + layout.lines(block.count), block.stop)
@@ -98,9 +98,9 @@ def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
 
 
 def fixed_rows(source: Source, block: Block, layout: Layout) -> Floats:
-    """Values of all lines of a block of fixed columns, where any line may be a short one.
+    """Values of all lines of a block of fixed columns, in which any line may be short.
 
-    `block.count` is not looked at.
+    Ignores `block.count`.
     """
     rows = [line.rstrip() for line in source.lines[block.first : block.stop]]
     values = None
@@ -113,7 +113,7 @@ def fixed_rows(source: Source, block: Block, layout: Layout) -> Floats:
 
 
 def free_values(source: Source, block: Block) -> Floats:
-    """Values of all lines of a block, set apart by blanks; there must be as many as promised."""
+    """Values of all lines of a block, separated by blanks; their number must be that stated."""
     _check_enough(source, block)
     rows = source.lines[block.first : block.stop]
     fields = _apart(" ".join(rows).translate(_FORTRAN))
@@ -129,7 +129,7 @@ def free_values(source: Source, block: Block) -> Floats:
 
 
 def header_values(source: Source, first: int, count: int, layout: Layout) -> list[Stated]:
-    """Values of a header; nan where a field is blank, missing or no number, for many are unused."""
+    """Values of a header; NaN if a field is blank, missing or not a number: many are unused."""
     values = [
         printed(field.translate(_FORTRAN), first + row)
         for row in range(layout.lines(count))
@@ -139,7 +139,7 @@ def header_values(source: Source, first: int, count: int, layout: Layout) -> lis
 
 
 def field_problem(field: str) -> str:
-    """What is wrong with a field that should be a finite number, with what would do; else ""."""
+    """Error of a field that should be a finite number, with what is accepted; "" if valid."""
     if NUMBER.fullmatch(field) and is_finite_number(float(field)):
         return ""
     if field and not field.strip("*"):
@@ -149,7 +149,7 @@ def field_problem(field: str) -> str:
 
 
 def printed(text: str, index: int) -> Stated:
-    """A number as it is printed, rounded by up to half of its last digit."""
+    """A number as printed, with a rounding of up to half of its last digit."""
     found = NUMBER.fullmatch(text.strip())
     if not found:
         return Stated(value=math.nan, rounding=0.0, index=index)
@@ -160,7 +160,7 @@ def printed(text: str, index: int) -> Stated:
 
 
 def each(read: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Result]:
-    """Read every item, and tell the problems of all of them together."""
+    """Read every item, and raise the problems of all of them together."""
     results: list[_Result] = []
     problems: list[str] = []
     for item in items:
@@ -173,14 +173,14 @@ def each(read: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Resu
 
 
 def _apart(text: str) -> list[str]:
-    """Fields set apart by blanks, or by the sign of the next one where that fills its columns."""
+    """Fields separated by blanks, or by the sign of the next field if it fills its columns."""
     return _TOUCHING.sub(" ", text).split()
 
 
 def _check_enough(source: Source, block: Block) -> None:
     if block.count < 2:
         values = "1 value" if block.count == 1 else f"{block.count} values"
-        raise InputError(f"{source.at(block.promised)}: promises {values}; give at least 2")
+        raise InputError(f"{source.at(block.promised)}: states {values}; give at least 2")
 
 
 def _fixed_fast(rows: Sequence[str], count: int, layout: Layout) -> Floats | None:
@@ -195,8 +195,8 @@ def _fixed_fast(rows: Sequence[str], count: int, layout: Layout) -> Floats | Non
 
 
 def _converted(text: str, width: int) -> Floats | None:
-    """Values of a run of fields of one width, or None where one of them is no finite number."""
-    # numpy takes an underscore between digits, and so does Python.
+    """Values of a sequence of fields of one width, or None if one is not a finite number."""
+    # numpy and Python accept an underscore between digits.
     if not text or not text.isascii() or "_" in text:
         return None
     try:
@@ -216,7 +216,7 @@ def _padded(fields: Sequence[str], layout: Layout) -> list[str]:
 
 
 def _slowly(source: Source, block: Block, rows: Sequence[str], layout: Layout) -> Floats:
-    """Go through a block that has a fault, row by row, to say all that is wrong with it."""
+    """Read a block that has an error row by row, to report all its errors."""
     # The values end with the last line that has a number.
     count = len(rows)
     while count and all(map(_problem, _cut(rows[count - 1], layout))):
@@ -266,17 +266,15 @@ def _field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterat
 
 
 def _wrong_count(source: Source, block: Block, found: int) -> str:
-    where = "the whole file" if found < block.count else "the count that the file holds"
-    return (
-        f"{source.at(block.promised)}: promises {block.count} values, found {found}; give {where}"
-    )
+    remedy = "give the whole file" if found < block.count else "correct the count"
+    return f"{source.at(block.promised)}: states {block.count} values, found {found}; {remedy}"
 
 
 def _check_no_more(source: Source, block: Block, last: int) -> None:
-    """Refuse a further line of numbers behind the promised ones."""
+    """Raise if another line of numbers follows the stated ones."""
     following = source.lines[last : block.stop]
     if _NUMBERS.fullmatch(next((line for line in following if line.strip()), "")):
         raise InputError(
-            f"{source.at(block.promised)}: promises {block.count} values, found more of them in"
-            f" line {last + 1}; give the count that the file holds"
+            f"{source.at(block.promised)}: states {block.count} values, found more in line"
+            f" {last + 1}; correct the count"
         )

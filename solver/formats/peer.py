@@ -1,7 +1,8 @@
-"""PEER records (.AT2): four lines of heading, then accelerations in g set apart by blanks.
+"""PEER records (.AT2): four lines of heading, then accelerations in g separated by blanks.
 
-Owns this format only. The heading's last line is `NPTS=  4000, DT=   .0100 SEC` in files of the NGA
-databases and `4000    0.0100    NPTS, DT` in those of the first PEER database. Read `read` first.
+Handles this format only. The last line of the heading is `NPTS=  4000, DT=   .0100 SEC` in files of
+the NGA databases and `4000    0.0100    NPTS, DT` in those of the first PEER database. Read `read`
+first.
 
 Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there
 is no written definition).
@@ -19,7 +20,7 @@ from solver.formats.source import Source
 from solver.model import InputError
 from solver.records.record import shown
 
-# The count stands within the first lines of a file; the heading has four.
+# The count is in the first lines of a file; the heading has four.
 _HEADING_LINES = 6
 _NUMBER = r"([+-]?\d*\.?\d*(?:[eE][+-]?\d+)?)"
 _NAMED = re.compile(rf"NPTS\s*=\s*(\d+)\s*,?\s*DT\s*=\s*{_NUMBER}", re.ASCII | re.IGNORECASE)
@@ -29,7 +30,7 @@ _UNIT = re.compile(r"IN UNITS OF\s+([A-Z/0-9^]+)", re.ASCII | re.IGNORECASE)
 _OTHER = re.compile(r"\b(VELOCITY|DISPLACEMENT)\b", re.IGNORECASE)
 
 
-def recognises(lines: Sequence[str]) -> bool:
+def recognizes(lines: Sequence[str]) -> bool:
     """Whether a line near the top gives the count as NPTS."""
     return _count_line(lines) >= 0
 
@@ -60,7 +61,7 @@ def _count_line(lines: Sequence[str]) -> int:
 
 def _check_acceleration(source: Source, heading: Sequence[str]) -> None:
     for index, line in enumerate(heading):
-        # A heading may speak of velocity in another line, as of a site.
+        # Another line of the heading may mention velocity, for example of the site.
         if (other := _OTHER.search(line)) and _UNIT.search(line):
             raise InputError(
                 f"{source.at(index)}: found {other[1].lower()}; give the file of acceleration"

@@ -1,6 +1,6 @@
 """Finds the format of a file by its content, and reads it.
 
-Owns the list of formats and their order. Read `read_motion_file` first.
+Contains the list of formats and their order. Read `read_motion_file` first.
 """
 
 from __future__ import annotations
@@ -18,41 +18,41 @@ from solver.records.record import Record
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Format:
-    recognises: Callable[[Sequence[str]], bool]
+    recognizes: Callable[[Sequence[str]], bool]
     read: Callable[[Source], MotionFile]
 
 
-# GeoNet comes before CSMIP, whose first line is alike; text comes last, for it takes every file.
+# GeoNet precedes CSMIP, whose first line is similar; text is last because it accepts every file.
 _FORMATS = tuple(
-    _Format(recognises=module.recognises, read=module.read)
+    _Format(recognizes=module.recognizes, read=module.read)
     for module in (cosmos, geonet, csmip, smc, knet, peer, text)
 )
 
 
 def read_motion_file(path: Path, *, units: str = "", dt_s: float = math.nan) -> MotionFile:
-    """Read all channels of a file of records.
+    """Read all channels of a record file.
 
-    The content tells the format: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2; RENADIC; USGS SMC;
-    GeoNet V1A and V2A; K-NET and KiK-net; or text of one column (acceleration) or more (time [s],
-    accelerations). No sample is filtered and no offset is removed; uneven times are resampled by
-    straight lines, which the notes say.
+    The format is identified by content: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2; RENADIC;
+    USGS SMC; GeoNet V1A and V2A; K-NET and KiK-net; or text of one column (acceleration) or more
+    (time [s], accelerations). No sample is filtered and no offset is removed. Records with uneven
+    times are resampled by linear interpolation, with a note.
 
     Parameters
     ----------
     path : Path
     units : {"", "g", "m/s2", "cm/s2", "mm/s2", "gal"}
-        Unit of the accelerations, for a file that does not state it. Where the file does, the two
-        must agree.
+        Unit of the accelerations, for a file that does not state it. If the file does, both must
+        agree.
     dt_s : float
-        Sampling interval [s], for a file that has none, likewise.
+        Sampling interval [s], likewise.
 
     Raises
     ------
     InputError
-        With every problem in the file, each as ``name:LINE: what was found; what would do``.
+        With every problem in the file, as ``name:LINE: what was found; what is accepted``.
     """
     source = open_source(path, units=units, dt_s=dt_s)
-    form = next(form for form in _FORMATS if form.recognises(source.lines))
+    form = next(form for form in _FORMATS if form.recognizes(source.lines))
     return form.read(source)
 
 

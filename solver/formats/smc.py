@@ -1,14 +1,14 @@
 """SMC files of the U.S. Geological Survey (.smc): one component, in cm/s2.
 
-Owns this format only. Eleven lines of text, 48 whole numbers (8I10), 50 real ones (5E15.7), lines
-of comment that begin with |, then values (8E10.4E1): even ones where the heading gives a rate, else
-pairs of time and acceleration. Read `read` first.
+Handles this format only. Eleven lines of text, 48 integers (8I10), 50 real numbers (5E15.7), lines
+of comment that begin with |, then values (8E10.4E1): evenly spaced if the heading gives a rate,
+otherwise pairs of time and acceleration. Read `read` first.
 
 Source: U.S. Geological Survey, National Strong-Motion Program, SMC- and BBF-format data files,
-escweb.wr.usgs.gov/nsmp-data/smcfmt.html: whole numbers 1 (sign of an unknown one), 16 (comments),
-17 (values), 18 (problem flag); real numbers 1 (sign of an unknown one), 2 (rate [1/s]), 30 and 32
+escweb.wr.usgs.gov/nsmp-data/smcfmt.html: integers 1 (code of an unknown one), 16 (comments),
+17 (values), 18 (problem flag); real numbers 1 (code of an unknown one), 2 (rate [1/s]), 30 and 32
 (largest and smallest value). That an uneven file counts times and accelerations together, and may
-have short lines where two pieces of film meet, is seen in files (575 Market Street, 1989).
+have short lines where two pieces of film join, was found in files (575 Market Street, 1989).
 """
 
 from __future__ import annotations
@@ -34,16 +34,16 @@ _REAL = Layout(per_line=5, width=15)
 _VALUES = Layout(per_line=8, width=10)
 _WHOLES, _REALS = 48, 50
 
-# Places of the heading's numbers, from 1.
+# Positions of the numbers in the heading, from 1.
 _COMMENTS, _COUNT, _FLAG = 16, 17, 18
 _RATE, _LARGEST, _SMALLEST = 2, 30, 32
 
-# Real numbers that are not known are 1.7E38, and no rate or acceleration is near that.
+# Unknown real numbers are coded as 1.7E38; no rate or acceleration is near that.
 _UNKNOWN = 1e30
 
 
-def recognises(lines: Sequence[str]) -> bool:
-    """Whether the first line is a type number with its name."""
+def recognizes(lines: Sequence[str]) -> bool:
+    """Whether the first line is a type number with the name of the type."""
     return bool(lines and _FIRST.match(lines[0]))
 
 
@@ -82,7 +82,7 @@ def _kind(source: Source) -> str:
 
 
 def _block(source: Source, whole: Sequence[Stated]) -> Block:
-    """Where the values stand: behind the comments."""
+    """Lines of the values, after the comments."""
     comments, count = whole[_COMMENTS - 1], whole[_COUNT - 1]
     for number, meaning in ((comments, "lines of comment"), (count, "values")):
         if not 0.0 <= number.value < 1e8:
@@ -94,19 +94,19 @@ def _block(source: Source, whole: Sequence[Stated]) -> Block:
     for index in range(heading, min(first, len(source.lines))):
         if not source.lines[index].startswith("|"):
             raise InputError(
-                f"{source.at(index)}: found a line without | among the {comments.value:.0f} of"
-                " comment; give the whole file"
+                f"{source.at(index)}: found a line without | among the {comments.value:.0f} lines"
+                " of comment; give the whole file"
             )
     return Block(first=first, stop=len(source.lines), count=int(count.value), promised=count.index)
 
 
 def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...]]:
-    """Pairs of time and acceleration, of which a line may have fewer than four."""
+    """Pairs of time and acceleration; a line may have fewer than four."""
     values = fixed_rows(source, block, _VALUES)
-    # Files count the values; one that counts the pairs cannot be a cut one.
+    # Files state the number of values; one that states the number of pairs is not truncated.
     if len(values) not in (block.count, 2 * block.count):
         raise InputError(
-            f"{source.at(block.promised)}: promises {block.count} values, found {len(values)};"
+            f"{source.at(block.promised)}: states {block.count} values, found {len(values)};"
             " give the whole file"
         )
     rows = []

@@ -1,6 +1,6 @@
-"""A file's lines, with what the caller says of it, and the checks of one against the other.
+"""The lines of a file with the units and step given by the caller, checked against each other.
 
-Owns the limits on files from strangers; knows no format. Read `open_source` first.
+Sets the limits on files from unknown sources; knows no format. Read `open_source` first.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from solver.records.units import UNIT_CHOICES, unit_size
 MAX_BYTES = 64_000_000
 MAX_LINE = 1000
 
-# Apart from tab, line ends and form feed, text has no control characters.
+# Text has no control characters except tab, line ends and form feed.
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f]")
 
 # Old systems end a text file with Ctrl-Z, or fill its last block with it.
@@ -26,7 +26,7 @@ _END_OF_TEXT = b"\x1a \r\n"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stated:
-    """A number as a file prints it: where, and how far rounding may have moved it."""
+    """A number as printed in a file: its value, its possible rounding error and its line."""
 
     value: float
     rounding: float
@@ -35,17 +35,17 @@ class Stated:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Source:
-    """Lines of a file, and what the caller gives where the file does not say.
+    """Lines of a file, and the units and step given by the caller.
 
     Attributes
     ----------
     name : str
     lines : list of str
-        Without their ends.
+        Without line ends.
     units : str
-        One of `UNIT_CHOICES`, or "" where the caller gives none.
+        One of `UNIT_CHOICES`, or "" if the caller gives none.
     dt_s : float
-        Sampling interval [s], or nan where the caller gives none.
+        Sampling interval [s], or NaN if the caller gives none.
     """
 
     name: str
@@ -54,15 +54,15 @@ class Source:
     dt_s: float
 
     def at(self, index: int) -> str:
-        """Name and number of the line of an index, as messages begin."""
+        """File name and number of the line at an index, with which messages begin."""
         return f"{self.name}:{index + 1}"
 
     def line(self, index: int) -> str:
-        """Return the line of an index, empty beyond the end of the file."""
+        """Return the line at an index; empty beyond the end of the file."""
         return self.lines[index] if index < len(self.lines) else ""
 
     def scale(self, stated: str, index: int) -> float:
-        """Size [m/s2] of the unit that the file states; the caller's, if any, must be the same."""
+        """Value [m/s2] of the unit stated in the file; the caller's, if any, must be equal."""
         size = unit_size(stated)
         if math.isnan(size):
             known = ", ".join(UNIT_CHOICES)
@@ -72,12 +72,12 @@ class Source:
         if self.units and not math.isclose(unit_size(self.units), size):
             raise InputError(
                 f"{self.at(index)}: the file is in {stated} but units are {self.units};"
-                " give the file's own, or none"
+                " give the units of the file, or none"
             )
         return size
 
     def given_scale(self) -> float:
-        """Size [m/s2] of the caller's unit, for a file that states none."""
+        """Value [m/s2] of the caller's unit, for a file that states none."""
         if not self.units:
             raise InputError(
                 f"{self.name}: found no unit of acceleration; give units, one of"
@@ -86,7 +86,7 @@ class Source:
         return unit_size(self.units)
 
     def step(self, stated: Stated) -> float:
-        """Sampling interval [s] that the file states; the caller's, if any, must agree."""
+        """Sampling interval [s] stated in the file; the caller's, if any, must agree."""
         value = stated.value
         if math.isnan(value):
             if math.isnan(self.dt_s):
@@ -100,8 +100,8 @@ class Source:
             return value
         if abs(value - self.dt_s) > stated.rounding + 1e-4 * value:
             raise InputError(
-                f"{self.at(stated.index)}: the file steps by {value:.6g} s but dt is"
-                f" {self.dt_s:.6g} s; give the file's own, or none"
+                f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but dt is"
+                f" {self.dt_s:.6g} s; give the dt of the file, or none"
             )
         return self.dt_s
 
@@ -112,7 +112,7 @@ def open_source(path: Path, *, units: str, dt_s: float) -> Source:
     Raises
     ------
     InputError
-        Where the arguments make no sense, or the file is missing, too large or no text.
+        If the arguments are invalid, or the file is missing, too large or not text.
     """
     name, problems = path.name, []
     if units and units not in UNIT_CHOICES:
@@ -149,7 +149,7 @@ def _lines(name: str, data: bytes) -> list[str]:
 
 
 def _decode(name: str, data: bytes) -> str:
-    """Text of the file; bytes that are not UTF-8, as in an old heading, count as Latin-1."""
+    """Text of the file; if not UTF-8, as some old headings, it is read as Latin-1."""
     try:
         if data.startswith((b"\xff\xfe", b"\xfe\xff")):
             return data.decode("utf-16")

@@ -1,8 +1,8 @@
 """Text and csv: one column (acceleration), or times and one or more columns.
 
-Owns this format only; what headings mean is for `solver.formats.headings`, times for
-`solver.formats.times`. Columns stand apart by comma, semicolon, tab or blanks. One heading line,
-blank lines and comments after `#` are skipped, but read for units. Read `read` first.
+Handles this format only; `solver.formats.headings` interprets headings, `solver.formats.times`
+times. Columns are separated by comma, semicolon, tab or blanks. One heading line, blank lines and
+comments after `#` are skipped, except that units are read from them. Read `read` first.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _Row = tuple[int, str]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Table:
-    """Numbers of a text, with what its heading says of them.
+    """Numbers of a text, with its headings.
 
     Attributes
     ----------
@@ -48,9 +48,9 @@ class _Table:
     headings : list of Heading
         One for each column, or none.
     heading_index : int
-        Index of their line.
+        Index of the line of headings.
     remarks : list of (int, str)
-        Index and words of the other lines above the first row.
+        Index and text of the other lines above the first row.
     """
 
     values: Floats
@@ -60,8 +60,8 @@ class _Table:
     remarks: list[_Row]
 
 
-def recognises(lines: Sequence[str]) -> bool:
-    """Text takes every file that no other format does."""
+def recognizes(lines: Sequence[str]) -> bool:
+    """Text accepts every file that no other format does."""
     return True
 
 
@@ -82,7 +82,7 @@ def read(source: Source) -> MotionFile:
         )
         for i, values in zip(taken, even.columns, strict=True)
     ]
-    notes = [f"column {shown(text)} is left out: it is no acceleration" for text in left]
+    notes = [f"column {shown(text)} is ignored: it is not an acceleration" for text in left]
     return motion_file(source, "text", channels, [*even.notes, *notes])
 
 
@@ -102,7 +102,7 @@ def _has_times(source: Source, table: _Table) -> bool:
         )
     if not kinds or kinds[0] is Kind.TIME:
         return True
-    # A heading that says nothing of time leaves the values to tell.
+    # If no heading mentions time, the values decide.
     rises = bool((np.diff(table.values[:, 0]) > 0.0).all())
     return kinds[0] is not Kind.ACCELERATION and (rises or math.isnan(source.dt_s))
 
@@ -138,7 +138,7 @@ def _stated_step(source: Source, table: _Table) -> float:
 
 
 def _scale(source: Source, table: _Table, column: int) -> float:
-    """Size [m/s2] of a column's unit: its heading's, else that of the prose above, else given."""
+    """Value [m/s2] of a column's unit: from its heading, the text above, or the caller."""
     if table.headings and (unit := table.headings[column].unit):
         return source.scale(unit, table.heading_index)
     stated = [(unit, i) for i, line in table.remarks for unit in headings.units_in(line)]
@@ -176,14 +176,14 @@ def _content(line: str) -> str:
 
 
 def _rows(lines: Sequence[str], start: int) -> Iterator[_Row]:
-    """Index and content of each line from index `start` that is not blank or comment."""
+    """Index and content of each line from index `start` on that is not blank or a comment."""
     for index in range(start, len(lines)):
         if content := _content(lines[index]):
             yield index, content
 
 
 def _first_row(lines: Sequence[str]) -> int:
-    """Index of the first line that may hold numbers: after the heading, if there is one."""
+    """Index of the first line that may have numbers: after the heading, if there is one."""
     for index, content in _rows(lines, 0):
         return index + 1 if _is_heading(content) else index
     return len(lines)
@@ -195,14 +195,14 @@ def _is_heading(content: str) -> bool:
 
 
 def _separator(content: str) -> str | None:
-    """Separator of the columns; None for blanks and tabs, a comma of `0,1 0,2` being decimal."""
+    """Separator of the columns; None for blanks and tabs. The commas of `0,1 0,2` are decimal."""
     if ";" in content:
         return ";"
     return "," if "," in content and not _BLANK_BETWEEN.search(content) else None
 
 
 def _remarks(lines: Sequence[str], start: int) -> list[_Row]:
-    """Index and words of every line above the first row, comments' signs aside."""
+    """Index and text of every line above the first row, without comment signs."""
     plain = ((index, lines[index].replace("#", " ").strip()) for index in range(start))
     ahead = [(index, line) for index, line in plain if line]
     for index in range(start, len(lines)):
@@ -217,7 +217,7 @@ def _remarks(lines: Sequence[str], start: int) -> list[_Row]:
 def _headings(
     source: Source, start: int, separator: str | None, width: int, remarks: Sequence[_Row]
 ) -> tuple[list[Heading], int]:
-    """Heading of each column and the index of their line: of the heading line or else a comment."""
+    """Heading of each column and the index of their line: the heading line, or else a comment."""
     heading = _content(source.lines[start - 1]) if start else ""
     if heading and _is_heading(heading):
         texts = headings.words(heading, separator)
@@ -235,7 +235,7 @@ def _headings(
 
 
 def _parse_fast(lines: Sequence[str], separator: str | None, width: int) -> Floats | None:
-    """Table if every row is so many finite numbers, else None."""
+    """Table if every row has `width` finite numbers, else None."""
     try:
         table: Floats = np.loadtxt(lines, delimiter=separator, ndmin=2)
     except ValueError:
@@ -244,7 +244,7 @@ def _parse_fast(lines: Sequence[str], separator: str | None, width: int) -> Floa
 
 
 def _parse_slowly(source: Source, start: int, separator: str | None, width: int) -> Floats:
-    """Go through a table that has a fault, row by row, to say all that is wrong with it."""
+    """Read a table that has an error row by row, to report all its errors."""
     raise_any(
         f"{source.at(index)}: {problem}"
         for index, content in _rows(source.lines, start)
@@ -262,7 +262,7 @@ def _row_problems(fields: Sequence[str], width: int) -> list[str]:
 
 
 def _check_decimal_comma(source: Source, table: _Table, times: Floats) -> None:
-    """Refuse `0,12` above `0,13`: two columns by their commas, but one by their sense."""
+    """Raise for rows such as `0,12` and `0,13`: one column with decimal commas, not two."""
     rows = list(itertools.islice(_rows(source.lines, table.start), _MAX_REMARKS))
     if is_even(times) or not all(_DECIMAL_COMMA.fullmatch(content) for _, content in rows):
         return

@@ -1,6 +1,6 @@
-"""Columns of times: even ones give the step, uneven ones are resampled.
+"""Columns of times: evenly spaced times give the step; with uneven times the record is resampled.
 
-Owns what counts as even. Changes nothing where times are even as far as they are printed. Read
+Decides what counts as even. Changes nothing if times are even within the digits printed. Read
 `sampled` first.
 """
 
@@ -17,12 +17,12 @@ from solver.model import Floats, InputError
 from solver.records.record import fits, raise_any
 
 MAX_SAMPLES = 2_000_000
-"""Samples that the columns of a file may have together once resampled."""
+"""Largest total number of samples in the columns of a file after resampling."""
 
 LOSS = 0.005
-"""Of the peak: what resampling may move any sample by, where the step is free to be chosen."""
+"""Target for the largest change of a sample by resampling / peak."""
 
-# Gaps of so many usual steps are told one by one.
+# A gap is an interval longer than this number of typical steps.
 _GAP_STEPS = 10.0
 _FINEST = 200.0
 _MAX_GAPS = 3
@@ -37,7 +37,7 @@ class Sampled:
     dt_s : float
     columns : array, shape (k, n)
     notes : tuple of str
-        One or more where the columns were resampled.
+        One or more if the columns were resampled.
     """
 
     dt_s: float
@@ -46,12 +46,12 @@ class Sampled:
 
 
 def sampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int]) -> Sampled:
-    """Columns at an even step: as they are where the times are even, else resampled.
+    """Columns at an even step: unchanged if the times are even, otherwise resampled.
 
-    The record is straight between its samples, so resampling is linear. The step is the largest of
-    1, 2, 5, 10, ... (of any power of ten) at or below the usual one that keeps every sample within
-    `LOSS` of the peak: a step chosen by the times alone would cut off the peaks between its
-    samples. Where even the finest step allowed does not, the note says what is lost.
+    The record is linear between its samples, so resampling is by linear interpolation. The step is
+    the largest of 1, 2, 5 times a power of ten, at or below the typical step, that changes no
+    sample by more than `LOSS` of the peak: a step chosen from the times alone would cut off peaks
+    between its samples. If even the finest step allowed changes more, the note states how much.
 
     Parameters
     ----------
@@ -60,12 +60,12 @@ def sampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int
         Times [s], n >= 2.
     columns : array, shape (k, n)
     line_of : function of int
-        Index of the line of a time; asked only for what is told.
+        Index of the line of a time; called only for times that a message mentions.
 
     Raises
     ------
     InputError
-        Where times do not rise, or a step that the caller gives does not agree.
+        If times do not increase, or a step given by the caller does not agree.
     """
     _check_rising(source, t_s, line_of)
     step, blur = _even_step(t_s)
@@ -73,14 +73,14 @@ def sampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int
         return Sampled(dt_s=_agreed(source, step, blur), columns=columns, notes=())
     if not math.isnan(source.dt_s):
         raise InputError(
-            f"{source.name}: found uneven times but dt is {source.dt_s:.6g} s; give no dt, the"
-            " record is then resampled"
+            f"{source.name}: found uneven times but dt is {source.dt_s:.6g} s; omit dt, and the"
+            " record is resampled"
         )
     return _resampled(source, t_s, columns, line_of)
 
 
 def is_even(t_s: Floats) -> bool:
-    """Whether times rise evenly, as far as they are printed."""
+    """Whether times increase evenly, within the digits printed."""
     return bool((np.diff(t_s) > 0.0).all()) and not math.isnan(_even_step(t_s)[0])
 
 
@@ -89,18 +89,19 @@ def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) ->
     usual = float(np.median(steps))
     raise_any(
         f"{source.at(line_of(i + 1))}: found time {t_s[i + 1]:.6g} s after {t_s[i]:.6g} s, "
-        f"the usual step being {usual:.6g} s; give rising times"
+        f"with a typical step of {usual:.6g} s; give increasing times"
         for i in np.flatnonzero(~(steps >= 1e-9)).tolist()
     )
 
 
 def _even_step(t_s: Floats) -> tuple[float, float]:
-    """Step of even times and how far their rounding may have moved it; nan where uneven."""
+    """Step of even times and the error in it from their rounding; NaN if uneven."""
     n = len(t_s) - 1
     step = (t_s[-1] - t_s[0]) / n
     resolution = next((10.0**-k for k in range(10) if fits(t_s, 10.0**-k)), 0.0)
-    # Two printed times are off by half the resolution each. A coarser one would hide a lost
-    # sample, and steps of whole multiples need no allowance.
+    # Each printed time has an error of up to half the resolution. If the resolution is coarser than
+    # half a step, no allowance is made: it could hide a missing sample, and times printed in whole
+    # steps need none.
     rounding = resolution if resolution <= 0.5 * step else 0.0
     allowance = max(1.001 * rounding, 0.01 * step)
     off = t_s - (t_s[0] + step * np.arange(n + 1))
@@ -110,20 +111,20 @@ def _even_step(t_s: Floats) -> tuple[float, float]:
 
 
 def _agreed(source: Source, step: float, blur: float) -> float:
-    """Step of the times, or the caller's where that agrees."""
+    """Step of the times, or the caller's if it agrees."""
     if math.isnan(source.dt_s):
         return _round_step(step, blur)
     if abs(step - source.dt_s) > blur + 1e-4 * step:
         text = f"{_round_step(step, blur):.6g}"
         raise InputError(
-            f"{source.name}: the times step by {text} s but dt is {source.dt_s:.6g} s;"
-            " give one of them"
+            f"{source.name}: the time step in the file is {text} s but dt is {source.dt_s:.6g} s;"
+            " omit dt, or correct one of them"
         )
     return source.dt_s
 
 
 def _round_step(step: float, blur: float) -> float:
-    """Step [s] freed of the rounding of printed times: a whole rate in Hz if one is that near."""
+    """Step [s] without the rounding of printed times: that of a whole rate in Hz if within it."""
     whole = 1.0 / max(round(1.0 / step), 1)
     return whole if abs(whole - step) <= blur + 1e-9 * step else float(f"{step:.9g}")
 
@@ -132,7 +133,7 @@ def _resampled(
     source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int]
 ) -> Sampled:
     steps = np.diff(t_s)
-    # Differences of times are off by their last binary digits.
+    # Rounded, because differences of times have errors in their last binary digits.
     usual, length = float(f"{np.median(steps):.9g}"), float(t_s[-1] - t_s[0])
     best = None
     for step in _candidates(usual):
@@ -144,20 +145,20 @@ def _resampled(
             break
     if best is None:
         raise InputError(
-            f"{source.name}: found times over {length:.6g} s with a usual step of {usual:.6g} s;"
+            f"{source.name}: found times over {length:.6g} s with a typical step of {usual:.6g} s;"
             f" give a record of at most {MAX_SAMPLES:,} steps"
         )
     step, even, loss = best
     moved = f" by more than {100.0 * loss:.2g} % of the peak" if loss > 1e-9 else ""
     note = (
         f"times are uneven, steps of {steps.min():.4g} to {steps.max():.4g} s: resampled at"
-        f" {step:g} s by straight lines, which moves no sample{moved}"
+        f" {step:g} s by linear interpolation, which changes no sample{moved}"
     )
     return Sampled(dt_s=step, columns=even, notes=(note, *_gaps(source, t_s, usual, line_of)))
 
 
 def _candidates(usual: float) -> list[float]:
-    """Steps of 1, 2, 5 times a power of ten, falling from the usual one to `_FINEST` of it."""
+    """Steps of 1, 2, 5 times a power of ten, from `usual` down to `usual` / `_FINEST`."""
     power = math.floor(math.log10(usual))
     steps = [float(f"{m}e{k}") for k in range(power, power - 4, -1) for m in (5, 2, 1)]
     return [step for step in steps if usual / _FINEST <= step <= usual]
@@ -170,10 +171,10 @@ def _interpolated(t_s: Floats, columns: Floats, step: float) -> Floats:
 
 
 def _loss(t_s: Floats, columns: Floats, even: Floats, step: float) -> float:
-    """Largest move of a sample, of the peak of its column.
+    """Largest change of a sample / peak of its column.
 
-    Both records are straight lines with corners at the old or the new samples, and they agree at
-    the new ones: they differ most at an old one.
+    Both records are piecewise linear, with corners at the old and the new samples, and agree at the
+    new samples. The largest difference is therefore at an old sample.
     """
     times = t_s[0] + step * np.arange(even.shape[1])
     moved = [
@@ -185,11 +186,11 @@ def _loss(t_s: Floats, columns: Floats, even: Floats, step: float) -> float:
 
 
 def _gaps(source: Source, t_s: Floats, usual: float, line_of: Callable[[int], int]) -> list[str]:
-    """Say where samples may be lost."""
+    """Note where samples may be missing."""
     gaps = np.flatnonzero(np.diff(t_s) > _GAP_STEPS * usual)
     notes = [
-        f"{source.at(line_of(i + 1))}: no samples between {t_s[i]:.6g} and {t_s[i + 1]:.6g} s: a"
-        " straight line stands there"
+        f"{source.at(line_of(i + 1))}: no samples between {t_s[i]:.6g} and {t_s[i + 1]:.6g} s:"
+        " interpolated linearly"
         for i in gaps[:_MAX_GAPS].tolist()
     ]
     more = len(gaps) - _MAX_GAPS

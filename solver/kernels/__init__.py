@@ -1,1 +1,1 @@
-"""Every jitted function, a family to a file: numba caches by file. Read `one_axis` first."""
+"""All jitted functions, one family per file: numba caches by file. Read `one_axis` first."""

@@ -1,7 +1,7 @@
-"""A block in two axes by fixed steps of constant acceleration, jitted: how it is done at first try.
+"""A block in two axes by fixed steps of constant acceleration, jitted: the straightforward method.
 
-Never raises, knows no units but SI; numpy and numba only. Letters as in `solver.kernels.two_axes`,
-whose rival this is. Read `slide_fixed`.
+Never raises, knows no units but SI; numpy and numba only. For comparison with
+`solver.kernels.two_axes`; letters as there. Read `slide_fixed`.
 """
 
 import math
@@ -11,16 +11,17 @@ from numba import njit
 
 @njit(cache=True)
 def slide_fixed(g, dt, cs, substeps, holds):
-    """Follow G and mu N, rows of g, shape (n, 3), with so many steps in each interval.
+    """Solve the motion under G and mu N with `substeps` steps in each interval.
 
-    Friction is mu N v / |v| at the beginning of a step, nothing at rest. With `holds` a block whose
-    velocity turns by more than a right angle in a step, while friction could hold it, is at rest,
-    until |G| > mu N at the beginning of a step: what the paper does in one axis.
+    g has shape (n, 3): Gx, Gy and mu N at the samples [m/s2]. Friction is mu N v / |v| at the
+    beginning of a step, and zero at rest. With `holds`, a block comes to rest if its velocity turns
+    by 90 deg or more in a step while mu N >= |G|, and stays at rest until |G| > mu N at the
+    beginning of a step, as the paper does in one axis.
 
     Returns
     -------
     tuple
-        PRD at the ends of steps, place at the end (in plan), speed there.
+        PRD at the ends of steps, position in plan at the end (x, y), speed at the end.
     """
     h = dt / substeps
     sx = sy = vx = vy = prd = 0.0

@@ -1,7 +1,7 @@
-"""Every jitted function: plain functions of floats and arrays.
+"""The exact one-axis solver, jitted: the linearly interpolated record, event by event.
 
-Never raises, never allocates for its caller, knows no units but SI; numpy and numba only.
-Read `solver.sliding.checked` for what the numbers mean and `solver.records.record` for spectra.
+Never raises, knows no units but SI; numpy and numba only. Read `slide_exact`;
+`solver.sliding.checked` explains the results.
 
 Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
     ax, az   horizontal (right) and vertical (up) acceleration of the plane     [m/s2]
@@ -9,8 +9,8 @@ Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
     g        acceleration of gravity                                            [m/s2]
     sn, cs   sine and cosine of the roof slope theta, positive down to the right
     mu       friction coefficient, static and kinetic
-    s, w     distance slid down the slope [m]; speed in the direction of sliding, >= 0 [m/s]
-    sigma    direction of sliding: +1 down the slope, -1 up, 0 at rest
+    s, w     distance slid downslope [m]; speed in the direction of sliding, >= 0 [m/s]
+    sigma    direction of sliding: +1 downslope, -1 upslope, 0 at rest
     q, r     acceleration in the direction of sliding [m/s2] and its rate in an interval [m/s3]
     dt, tau  sampling interval and time since the interval began                [s]
 """
@@ -20,7 +20,7 @@ import math
 import numpy as np
 from numba import config, njit, prange
 
-# GNU OpenMP, numba's first choice, takes 8 ms to start a sweep where this takes 0.2 ms.
+# GNU OpenMP, numba's default, takes 8 ms to start a sweep; workqueue takes 0.2 ms.
 config.THREADING_LAYER = "workqueue"
 
 # Kinds of event in the `events` array.
@@ -36,18 +36,18 @@ MARGIN = 1e-15
 SHIFT = 4
 BLOCK = 1 << SHIFT
 
-# Samples over which a gain in speed is summed by itself.
+# Samples over which a gain in speed is summed separately.
 CHUNK = 64
 
-# An index is np.uintp where time counts: any other, numba first tests for counting from the end.
+# Indices are np.uintp in inner loops: numba tests any other type for negative values first.
 
 
 @njit(cache=True)
 def bounds(a):
     """Least and greatest sample over blocks of BLOCK, over blocks of BLOCK blocks, and over all.
 
-    Rounding keeps order, so what is computed from a bound bounds what is computed from a sample,
-    to the last bit: a block can be passed over without changing anything.
+    Rounding is monotone, so what is computed from a bound bounds what is computed from a sample, to
+    the last bit: skipping a block of samples changes no result.
     """
     fine = (a.size + BLOCK - 1) >> SHIFT
     coarse = (fine + BLOCK - 1) >> SHIFT
@@ -66,7 +66,7 @@ def bounds(a):
 
 @njit(cache=True, forceinline=True)
 def _push(c, ax, az, i):
-    """Acceleration in one direction at sample i; c holds its weights of 1, z and x."""
+    """Acceleration in one direction at sample i; c holds the coefficients of 1, az and -ax."""
     if az is None:
         return c[0] - c[2] * ax[np.uintp(i)]
     return c[0] + c[1] * az[np.uintp(i)] - c[2] * ax[np.uintp(i)]
@@ -74,7 +74,7 @@ def _push(c, ax, az, i):
 
 @njit(cache=True, forceinline=True)
 def _greatest_push(c, x, z, block):
-    """Bound of `_push` over a block."""
+    """Upper bound of `_push` over a block of samples."""
     across = min(c[2] * x[0, np.uintp(block)], c[2] * x[1, np.uintp(block)])
     if z is None:
         return c[0] - across
@@ -85,8 +85,8 @@ def _greatest_push(c, x, z, block):
 def least_normal(ax, az, x, z, dt, sn, cs, g, scale):
     """Least N / (m g) over the record, and when N first falls below zero (NaN: never).
 
-    N = (g + a_v) cos(theta) + a_h sin(theta), Eq. 6 with the vertical added. N is linear between
-    samples, so its minimum is at one of them. -N has the form of a push.
+    N = (g + az) cos(theta) + ax sin(theta), Eq. 6 with the vertical added. N is linear between
+    samples, so its minimum is at a sample. -N has the form of `_push`.
     """
     c = (-cs * g, -cs * scale, sn * scale)
     most = _greatest_push(c, x, z, x.shape[1] - 1)
@@ -109,7 +109,7 @@ def least_normal(ax, az, x, z, dt, sn, cs, g, scale):
 
 @njit(cache=True, forceinline=True)
 def _resting_band(down, up):
-    """Horizontal accelerations between which no push is positive, drawn in by a few roundings."""
+    """Range of ax without slip, for a record without vertical; reduced by a few rounding errors."""
     low, high = -np.inf, np.inf
     for c in (down, up):
         if c[2] > 0.0:
@@ -123,7 +123,7 @@ def _resting_band(down, up):
 
 @njit(cache=True, forceinline=True)
 def _is_quiet(down, up, band, x, z, block):
-    """Whether no sample of a block can push a resting block over."""
+    """Whether no sample of a block of samples can make the resting block slip."""
     if z is None:
         return x[0, np.uintp(block)] >= band[0] and x[1, np.uintp(block)] <= band[1]
     return _greatest_push(down, x, z, block) <= 0.0 and _greatest_push(up, x, z, block) <= 0.0
@@ -131,7 +131,7 @@ def _is_quiet(down, up, band, x, z, block):
 
 @njit(cache=True, forceinline=True)
 def _next_push(down, up, band, ax, az, x, z, i):
-    """First sample from i on that pushes a resting block over, or n."""
+    """First sample from i on at which the resting block slips, or n."""
     n = ax.size
     fine = (n + BLOCK - 1) >> SHIFT
     far_end = x.shape[1] - 1
@@ -162,23 +162,23 @@ def _next_push(down, up, band, ax, az, x, z, i):
 def _first_stop(w, q, r, h):
     """First tau in (0, h] where the speed w + q tau + r tau^2 / 2 is zero, or -1.
 
-    The end value alone is not enough: the speed may touch or cross zero inside and be positive
-    again at the end, so the vertex is looked at too.
+    The value at the end is not sufficient: the speed may touch or cross zero inside and be positive
+    again at the end, so the vertex is checked as well.
     """
     ends_moving = w + h * (q + 0.5 * r * h) > 0.0
     dips = r > 0.0 and q < 0.0 and -q < r * h
     discriminant = q * q - 2.0 * r * w
     if ends_moving and not (dips and discriminant >= 0.0):
         return -1.0
-    root = math.sqrt(max(discriminant, 0.0))  # a rounding below zero: it touches zero
-    # The forms of the quadratic formula without cancellation; unless q < 0, here r < 0.
+    root = math.sqrt(max(discriminant, 0.0))  # negative by rounding error only: it touches zero
+    # The forms of the quadratic formula without cancellation; if q >= 0, then r < 0 here.
     tau = 2.0 * w / (root - q) if q < 0.0 else (q + root) / -r
     return min(tau, h)
 
 
 @njit(cache=True, forceinline=True)
 def _onset(q_0, q_1, tau, dt):
-    """When a push from q_0 to q_1 in dt first becomes positive: in [tau, dt), or dt for never."""
+    """Time in [tau, dt) when a push linear from q_0 to q_1 becomes positive; dt for never."""
     if q_0 <= 0.0 and q_1 <= 0.0:
         return dt
     if q_0 <= 0.0 and q_1 > 0.0:
@@ -189,44 +189,44 @@ def _onset(q_0, q_1, tau, dt):
 
 @njit(cache=True, forceinline=True)
 def _move(w, q_0, q_1, tau, dt, rate):
-    """Slide on from tau to the end of the interval, or until the speed is zero.
+    """Continue sliding from tau to the end of the interval, or until the speed is zero.
 
-    Returns the time reached, the way and the speed there: 0 where it stops, and only there.
+    Returns the time reached, the distance and the final speed, which is 0 only if the block stops.
     """
     r = (q_1 - q_0) * rate
     q, h = q_0 + r * tau, dt - tau
     if w == 0.0:
-        q = max(q, 0.0)  # an onset has no push against it: what is left is rounding
+        q = max(q, 0.0)  # at an onset the push is not negative, except for rounding error
     step = _first_stop(w, q, r, h) if w > 0.0 or r < 0.0 else -1.0
     if step < 0.0:
         return dt, h * (w + h * (0.5 * q + h * (r * SIXTH))), w + h * (q + 0.5 * r * h)
-    # Where the step is lost in rounding, time must pass all the same.
+    # Time must advance even if the step is smaller than the rounding error of tau.
     reached = tau + step if tau + step > tau else tau * (1.0 + 2.3e-16) + TINY
     return reached, step * (w + step * (0.5 * q + step * (r * SIXTH))), 0.0
 
 
 @njit(cache=True, forceinline=True)
 def _slide_on(c, ax, az, w, i, last, dt):
-    """Slide through whole intervals, up to the first in which the speed may come to zero.
+    """Slide through whole intervals, up to the first one in which the speed may become zero.
 
-    Where the speed is positive at the end of an interval and, by its first push alone, in its
-    middle, a dip between them cannot reach zero. The sum of the cubic ways telescopes:
+    If the speed is positive at the end of an interval, and would be at its middle under the first
+    push alone, it does not reach zero in the interval. The sum of the cubic distances telescopes:
     dt (sum of w + half its change) + dt^2 / 12 (q first - q last).
 
-    Returns the sample reached, the way and the speed there.
+    Returns the sample reached, the distance and the speed there.
     """
     half = 0.5 * dt
     c = (c[0] * half, c[1] * half, c[2] * half)  # q dt / 2 from here on
     q = _push(c, ax, az, i)
     way = 0.0
     while i < last:
-        # Speed gained is summed from zero every CHUNK samples, to keep its small digits.
+        # The gain in speed is summed from zero every CHUNK samples, to keep its low-order digits.
         q_first, gained, total, end = q, 0.0, 0.0, min(i + CHUNK, last)
         start = i
         while i < end:
             q_next = _push(c, ax, az, i + 1)
             middle = gained + q
-            more = gained + (q + q_next)  # not middle + q_next: one sum less to wait for
+            more = gained + (q + q_next)  # not middle + q_next, which would wait for one more sum
             if min(middle, more) <= -w:
                 break
             total += gained
@@ -241,7 +241,7 @@ def _slide_on(c, ax, az, w, i, last, dt):
 
 @njit(cache=True, forceinline=True)
 def _note(events, n, t, kind, s):
-    """Write event n and return how many there are."""
+    """Write event n and return the number of events."""
     if events is not None:
         events[n, 0], events[n, 1], events[n, 2] = t, kind, s
     return n + 1
@@ -249,21 +249,21 @@ def _note(events, n, t, kind, s):
 
 @njit(cache=True)
 def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
-    """Follow the linearly interpolated record exactly, event by event.
+    """Solve the motion under the linearly interpolated record exactly, event by event.
 
     In each interval N and the driving acceleration are linear, so s' is quadratic and s cubic
     between events, and each event is the root of a linear or quadratic polynomial. At rest, blocks
-    of samples that cannot push the block over are passed over.
+    of samples that cannot cause slip are skipped.
 
     Parameters
     ----------
     az : array, shape (n,), or None
         None for no vertical shaking; another version is compiled for it.
     x, z : array
-        `bounds` of ax and of az (None where az is).
+        `bounds` of ax and of az (z None if az is None).
     events : array, shape (m, 3), or None
-        Filled with time, kind and s of the events, m of them or more; two for each stop and one
-        for a slip that has none.
+        Filled with time, kind and s of the events. m must be at least their number: two for each
+        stop, and one for a slip without a stop.
 
     Returns
     -------
@@ -279,13 +279,13 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
     i = n_stops = n_events = 0
     last, rate = ax.size - 1, 1.0 / dt
     while i < last:
-        # At rest at sample i: on to the interval in which a push begins.
+        # At rest at sample i: go to the interval in which slip begins.
         first = _next_push(down, up, band, ax, az, x, z, i)
         if first > last:
             break
         tau = 0.0
         if first > i:
-            # The push rises from q_0 <= 0 to q_1 > 0: in the time h left of it nothing stops.
+            # The push increases from q_0 <= 0 to q_1 > 0: no stop in the remaining time h.
             c, sigma = (down, DOWN) if _push(down, ax, az, first) > 0.0 else (up, UP)
             q_0, q_1 = _push(c, ax, az, first - 1), _push(c, ax, az, first)
             h = dt * (q_1 / (q_1 - q_0))
@@ -328,14 +328,14 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
 
 @njit(cache=True)
 def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
-    """Sample the motion that `slide_exact` found: s and s' from each slip to its stop.
+    """Evaluate the motion found by `slide_exact` at the samples: s and s' from slip to stop.
 
     Parameters
     ----------
     events : array, shape (m, 3)
         All events of the run.
     history : array, shape (2, n)
-        Filled.
+        Filled with s and s' at the samples.
     """
     history[:] = 0.0
     for k in range(0, events.shape[0], 2):
@@ -364,14 +364,14 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
 
 @njit(cache=True, parallel=True)
 def sweep_exact(ax, az, x, z, dt, g, scenes, out):
-    """Run many scenes under one record, side by side.
+    """Run many scenes under one record, in parallel.
 
     Parameters
     ----------
     scenes : array, shape (m, 3)
         Slope [rad], friction coefficient and scale of each.
     out : array, shape (m, 4)
-        Filled with s at its largest, at its least and at the end, and s' there; NaN after uplift.
+        Filled with the largest s, the least s, s and s' at the end; NaN if N falls below zero.
     """
     for k in prange(scenes.shape[0]):
         slope, mu, scale = scenes[k, 0], scenes[k, 1], scenes[k, 2]

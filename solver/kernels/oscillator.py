@@ -1,4 +1,4 @@
-"""Damped oscillators under a linearly interpolated record, jitted: spectra and modes of a building.
+"""Damped oscillators under a linearly interpolated record, jitted: spectra and building modes.
 
 Never raises, knows no units but SI; numpy and numba only.
 """
@@ -11,11 +11,11 @@ from numba import njit
 
 @njit(cache=True)
 def _step(p, zeta):
-    """What one step p = omega dt of an oscillator is made of: h, h', and h summed once and twice.
+    """h, h', and h integrated once and twice, over one step p = omega dt of an oscillator.
 
-    h is the unit impulse response of y'' + 2 zeta y' + y = 0 in the time omega t. The closed forms
-    lose up to p^3 of their digits when p is small, so there the Taylor series is summed instead:
-    its terms follow h_k+2 = -2 zeta h_k+1 - h_k.
+    h is the unit impulse response of y'' + 2 zeta y' + y = 0 in the time omega t. For small p the
+    closed forms lose digits by cancellation, up to a factor of p^3, so the Taylor series is summed
+    instead, with h_k+2 = -2 zeta h_k+1 - h_k.
     """
     if p >= 1.0:
         kappa = math.sqrt(1.0 - zeta * zeta)
@@ -50,7 +50,7 @@ def peaks(a, dt, omega, zeta, peak, at):
     zeta : float
         Fraction of critical damping, in [0, 1).
     peak, at : array, shape (m,)
-        Filled with omega^2 u, with its sign, where |u| is largest, and with the sample where.
+        Filled with the signed omega^2 u at the largest |u| [m/s2], and with the sample where it is.
     """
     m = omega.size
     c = np.empty((7, m))
@@ -63,7 +63,7 @@ def peaks(a, dt, omega, zeta, peak, at):
         c[5, k], c[6, k] = h - once * over_p, once * over_p
         peak[k], at[k] = 0.0, 0
     y, z = np.zeros(m), np.zeros(m)
-    # Oscillators inside, samples outside: neighbours are independent, so they run abreast.
+    # The inner loop is over oscillators, which are independent, so the processor vectorizes it.
     for i in range(1, a.size):
         before, now = a[i - 1], a[i]
         for k in range(m):
@@ -86,7 +86,7 @@ def histories(a, dt, omega, zeta, out):
     omega, zeta : array, shape (m,)
         Circular frequencies [rad/s], finite, and fractions of critical damping, in [0, 1).
     out : array, shape (n, m)
-        Filled, a row for each sample.
+        Filled with absolute accelerations [m/s2], one row per sample.
     """
     m = omega.size
     c = np.empty((7, m))

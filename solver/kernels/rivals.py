@@ -1,26 +1,26 @@
-"""The methods that the exact one is held against, jitted: each as the field knows it.
+"""The methods that the exact one is compared with, jitted: each as it is commonly used.
 
-Never raises, knows no units but SI; numpy and numba only. Read `solver.rivals.methods` for what
-each one is, and `solver.kernels.one_axis` for the exact one.
+Never raises, knows no units but SI; numpy and numba only. Read `solver.rivals.methods` for a
+description of each, and `solver.kernels.one_axis` for the exact method.
 
-Letters, along the slope and for each unit of mass, signs down the slope:
+Letters, along the slope and per unit mass, positive downslope:
     ax, az   horizontal (right) and vertical (up) acceleration of the plane          [m/s2]
     g        acceleration of gravity                                                 [m/s2]
     sn, cs   sine and cosine of the roof slope theta, positive down to the right
     mu       friction coefficient, static and kinetic
-    G, N     drive down the slope and normal force (Eq. 6 with the vertical added)   [m/s2]
-    down, up G - mu N and -G - mu N: the net push on a block sliding that way        [m/s2]
+    G, N     drive downslope and normal force (Eq. 6 with the vertical added)        [m/s2]
+    down, up G - mu N and -G - mu N: net acceleration of a block sliding that way    [m/s2]
     s, w     distance slid and its rate                                              [m], [m/s]
     a        acceleration s''                                                        [m/s2]
     dt, h    sampling interval and sub-step                                          [s]
-    k        stiffness of the link for each unit of mass, omega^2                    [1/s2]
-    x, F     stretch of the link [m] and its force on the block, up the slope        [m/s2]
-    cap      mu N, the most that the link can hold                                   [m/s2]
+    k        stiffness of the link per unit mass, omega^2                            [1/s2]
+    x, F     stretch of the link [m] and its force on the block, upslope             [m/s2]
+    cap      mu N, the largest force of the link                                     [m/s2]
 
-Every kernel trusts that N >= 0 throughout (`kernels.least_normal`), fills `history` of shape (2, n)
-with s and w at the samples or (2, 0) with nothing, and returns its code, the largest and the least
-s, s and w at the end, the time of the largest |s| and the number of stops. What slides no more has
-w = 0 at the end.
+Every kernel assumes N >= 0 throughout (`one_axis.least_normal`). It fills `history`, if of shape
+(2, n), with s and w at the samples; shape (2, 0) is not filled. It returns its code, the largest
+and the least s, s and w at the end, the time of the largest |s| and the number of stops. A block
+that has stopped sliding has w = 0 at the end.
 """
 
 import math
@@ -33,10 +33,10 @@ FOLLOWED = 0
 DIVERGED = 1
 
 ENERGY = 6.0
-"""Energy that a link may dissipate while its cap could hold the load, for each unit it has."""
+"""Largest energy dissipated by a link while its cap exceeds the load / energy available."""
 
 ITERATIONS = 25
-"""Newton iterations in a sub-step before it is given up."""
+"""Newton iterations in a sub-step before the run is abandoned."""
 
 
 @njit(cache=True, inline="always")
@@ -49,7 +49,7 @@ def _drive_and_cap(ax, az, i, sn, cs, mu, g, scale):
 
 @njit(cache=True, inline="always")
 def _seen(s, t, s_max, s_min, t_peak):
-    """The extremes and the time of the largest |s|, with one more s looked at."""
+    """The extremes of s and the time of the largest |s|, updated with s at time t."""
     if abs(s) > max(s_max, -s_min):
         t_peak = t
     return max(s_max, s), min(s_min, s), t_peak
@@ -57,14 +57,14 @@ def _seen(s, t, s_max, s_min, t_peak):
 
 @njit(cache=True)
 def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
-    """Follow the paper's own algorithm: constant acceleration over each of `substeps` sub-steps.
+    """The paper's algorithm: constant acceleration over each of `substeps` sub-steps.
 
-    Eqs. 1-19 with their sign(0) = 0 (Eq. 13), so that the first sub-step of a slip has no
-    friction, for s = (u_x - u_p) / cos(theta): u_x'' - u_p'' of Eq. 18 is cos(theta) (G - mu N
-    sign), because A tan(theta) + B is 1 / cos(theta). First order in h.
+    Eqs. 1-19 with sign(0) = 0 (Eq. 13), so the first sub-step of a slip has no friction. The
+    unknown is s = (u_x - u_p) / cos(theta): u_x'' - u_p'' of Eq. 18 is cos(theta) (G - mu N sign),
+    because A tan(theta) + B is 1 / cos(theta). First order in h.
 
-    Where `skips`, an interval that begins at rest and could hold the block at both its samples is
-    taken as one step: N and G are linear there, so every sub-step would have found the same.
+    With `skips`, an interval that begins at rest, with no slip at either of its samples, is taken
+    as one step: N and G are linear, so every sub-step would give the same result.
     """
     h = dt / substeps
     half, share = 0.5 * h * h, 1.0 / substeps
@@ -88,7 +88,7 @@ def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
             elif w < 0.0 and w_before <= 0.0:
                 a = -(up_0 + j * r_up)
             else:
-                # At rest, or reversed within the last sub-step: s is largest at one of its ends.
+                # At rest, or reversed within the last sub-step: s is extreme at one of its ends.
                 if w_before != 0.0:
                     t = (i * substeps + j) * h
                     s_max, s_min, t_peak = _seen(s_before, t - h, s_max, s_min, t_peak)
@@ -117,12 +117,13 @@ def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
 
 @njit(cache=True)
 def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
-    """Take the plane's acceleration as linear in each sub-step, its sliding direction as fixed.
+    """Linear acceleration of the plane and a fixed sliding direction in each sub-step.
 
-    What the paper suggests in its limitations. Slip, stop and reversal are still found at the ends
-    of sub-steps only, and the block slips the way it is pushed: the paper's sign(0) = 0 would make
-    it first order. Second order in h; first where the block reverses without a rest, because the
-    friction of the old direction acts until the end of that sub-step.
+    Suggested in the limitations of the paper. Slip, stop and reversal are still detected at the
+    ends of sub-steps only. A slip starts in the direction of the drive, because sign(0) = 0 as in
+    the paper would make the method first order. Second order in h; first order if the block
+    reverses without coming to rest, because the friction of the old direction acts until the end of
+    that sub-step.
     """
     h = dt / substeps
     share = 1.0 / substeps
@@ -156,7 +157,7 @@ def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
 
 @njit(cache=True, inline="always")
 def _link(x, k, cap):
-    """Force of the link stretched by x, at most its cap, and the direction in which it slips."""
+    """Force of the link at a stretch x, limited to its cap, and the direction in which it slips."""
     force = k * x
     if force >= cap:
         return cap, 1
@@ -167,15 +168,15 @@ def _link(x, k, cap):
 
 @njit(cache=True)
 def _solve_sub_step(x, free, lever, k, cap):
-    """Newton's method on x = free - lever F(x), F the capped force of the link.
+    """Newton's method for x = free - lever F(x), where F is the capped force of the link.
 
-    Three straight pieces: a tangent that leads back to its own piece has found the root. Where
-    lever k = (omega h)^2 / 4 is above 1 the two outer pieces may lead to each other for ever.
+    F has three linear pieces. If a tangent leads to a point on its own piece, that is the root. If
+    lever k = (omega h)^2 / 4 is above 1, the two outer pieces may lead to each other endlessly.
 
     Returns
     -------
     tuple
-        x, and whether it was found.
+        x, and whether it converged.
     """
     _, piece = _link(x, k, cap)
     for _ in range(ITERATIONS):
@@ -189,19 +190,19 @@ def _solve_sub_step(x, free, lever, k, cap):
 
 @njit(cache=True)
 def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history):
-    """Hold the block by a spring whose force is capped at mu N: friction as programs model it.
+    """A spring whose force is limited to mu N: friction as common in structural programs.
 
-    Newmark's method with gamma = 1/2: with beta = 0 explicit, stable for h < 2 / omega; `implicit`
-    with beta = 1/4 and Newton's method. No damping; the link starts in balance with gravity, as
+    Newmark's method with gamma = 1/2: explicit with beta = 0, stable for h < 2 / omega; `implicit`
+    with beta = 1/4 and Newton's method. No damping; the link starts in equilibrium with gravity, as
     after the dead-load stage of the paper's SAP 2000 model.
 
-    Diverged is a run in which a sub-step is not solved in ITERATIONS, a number is not finite, or
-    the link chatters: the cap keeps an instability finite, so it shows in the energy alone. While
-    |G| < mu N, v^2 / 2 + (F - G)^2 / 2k is all that block and link have, the changing load adds at
-    most (mu N + |G|) |dG| / k, and slip of ds takes (mu N - |G|) |ds| of it. A run is given up
-    when its slip has taken ENERGY times what was there (mu^2 N^2 / 2k more, for a start) and what
-    was added since |G| came below mu N: in sound runs up to 1.5 with h omega <= 1.7, up to 5 near
-    the limit of 2.
+    A run has diverged if a sub-step does not converge in ITERATIONS, a number is not finite, or the
+    link chatters. The cap keeps an instability finite, so only the energy reveals it. While
+    |G| < mu N, the energy of block and link is v^2 / 2 + (F - G)^2 / 2k, the changing load adds at
+    most (mu N + |G|) |dG| / k, and a slip of ds dissipates (mu N - |G|) |ds|. A run is abandoned
+    if its slip has dissipated more than ENERGY times the energy available: that when |G| came below
+    mu N (plus mu^2 N^2 / 2k as an allowance) and that added since. In stable runs the ratio is up
+    to 1.5 for h omega <= 1.7 and up to 5 near the limit of 2.
     """
     h = dt / substeps
     half, share = 0.5 * h * h, 1.0 / substeps
@@ -223,7 +224,7 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
             drive_j = drive_0 + (drive - drive_0) * (j * share)
             cap_j = cap_0 + (cap - cap_0) * (j * share)
             if implicit:
-                # Of the way in a sub-step only the share of F at its end is not known.
+                # Only the contribution of F at the end of the sub-step is unknown.
                 free = x + h * w + lever * (a + drive_j)
                 stretch, found = _solve_sub_step(x, free, lever, k, cap_j)
                 if not found:

@@ -1,24 +1,25 @@
-"""Blocks in a row on a shaken roof, joined by springs and dashpots, jitted: series between events.
+"""Blocks in a row on a shaken roof, linked by springs and dashpots, jitted: series between events.
 
 Never raises, knows no units but SI; numpy and numba only. Read `slide_row`, then `_first_below`;
-`solver.sliding.row` says what the numbers mean.
+`solver.sliding.row` explains the results.
 
-The model, for each unit of mass of block i, along the slope:
-    w_i' = G - sigma_i mu_i N + (F_i - F_i-1) / m_i   while sliding;  w_i = 0 while it rests
+Model, per unit mass of block i, along the slope:
+    w_i' = G - sigma_i mu_i N + (F_i - F_i-1) / m_i   while sliding;  w_i = 0 at rest
     e_j' = w_j+1 - w_j      F_j = k e_j + c e_j'
-    it rests while |f_i| <= mu_i N, f_i = G + (F_i - F_i-1) / m_i
-Links pull by place and speed, which do not jump: so each block is held or let go by itself. While
-no block changes its state the equations are linear, with a forcing that is linear between samples:
-the motion is an entire function of time, and its power series is summed to rounding.
+    at rest while |f_i| <= mu_i N, f_i = G + (F_i - F_i-1) / m_i
+Link forces depend on positions and velocities, which are continuous, so the state of each block,
+at rest or sliding, can be determined independently. While no block changes its state the equations
+are linear, with a forcing that is linear between samples. The motion is then an entire function of
+time, and its power series is summed until only rounding error remains.
 
 Letters:
     drive, normal   G and N / m at the samples                                     [m/s2]
-    s, w, sigma     place down the slope [m], its rate [m/s], direction: +1, -1, 0 at rest
-    e               stretch of each link [m]; kept beside s, so that stiff links lose no digits
-    m               mass of each block / mean mass; their sum is their number
+    s, w, sigma     position downslope [m], its rate [m/s], direction: +1, -1, 0 at rest
+    e               stretch of each link [m]; stored besides s so that stiff links lose no digits
+    m               mass of each block / mean mass; their sum is the number of blocks
     k, c            stiffness and damping of a link / mean mass                    [1/s2], [1/s]
-    h, x            length of the series' unit of time [s]; time in that unit, from 0 to 1
-    b               series: rows W and F of blocks, E and T of links, coefficients of x^j
+    h, x            unit of time of the series [s]; time in that unit, from 0 to 1
+    b               series, as coefficients of x^j: rows W and F of blocks, E and T of links
 """
 
 import math
@@ -27,28 +28,28 @@ import numpy as np
 from numba import njit
 
 ORDER = 22
-"""Degree of the series. A step is so short that term j is below 1 / j! of the motion."""
+"""Degree of the series. Steps are so short that term j is below 1 / j! of the motion."""
 
 EPS = 2.220446049250313e-16
 TIE = 64.0
-"""Roundings by which a push has to be above friction to make a block slip."""
+"""Rounding errors by which the push must exceed friction to make a block slip."""
 
 ZERO = 4.0
-"""Roundings within which a value is zero; well below TIE."""
+"""Rounding errors within which a value counts as zero; well below TIE."""
 
 STEP = 8.0
-"""Roundings of a step, by the size of what is summed in it."""
+"""Rounding errors of a step, in units of EPS times the magnitude of the terms summed."""
 
 NEVER = 2.0
 NEWTON = 200
 
-# Rows of series in b[row, block or link, power]: speed, push without friction; stretch, tension.
+# Rows of series in b[row, block or link, power]: velocity, push without friction; stretch, tension.
 W, F, E, T = range(4)
 
 
 @njit(cache=True)
 def _value(c, order, x):
-    """Polynomial at x and its derivative there."""
+    """Value and derivative of a polynomial at x."""
     value = slope = 0.0
     for j in range(order, -1, -1):
         slope = slope * x + value
@@ -58,14 +59,14 @@ def _value(c, order, x):
 
 @njit(cache=True)
 def _first_below(c, order):
-    """First x in [0, 1) where a polynomial that begins at 0 or above falls through zero, or NEVER.
+    """First x in [0, 1) where a polynomial with p(0) >= 0 falls through zero, or NEVER.
 
-    With a bound M of the second derivative, p + p' d - M d^2 / 2 bounds the polynomial from below:
-    up to its root nothing can be missed, two roots close to each other included. From there on
-    again; that comes to a simple root as fast as Newton's method, and never steps over it.
+    With a bound M of the second derivative, p + p' d - M d^2 / 2 bounds the polynomial from below,
+    so there is no zero before the root of this bound, not even two close ones. The search repeats
+    from that root. It converges to a simple root as fast as Newton's method and never passes it.
 
-    Returns that x and whether it falls there: where the line is so flat that the steps run out,
-    it does not yet, and x is where to look again.
+    Returns x and whether p falls through zero there. If p is so flat that the iterations are used
+    up, it does not, and the search has to be resumed from x.
     """
     low, total, bend = c[0], abs(c[0]), 0.0
     for j in range(1, order + 1):
@@ -93,7 +94,7 @@ def _first_below(c, order):
 
 @njit(cache=True)
 def _largest(c, order, end):
-    """Largest |p| of a polynomial in [0, end]: at the ends, and where it turns between them."""
+    """Largest |p| of a polynomial in [0, end]: at the ends, and at one extreme between them."""
     last, slope_last = _value(c, order, end)
     found = max(abs(c[0]), abs(last))
     if c[1] * slope_last >= 0.0:
@@ -112,10 +113,10 @@ def _largest(c, order, end):
 
 @njit(cache=True)
 def _series(b, w, e, sigma, mus, m, k, c, h, push, hold):
-    """Fill the series of all blocks and links; push and hold are G and N, two coefficients each.
+    """Compute the series of all blocks and links; push and hold are two coefficients of G and N.
 
-    Returns the degree at which they end and the size of the motion: speeds, and stretches times
-    sqrt(k) [m/s], with what a step adds to them.
+    Returns the degree of the series and the magnitude of the motion [m/s]: the sum of all speeds,
+    of all stretches times sqrt(k), and of the terms of the series.
     """
     n, scale = w.size, math.sqrt(k)
     b[W, :, 0] = w
@@ -154,8 +155,11 @@ def _series(b, w, e, sigma, mus, m, k, c, h, push, hold):
 
 @njit(cache=True)
 def _room(b, i, side, mu, hold, degree, line):
-    """Fill line with how far block i is from slipping to a side; return the tie that is in it."""
-    total = abs(hold[0]) + abs(hold[1])  # a tie also where neither friction nor push is there
+    """Fill `line` with the margin of block i against slip in the direction `side`.
+
+    Returns the allowance for rounding error (TIE) that the margin includes.
+    """
+    total = abs(hold[0]) + abs(hold[1])  # not zero even if both friction and push are
     for p in range(degree + 1):
         line[p] = (mu * hold[p] if p < 2 else 0.0) - side * b[F, i, p]
         total += abs(b[F, i, p]) + (mu * abs(hold[p]) if p < 2 else 0.0)
@@ -165,11 +169,11 @@ def _room(b, i, side, mu, hold, degree, line):
 
 @njit(cache=True)
 def _next_events(b, sigma, mus, hold, degree, line, when, side):
-    """Fill the time of each block's next event, and the side to which one that rests would slip.
+    """Fill the time of each block's next event, and the direction in which a resting one slips.
 
-    The side is 0 where nothing happens but that the time has come to look again.
+    The direction is 0 if there is no event yet and the search has to be resumed at that time.
 
-    Returns the first of the times, NEVER for none, and the largest tie.
+    Returns the first of the times (NEVER for none), and the largest allowance of `_room`.
     """
     first, tie = NEVER, 0.0
     for i in range(sigma.size):
@@ -191,7 +195,7 @@ def _next_events(b, sigma, mus, hold, degree, line, when, side):
 
 @njit(cache=True)
 def _spend(b, sigma, mus, m, c, h, x, push, hold, degree, energy):
-    """Add the work of G, and what friction and dashpots take, from 0 to x: exact integrals."""
+    """Add the work of G and the dissipation of friction and dashpots from 0 to x, exactly."""
     n = sigma.size
     for i in range(n):
         work = loss = 0.0
@@ -216,7 +220,7 @@ def _spend(b, sigma, mus, m, c, h, x, push, hold, degree, energy):
 
 @njit(cache=True)
 def _advance(b, s, w, e, links, h, x, degree):
-    """Move all blocks and links to x and keep the largest stretches and tensions."""
+    """Advance all blocks and links to x, and update the largest stretches and tensions."""
     for i in range(s.size):
         way, power = 0.0, h * x
         for p in range(degree + 1):
@@ -232,9 +236,9 @@ def _advance(b, s, w, e, links, h, x, degree):
 
 @njit(cache=True)
 def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
-    """Let every block whose event is at x stop, turn round or slip.
+    """Let every block whose event is at x stop, reverse or slip.
 
-    Returns how many stopped and the greatest speed that was set to zero.
+    Returns the number of stops and the largest velocity that was set to zero.
     """
     n_stops, lost = 0, 0.0
     for i in range(s.size):
@@ -255,34 +259,35 @@ def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
 
 @njit(cache=True, nogil=True)
 def slide_row(drive, normal, dt, mus, m, k, c, most, peaks, links, energy, samples):
-    """Follow a row of blocks from rest, links unstretched, event by event.
+    """Solve the motion of a row of blocks from rest, with unstretched links, event by event.
 
-    The error is bounded by energy: of two motions of the row the difference, measured by
-    sqrt(sum of m dw^2 + k de^2), never grows by itself, because friction, dashpots and springs
-    never feed it (N >= 0). So what each step adds - the rest of its series, its rounding, a speed
-    set to zero at a stop, pushes up to the tie - is summed, and its integral over time is the
-    bound of the error in place.
+    The error is bounded by energy: the difference of two motions of the row, measured by
+    sqrt(sum of m dw^2 + k de^2), never increases by itself, because friction, dashpots and springs
+    add no energy to it (N >= 0). So the contributions of all steps are summed: the truncation of
+    the series, rounding error, a velocity set to zero at a stop, pushes within the allowance TIE.
+    The integral of this sum over time is the bound of the error in position.
 
     Parameters
     ----------
     drive, normal : array, shape (n,)
     mus, m : array, shape (blocks,)
     most : int
-        Events in one interval above which the run is given up.
+        Number of events in one interval above which the run is abandoned.
     peaks : array, shape (blocks, 4)
-        Filled with s at its largest, its least and the end, and w at the end.
+        Filled with the largest s, the least s, s and w at the end.
     links : array, shape (blocks - 1, 2)
-        Filled with the largest |e| [m] and |F| [m/s2] of each.
+        Filled with the largest |e| [m] and |F| [m/s2] of each link.
     energy : array, shape (5,)
-        Filled with the work of G, what friction and dashpots took, what moves and what the
-        springs hold at the end, each by the mass of the row [J/kg].
+        Filled with the work of G, the energy dissipated by friction and by dashpots, and the
+        kinetic and spring energy at the end, each per unit mass of the row [J/kg].
     samples : array, shape (blocks, n), or None
-        Filled with s.
+        Filled with s at the samples.
 
     Returns
     -------
     tuple
-        Whether the end was reached, bound of the error of a place [m], number of stops, of steps.
+        Whether the end was reached, bound of the error in position [m], numbers of stops and of
+        steps.
     """
     n = mus.size
     b = np.zeros((4, n, ORDER + 1))

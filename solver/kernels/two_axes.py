@@ -1,35 +1,41 @@
-"""A block that slides down and across a shaken roof, jitted: power series from event to event.
+"""A block that slides in two axes on a shaken roof, jitted: power series from event to event.
 
 Never raises, knows no units but SI; numpy and numba only. Read `slide_plane`, then `_sliding` and
-`_creeping`; `solver.sliding.two_axes` says what the numbers mean.
+`_creeping`; `solver.sliding.two_axes` explains the results.
 
-The model, for each unit of mass, in roof axes (down the slope, across it):
+Model, per unit mass, in roof axes (downslope, cross-slope):
     N = (g + az) cos(theta) + ax sin(theta)                       normal force, Eq. 6 with az
     G = ((g + az) sin(theta) - ax cos(theta), -ay)                drive
-    v' = G - mu N v / |v|  while sliding;  rests while |G| <= mu N
-G and N are linear between samples. So is everything on the right but the direction e = v / |v|, and
-v, e and w = |v| follow from each other, coefficient by coefficient:
+    v' = G - mu N v / |v|  while sliding;  at rest while |G| <= mu N
+G and N are linear between samples. With constant mu the only nonlinear term is the direction
+e = v / |v|. The power series in time of v, e and w = |v| are computed from each other, coefficient
+by coefficient, with
     v' = G - q e     w' = G . e - q     w e = v                   q = mu N
-The series of v converges up to about w / |v'|, the time that a stop would take. It has axes of its
-own: along the motion or the drive, and across, a quarter turn to the left.
+The series of v converges up to a time of about w / |v'|, in which the block could stop. Each series
+has its own axes: along the motion (or along the drive), and across, 90 deg to the left.
 
 Letters:
-    ax, ay, az  acceleration of the plane: horizontal (right), across, vertical (up)      [m/s2]
-    x, y, z     `kernels.bounds` of ax, ay and az
+    ax, ay, az  acceleration of the plane: horizontal (right), cross-slope, vertical (up) [m/s2]
+    x, y, z     `one_axis.bounds` of ax, ay and az
     g, sn, cs   acceleration of gravity; sine and cosine of theta, positive down to the right
-    sx, sy      distance slid down the slope and across it; in plan (sx cos(theta), sy)   [m]
-    vx, vy, w   their rates and the speed                                                 [m/s]
-    gx, gy, c   G, and mu N (or N, where a law gives mu)                                  [m/s2]
+    sx, sy      distance slid downslope and cross-slope; in plan (sx cos(theta), sy)      [m]
+    vx, vy, w   their rates, and the speed                                                [m/s]
+    gx, gy, c   G, and mu N (or N, if a law gives mu)                                     [m/s2]
     hx, hy, d   the same at the end of an interval                                        [m/s2]
-    rx, ry, rc  what they gain in a second, or in the unit of a series         [m/s3] or [m/s2]
-    ux, uy      direction of the axis along, a unit vector; ga, gs, ra, rs: G and its gain along and
+    rx, ry, rc  rates of gx, gy, c per second or per unit of time of a series  [m/s3] or [m/s2]
+    ux, uy      unit vector of a series' axis along; ga, gs and ra, rs: G and its rate, along and
                 across
-    p, q        weights of 1, az and ax in gx and in c; p[3] is that of ay in gy
-    span, part  length of the series' unit of time [s]; how much of it a step takes
-    b           series: rows VA and VS of v, EA and ES of e, along and across, W, Q and E (of a law,
-                or of what turns) of coefficients of (time / span)^k; SHARE of 1 / (k + 1)
-    swell       exponent that a law may gain in a step, or in the speed that is left
-    law         None, or mu_fast, mu_fast - mu_slow, rate [s/m] and mu_rest (`slide_plane`)
+    p, q        in `slide_plane`: coefficients of 1, az and ax in gx and in c; p[3]: of ay in gy
+    slow, hold  mu at zero speed while sliding and at rest, / the mu in c (both 1 without a law)
+    span, part  unit of time of a series [s]; fraction of it that a step uses
+    b           series, as coefficients of (time / span)^k: rows VA and VS of v and EA and ES of e,
+                along and across; W of w; Q of q; E of the exponential of a law, or work space;
+                ROOTS: sign changes found; SHARE: 1 / (k + 1)
+    swell       bound of the change of a law's exponent rate w in a step: the terms of its series
+                decrease only from that degree on
+    law         None, or mu_fast, mu_fast - mu_slow, rate [s/m] and mu at rest (`slide_plane`)
+    moved       bound of the change of v in a step                                        [m/s]
+    off, error  bounds of the error in velocity [m/s] and in position [m] so far
     top         largest distance in plan, its time; largest and least sx; largest and least sy
 """
 
@@ -39,7 +45,7 @@ from functools import partial
 import numpy as np
 from numba import njit
 
-# A number divided by zero is infinite, as in all arithmetic of the processor: no test, no raising.
+# Division by zero gives infinity, as in IEEE arithmetic: numba adds no test and raises nothing.
 jit = partial(njit, error_model="numpy")
 
 # How a run ends.
@@ -59,46 +65,50 @@ VA, VS, EA, ES, W, Q, E, SHARE, ROOTS = range(9)
 SHIFT = 4
 
 LEAST_TOLERANCE = 1e-14
-"""Tolerance of a step below which rounding is larger."""
+"""Tolerance of a step below which rounding error dominates."""
 
 EPS = 2.0**-52
 
 ROUNDING = 4.0 * EPS
-"""Rounding of drive and friction, by the sum of the terms that each is made of."""
+"""Rounding error of drive and friction / sum of the absolute values of their terms."""
 
 DEAD = 8.0 * EPS
-"""Push on a resting block that rounding alone may make, by the same terms."""
+"""Net push on a block at rest that rounding error alone may produce / the same sum."""
 
 SMALL = 1e-6
-"""A micrometer [m]: the tolerance is relative to the largest distance, or to this."""
+"""One micrometer [m]: the tolerance is relative to the largest distance, or to this if larger."""
 
 CLOSE = 3.0
-"""Error in place that closing a stop may make, by tolerance and largest distance."""
+"""Error in position accepted from a closed-form stop (`_close`) / (tolerance x distance)."""
 
 SLACK = 16.0
-"""Error in speed that a step may make, by tolerance, before it is taken shorter."""
+"""Error in velocity / tolerance of a step above which the step is shortened."""
 
 SWEEPS = 12
+"""Largest number of iterations in `_creeping`."""
 
 SCAN = 8
-"""Places of a series at which its sign is looked at."""
+"""Number of points of a series at which its sign is checked."""
 
 SWELL = 5.0
-"""Exponent that a law of friction may gain in a step: its terms fall from there on."""
+"""Largest change of a friction law's exponent in a step: from that degree on its terms decrease."""
 
 SETTLES = 2.0
-"""Times that a slow block may come to the speed of its push in a step, by a law of friction."""
+"""Largest creeping step with a friction law, in time constants of the speed, 1 / (dq/dw)."""
 
 FADED = 40.0
-"""Exponent from which on a law of friction has come to its fast coefficient, but for rounding."""
+"""Exponent beyond which a friction law equals its fast coefficient within rounding error."""
 
 STIFF = 300.0
-"""Times that the direction would settle in a step, from which on `_creeping` is worth a try."""
+"""Step / time in which the direction settles, above which `_creeping` is tried."""
 
 
 @jit()
 def _friction(k, b, c, rc, law):
-    """Coefficient k of q. With a law mu = mu_fast - drop exp(-rate w), by E' = -rate w' E."""
+    """Write coefficient k of q. With a law q = c (mu_fast - E), where E = drop exp(-rate w).
+
+    The coefficients of E follow from E' = -rate w' E.
+    """
     if law is None:
         b[Q, k] = c if k == 0 else (rc if k == 1 else 0.0)
     elif k == 0:
@@ -114,7 +124,10 @@ def _friction(k, b, c, rc, law):
 
 @jit()
 def _advance(k, b, ga, gs, ra, rs, span, law):
-    """Coefficient k + 1 of v and w from those of e and q up to k; returns the size of that of v."""
+    """Write coefficient k + 1 of v and w from those of e and q up to k.
+
+    Returns the magnitude (sum of absolute values) of that of v.
+    """
     along = across = push = 0.0
     for j in range(min(k, 1) + 1 if law is None else k + 1):
         each, m = b[Q, np.uintp(j)], np.uintp(k - j)
@@ -137,18 +150,21 @@ def _advance(k, b, ga, gs, ra, rs, span, law):
 
 @jit()
 def _part(order, before, last, tol):
-    """How much of the span a series may take for its last two terms to be below tol."""
+    """Fraction of the span at which the last two terms of a series fall below tol."""
     size = max(before, last)
     return 1.0 if size <= tol else math.exp(math.log(tol / size) / (order - 1))
 
 
 @jit(forceinline=True)
 def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
-    """Series of a sliding block, along and across its motion; without friction, w = 0 serves.
+    """Compute the series of a sliding block, along and across its motion.
 
-    Without a law a coefficient of e needs but one product of the one before: the processor does
-    not wait for the rest of the sums.
-    Returns the degree and how much of the span it is good for, as its last terms have it.
+    Requires w > 0, or no friction. Without a law the recurrence is arranged so that a coefficient
+    of e depends on the one before through a single product; the processor computes the other sums
+    meanwhile and does not wait for them.
+
+    Returns the degree and the fraction of the span in which the series meets tol, estimated from
+    its last two terms.
     """
     inverse = 1.0 / w if c > 0.0 or rc > 0.0 else 0.0
     b[VA, 0], b[VS, 0], b[W, 0], b[EA, 0], b[ES, 0] = w, 0.0, w, 1.0, 0.0
@@ -157,7 +173,7 @@ def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
     slows = inverse * b[W, 1]
     ea, es, ea_before, es_before = 0.0, inverse * b[VS, 1], 0.0, 0.0
     b[EA, 1], b[ES, 1] = ea, es
-    # What e = (1, 0) adds along is in here, so that it is no part of ea_before.
+    # Contribution of the constant term of e, (1, 0), which is therefore not in ea_before.
     kick, turn = ra - rc, rs
     before, last = np.inf, abs(b[VA, 1]) + abs(b[VS, 1])
     order = most
@@ -195,16 +211,21 @@ def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
 
 @jit()
 def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
-    """Series, along and across G, of a slow slip, w >= 0, whose direction has settled near G's.
+    """Compute the series of a slow slip, w >= 0, with direction near that of G, along and across G.
 
-    A slow block turns into the direction of G within about w / G, far less than a step. What is
-    left is the series that solves (w e)' + q e = G across G0 for the coefficient of q e instead of
-    that of (w e)'. From rest, w = 0, that is explicit: it is the beginning of a slip, where it
-    converges after a jump of G and is asymptotic (its terms fall at first) at an onset. For w > 0
-    the next coefficient of e comes in, small; it is taken from the sweep before.
+    The equation is stiff for a slow block: its direction approaches that of G within a time of
+    about w / G, much shorter than a step, so `_sliding` would need very short steps. After this
+    transient the motion is smooth. Its series follows from (w e)' + q e = G: the component across
+    the initial G is solved for the coefficient of q e instead of that of (w e)'.
 
-    Returns as `_sliding`, and how far v is astray since vs is not yet the series'; 0 of the span
-    where the sweeps do not settle, or where that is more than tol.
+    From rest, w = 0, the recurrence is explicit. This is the beginning of a slip; the series
+    converges after a jump of G, and at an onset it is asymptotic (its terms decrease at first). For
+    w > 0 each coefficient of e also depends on the next one, through a small term. The next one is
+    taken from the previous sweep, and sweeps are repeated until the coefficients agree.
+
+    Returns the degree and the usable fraction of the span as `_sliding`, and the error in v that
+    arises because the actual vs differs from that of the series. The fraction is 0 if the sweeps do
+    not converge or if that error exceeds tol.
     """
     for k in range(most + 2):
         b[ES, k] = b[W, k] = 0.0
@@ -218,7 +239,7 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
             if k == 0:
                 first = span * (g * b[EA, 0] - b[Q, 0])
                 if w == 0.0:
-                    first = max(first, 0.0)  # at an onset: what is left is rounding
+                    first = max(first, 0.0)  # at an onset it is zero, except for rounding error
             side = span * rs if k == 1 else 0.0
             for j in range(1, min(k, top) + 1):
                 side -= span * b[Q, j] * b[ES, k - j]
@@ -248,7 +269,8 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
                 break
         b[VA, 0], b[VS, 0], off = w * b[EA, 0], w * b[ES, 0], 0.0
         if w > 0.0:
-            # It turns at the rate q / w: what is left of the difference, and its way until then.
+            # The difference decays at the rate q / w. Its effect on v: what remains of it at the
+            # end, its mean over the span (for the position), and a second-order term.
             off, most_w, least_q = abs(vs - b[VS, 0]), w, b[Q, 0]
             for k in range(1, order + 1):
                 most_w += abs(b[W, np.uintp(k)])
@@ -266,16 +288,19 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
 
 @jit(forceinline=True)
 def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
-    """The series of a step and its unit of time: a creeping one where that serves; rates in 1/s.
+    """Compute the series of a step: by `_creeping` if it applies, otherwise by `_sliding`.
 
-    Returns its degree, how much of its unit it is good for, that unit, how far v is astray at its
-    beginning, and the direction of its axis along.
+    The rates rx, ry and rc are per second; `left` is the time to the end of the interval [s].
+
+    Returns the degree, the usable fraction of the series' unit of time, that unit [s], the error in
+    v from `_creeping` (0 from `_sliding`), and the direction of the series' axis along.
     """
     hard, g = slow * c, math.sqrt(gx * gx + gy * gy)
     rate = 0.0 if law is None else law[2]
     span = left
     if w > 0.0 and hard * left > STIFF * w:
-        # The drive's direction is a series for as long as the drive lasts as it is.
+        # The series expands the direction of G, so its span is limited to the time in which G or
+        # friction may change by the magnitude of G.
         pace = math.sqrt(rx * rx + ry * ry) + slow * abs(rc)
         span = g / pace if pace * left > g else left
     if (w == 0.0 and (c > 0.0 or rc > 0.0)) or (
@@ -286,12 +311,14 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
     ):
         swell = 0.0
         if rate > 0.0:
-            # The speed gains push t + rise t^2 / 2 at most.
+            # In a time t the speed increases by at most push t + rise t^2 / 2. The span is limited
+            # to the time in which this may change the law's exponent by SWELL.
             least, gain = min(slow, law[0]), SWELL / rate
             push, rise = max(g - least * c, 0.0), math.sqrt(rx * rx + ry * ry) + least * abs(rc)
             fast = push + math.sqrt(push * push + 2.0 * rise * gain)
             span = 2.0 * gain / fast if fast * span > 2.0 * gain else span
-            # A slow block comes to the speed of its push at the rate of the law's slope at rest.
+            # The speed of a slow block approaches the value at which friction balances the drive,
+            # at the rate dq/dw of the law at rest. This rate limits the span as well.
             settles = rate * abs(law[1]) * max(c, c + rc * span)
             span = SETTLES / settles if settles * span > SETTLES else span
             swell = rate * (w + span * (push + 0.5 * rise * span))
@@ -310,7 +337,9 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
         span = 2.0 * w / math.sqrt(square)
     swell = 0.0
     if rate > 0.0:
-        # A law's exponential may be nothing now and all of it soon: no term would tell.
+        # The exponential of a law may be negligible now and dominate later; no coefficient reveals
+        # it. The span is limited to the time for which the exponential certainly stays negligible
+        # (`unseen`), or in which its exponent changes by at most SWELL.
         mu = max(slow, law[0])
         most_push = g + mu * c + left * (abs(rx) + abs(ry) + mu * abs(rc))
         unseen = (w - FADED / rate) / most_push
@@ -323,10 +352,10 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
 
 @jit()
 def _scale(b, order, part):
-    """Make the part of its unit that a series takes its unit.
+    """Rescale a series so that the fraction `part` of its unit of time becomes the unit.
 
-    Returns what v gains until then, along and across, its mean gain, its rate then, and how far it
-    may stray.
+    Returns, each along and across: the gain of v over the new unit, the mean of that gain over the
+    unit, and the derivative of v at its end; then `moved`, the bound of the change of v.
     """
     power = 1.0
     along = across = way = aside = along_rate = across_rate = moved = 0.0
@@ -344,7 +373,7 @@ def _scale(b, order, part):
 
 @jit()
 def _place(b, order, at):
-    """What v gains until a time, along and across, and its mean gain."""
+    """Gain of v up to the time `at`, along and across, and the mean of that gain up to then."""
     along = across = way = aside = 0.0
     for k in range(order, 0, -1):
         n = np.uintp(k)
@@ -356,7 +385,7 @@ def _place(b, order, at):
 
 @jit()
 def _value(b, row, first, order, at):
-    """The sum of b[row, k] at^(k - first) from `first` on, and its slope."""
+    """Sum of b[row, k] at^(k - first) over k >= `first`, and its derivative."""
     total, slope = b[row, order], 0.0
     for k in range(order - 1, first - 1, -1):
         slope = slope * at + total
@@ -366,7 +395,12 @@ def _value(b, row, first, order, at):
 
 @jit()
 def _zeros(b, row, first, degree):
-    """How often a series may change sign up to 1: 0, 1 or, for all that is known, 2 times."""
+    """Bound of the number of sign changes of a series in (0, 1]: 0, 1, or 2 if not known.
+
+    The leading coefficient less all coefficients of opposite sign bounds |p| from below (`least`),
+    and likewise |p'| (`steady`). If the first is positive, p has no zero. If the second is
+    positive, p is monotone: one zero at most, and none with equal signs at both ends.
+    """
     lead, rise = b[row, first], b[row, first + 1]
     sign, way = (1.0 if lead > 0.0 else -1.0), (1.0 if rise > 0.0 else -1.0)
     least, steady, end = abs(lead), abs(rise), lead
@@ -383,12 +417,15 @@ def _zeros(b, row, first, degree):
 
 @jit()
 def _changes(b, row, degree, most):
-    """Fill row ROOTS with where the series in a row changes sign in (0, 1], the first `most`.
+    """Write into row ROOTS the first `most` points in (0, 1] where a series changes sign.
 
-    Unless its terms show that it does once at most, it is looked at in some places, close together
-    at both ends, and from where its terms no longer show that it keeps its sign; between two from
-    which it falls to both sides towards zero, at its least.
-    Returns how many there are.
+    If `_zeros` shows one change at most, only the sign at 1 is checked. Otherwise the sign is
+    checked at SCAN points, which are denser near both ends, and at further points in the first cell
+    from the point up to which the coefficients guarantee the sign (`_keeps`). If the series
+    decreases toward zero from both of two successive points, its extreme between them is checked as
+    well (`_least`).
+
+    Returns the number of points written.
     """
     first = 0
     while first < degree and b[row, first] == 0.0:
@@ -401,7 +438,7 @@ def _changes(b, row, degree, most):
     right, at_right, rise = 0.0, b[row, first], b[row, first + 1]
     while m <= cells and n < most:
         left, at_left, x = right, at_right, m / cells
-        # Where a place is a zero, the side is that of the slope there.
+        # If the left point is a zero, the derivative there gives the sign to its right.
         up = at_left > 0.0 or (at_left == 0.0 and rise > 0.0)
         falls = (rise < 0.0) == up
         right = x * x * (3.0 - 2.0 * x)
@@ -427,7 +464,7 @@ def _changes(b, row, degree, most):
 
 @jit()
 def _keeps(b, row, first, degree):
-    """Where the terms of a series show that it keeps its sign from 0 on; inf for the first cell."""
+    """Point up to which the coefficients of a series guarantee its sign; inf: all of cell 1."""
     sign, at, least = (1.0 if b[row, first] > 0.0 else -1.0), 2.0 / SCAN, 0.0
     at, far = at * at, np.inf
     while at > 1e-12 and not least > 0.0:
@@ -443,7 +480,10 @@ def _keeps(b, row, first, degree):
 
 @jit()
 def _least(b, row, first, degree, left, right, up):
-    """Where a series is nearest to zero, or beyond it, between two places from which it falls."""
+    """Point where a series is nearest to zero or beyond it, and its value, by bisection of p'.
+
+    From both `left` and `right` the series decreases toward zero; `up` is its sign there.
+    """
     at, there = left, 1.0 if up else -1.0
     while right - left > 1e-12 and (there > 0.0) == up:
         at = 0.5 * (left + right)
@@ -457,7 +497,10 @@ def _least(b, row, first, degree, left, right, up):
 
 @jit()
 def _root(b, row, first, degree, low, at_low, high, at_high, up):
-    """Where a series changes sign between a place on one side and one beyond, by Illinois."""
+    """Point where a series changes sign, by the Illinois variant of the false-position method.
+
+    At `low` the series has the sign `up` (or is zero); at `high` it has the other one or is zero.
+    """
     side = 0
     for _ in range(60):
         if at_high == 0.0 or not abs(high - low) > 1e-15 * high:
@@ -465,7 +508,7 @@ def _root(b, row, first, degree, low, at_low, high, at_high, up):
         share = at_low / (at_low - at_high) if at_low != 0.0 else 0.5
         at = low + share * (high - low)
         found, _ = _value(b, row, first, degree, at)
-        # The end that stays counts half from its second time on.
+        # Illinois: the value at an end that is kept a second time is halved.
         if found != 0.0 and (found > 0.0) == up:
             at_high *= 0.5 if side == -1 else 1.0
             low, at_low, side = at, found, -1
@@ -477,7 +520,7 @@ def _root(b, row, first, degree, low, at_low, high, at_high, up):
 
 @jit()
 def _rates(b, order, at):
-    """v, along and across, and its rate, at a time of a step."""
+    """v and its derivative, along and across, at the fraction `at` of a step."""
     va = vs = along_rate = across_rate = 0.0
     for k in range(order, 0, -1):
         n = np.uintp(k)
@@ -488,12 +531,12 @@ def _rates(b, order, at):
 
 @jit(forceinline=True)
 def _excess(va, vs, w, va_rate, vs_rate, tau, h, gx, gy, rx, ry, ux, uy, c, rc, most_w, law):
-    """What a step gains in speed at most, in h, by its defect at a time tau of it.
+    """Error in velocity that a step of length h would make with a constant defect, that at `tau`.
 
-    The series solves the equation with a push d more, d = v' - G + q e. Friction is monotone, so
-    the speed is off by the integral of |d| at most; across the motion it pulls back at the rate
-    q / w besides, so that d counts there for no longer than w / q, and along the motion by its
-    square.
+    The truncated series is the exact solution of the equation with an additional acceleration, the
+    defect d = v' - G + q e. Friction is monotone, so the error in velocity is at most the integral
+    of |d|. Across the motion friction also restores the direction, at the rate q / w, so d acts
+    there for a time of w / q at most; its effect along the motion is of second order.
     """
     q = c + rc * tau
     if law is not None:
@@ -512,10 +555,11 @@ def _excess(va, vs, w, va_rate, vs_rate, tau, h, gx, gy, rx, ry, ux, uy, c, rc, 
 def _miss(
     b, order, va, vs, w, va_rate, vs_rate, h, gx, gy, rx, ry, ux, uy, c, rc, most_w, law
 ):  # fmt: skip
-    """Bound of the error in speed that a step makes, from its defect at its end.
+    """Bound of the error in velocity that a step makes, from the defect at its end.
 
-    The defect grows like the power `order` of time, so its integral is its end by order + 1: here
-    five times that. It may be zero at the end by chance: hence a tenth of the last terms.
+    The defect grows like time to the power `order`, so its integral over the step is its final
+    value times h / (order + 1); five times that is used. The defect may be zero at the end by
+    chance, so the bound is at least a tenth of the last two terms.
     """
     last, n = np.uintp(order), np.uintp(order - 1)
     least = abs(b[VA, last]) + abs(b[VS, last]) + abs(b[VA, n]) + abs(b[VS, n])
@@ -525,7 +569,7 @@ def _miss(
 
 @jit()
 def _miss_at(b, order, at, h, gx, gy, rx, ry, ux, uy, c, rc, most_w, law):
-    """The same from the defect at a part of the step near its end."""
+    """The error of `_excess` from the defect at the fraction `at` of a step, near its end."""
     va, vs, va_rate, vs_rate = _rates(b, order, at)
     w, tau = math.sqrt(va * va + vs * vs), at * h
     return _excess(va, vs, w, va_rate, vs_rate, tau, h, gx, gy, rx, ry, ux, uy, c, rc, most_w, law)
@@ -533,22 +577,22 @@ def _miss_at(b, order, at, h, gx, gy, rx, ry, ux, uy, c, rc, most_w, law):
 
 @jit()
 def _bend(c, w, law):
-    """How far a law may have q off from its value at rest, at speeds up to w."""
+    """Bound of the difference of q from its value at zero speed, by a law, at speeds up to w."""
     return 0.0 if law is None else abs(law[1]) * (1.0 - math.exp(-law[2] * w)) * c
 
 
 @jit()
 def _close(vx, vy, w, gx, gy, rx, ry, c, rc, bend, slack):
-    """The rest of the way to a stop if G and q stayed as they are; rates for each second.
+    """Closed-form motion to a stop, with G and q constant; rates are per second.
 
-    `bend` is how far a law has q off from its value at rest.
+    With psi the angle from G to v, (w (q + G cos psi))' = G^2 - q^2 gives the time to the stop. The
+    distances along and across G follow from the derivatives of w^2 (G + 2 q cos psi + G cos^2 psi)
+    and of w^2 sin psi (2 q + G cos psi), here written without division by G. The error comes from
+    the change of G and q during that time, and from `bend`, the difference of q from its value at
+    zero speed by a law.
 
-    With psi the angle from G to v: (w (q + G cos psi))' = G^2 - q^2 gives the time; the ways along
-    and across G follow from the derivatives of w^2 (G + 2 q cos psi + G cos^2 psi) and of
-    w^2 sin psi (2 q + G cos psi), written without dividing by G.
-
-    Returns the time, the way and a bound of its error; inf, 0, 0, inf where it may not stop or the
-    bound is above `slack`.
+    Returns the time, the displacement (x, y) and a bound of its error; inf, 0, 0, inf if the block
+    may not stop or if the bound exceeds `slack`.
     """
     never = (np.inf, 0.0, 0.0, np.inf)
     square = gx * gx + gy * gy
@@ -566,7 +610,7 @@ def _close(vx, vy, w, gx, gy, rx, ry, c, rc, bend, slack):
 
 @jit()
 def _see(sx, sy, t, cs, top):
-    """Look at one place of the block."""
+    """Update `top` with one position of the block at time t."""
     square = cs * cs * sx * sx + sy * sy
     if square > top[0] * top[0]:
         top[0], top[1] = math.sqrt(square), t
@@ -576,7 +620,11 @@ def _see(sx, sy, t, cs, top):
 
 @jit(forceinline=True)
 def _look(b, order, ux, uy, cs, sx, sy, way, aside, vx, vy, w, moved, h, t, top):
-    """Look at the places inside a step where an extreme may be; (vx, vy) is v at its end."""
+    """Update `top` with the positions inside a step where an extreme may occur.
+
+    Extremes of sx, sy and the distance are at zeros of their rates. These are searched for only if
+    the step may reach beyond the values in `top`. (vx, vy) is v at the end of the step.
+    """
     reach = h * (w + moved)
     for side in range(2):
         place = sx if side == 0 else sy
@@ -586,7 +634,8 @@ def _look(b, order, ux, uy, cs, sx, sy, way, aside, vx, vy, w, moved, h, t, top)
             for k in range(order + 1):
                 b[E, k] = along * b[VA, k] + across * b[VS, k]
             _see_zeros(b, order, order, ux, uy, cs, sx, sy, h, t, top)
-    # The rate of the distance is u . v with u = (cs^2 sx, sy), which gains up to `reach`.
+    # The rate of the distance in plan has the sign of u . v, with u = (cs^2 sx, sy), which changes
+    # by at most `reach` in the step.
     away = math.sqrt(cs * cs * sx * sx + sy * sy)
     if away + reach > top[0]:
         along, across = cs * cs * sx * ux + sy * uy, sy * ux - cs * cs * sx * uy
@@ -598,8 +647,9 @@ def _look(b, order, ux, uy, cs, sx, sy, way, aside, vx, vy, w, moved, h, t, top)
 
 @jit(forceinline=True)
 def _returns(b, order, along, across, end, away, w, moved, reach, h):
-    """Whether the block may be farther from its start inside a step than at both ends."""
-    # What u gains in a step that turns by less than 90 deg cannot bring the block back.
+    """Whether the distance from the start may be larger inside a step than at both ends."""
+    # The change of u is the displacement in the step. If the motion turns by less than 90 deg, this
+    # displacement has a positive product with v, so it cannot make u . v negative.
     first = 0 if w > 0.0 else 1
     lead = along * b[VA, first] + across * b[VS, first]
     turns = moved > 0.7 * w if w > 0.0 else moved > 1.5 * (abs(b[VA, 1]) + abs(b[VS, 1]))
@@ -618,7 +668,8 @@ def _returns(b, order, along, across, end, away, w, moved, reach, h):
             swing += k * (abs(va) + abs(vs))
     if least >= extra:
         return False
-    # A rate that only grows has no largest distance; one that only falls has, if it changes sign.
+    # If u . v only increases, the distance has no maximum inside the step; if it only decreases,
+    # there is one if u . v changes sign.
     if rise > 0.0:
         return steady <= reach * swing
     falls = steady > reach * swing + h * (w + moved) * (w + moved)
@@ -627,9 +678,9 @@ def _returns(b, order, along, across, end, away, w, moved, reach, h):
 
 @jit()
 def _rate(b, order, along, across, ux, uy, cs, h):
-    """Write u . v into row E, up to a degree above v as u is: what is left out is as small there.
+    """Write the series of u . v into row E, to one degree more than v, the degree of u.
 
-    Rows EA and ES are used up.
+    The terms omitted are then as small as those omitted in v. Overwrites rows EA and ES.
     """
     one, two = cs * cs * ux * ux + uy * uy, cs * cs * uy * uy + ux * ux
     both = (1.0 - cs * cs) * ux * uy
@@ -647,7 +698,7 @@ def _rate(b, order, along, across, ux, uy, cs, h):
 
 @jit()
 def _see_zeros(b, order, degree, ux, uy, cs, sx, sy, h, t, top):
-    """Look at the places where the series in row E changes sign."""
+    """Update `top` with the positions where the series in row E changes sign."""
     for k in range(_changes(b, E, degree, ORDER)):
         at = b[ROOTS, k]
         _, _, way, aside = _place(b, order, at)
@@ -657,7 +708,7 @@ def _see_zeros(b, order, degree, ux, uy, cs, sx, sy, h, t, top):
 
 @jit()
 def _hides(sx, sy, vx, vy, gx, gy, cs, reach, top):
-    """Whether an extreme may be on the way to a stop, while v turns into the direction of G."""
+    """Whether an extreme may occur on the way to a stop, while v turns toward G."""
     scale = cs * cs
     before, after = scale * sx * vx + sy * vy, scale * sx * gx + sy * gy
     return (
@@ -677,7 +728,10 @@ def _sample(ax, ay, az, i, p, q):
 
 @jit()
 def _terms(x, y, z, p, q, most):
-    """Sum of the sizes of what G and friction are made of, at most: rounding is relative to it."""
+    """Bound of the sum of absolute values of the terms of G and friction.
+
+    Rounding error is relative to this sum.
+    """
     along, across = max(-x[0, -1], x[1, -1]), max(-y[0, -1], y[1, -1])
     up = 0.0 if z is None else max(-z[0, -1], z[1, -1])
     drive = abs(p[0]) + abs(p[1]) * up + abs(p[2]) * along + abs(p[3]) * across
@@ -686,9 +740,9 @@ def _terms(x, y, z, p, q, most):
 
 @jit()
 def _is_quiet(x, y, z, block, p, q, hold):
-    """Whether no sample of a block of them can push a resting block over.
+    """Whether no sample of a block of samples can make the resting block slip.
 
-    Rounding keeps order: what is computed from bounds bounds what is computed from samples.
+    Rounding is monotone: what is computed from bounds bounds what is computed from samples.
     """
     one, other = p[2] * x[0, block], p[2] * x[1, block]
     low, high = p[0], p[0]
@@ -705,7 +759,7 @@ def _is_quiet(x, y, z, block, p, q, hold):
 
 @jit()
 def _next_push(ax, ay, az, x, y, z, i, p, q, hold):
-    """First sample from i on that pushes a resting block over, or n."""
+    """First sample from i on at which the resting block slips, or n."""
     n = ax.size
     while i < n:
         if i & ((1 << SHIFT) - 1) == 0:
@@ -722,9 +776,10 @@ def _next_push(ax, ay, az, x, y, z, i, p, q, hold):
 
 @jit()
 def _onset(gx, gy, c, hx, hy, d):
-    """When, of an interval from 0 to 1, |G| first exceeds c; 0 at once, 2 for never.
+    """First time in an interval, from 0 to 1, at which |G| exceeds c; 2 for never.
 
-    |G| - c is convex: it leaves zero upwards once at most. G goes from g to h, c from c to d.
+    In the interval (gx, gy) changes linearly to (hx, hy), and c to d. |G| - c is convex in time, so
+    it crosses zero upward at most once.
     """
     rx, ry, rc = hx - gx, hy - gy, d - c
     half = gx * rx + gy * ry - c * rc
@@ -740,12 +795,14 @@ def _onset(gx, gy, c, hx, hy, d):
 
 @jit()
 def _rest(gx, gy, c, hx, hy, d, left, hold, slow, dead, error, off):
-    """Rest until a push of more than rounding; G goes from g to h, c from c to d in `left`.
+    """Stay at rest until |G| exceeds friction by more than rounding error.
 
-    The true block may still move, by the error of its speed, until friction has taken that: q - |G|
-    is concave, and not below zero where the rest ends.
+    In the time `left` (gx, gy) changes linearly to (hx, hy), and c to d. The exact block may still
+    move, with a speed of at most `off`, until friction stops it. Friction reduces that speed at the
+    rate q - |G|, which is concave in time and not negative at the end of the rest. Its integral is
+    therefore at least half its initial value times the duration.
 
-    Returns when the slip begins, of `left` (2 for never), and the errors until then.
+    Returns when the slip begins / `left` (2 for never), and `error` and `off` at that time.
     """
     onset = _onset(gx, gy, hold * c + dead, hx, hy, hold * d + dead)
     pull, h = math.sqrt(gx * gx + gy * gy), left * min(onset, 1.0)
@@ -758,13 +815,13 @@ def _rest(gx, gy, c, hx, hy, d, left, hold, slow, dead, error, off):
 
 @jit()
 def _net_push(gx, gy, c, hx, hy, d):
-    """The larger push beyond friction of two samples."""
+    """The larger net push, |G| less friction, of two samples."""
     return max(math.sqrt(hx * hx + hy * hy) - d, math.sqrt(gx * gx + gy * gy) - c)
 
 
 @jit()
 def _note(events, n, t, kind, sx, sy):
-    """Write event n, where there is room, and return how many there are."""
+    """Write event n, if there is room, and return the number of events."""
     if n < events.shape[0]:
         events[n, 0], events[n, 1], events[n, 2], events[n, 3] = t, kind, sx, sy
     return n + 1
@@ -772,7 +829,7 @@ def _note(events, n, t, kind, sx, sy):
 
 @jit()
 def _fill(history, i, end, sx, sy, vx, vy):
-    """Write samples i to end - 1."""
+    """Write the same state into samples i to end - 1."""
     for k in range(i, min(end, history.shape[1])):
         history[0, k], history[1, k], history[2, k], history[3, k] = sx, sy, vx, vy
 
@@ -782,32 +839,34 @@ def slide_plane(
     ax, ay, az, x, y, z, dt, sn, cs, mu, g, scale, tolerance, most, most_steps, law,
     events, history, top, end,
 ):  # fmt: skip
-    """Follow the linearly interpolated record event by event, each step to a tolerance.
+    """Solve the motion under the linearly interpolated record event by event, to a tolerance.
 
-    Two blocks under one motion never part faster than they do: friction is monotone, so the error
-    in the speed at any time is at most the sum of those of the steps before (Brezis, Operateurs
-    maximaux monotones, 1973, lemma 3.1), and at rest it is gone. The error in place is at most
-    the integral of that. Rounding of the drive counts as a push, that of places by itself. Where
-    friction falls with speed or at the breakaway, none of this is a bound.
+    The error bound: friction is monotone, so the difference of the velocities of two blocks under
+    one motion never increases. The error in velocity is therefore at most the sum of the errors
+    made in the steps before (Brezis, Operateurs maximaux monotones, 1973, lemma 3.1), and it
+    vanishes at rest. The distance between two blocks grows no faster than the difference of their
+    velocities, so the error in position is at most the integral of the error in velocity. Rounding
+    error of the drive counts as an additional acceleration; rounding error of positions is added
+    directly. If friction decreases with velocity or at breakaway, none of this is a bound.
 
     Parameters
     ----------
     az : array, shape (n,), or None
         None for no vertical shaking; another version is compiled for it.
     x, y, z : array
-        `bounds` of ax, ay and az (None where az is).
+        `one_axis.bounds` of ax, ay and az (z None if az is None).
     mu : float
-        Friction coefficient; 1 where there is a law.
+        Friction coefficient; 1 with a law.
     tolerance : float
-        Of a step, relative to the largest speed so far, and of a slip to the largest distance.
+        Of a step, relative to the largest speed so far; of a slip, to the largest distance.
     most, most_steps : int
         Largest degree of a series, from 4 to `ORDER`, and largest number of steps.
     law : tuple of float, or None
-        mu(w) = law[0] - law[1] exp(-law[2] w) while sliding; law[3] >= mu(0) until it slips.
+        mu(w) = law[0] - law[1] exp(-law[2] w) while sliding; law[3] >= mu(0) at rest.
     events : array, shape (m, 4)
-        Filled with time, kind, sx and sy of the events, as far as there is room.
+        Filled with time, kind, sx and sy of the first m events.
     history : array, shape (4, n) or (4, 0)
-        Filled with sx, sy, vx and vy at the samples, or with nothing.
+        Filled with sx, sy, vx and vy at the samples; a shape of (4, 0) is not filled.
     top : array, shape (6,)
         Filled: the largest distance in plan, its time, largest and least sx, largest and least sy.
     end : array, shape (4,)
@@ -816,7 +875,7 @@ def slide_plane(
     Returns
     -------
     tuple
-        FOLLOWED, TOO_MANY_STEPS or NOT_FINITE; a bound of the error of every place; numbers of
+        FOLLOWED, TOO_MANY_STEPS or NOT_FINITE; the bound of the error in position [m]; numbers of
         stops, of events and of steps.
     """
     p = (sn * g, sn * scale, cs * scale, -scale)
@@ -833,13 +892,13 @@ def slide_plane(
         top[k] = 0.0
     sx = sy = vx = vy = w = tau = fastest = since = off = error = 0.0
     moving = False
-    # Not literals: for those, numba would compile what takes them once more.
+    # np.int64, because for literals numba would compile a second version of what takes them.
     i, n_events = np.int64(0), np.int64(0)
     n_stops = n_steps = 0
     last = ax.size - 1 if terms * terms < np.inf else -1
     _fill(history, i, i + 1, 0.0, 0.0, 0.0, 0.0)
     while i < last:
-        # Where the true block may still move, by the error of its speed, nothing is passed over.
+        # Samples are skipped only when the exact block is certainly at rest as well.
         if not moving and off == 0.0:
             first = _next_push(ax, ay, az, x, y, z, i, p, q, hold)
             _fill(history, i + 1, min(first, last + 1), sx, sy, 0.0, 0.0)
@@ -851,7 +910,8 @@ def slide_plane(
         rx, ry, rc = (hx - g0x) / dt, (hy - g0y) / dt, (d - c0) / dt
         rubs = c0 > 0.0 or d > 0.0
         tau = 0.0
-        # Each turn takes time: a step `least` or more; an onset stands between a stop and a step.
+        # The loop terminates: each step advances time by `least` or more, and a pass without a
+        # step (an onset) occurs only once between a stop and the next step.
         while tau < dt:
             gx, gy, c, left = g0x + rx * tau, g0y + ry * tau, c0 + rc * tau, dt - tau
             if not moving:
@@ -871,7 +931,7 @@ def slide_plane(
                 fastest = max(fastest, 0.5 * left * _net_push(gx, gy, slow * c, hx, hy, slow * d))
             fastest = max(fastest, w)
             far = max(top[0], math.sqrt(cs * cs * sx * sx + sy * sy), SMALL)
-            # What is wrong with v counts as long as the slip lasts: about as long as it has so far.
+            # An error in v acts until the slip ends, assumed to take about as long again.
             late = t - since
             tol = tolerance * max(fastest * far / (far + late * fastest), SMALL / (late + left))
             tol = max(tol, EPS * terms * left)
@@ -899,7 +959,7 @@ def slide_plane(
                 stop = b[ROOTS, 0]
                 part *= stop
                 along, across, way, aside, va_rate, vs_rate, moved = _scale(b, order, stop)
-                # The series of w may come to zero where it is no longer the speed.
+                # The series of w may become zero where it no longer represents the speed.
                 if math.hypot(b[VA, 0] + along, across) > max(tol, 1e-12 * (w + moved)):
                     part, stops = 0.5 * part, False
                     along, across, way, aside, va_rate, vs_rate, moved = _scale(b, order, 0.5)
@@ -914,7 +974,7 @@ def slide_plane(
                     w + moved, law,
                 )  # fmt: skip
                 if c + rc * h < 0.5 * c:
-                    # Where friction vanishes, so does what a series makes wrong of it.
+                    # As friction tends to zero, so does the defect; so it is also checked earlier.
                     before = _miss_at(
                         b, order, 0.85, h, gx, gy, rx, ry, ux, uy, c, rc, w + moved, law
                     )
@@ -940,7 +1000,7 @@ def slide_plane(
             sx, sy = sx + way, sy + aside
             error += EPS * (abs(sx) + abs(sy) + w * dt)
             _see(sx, sy, t + h, cs, top)
-            # What the block may gain while less than `least` goes by is in `off`.
+            # If h is below `least`, `off` covers the gain in velocity in the time skipped.
             tau = dt if part == 1.0 and span == left else tau + max(h, least)
             if stops or (after <= tol and after < w and rubs):
                 off += after

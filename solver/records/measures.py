@@ -1,7 +1,7 @@
-"""What a record amounts to: peaks, drift, Arias intensity and significant duration, exactly.
+"""Measures of a record: peaks, drift, Arias intensity and significant duration, exactly.
 
-Changes no record (`solver.records.processing` does) and takes no spectra (`solver.records.record`
-does). Read `measures` first.
+Changes no record (`solver.records.processing` does) and computes no spectra
+(`solver.records.spectrum` does). Read `measures` first.
 """
 
 from __future__ import annotations
@@ -16,23 +16,24 @@ from solver.records.record import UNITS, Record
 
 G_MPS2 = UNITS["g"]
 SIGNIFICANT = (0.05, 0.95)
-"""Shares of the Arias intensity between which the significant duration runs."""
+"""Fractions of the Arias intensity that bound the significant duration."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Measures:
-    """A record in numbers. Velocity and displacement begin at zero; no base line is taken off.
+    """Measures of a record. Velocity and displacement start at zero, without baseline correction.
 
     Attributes
     ----------
     pga_mps2, pgv_mps, pgd_m : float
-        Largest |acceleration| [m/s2], |velocity| [m/s], |displacement| [m], between samples too.
+        Largest |acceleration| [m/s2], |velocity| [m/s] and |displacement| [m], including between
+        samples.
     arias_mps : float
         Arias intensity, pi / (2 g) times the integral of a^2 [m/s].
     d5_95_s : float
         Time from 5 % to 95 % of the Arias intensity [s]; 0 for a record of zeros.
     final_velocity_mps, final_displacement_m : float
-        At the last sample, with their signs [m/s], [m]: the drift of the record.
+        Signed values at the last sample [m/s], [m]: the drift of the record.
     """
 
     pga_mps2: float
@@ -45,22 +46,22 @@ class Measures:
 
 
 def measures(record: Record) -> Measures:
-    """Measure a record as the solver runs it: straight lines between its samples.
+    """Measure a record as analyzed by the solver, with acceleration linear between samples.
 
-    Velocity is then quadratic and displacement cubic in each interval; peaks inside it are found
-    as roots, and times of a share of the Arias intensity in closed form. Arias (1970) in Seismic
-    Design for Nuclear Power Plants, MIT Press, 438-483; significant duration by Trifunac and
-    Brady, Bull. Seism. Soc. Am. 65 (1975) 581-626.
+    Velocity is then quadratic and displacement cubic in each interval. Peaks inside an interval
+    are found as roots, and the times of 5 % and 95 % of the Arias intensity in closed form. Arias
+    (1970) in Seismic Design for Nuclear Power Plants, MIT Press, 438-483; significant duration:
+    Trifunac and Brady, Bull. Seism. Soc. Am. 65 (1975) 581-626.
     """
     a, dt = record.a_mps2, record.dt_s
     v, d = velocity_displacement(record)
-    gathered = _gathered(a, dt)
-    times = [_time_of(a, dt, gathered, share * float(gathered[-1])) for share in SIGNIFICANT]
+    cumulative = _cumulative(a, dt)
+    times = [_time_of(a, dt, cumulative, share * float(cumulative[-1])) for share in SIGNIFICANT]
     return Measures(
         pga_mps2=float(np.abs(a).max()),
         pgv_mps=_greatest(v, _velocity_peaks(a, dt, v)),
         pgd_m=_greatest(d, _displacement_peaks(a, dt, v, d)),
-        arias_mps=float(0.5 * math.pi / G_MPS2 * gathered[-1]),
+        arias_mps=float(0.5 * math.pi / G_MPS2 * cumulative[-1]),
         d5_95_s=times[1] - times[0],
         final_velocity_mps=float(v[-1]),
         final_displacement_m=float(d[-1]),
@@ -68,7 +69,7 @@ def measures(record: Record) -> Measures:
 
 
 def velocity_displacement(record: Record) -> tuple[Floats, Floats]:
-    """Return velocity [m/s] and displacement [m] at the samples, exact, both from zero.
+    """Return velocity [m/s] and displacement [m] at the samples, exact, both starting at zero.
 
     Returns
     -------
@@ -97,8 +98,8 @@ def _velocity_peaks(a: Floats, dt: float, v: Floats) -> Floats:
 def _displacement_peaks(a: Floats, dt: float, v: Floats, d: Floats) -> Floats:
     """Displacements where the velocity is zero inside an interval.
 
-    The velocity is v + a x + r x^2 / 2. Of its two roots the larger in size is found without
-    cancellation and the other one from their product.
+    The velocity is v + a x + r x^2 / 2 at a time x in the interval. The root of larger magnitude is
+    computed without cancellation, and the other one from the product of the roots.
     """
     r = np.diff(a) / dt
     start, speed, place = a[:-1], v[:-1], d[:-1]
@@ -111,21 +112,21 @@ def _displacement_peaks(a: Floats, dt: float, v: Floats, d: Floats) -> Floats:
     return np.concatenate(found)
 
 
-def _gathered(a: Floats, dt: float) -> Floats:
+def _cumulative(a: Floats, dt: float) -> Floats:
     """Integral of a^2 from the start to each sample [m2/s3]."""
     before, after = a[:-1], a[1:]
     return _summed(dt / 3.0 * (before * before + before * after + after * after))
 
 
-def _time_of(a: Floats, dt: float, gathered: Floats, wanted: float) -> float:
-    """Time at which the integral of a^2 reaches what is wanted.
+def _time_of(a: Floats, dt: float, cumulative: Floats, wanted: float) -> float:
+    """Time at which the integral of a^2 reaches the value wanted.
 
-    Within an interval it is (c^3 - a^3) / (3 r), c being the acceleration then; divided by c - a,
-    which is r x, that gives the time x without cancellation.
+    Within an interval the integral is (c^3 - a^3) / (3 r), where c is the acceleration at the time
+    x and c - a = r x. Factoring out c - a gives x without cancellation.
     """
-    i = max(int(np.searchsorted(gathered, wanted)) - 1, 0)
+    i = max(int(np.searchsorted(cumulative, wanted)) - 1, 0)
     start, r = float(a[i]), float(a[i + 1] - a[i]) / dt
-    missing = 3.0 * (wanted - float(gathered[i]))
+    missing = 3.0 * (wanted - float(cumulative[i]))
     c = float(np.cbrt(start**3 + r * missing))
     below = c * c + c * start + start * start
     return i * dt + (missing / below if below > 0.0 else 0.0)

@@ -1,6 +1,6 @@
-"""Processing of records: trimming, base line, filters, resampling, zeros at the end.
+"""Processing of records: trimming, baseline correction, filters, resampling, zeros at the end.
 
-Reads no files and judges nothing: `solver.records.measures` says what drift is left.
+Reads no files and evaluates no results: `solver.records.measures` gives the remaining drift.
 Read `Processing` first, then `process`.
 """
 
@@ -20,39 +20,41 @@ MAX_ORDER = 12
 MAX_SAMPLES = 4_000_000
 
 AS_RECORDED = "as recorded"
-"""What is done to a record that nothing is done to, in words."""
+"""Description of a record without processing."""
 
-# Of the new Nyquist frequency: where the anti-alias low-pass begins.
+# Start of the transition band of the anti-alias filter / new Nyquist frequency.
 _PASSED = 0.8
-# Zeros on either side in which it rings, in new steps; they are taken off again.
+# Zeros added on either side for the filter transients, in new steps; removed afterwards.
 _RINGING = 50
-# Where the new step is no whole multiple of the old one, the filtered record is drawn this much
-# finer before it is read off along straight lines: 2e-4 of its shortest period at most.
+# If the new step is not a whole multiple of the old one, the filtered record is computed with this
+# many points per old step before linear interpolation. The interpolation error is then at most 2e-4
+# for the shortest period in the record.
 _FINER = 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Processing:
-    """What is done to a record, in the order of the fields; the defaults do nothing.
+    """Processing steps for a record, in the order of the fields; the defaults change nothing.
 
     Attributes
     ----------
     from_s, to_s : float
-        Part of the record that is kept [s from its first sample], samples at the bounds included.
+        Part of the record that is kept [s from its first sample], samples at the limits included.
     baseline : int
-        Degree of the polynomial that is fitted to the acceleration by least squares and taken
-        off: 0 the mean, 1 a straight line; -1 none.
+        Degree of the polynomial that is fitted to the acceleration by least squares and removed:
+        0 the mean, 1 a straight line; -1 none.
     highpass_hz, lowpass_hz : float
-        Corner frequencies [Hz]; 0 none.
+        Corner frequencies [Hz]; 0 for none.
     order : int
-        Order n of both filters: the amplitude at the frequency f is multiplied by
-        1 / sqrt(1 + (corner / f)^(2 n)), for the low-pass (f / corner), and the phase is left as
-        it is. So the gain at the corner is 1 / sqrt(2), applied once. A Butterworth filter run
-        forth and back, as by ``filtfilt``, of order n / 2 falls off as steeply.
+        Order n of both filters. The high-pass multiplies the amplitude at the frequency f by
+        1 / sqrt(1 + (corner / f)^(2 n)), the low-pass by 1 / sqrt(1 + (f / corner)^(2 n)). The
+        filters are applied once and are zero-phase; the gain at the corner is 1 / sqrt(2). A
+        Butterworth filter of order n / 2 applied forward and backward, as by ``filtfilt``, has
+        the same roll-off.
     dt_s : float
-        New sampling interval [s]; 0 leaves it.
+        New sampling interval [s]; 0 keeps the interval.
     pad_s : float
-        Time of zeros added after the end [s], in which a sliding array comes to rest.
+        Duration of zeros added at the end [s], during which a sliding array can come to rest.
     """
 
     from_s: float = 0.0
@@ -65,34 +67,34 @@ class Processing:
     pad_s: float = 0.0
 
     def words(self) -> str:
-        """What is done, in one line for a report."""
-        said = [_trim_words(self), _baseline_words(self.baseline), *_filter_words(self)]
+        """Describe the processing in one line for a report."""
+        parts = [_trim_words(self), _baseline_words(self.baseline), *_filter_words(self)]
         if self.dt_s > 0.0:
-            said.append(f"resampled to {self.dt_s:g} s")
+            parts.append(f"resampled at {self.dt_s:g} s")
         if self.pad_s > 0.0:
-            said.append(f"{self.pad_s:g} s of zeros added at the end")
-        return "; ".join(part for part in said if part) or AS_RECORDED
+            parts.append(f"{self.pad_s:g} s of zeros added at the end")
+        return "; ".join(part for part in parts if part) or AS_RECORDED
 
     def problems(self) -> tuple[str, ...]:
-        """What is wrong with it whatever the record, a sentence each."""
+        """Errors that do not depend on the record, one sentence each."""
         return (*_range_problems(self), *_filter_problems(self))
 
 
 def process(record: Record, processing: Processing) -> Record:
-    """Process a record: trim, base line, filters and resampling, zeros at the end, in this order.
+    """Process a record: trim, baseline, filters, resampling, zeros at the end, in this order.
 
-    The filters work on the spectrum of the whole record, between zeros of 1.5 n / corner [s]
-    before and after it (Boore, Bull. Seism. Soc. Am. 95 (2005) 745-750, doi:10.1785/0120040160,
-    asks for that much in all). What the filter puts there belongs to the motion: without it
-    velocity and displacement no longer end at zero. So the zeros stay, and the result begins
-    earlier than the record by as much.
+    The filters are applied to the Fourier spectrum of the whole record with pads of zeros of
+    1.5 n / corner [s] before and after it. Boore, Bull. Seism. Soc. Am. 95 (2005) 745-750,
+    doi:10.1785/0120040160, requires that length in total. The filter transients in the pads belong
+    to the motion: if they are removed, velocity and displacement no longer end at zero. The pads
+    are therefore kept, and the result starts earlier than the record by one pad.
 
-    A finer step reads off the straight lines between the samples; where it divides the old one,
-    the motion stays exactly the same for the solver. For a coarser step everything above the new
-    Nyquist frequency is removed first, with a cosine-shaped transition over the last fifth below
-    it and the phase left as it is.
+    A finer step is interpolated linearly between samples; if it divides the old step, the motion
+    is exactly the same for the solver. For a coarser step all content above the new Nyquist
+    frequency is removed first by a zero-phase filter, with a cosine transition over the last fifth
+    below it.
 
-    Nothing is tapered: a record that does not begin and end near zero has a step there.
+    No taper is applied: a record that does not start and end near zero has a step there.
 
     Parameters
     ----------
@@ -102,12 +104,13 @@ def process(record: Record, processing: Processing) -> Record:
     Returns
     -------
     Record
-        Of the same name. Its length depends on nothing but the record's length and step.
+        With the same name. Its length depends only on the record's length and step and on the
+        processing.
 
     Raises
     ------
     InputError
-        Where the processing does not make sense, or not for this record.
+        If the processing is invalid, or invalid for this record.
     """
     problems = processing.problems() or _record_problems(record, processing)
     if problems:
@@ -121,12 +124,12 @@ def process(record: Record, processing: Processing) -> Record:
 
 
 def process_together(records: Sequence[Record], processing: Processing) -> tuple[Record, ...]:
-    """Process the components of one motion alike: one step, one length, before and after.
+    """Process all components of one motion in the same way, with equal steps and lengths.
 
     Raises
     ------
     InputError
-        Where their steps or lengths differ, or as `process`.
+        If their steps or lengths differ, or as in `process`.
     """
     first = records[0]
     problems = [
@@ -140,16 +143,13 @@ def process_together(records: Sequence[Record], processing: Processing) -> tuple
     return tuple(process(record, processing) for record in records)
 
 
-# The steps
-
-
 def _steps(seconds: float, dt_s: float) -> int:
-    """Whole steps that cover a time, forgiving the rounding of the quotient."""
+    """Number of whole steps that cover a time, with an allowance for rounding of the quotient."""
     return math.ceil(seconds / dt_s - 1e-6)
 
 
 def _bounds(record: Record, processing: Processing) -> tuple[int, int]:
-    """Indices of the first sample kept and of the first one no longer kept."""
+    """Indices of the first sample kept and of the first sample after the part kept."""
     last = len(record.a_mps2) - 1
     end = min(processing.to_s / record.dt_s + 1e-6, float(last))
     return _steps(processing.from_s, record.dt_s), math.floor(end) + 1
@@ -161,17 +161,17 @@ def _trimmed(record: Record, processing: Processing) -> Floats:
 
 
 def _level(a: Floats, degree: int) -> Floats:
-    """Take off the polynomial that fits best by least squares."""
+    """Remove the polynomial fitted by least squares."""
     if degree < 0:
         return a
-    # Legendre polynomials are nearly orthogonal on the samples: no digits are lost.
+    # Legendre polynomials are nearly orthogonal on the samples, so the fit is well conditioned.
     basis = np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, len(a)), degree)
     fitted = np.linalg.lstsq(basis, a, rcond=None)[0]
     return np.asarray(a - basis @ fitted)
 
 
 def _filtered(a: Floats, dt_s: float, processing: Processing) -> Floats:
-    """Apply high- and low-pass between zeros, which stay."""
+    """Apply the high-pass and low-pass filters with pads of zeros, which are kept."""
     pad_s = _pad_s(processing)
     if pad_s == 0.0:
         return a
@@ -185,7 +185,7 @@ def _frequencies(count: int, dt_s: float) -> Floats:
 
 
 def _pad_s(processing: Processing) -> float:
-    """Zeros on either side that the filters need [s]."""
+    """Length of the pad of zeros on either side that the filters need [s]."""
     corners = [f for f in (processing.highpass_hz, processing.lowpass_hz) if f > 0.0]
     return max((1.5 * processing.order / f for f in corners), default=0.0)
 
@@ -203,7 +203,7 @@ def _gain(freq_hz: Floats, processing: Processing) -> Floats:
 
 
 def _resampled(a: Floats, dt_s: float, new_s: float) -> Floats:
-    """Read the record off at a new step, from its first sample to the last one covered."""
+    """Resample the record at a new step, from its first sample to the last one covered."""
     ratio = new_s / dt_s
     if new_s == 0.0 or _is_near(ratio, 1.0):
         return a
@@ -213,14 +213,17 @@ def _resampled(a: Floats, dt_s: float, new_s: float) -> Floats:
         a, ratio = _without_aliases(a, ratio, finer), ratio * finer
     if _is_whole(ratio):
         return a[:: round(ratio)][:count]
-    # Where samples fall together they are the same to the last bit.
+    # With a step that divides the old one, common samples stay the same to the last bit.
     parts = 1.0 / ratio
     places = np.arange(count) / (round(parts) if _is_whole(parts) else parts)
     return np.interp(places, np.arange(len(a)), a)
 
 
 def _without_aliases(a: Floats, ratio: float, finer: int) -> Floats:
-    """Keep what a step coarser by the ratio can hold, drawn finer by a whole number."""
+    """Remove content above the Nyquist frequency of a step coarser by `ratio`.
+
+    The result has `finer` points per old step.
+    """
     pad = math.ceil(_RINGING * ratio)
     wide = np.pad(a, pad)
     spectrum = np.fft.rfft(wide) * _anti_alias(ratio * _frequencies(len(wide), 1.0))
@@ -229,7 +232,7 @@ def _without_aliases(a: Floats, ratio: float, finer: int) -> Floats:
 
 
 def _anti_alias(cycles: Floats) -> Floats:
-    """Gain at frequencies in cycles for each new step: none at 1/2 and above."""
+    """Gain at frequencies in cycles per new step: zero at 1/2 and above."""
     part = np.clip((2.0 * cycles - _PASSED) / (1.0 - _PASSED), 0.0, 1.0)
     return np.asarray(0.5 + 0.5 * np.cos(math.pi * part))
 
@@ -246,9 +249,6 @@ def _is_near(ratio: float, wanted: float) -> bool:
     return abs(ratio - wanted) <= 1e-9 * wanted
 
 
-# What is said
-
-
 def _trim_words(processing: Processing) -> str:
     if processing.from_s <= 0.0 and math.isinf(processing.to_s):
         return ""
@@ -263,70 +263,70 @@ def _baseline_words(degree: int) -> str:
 
 def _filter_words(processing: Processing) -> list[str]:
     corners = {"high-pass": processing.highpass_hz, "low-pass": processing.lowpass_hz}
-    said = [
+    parts = [
         f"{name} {corner:g} Hz, order {processing.order}, zero phase"
         for name, corner in corners.items()
         if corner > 0.0
     ]
-    if said:
-        said.append(f"{_pad_s(processing):g} s of zeros before and after kept")
-    return said
+    if parts:
+        parts.append(f"pads of {_pad_s(processing):g} s before and after are kept")
+    return parts
 
 
 def _range_problems(processing: Processing) -> list[str]:
-    """Numbers that are out of range by themselves."""
-    found = []
+    """Errors for values that are out of range for any record."""
+    problems = []
     if not (0.0 <= processing.from_s < processing.to_s):
-        found.append(
+        problems.append(
             f"cut from {processing.from_s:g} s to {processing.to_s:g} s; give two times, the "
             f"first 0 or above, the second later"
         )
     if not -1 <= processing.baseline <= MAX_DEGREE:
-        found.append(
-            f"degree of the base line is {processing.baseline}; give 0 (mean) to {MAX_DEGREE}, "
+        problems.append(
+            f"degree of the baseline is {processing.baseline}; give 0 (mean) to {MAX_DEGREE}, "
             f"or -1 for none"
         )
     for name, value in (("new time step", processing.dt_s), ("zeros at the end", processing.pad_s)):
         if not 0.0 <= value < math.inf:
-            found.append(f"{name}: {value:g} s; give a number of seconds, 0 for none")
-    return found
+            problems.append(f"{name}: {value:g} s; give a number of seconds, 0 for none")
+    return problems
 
 
 def _filter_problems(processing: Processing) -> list[str]:
-    found = []
+    problems = []
     high, low = processing.highpass_hz, processing.lowpass_hz
     for name, corner in (("high-pass", high), ("low-pass", low)):
         if not 0.0 <= corner < math.inf:
-            found.append(f"{name} corner is {corner:g} Hz; give a frequency, 0 for none")
+            problems.append(f"{name} corner is {corner:g} Hz; give a frequency, 0 for none")
     if 0.0 < low <= high:
-        found.append(
+        problems.append(
             f"high-pass corner is {high:g} Hz, low-pass corner {low:g} Hz; give a low-pass above "
             f"the high-pass"
         )
-    # A high-pass of the first order lets the displacement drift for ever.
+    # With a first-order high-pass the displacement drifts without limit.
     if not 2 <= processing.order <= MAX_ORDER:
-        found.append(f"filter order is {processing.order}; give 2 to {MAX_ORDER}")
-    return found
+        problems.append(f"filter order is {processing.order}; give 2 to {MAX_ORDER}")
+    return problems
 
 
 def _record_problems(record: Record, processing: Processing) -> list[str]:
-    """What is wrong for this record, the processing making sense."""
-    found = []
+    """Errors of a processing for this record; the processing itself is valid."""
+    problems = []
     length_s = (len(record.a_mps2) - 1) * record.dt_s
     start, stop = _bounds(record, processing)
     if stop - start < max(2, processing.baseline + 2):
-        found.append(
+        problems.append(
             f"cut from {processing.from_s:g} s to {processing.to_s:g} s leaves "
             f"{max(stop - start, 0)} samples of a record of {length_s:g} s; give a longer part"
         )
     nyquist_hz = 0.5 / record.dt_s
     corners = {"high-pass": processing.highpass_hz, "low-pass": processing.lowpass_hz}
-    found += [
+    problems += [
         f"{name} corner is {corner:g} Hz; give less than {nyquist_hz:g} Hz, half the sampling rate"
         for name, corner in corners.items()
         if corner >= nyquist_hz
     ]
-    return found or _size_problems(record, processing, length_s)
+    return problems or _size_problems(record, processing, length_s)
 
 
 def _size_problems(record: Record, processing: Processing, length_s: float) -> list[str]:
@@ -338,5 +338,5 @@ def _size_problems(record: Record, processing: Processing, length_s: float) -> l
     drawn = _finer(ratio) if ratio > 1.0 else 1
     count = max(drawn * filtered_s / record.dt_s, (filtered_s + processing.pad_s) / new_s)
     if count > MAX_SAMPLES:
-        return [f"becomes {count:.2g} samples; give a coarser step, higher corners or fewer zeros"]
+        return [f"gives {count:.2g} samples; give a larger step, higher corners or fewer zeros"]
     return []

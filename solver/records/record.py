@@ -1,7 +1,7 @@
-"""Acceleration records: makes them of values, writes them, takes their spectra.
+"""Acceleration records: created from values, and written as csv.
 
-Owns no file formats to read (`solver.formats`), no code rules (`solver.rules.provisions`) and makes
-no motions (`solver.synthesis`). Read `Record` first, then `response_spectrum`.
+Reads no files (`solver.formats`), knows no code rules (`solver.rules.provisions`) and generates no
+motions (`solver.synthesis`). Read `Record` first, then `record_from_values`.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ from numpy.typing import ArrayLike
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
-"""Acceleration units and their size in m/s2."""
+"""Acceleration units and their value in m/s2."""
 
 DECIMALS = {"g": 5, "m/s2": 4, "cm/s2": 2, "mm/s2": 1}
 """Decimals that `write_record` prints, about 1e-5 g in every unit."""
 
 MAX_PROBLEMS = 10
-"""Problems of one file or column that are told; the others are counted."""
+"""Number of problems of one file or column that a message lists; the others are counted."""
 
 MAX_COUNTED = 10_000
 
 BEYOND = 1e300
-"""Larger numbers count as infinite, so that a change of unit cannot make them so."""
+"""Numbers of this size or more are refused, so that no change of units can overflow."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Record:
-    """One component of a motion, evenly sampled, straight lines between samples.
+    """One component of a motion, evenly sampled, linear between samples.
 
     Attributes
     ----------
@@ -49,11 +49,14 @@ class Record:
     dt_s: float
     a_mps2: Floats
 
+    def __repr__(self) -> str:
+        return f"Record({self.name!r}, {len(self.a_mps2)} samples at {self.dt_s:g} s)"
+
 
 def record_from_values(
     name: str, values: Sequence[object] | Floats, *, units: str, dt_s: float
 ) -> Record:
-    """Make a record of values that are at hand, such as a pasted column.
+    """Create a record from values in memory, such as a pasted column.
 
     Raises
     ------
@@ -76,9 +79,9 @@ def record_from_values(
 def write_record(path: Path, record: Record, units: str = "g", *, within: float = math.inf) -> None:
     """Write a record as csv of time [s] and acceleration, with a heading line.
 
-    The acceleration is printed to `DECIMALS`, and to as many more as keep every sample `within`
-    that part of the record's peak. A record that was rounded to `DECIMALS`, as those of
-    `solver.synthesis` are in g, is read back bit for bit.
+    The acceleration is printed to `DECIMALS`, or to more decimals if needed to keep the rounding of
+    every sample `within` that fraction of the record's peak. A record already rounded to
+    `DECIMALS`, such as those of `solver.synthesis` in g, is read back bit for bit.
     """
     text = record_csv(record, units, within=within)
     path.write_text(text, encoding="utf-8", newline="\n")
@@ -96,9 +99,9 @@ def record_csv(record: Record, units: str = "g", *, within: float = math.inf) ->
 
 
 def _decimals(values: Floats, least: int, within: float) -> int:
-    """Decimals that print the values to that part of the largest one, from `least` on."""
+    """Decimals, `least` or more, that keep rounding `within` that fraction of the largest value."""
     peak = np.abs(values).max()
-    # Beyond 300 decimals a power of ten is no longer a float.
+    # With more than about 300 decimals the power of ten underflows.
     kept = (k for k in range(least, 300) if _off(values, k) <= within * peak)
     return least if math.isinf(within) or peak == 0.0 else next(kept, 300)
 
@@ -108,8 +111,8 @@ def _off(values: Floats, decimals: int) -> float:
 
 
 def read_only(values: ArrayLike) -> Floats:
-    """The values as a contiguous array of doubles that cannot be written to."""
-    # numba compiles a second version for writable arrays, so kernels see read-only ones only.
+    """Return the values as a read-only contiguous array of doubles."""
+    # numba compiles a second version for writable arrays, so kernels get read-only arrays only.
     array = np.ascontiguousarray(values, dtype=np.float64).view()
     array.setflags(write=False)
     return array
@@ -120,14 +123,14 @@ def _record(name: str, values: Floats, units: str, dt_s: float) -> Record:
 
 
 def is_finite_number(value: object) -> bool:
-    """Whether the value is a number, not a truth value, of a size below `BEYOND`."""
+    """Whether the value is a number (not a boolean) of magnitude below `BEYOND`."""
     if isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool):
         return bool(-BEYOND < value < BEYOND)
     return False
 
 
 def shown(value: object) -> str:
-    """The value as a message shows it: quoted, and cut where it is long."""
+    """Return the value as a message shows it: quoted, and shortened if long."""
     text = repr(value)
     return text if len(text) <= 32 else f"{text[:28]}...{text[-1]}"
 
@@ -135,12 +138,12 @@ def shown(value: object) -> str:
 def raise_any(problems: Iterable[str]) -> None:
     """Raise the first problems with a count of the others, if there are any."""
     left = iter(problems)
-    told = list(itertools.islice(left, MAX_PROBLEMS))
-    if told:
-        # The others are counted without being kept, and not to the end: a file may have millions.
+    listed = list(itertools.islice(left, MAX_PROBLEMS))
+    if listed:
+        # The others are counted but not stored, and only to a limit: a file may have millions.
         more = sum(1 for _ in itertools.islice(left, MAX_COUNTED + 1))
         words = f"{more} more" if more <= MAX_COUNTED else f"more than {MAX_COUNTED} more"
-        raise InputError([*told, f"... and {words}"] if more else told)
+        raise InputError([*listed, f"... and {words}"] if more else listed)
 
 
 def _check_arguments(name: str, units: str, dt_s: float) -> None:

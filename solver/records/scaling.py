@@ -1,6 +1,6 @@
 """Scaling of a motion to a target spectrum: one factor for all its components.
 
-Makes no targets but the design spectrum of ASCE 7, and changes no record.
+The only target defined here is the design spectrum of ASCE 7. Changes no record.
 Read `factor_to_target` first.
 """
 
@@ -24,7 +24,7 @@ PER_DECADE = 100
 
 
 def corner_points(freq_hz: Floats, sa_g: Floats) -> Target:
-    """Return the target through corners [Hz], [g]: log-log between them, flat beyond."""
+    """Return the target through corners [Hz], [g]: log-log between them, constant beyond."""
     return partial(_between, log_freq=np.log(freq_hz), log_sa=np.log(sa_g))
 
 
@@ -33,7 +33,7 @@ def _between(freq_hz: Floats, *, log_freq: Floats, log_sa: Floats) -> Floats:
 
 
 def design_spectrum(*, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Target:
-    """Return the design response spectrum of the ground.
+    """Return the design response spectrum at the ground.
 
     S_DS (0.4 + 0.6 T / T_0) up to T_0 = 0.2 T_S, S_DS up to T_S = S_D1 / S_DS, S_D1 / T up to T_L,
     S_D1 T_L / T^2 beyond: ASCE/SEI 7-16, 11.4.6; ASCE/SEI 7-22, 11.4.5.2 (two-period spectrum).
@@ -57,7 +57,7 @@ def _design(freq_hz: Floats, *, s_ds_g: float, s_d1_g: float, t_l_s: float) -> F
     with np.errstate(divide="ignore"):
         period = 1.0 / np.asarray(freq_hz, dtype=np.float64)
     rising = s_ds_g * np.minimum(0.4 + 0.6 * period / (0.2 * (s_d1_g / s_ds_g)), 1.0)
-    # At period 0 and at frequency 0 the other branch is the least.
+    # At period 0 this branch is infinite, and the other one governs; at frequency 0 it is zero.
     with np.errstate(divide="ignore", invalid="ignore"):
         falling = s_d1_g / period * np.minimum(1.0, t_l_s / period)
     return np.asarray(np.fmin(rising, falling))
@@ -66,12 +66,12 @@ def _design(freq_hz: Floats, *, s_ds_g: float, s_d1_g: float, t_l_s: float) -> F
 def factor_to_target(
     horizontals: Sequence[Record], target: Target, periods_s: tuple[float, float]
 ) -> float:
-    """Factor that brings a motion to a target over a range of periods, on average.
+    """Return the factor that scales a motion to a target, on average over a range of periods.
 
-    The exponential of the mean of ln(target / spectrum) over periods that are evenly spaced in
-    their logarithm, the spectrum being the geometric mean of the horizontal components', 5 %
-    damping. Of all factors it leaves the least squares of the logarithms. All components of the
-    motion, the vertical one too, are to be multiplied by it.
+    The factor is the exponential of the mean of ln(target / spectrum) over log-spaced periods. The
+    spectrum is the geometric mean of the horizontal components' spectra, 5 % damping. This factor
+    minimizes the sum of squared differences of the logarithms. It applies to all components of the
+    motion, including the vertical.
 
     Parameters
     ----------
@@ -80,18 +80,18 @@ def factor_to_target(
     target : callable
         See `Target`; ``RequiredSpectrum.at`` is one.
     periods_s : tuple of float
-        Least and greatest period [s].
+        Shortest and longest period [s].
 
     Raises
     ------
     InputError
-        Where the range is none, or a component is zero throughout.
+        If the range is invalid, or a component is zero throughout.
     """
     _check_range(periods_s)
     periods = _periods(*periods_s)
     logs = [_log_spectrum(record, periods) for record in horizontals]
-    off = np.log(target(1.0 / periods)) - np.mean(logs, axis=0)
-    return float(np.exp(off.mean()))
+    difference = np.log(target(1.0 / periods)) - np.mean(logs, axis=0)
+    return float(np.exp(difference.mean()))
 
 
 def _periods(shortest_s: float, longest_s: float) -> Floats:
@@ -102,8 +102,8 @@ def _periods(shortest_s: float, longest_s: float) -> Floats:
 def _log_spectrum(record: Record, periods_s: Floats) -> Floats:
     if not record.a_mps2.any():
         raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a target")
-    found = response_spectrum(record.a_mps2, record.dt_s, periods_s, DAMPING)
-    return np.asarray(np.log(found / UNITS["g"]))
+    spectrum = response_spectrum(record.a_mps2, record.dt_s, periods_s, DAMPING)
+    return np.asarray(np.log(spectrum / UNITS["g"]))
 
 
 def _check_range(periods_s: tuple[float, float]) -> None:

@@ -15,8 +15,7 @@ from solver.model import Floats
 from solver.records.record import raise_any, read_only
 
 PEAK_FINENESS, PEAK_STEPS = 40, 16
-"""Places of a period at which an oscillator's peak is looked for; at most so many of an interval.
-"""
+"""Points per period at which an oscillator's peak is evaluated; limit on points per interval."""
 
 
 def response_spectrum(
@@ -24,12 +23,12 @@ def response_spectrum(
 ) -> Floats:
     """Pseudo-spectral acceleration of a record, omega^2 times the largest |displacement|.
 
-    The oscillators follow the linearly interpolated record exactly (Nigam and Jennings, Bull.
-    Seism. Soc. Am. 59 (1969) 909-922), from rest to the end of the record. Short periods are looked
-    at between the samples as well: at `PEAK_FINENESS` places of a period, which miss a peak by
-    0.3 % at most, 1 - cos(pi / PEAK_FINENESS); below 2.5 dt at `PEAK_STEPS` places of each
-    interval. Free vibration after the record's end is not looked at: pad a record with zeros to
-    have it.
+    The oscillators are solved exactly for the linearly interpolated record (Nigam and Jennings,
+    Bull. Seism. Soc. Am. 59 (1969) 909-922), from rest to the end of the record. For short periods
+    the response is also evaluated between samples, at `PEAK_FINENESS` points per period, which
+    misses at most 0.3 % of a peak, 1 - cos(pi / PEAK_FINENESS); for periods below 2.5 dt, at
+    `PEAK_STEPS` points per interval. Free vibration after the end of the record is not included:
+    pad the record with zeros to include it.
 
     Parameters
     ----------
@@ -56,25 +55,25 @@ def response_spectrum(
     with np.errstate(divide="ignore", over="ignore"):
         omega = 2.0 * math.pi / periods
     rigid = ~np.isfinite(omega)
-    found = np.full(omega.shape, np.abs(a).max())
+    spectrum = np.full(omega.shape, np.abs(a).max())
     steps = _peak_steps(float(dt_s), np.where(rigid, 0.0, omega))
     for each in np.unique(steps[~rigid]).tolist():
         some = ~rigid & (steps == each)
         peak, at = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
         fine = read_only(refined(a, each))
         oscillator.peaks(fine, dt_s / each, omega[some], float(damping), peak, at)
-        found[some] = np.abs(peak)
-    return found
+        spectrum[some] = np.abs(peak)
+    return spectrum
 
 
 def _peak_steps(dt_s: float, omega: Floats) -> NDArray[np.int64]:
-    """Steps for each interval at which the peak of an oscillator is looked for: powers of two."""
+    """Points per interval at which the peak of an oscillator is evaluated: powers of two."""
     needed = np.clip(PEAK_FINENESS * dt_s * omega / (2.0 * math.pi), 1.0, PEAK_STEPS)
     return (2.0 ** np.ceil(np.log2(needed))).astype(np.int64)
 
 
 def refined(a: Floats, steps: int) -> Floats:
-    """Return a record with so many steps in each interval, on its straight lines."""
+    """Return a record with `steps` steps in each interval, by linear interpolation."""
     if steps == 1:
         return a
     at = np.arange((a.size - 1) * steps + 1)

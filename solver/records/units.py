@@ -1,6 +1,6 @@
-"""Names of acceleration units as files print them.
+"""Names of acceleration units as printed in files.
 
-Owns their spelling and size. Read `unit_size` first.
+Contains their spellings and values. Read `unit_size` first.
 """
 
 from __future__ import annotations
@@ -8,10 +8,11 @@ from __future__ import annotations
 import math
 import re
 
+from solver.model import INCH_M
 from solver.records.record import UNITS
 
 UNIT_CHOICES = (*UNITS, "gal")
-"""Units that a caller may give for a file that does not say its own."""
+"""Units that a caller may give for a file that does not state its units."""
 
 _G_MPS2 = UNITS["g"]
 
@@ -22,7 +23,7 @@ _SIZES = UNITS | {
     "%g": _G_MPS2 / 100.0,
     "mg": _G_MPS2 / 1000.0,
     "ft/s2": 0.3048,
-    "in/s2": 0.0254,
+    "in/s2": INCH_M,
 }
 
 _LENGTHS = "mm|cm|m|ft|in"
@@ -30,7 +31,7 @@ _NOT_ACCELERATION = re.compile(rf"({_LENGTHS})(/s)?", re.ASCII)
 
 
 def unit_size(text: str) -> float:
-    """Size [m/s2] of a unit in any of its spellings; nan where it is no unit of acceleration."""
+    """Value [m/s2] of a unit in any of its spellings; NaN if it is not a unit of acceleration."""
     return _SIZES.get(_plain(text), math.nan)
 
 
@@ -40,7 +41,7 @@ def is_other_unit(text: str) -> bool:
 
 
 def _plain(text: str) -> str:
-    """One spelling for all: `CM/SEC/SEC`, `cm/s**2`, `cm s^-2`, `cmps2` and `cm/s²` are `cm/s2`."""
+    """Normalize: `CM/SEC/SEC`, `cm/s**2`, `cm s^-2`, `cmps2` and `cm/s²` become `cm/s2`."""
     plain = re.sub(r"[\s^*·]", "", text.lower()).replace("²", "2").replace("⁻", "-")
     plain = re.sub(r"sec(onds?)?", "s", plain).replace("s/s", "s2").replace("gals", "gal")
     return re.sub(rf"^({_LENGTHS})(?:[p_/]s-?2|s-2)$", r"\1/s2", plain)

@@ -1,1 +1,1 @@
-"""The methods of one axis by name, for comparison with the exact one. Read `methods`."""
+"""The one-axis methods by name, for comparison with the exact method. Read `methods`."""

@@ -1,8 +1,8 @@
-"""The methods by name: what each one is, takes and is good for, and how a scene is run by it.
+"""The one-axis methods by name: description, parameters, limitations, and how each runs a scene.
 
-Checks no input and packs no results (`solver.sliding.checked`); integrates nothing
-(`solver.kernels.one_axis`, `solver.kernels.rivals`, `solver.rivals.regularized`). Read `METHODS`
-first.
+Checks no input (`solver.sliding.checked`), builds no results (`solver.sliding.one_axis`) and
+integrates nothing itself (`solver.kernels.one_axis`, `solver.kernels.rivals`,
+`solver.rivals.regularized`). Read `METHODS` first.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ NO_RECORD.setflags(write=False)
 
 @dataclass(frozen=True, slots=True)
 class AxisScene:
-    """One block under one motion, checked, in the letters of the kernels.
+    """One block under one motion, checked, in the notation of the kernels.
 
-    `ax` and `az` are read-only; `az` has shape (0,) where there is no vertical shaking. `x` and `z`
-    hold the `one_axis.bounds` of `ax` and `az`.
+    `ax` and `az` are read-only; `az` has shape (0,) without vertical shaking. `x` and `z` are the
+    `one_axis.bounds` of `ax` and `az`.
     """
 
     ax: Floats
@@ -44,7 +44,7 @@ class AxisScene:
 
 
 class Outcome(NamedTuple):
-    """What a method found, along the slope: [m], [m/s], [s]."""
+    """Result of a method, along the slope: [m], [m/s], [s]."""
 
     followed: bool
     s_max: float
@@ -57,36 +57,41 @@ class Outcome(NamedTuple):
 
 Parameters = Mapping[str, float]
 Follow = Callable[[AxisScene, Parameters, Floats], Outcome]
-"""Runs a scene; the array of shape (2, n) is filled with s and s' at the samples, (2, 0) not."""
+"""Runs a scene. An array of shape (2, n) is filled with s and s' at the samples; (2, 0) is not."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Method:
-    """One way to follow the block.
+    """One method to compute the motion of the block.
 
     Attributes
     ----------
-    name, title : str
+    name, title, label : str
+        Key, title, and label in a legend.
+    ceiling : float
+        Largest relative error allowed for a ramped pulse on a flat roof, with fine settings.
     parameters : mapping
-        Every parameter that it takes, with its default.
+        Its parameters with their defaults.
     knob : str
-        The parameter that sets its accuracy; empty for none.
+        The parameter that controls its accuracy; empty if there is none.
     sweep : tuple of float
-        Values of the knob from coarse to fine.
+        Values of that parameter from coarse to fine.
     order : float
-        Formal order of the error in the sub-step where the motion is smooth, NaN for none. Stick
-        and slip brings each down to first order.
+        Formal order of the error in the sub-step for smooth motion; NaN if there is none. With
+        stick-slip events every order drops to first.
     takes_vertical : bool
     invalid_when : str
-        When not to trust it, in a sentence.
+        Conditions in which it should not be used, as a sentence.
     source : str
     link_steps_per_radian : float
-        Sub-steps for each radian omega h of its link in a sweep (`settings`); 0 without a link.
+        In a sweep (`settings`), sub-steps for each radian omega dt of the link; 0 without a link.
     follow : callable
     """
 
     name: str
     title: str
+    label: str
+    ceiling: float
     parameters: Parameters
     knob: str
     sweep: tuple[float, ...]
@@ -98,18 +103,18 @@ class Method:
     follow: Follow
 
     def settings(self, value: float, dt_s: float, g_mps2: float) -> dict[str, float]:
-        """Return all parameters for one value of the knob; a link gets the sub-steps it needs."""
-        found = dict(self.parameters) | {self.knob: value}
+        """Return all parameters for one value of the knob, with the sub-steps that a link needs."""
+        parameters = dict(self.parameters) | {self.knob: value}
         if self.link_steps_per_radian:
-            radians = link_frequency(found["stiffness_per_m"], g_mps2) * dt_s
-            found["substeps"] = max(1, math.ceil(radians * self.link_steps_per_radian))
-        return found
+            radians = link_frequency(parameters["stiffness_per_m"], g_mps2) * dt_s
+            parameters["substeps"] = max(1, math.ceil(radians * self.link_steps_per_radian))
+        return parameters
 
 
 def link_frequency(stiffness_per_m: float, g_mps2: float) -> float:
-    """Return omega = sqrt(g k) [rad/s] of a block on a link of k times its weight for each metre.
+    """Return omega = sqrt(g k) [rad/s] of a block on a link of stiffness k times its weight [1/m].
 
-    The explicit link is unstable for sub-steps above 2 / omega.
+    The explicit method is unstable for sub-steps above 2 / omega.
     """
     return math.sqrt(g_mps2 * stiffness_per_m)
 
@@ -117,14 +122,17 @@ def link_frequency(stiffness_per_m: float, g_mps2: float) -> float:
 def least_normal(scene: AxisScene) -> tuple[float, float]:
     """Return the least N / (m g), and when N first falls below zero [s]; NaN if it never does."""
     c, (az, z) = scene, _vertical(scene)
-    found: tuple[float, float] = one_axis.least_normal(
+    n_min_and_time: tuple[float, float] = one_axis.least_normal(
         c.ax, az, c.x, z, c.dt, c.sn, c.cs, c.g, c.scale
     )
-    return found
+    return n_min_and_time
 
 
 def exact_events(scene: AxisScene, n_stops: int) -> Floats:
-    """Return the events of a run with so many stops: time, kind (`kernels`) and s of each."""
+    """Return time, kind (see `kernels.one_axis`) and s of each event of a run with n_stops stops.
+
+    Shape (m, 3).
+    """
     rows = np.empty((2 * n_stops + 1, 3))
     n_events = _run_exact(scene, rows)[-1]
     return rows[: int(n_events)]
@@ -139,28 +147,28 @@ def _run_exact(
     scene: AxisScene, events: Floats | None
 ) -> tuple[float, float, float, float, float, int, int]:
     c, (az, z) = scene, _vertical(scene)
-    found: tuple[float, float, float, float, float, int, int] = one_axis.slide_exact(
+    result: tuple[float, float, float, float, float, int, int] = one_axis.slide_exact(
         c.ax, az, c.x, z, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events
     )
-    return found
+    return result
 
 
 def _exact(scene: AxisScene, _: Parameters, samples: Floats) -> Outcome:
-    c, found = scene, Outcome(True, *_run_exact(scene, None)[:-1])
+    c, outcome = scene, Outcome(True, *_run_exact(scene, None)[:-1])
     if samples.size:
-        events = exact_events(scene, found.n_stops)
+        events = exact_events(scene, outcome.n_stops)
         one_axis.fill_history(
             c.ax, _vertical(c)[0], c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events, samples
         )
-        samples[:, -1] = found.s_end, found.w_end
-    return found
+        samples[:, -1] = outcome.s_end, outcome.w_end
+    return outcome
 
 
 def _frozen(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
-    """Follow the scene on a flat roof that drives the block alike: the exact kernel serves.
+    """Run an equivalent flat roof with constant normal force by the exact kernel.
 
-    There N = g' for good and G = -a', so g' = g cos(theta) freezes the normal force and a' = -G
-    keeps the drive, vertical shaking included.
+    On a flat roof without vertical shaking N = g' and G = -a'. So g' = g cos(theta) makes the
+    normal force constant, and a' = -G preserves the drive, vertical shaking included.
     """
     drive, _ = drive_and_cap(scene)
     a = -drive
@@ -202,7 +210,7 @@ def _implicit(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outc
     return _link(scene, parameters, samples, True)
 
 
-def _regularised(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
+def _regularized(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
     drive, cap = drive_and_cap(scene)
     velocity, tolerance = parameters["velocity_mps"], parameters["tolerance"]
     return Outcome(*regularized.slide(drive, cap, scene.dt, velocity, tolerance, samples))
@@ -230,30 +238,45 @@ _LINK: Parameters = MappingProxyType({"stiffness_per_m": 1e5, "substeps": 20})
 _POWERS_OF_TWO = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 _STIFFNESSES = (1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8)
 
+_WHOLE = "a whole number of 1 or more"
+_POSITIVE = "a finite number above 0"
+_TOLERANCE = "a number from 1e-13 to 0.1"
+WANTED: Mapping[str, tuple[str, Callable[[float], bool]]] = {
+    "substeps": (_WHOLE, lambda v: v >= 1.0 and v.is_integer()),
+    "stiffness_per_m": (_POSITIVE, lambda v: 0.0 < v < math.inf),
+    "velocity_mps": (_POSITIVE, lambda v: 0.0 < v < math.inf),
+    "tolerance": (_TOLERANCE, lambda v: 1e-13 <= v <= 0.1),
+}
+"""What each parameter accepts, in words and as a test."""
+
 _ALL = (
     Method(
         name="exact",
         title="Exact, event by event",
+        label="exact",
+        ceiling=1e-12,
         parameters=MappingProxyType({}),
         knob="",
         sweep=(),
         order=math.nan,
         takes_vertical=True,
-        invalid_when="Never, where one rigid block with one friction coefficient is the model.",
+        invalid_when="Never, if the model is one rigid block with one friction coefficient.",
         source="solver.kernels.one_axis.slide_exact: roots of the cubic motion between samples",
         follow=_exact,
     ),
     Method(
         name="paper",
         title="The paper's, constant acceleration",
+        label="paper's, constant acceleration",
+        ceiling=0.01,
         parameters=_SUBSTEPS,
         knob="substeps",
         sweep=_POWERS_OF_TWO,
         order=1.0,
         takes_vertical=False,
         invalid_when=(
-            "With vertical shaking; with few sub-steps, its error jumps from one number of them to "
-            "the next, because each event falls differently."
+            "With vertical shaking. With few sub-steps its error varies irregularly with their "
+            "number, because events fall at different points of a sub-step."
         ),
         source=f"{_PAPER}, Eqs. 1-19",
         follow=_paper,
@@ -261,41 +284,51 @@ _ALL = (
     Method(
         name="linear",
         title="Linear acceleration",
+        label="linear acceleration",
+        ceiling=1e-4,
         parameters=_SUBSTEPS,
         knob="substeps",
         sweep=_POWERS_OF_TWO,
         order=2.0,
         takes_vertical=True,
         invalid_when=(
-            "Where the block often reverses without a rest: there it is of first order, because it "
-            "finds a reversal at the end of a sub-step only."
+            "If the block often reverses without coming to rest: the method is then first order, "
+            "because it detects a reversal only at the end of a sub-step."
         ),
         source=f"{_PAPER}, Limitations: a linear acceleration method",
         follow=_linear,
     ),
     Method(
         name="adaptive",
-        title="The paper's, small steps only in slip",
+        title="The paper's, sub-steps during slip only",
+        label="paper's, sub-steps in slip only",
+        ceiling=0.01,
         parameters=_SUBSTEPS,
         knob="substeps",
         sweep=_POWERS_OF_TWO,
         order=1.0,
         takes_vertical=True,
-        invalid_when="As the paper's, whose numbers it gives; it gains nothing in lasting slip.",
+        invalid_when=(
+            "As for the paper's method, whose results it reproduces; it saves no time during "
+            "sustained slip."
+        ),
         source=f"{_PAPER}, Limitations: larger time steps while no slip is detected",
         follow=_adaptive,
     ),
     Method(
         name="penalty-explicit",
         title="Link with a friction cap, explicit",
+        label="link, explicit",
+        ceiling=0.005,
         parameters=_LINK,
         knob="stiffness_per_m",
         sweep=_STIFFNESSES,
         order=2.0,
         takes_vertical=True,
         invalid_when=(
-            "For sub-steps above 2 / sqrt(g k) it is unstable, and above 1.7 / sqrt(g k) it may "
-            "slip in every third; a soft link adds its own stretch, mu / k, and vibrates for ever."
+            "It is unstable for sub-steps above 2 / sqrt(g k), and above 1.7 / sqrt(g k) it may "
+            "slip in every third sub-step. A soft link adds its own stretch, mu / k, and vibrates "
+            "without decay."
         ),
         source=f"{_PAPER}, SAP 2000: Newmark gamma 0.5, beta 0, no damping, 100 N/mm on 1 N",
         link_steps_per_radian=1.0,
@@ -304,44 +337,50 @@ _ALL = (
     Method(
         name="penalty-implicit",
         title="Link with a friction cap, implicit",
+        label="link, implicit",
+        ceiling=0.005,
         parameters=_LINK,
         knob="stiffness_per_m",
         sweep=_STIFFNESSES,
         order=2.0,
         takes_vertical=True,
         invalid_when=(
-            "For sub-steps above 2 / sqrt(g k) Newton's method may go to and fro between stick and "
-            "slip for ever; a soft link adds its own stretch, mu / k."
+            "For sub-steps above 2 / sqrt(g k) Newton's method may alternate between stick and "
+            "slip without converging. A soft link adds its own stretch, mu / k."
         ),
         source="OpenSees flatSliderBearing with Newmark gamma 0.5, beta 0.25 and Newton's method",
         link_steps_per_radian=1.0,
         follow=_implicit,
     ),
     Method(
-        name="regularised",
+        name="regularized",
         title="Friction mu N tanh(v / v0), adaptive Runge-Kutta",
+        label="regularized friction",
+        ceiling=0.01,
         parameters=MappingProxyType({"velocity_mps": 0.01, "tolerance": 1e-3}),
         knob="tolerance",
         sweep=(1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8),
         order=math.nan,
         takes_vertical=True,
         invalid_when=(
-            "On any slope: it creeps where it should stick, by v0 atanh(tan(theta) / mu); no "
-            "tolerance mends that, and a small v0 makes it stiff."
+            "On any slope: the block creeps at v0 atanh(tan(theta) / mu) when it should stick. "
+            "No tolerance corrects that, and a small v0 makes the equation stiff."
         ),
         source="scipy.integrate.solve_ivp, RK45: Dormand and Prince, J. Comp. Appl. Math. 6 (1980)",
-        follow=_regularised,
+        follow=_regularized,
     ),
     Method(
         name="frozen-normal",
-        title="Normal force frozen at m g cos(theta)",
+        title="Constant normal force, m g cos(theta)",
+        label="normal force frozen",
+        ceiling=1e-12,
         parameters=MappingProxyType({}),
         knob="",
         sweep=(),
         order=math.nan,
         takes_vertical=True,
         invalid_when="On any slope and with vertical shaking: both change the normal force.",
-        source="What SLAMMER's dual-slope analysis and an elastic-plastic spring do",
+        source="As in SLAMMER's dual-slope analysis and with an elastic-plastic spring",
         follow=_frozen,
     ),
 )

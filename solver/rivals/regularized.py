@@ -1,7 +1,7 @@
-"""Friction without a kink, mu N tanh(v / v_0), by SciPy's adaptive Runge-Kutta without events.
+"""Regularized friction, mu N tanh(v / v_0), by SciPy's adaptive Runge-Kutta without events.
 
-How a general solver of differential equations is used at first try. SciPy is loaded when it runs,
-and is needed by nothing else. Letters as in `solver.kernels.rivals`.
+A straightforward use of a general-purpose ODE solver. SciPy is imported only when this method runs;
+no other method needs it. Notation as in `solver.kernels.rivals`.
 """
 
 from __future__ import annotations
@@ -13,18 +13,18 @@ import numpy as np
 from solver.model import Floats, InputError
 
 EVALUATIONS = 1_000_000
-"""Evaluations of the right-hand side before a run is given up as stalled."""
+"""Evaluations of the right-hand side before a run is abandoned as stalled."""
 
 ABSOLUTE_PER_RELATIVE = 1e-3
-"""Absolute tolerance [m], [m/s] by the relative one: SciPy's own defaults, 1e-6 and 1e-3."""
+"""Absolute tolerance [m], [m/s] / relative tolerance, as in SciPy's defaults, 1e-6 and 1e-3."""
 
 
 class _StalledError(Exception):
-    """The evaluations are used up."""
+    """The limit on evaluations is reached."""
 
 
 class _Rate:
-    """s' and s'' at any time; counts how often it is asked."""
+    """Computes s' and s'' at any time, and counts its calls."""
 
     def __init__(self, drive: Floats, cap: Floats, dt: float, velocity: float):
         self.drive: list[float] = drive.tolist()
@@ -48,30 +48,30 @@ class _Rate:
 def slide(
     drive: Floats, cap: Floats, dt: float, velocity: float, tolerance: float, history: Floats
 ) -> tuple[bool, float, float, float, float, float, int]:
-    """Return whether it came to the end, and then what `solver.kernels.rivals` return.
+    """Return whether the run reached the end, then the results as from `solver.kernels.rivals`.
 
     Parameters
     ----------
     drive, cap : array, shape (n,)
         G and mu N at the samples [m/s2].
     velocity : float
-        v_0 [m/s]; a block slower than that at the end counts as at rest.
+        v_0 [m/s]; a block slower than v_0 at the end counts as at rest.
     tolerance : float
-        Relative; the absolute one follows it.
+        Relative tolerance; the absolute tolerance is proportional to it.
     history : array, shape (2, n) or (2, 0)
         Filled with s and w at the samples.
 
     Raises
     ------
     InputError
-        SciPy is not installed.
+        If SciPy is not installed.
     """
     try:
         from scipy.integrate import solve_ivp
     except ImportError:
         raise InputError(
-            "method 'regularised' needs SciPy, which is not installed; "
-            "install roofslip[verify] or take another method"
+            "method 'regularized' needs SciPy, which is not installed; "
+            "install roofslip[verify] or choose another method"
         ) from None
     rate = _Rate(drive, cap, dt, velocity)
     try:

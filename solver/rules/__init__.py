@@ -1,1 +1,1 @@
-"""Every number of every code, by edition, and what follows from them. Read `rulesets`."""
+"""Every number of every code, by edition, and the formulas that use them. Read `rulesets`."""

@@ -1,6 +1,6 @@
-"""The code rules: the formulas that read a rule set, in SI.
+"""The formulas of the code rules, in SI, with the numbers of a rule set.
 
-Knows nothing of motions or solvers. The numbers with their clauses are in `solver.rules.rulesets`.
+Independent of motions and solvers. The numbers with their clauses are in `solver.rules.rulesets`.
 """
 
 from __future__ import annotations
@@ -16,18 +16,27 @@ from solver.rules.rulesets import Confidence as Confidence
 from solver.rules.rulesets import Provision as Provision
 from solver.rules.rulesets import RuleSet as RuleSet
 
-# Limits such as "1 in 20" meet typed slopes such as "5 percent": equal up to this ratio is equal.
+# Relative difference up to which values count as equal: a limit such as "1 in 20" is compared with
+# a slope typed as "5 percent".
 _EQUAL = 1e-9
+
+
+class PrescriptiveBasis(StrEnum):
+    """What governs the prescriptive displacement."""
+
+    LOW_CATEGORY = "SDC A, B, C"
+    FORMULA = "formula"
+    MINIMUM = "minimum"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Prescriptive:
-    """The prescriptive displacement: what the formula gives, its minimum, and what governs."""
+    """The prescriptive displacement: value of the formula, minimum, and which governs."""
 
     formula_m: float
     minimum_m: float
     value_m: float
-    governs: str
+    governs: PrescriptiveBasis
 
 
 def prescriptive_displacement(
@@ -35,9 +44,9 @@ def prescriptive_displacement(
 ) -> Prescriptive:
     """Return the prescriptive design seismic displacement.
 
-    PV1-2012: 60 in (S_DS - 0.4)^2 and not below 6 in (SDC D, E, F), 6 in in SDC A, B, C.
-    ASCE 7, 13.6.12: 5 I_e (S_DS - 0.4)^2 ft and not below 24 in. Below S_DS = 0.4 g the bracket
-    is zero.
+    PV1-2012: 60 in. (S_DS - 0.4)^2 >= 6 in. in SDC D, E, F; 6 in. in SDC A, B, C.
+    ASCE 7, 13.6.12: 5 I_e (S_DS - 0.4)^2 ft >= 24 in. The term (S_DS - 0.4) is taken as zero for
+    S_DS below 0.4 g.
     """
     bracket = max(s_ds_g - 0.4, 0.0)
     formula = rules.length_m("prescriptive_factor_in") * bracket**2
@@ -46,29 +55,41 @@ def prescriptive_displacement(
     minimum = rules.length_m("prescriptive_minimum_in")
     if rules.low_sdc_is_flat and sdc in "ABC":
         flat = rules.length_m("prescriptive_low_sdc_in")
-        return Prescriptive(formula_m=formula, minimum_m=flat, value_m=flat, governs="SDC A, B, C")
+        return Prescriptive(
+            formula_m=formula, minimum_m=flat, value_m=flat, governs=PrescriptiveBasis.LOW_CATEGORY
+        )
     return Prescriptive(
         formula_m=formula,
         minimum_m=minimum,
         value_m=max(formula, minimum),
-        governs="formula" if formula >= minimum else "minimum",
+        governs=PrescriptiveBasis.FORMULA if formula >= minimum else PrescriptiveBasis.MINIMUM,
     )
 
 
 class Basis(StrEnum):
-    """Which statistic of the peaks the design value comes from."""
+    """Statistic of the peaks on which the design value is based."""
 
     MEAN_FACTORED = "1.1 x mean"
     LARGEST_FACTORED = "1.1 x largest"
     MEAN = "mean"
     TOO_FEW = "too few motions"
 
+    @property
+    def takes_largest(self) -> bool:
+        """Whether the value is based on the largest peak instead of the mean."""
+        return self is Basis.LARGEST_FACTORED
+
+    @property
+    def has_factor(self) -> bool:
+        """Whether the value includes the analysis factor of the rule set."""
+        return self is not Basis.MEAN
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AnalysisValue:
-    """Displacement by response-history analysis from the peaks of the motions [m].
+    """Displacement by response-history analysis, from the peaks of the motions [m].
 
-    NaN where a peak is NaN or the motions are too few: then there is no value to design with.
+    NaN if a peak is NaN or there are too few motions: then there is no design value.
     """
 
     n_motions: int
@@ -79,16 +100,16 @@ class AnalysisValue:
     value_m: float
 
 
-MEAN_WITHOUT_FACTOR_MOTIONS = 11  # ASCE 7 Chapter 16 practice, offered for ASCE rule sets
+MEAN_WITHOUT_FACTOR_MOTIONS = 11  # ASCE 7 Chapter 16 practice, available with ASCE rule sets
 
 
 def analysis_value(
     rules: RuleSet, peaks_m: Sequence[float], basis: Basis | None = None
 ) -> AnalysisValue:
-    """Return the value from analysis; `basis` None follows the rule set.
+    """Return the value from analysis; with `basis` None the rule set determines the basis.
 
-    PV1-2012 Sec. 9: 7 motions or more, 1.1 x mean of the peaks; 3 to 6, 1.1 x the largest.
-    A chosen basis that the number of motions does not allow gives `Basis.TOO_FEW`.
+    PV1-2012 Sec. 9: 1.1 x mean of the peaks with 7 motions or more, 1.1 x largest with 3 to 6.
+    A basis that needs more motions than there are gives `Basis.TOO_FEW`.
     """
     n = len(peaks_m)
     mean = sum(peaks_m) / n if n else math.nan
@@ -96,18 +117,18 @@ def analysis_value(
     if basis is None:
         enough = n >= rules["analysis_mean_motions"]
         basis = Basis.MEAN_FACTORED if enough else Basis.LARGEST_FACTORED
-    factor = 1.0 if basis is Basis.MEAN else rules["analysis_factor"]
+    factor = rules["analysis_factor"] if basis.has_factor else 1.0
     if n < least_motions(rules, basis):
         basis, value = Basis.TOO_FEW, math.nan
     else:
-        value = factor * (largest if basis is Basis.LARGEST_FACTORED else mean)
+        value = factor * (largest if basis.takes_largest else mean)
     return AnalysisValue(
         n_motions=n, mean_m=mean, largest_m=largest, basis=basis, factor=factor, value_m=value
     )
 
 
 def least_motions(rules: RuleSet, basis: Basis) -> float:
-    """Return how many motions a statistic needs."""
+    """Return the minimum number of motions for a statistic."""
     return {
         Basis.MEAN_FACTORED: rules["analysis_mean_motions"],
         Basis.LARGEST_FACTORED: rules["analysis_min_motions"],
@@ -116,8 +137,8 @@ def least_motions(rules: RuleSet, basis: Basis) -> float:
     }[basis]
 
 
-class Neighbour(StrEnum):
-    """What lies across a clearance."""
+class Neighbor(StrEnum):
+    """Kind of object on the other side of a clearance."""
 
     LIKE = "like array"
     FIXED = "fixed object"
@@ -126,36 +147,36 @@ class Neighbour(StrEnum):
     EDGE = "edge without qualifying parapet"
 
 
-SEPARATION_KEYS: Mapping[Neighbour, str] = {
-    Neighbour.LIKE: "separation_like",
-    Neighbour.FIXED: "separation_fixed",
-    Neighbour.UNLIKE: "separation_fixed",
-    Neighbour.PARAPET: "separation_parapet",
-    Neighbour.EDGE: "separation_edge",
+SEPARATION_KEYS: Mapping[Neighbor, str] = {
+    Neighbor.LIKE: "separation_like",
+    Neighbor.FIXED: "separation_fixed",
+    Neighbor.UNLIKE: "separation_fixed",
+    Neighbor.PARAPET: "separation_parapet",
+    Neighbor.EDGE: "separation_edge",
 }
 
 
 def required_separation(
-    rules: RuleSet, neighbour: Neighbour, *, design_m: float, importance: float
+    rules: RuleSet, neighbor: Neighbor, *, design_m: float, importance: float
 ) -> float:
-    """Return the required separation [m]: factor x I x design displacement, least value applied.
+    """Return the required separation [m]: factor x I x design displacement, or the minimum.
 
-    The importance factor enters here only where it is not inside the displacement.
+    The importance factor applies here only if the displacement does not include it.
     """
-    required = rules[SEPARATION_KEYS[neighbour]] * design_m
+    required = rules[SEPARATION_KEYS[neighbor]] * design_m
     if rules.importance_in_separation:
         required *= importance
-    # A design displacement that is not there must not become the least value.
-    return required if required != required else max(required, least_separation_m(rules, neighbour))
+    # NaN, no design displacement, must not be replaced with the minimum.
+    return required if required != required else max(required, least_separation_m(rules, neighbor))
 
 
-def least_separation_m(rules: RuleSet, neighbour: Neighbour) -> float:
-    """Return the least separation [m] that a rule set sets whatever the displacement; else 0."""
-    return rules.length_m("separation_edge_min_in") if neighbour is Neighbour.EDGE else 0.0
+def least_separation_m(rules: RuleSet, neighbor: Neighbor) -> float:
+    """Return the minimum separation [m] of a rule set for any displacement; 0 if it has none."""
+    return rules.length_m("separation_edge_min_in") if neighbor is Neighbor.EDGE else 0.0
 
 
 def parapet_qualifies(rules: RuleSet, *, parapet_height_m: float, cg_height_m: float) -> bool:
-    """Whether a parapet is high enough above the roof and above the array's c.g.
+    """Whether a parapet is high enough above the roof and above the center of gravity of the array.
 
     Its strength (0.2 S_DS W impact in ASCE 7) is not checked here.
     """
@@ -170,7 +191,7 @@ def interconnection_strength_n(rules: RuleSet, *, s_ds_g: float, w1_n: float) ->
 
 
 class Measure(StrEnum):
-    """How the numbers of a check read."""
+    """Quantity of a check, which determines its units and format."""
 
     ANGLE_DEG = "deg"
     LENGTH_M = "m"
@@ -180,7 +201,7 @@ class Measure(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
-    """A limit of a rule set against what the project has; NaN never passes."""
+    """A value of the project compared with a limit of a rule set; NaN is never satisfied."""
 
     title: str
     found: float
@@ -192,7 +213,7 @@ class Check:
 
     @property
     def ok(self) -> bool:
-        """Whether the limit is kept; equal within rounding is kept."""
+        """Whether the limit is satisfied; a value equal to it within rounding is."""
         return _at_least(*((self.limit, self.found) if self.at_most else (self.found, self.limit)))
 
 
@@ -201,16 +222,16 @@ def _at_least(value: float, limit: float) -> bool:
 
 
 def required_mu(rules: RuleSet, slope_rad: float) -> float:
-    """Return the least friction coefficient of the prescriptive route at a slope.
+    """Return the minimum friction coefficient of the prescriptive route at a slope.
 
-    ASCE 7, 13.6.12: 0.4 to a slope of 1 in 33, then 0.4 + 0.7 (slope - 0.03).
+    ASCE 7, 13.6.12: 0.4 up to a slope of 0.03, then 0.4 + 0.7 (slope - 0.03).
     """
     rise = max(math.tan(abs(slope_rad)) - 0.03, 0.0) if rules.mu_rises_with_slope else 0.0
     return rules["prescriptive_min_mu"] + 0.7 * rise
 
 
 def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tuple[Check, ...]:
-    """Return the limits on the building that both routes keep."""
+    """Return the checks of the limits on the building, which apply to both routes."""
     return (
         _check(rules, "Risk category (I = 1 to IV = 4)", risk_category, "max_risk_category"),
         _check(rules, "Number of stories", stories, "max_stories"),
@@ -220,12 +241,12 @@ def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tupl
 def array_checks(
     rules: RuleSet, *, cg_height_m: float, support_spacing_m: float
 ) -> tuple[Check, ...]:
-    """Return the low-profile limits that both routes keep."""
+    """Return the checks of the low-profile limits, which apply to both routes."""
     spacing = rules["low_profile_ratio"] * support_spacing_m
     return (
         _check(
             rules,
-            "Height of the centre of gravity",
+            "Height of the center of gravity",
             cg_height_m,
             "low_profile_in",
             limit=min(spacing, rules.length_m("low_profile_in")),
@@ -235,7 +256,7 @@ def array_checks(
 
 
 def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple[Check, ...]:
-    """Return the limits of the prescriptive route."""
+    """Return the checks of the limits of the prescriptive route."""
     return (
         _check(
             rules,
@@ -257,7 +278,7 @@ def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple
 
 
 def analysis_checks(rules: RuleSet, *, slope_rad: float, n_motions: int) -> tuple[Check, ...]:
-    """Return the limits of the analysis route."""
+    """Return the checks of the limits of the analysis route."""
     return (
         _check(
             rules,

@@ -1,7 +1,7 @@
 """The rule sets as data: one table for each adopted document, with clause and confidence.
 
-Rule sets are kept apart and never mixed. Lengths are inches because the codes' are. The formulas
-that read these numbers are in `solver.rules.provisions`.
+Rule sets are separate and never mixed. Lengths are in inches, as in the codes. The formulas that
+use these numbers are in `solver.rules.provisions`.
 """
 
 from __future__ import annotations
@@ -11,22 +11,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from solver.model import InputError
-
-INCH_M = 0.0254
+from solver.model import INCH_M, InputError
 
 
 class Confidence(StrEnum):
-    """How sure a number is; everything but CONFIRMED is marked for the reader to verify."""
+    """Confidence in a number; every number not CONFIRMED is marked for the reader to verify."""
 
-    CONFIRMED = "C"  # against a published permit calculation
-    KNOWN = "K"  # commonly known, consistent across sources, text not at hand
+    CONFIRMED = "C"  # agrees with a published permit calculation
+    KNOWN = "K"  # commonly known and consistent across sources; code text not available
     LOW = "L"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Provision:
-    """One number of a rule set, with its clause; `reason` is not empty once overridden."""
+    """One number of a rule set, with its clause; `reason` is not empty if it is overridden."""
 
     value: float
     clause: str
@@ -35,54 +33,68 @@ class Provision:
 
     @property
     def verified(self) -> bool:
-        """Whether it needs no mark: confirmed and not overridden."""
+        """Whether it needs no mark to verify: confirmed and not overridden."""
         return self.confidence is Confidence.CONFIRMED and not self.reason
 
 
-# What a workbook may override, with the meaning and the unit of the value.
+# Provisions that a workbook may override, with the meaning and the unit of the value.
 OVERRIDABLE: Mapping[str, str] = {
-    "prescriptive_factor_in": "factor of (S_DS - 0.4)^2 in the prescriptive displacement [in]",
-    "prescriptive_minimum_in": "least prescriptive displacement [in]",
+    "prescriptive_factor_in": "factor on (S_DS - 0.4)^2 in the prescriptive displacement [in]",
+    "prescriptive_minimum_in": "minimum prescriptive displacement [in]",
     "prescriptive_low_sdc_in": "prescriptive displacement in SDC A, B, C [in]",
-    "prescriptive_max_slope_deg": "steepest slope for the prescriptive route [deg]",
-    "prescriptive_min_mu": "least friction coefficient for the prescriptive route",
-    "analysis_max_slope_deg": "steepest slope for the analysis route [deg]",
-    "max_stories": "most stories of the building",
+    "prescriptive_max_slope_deg": "maximum slope for the prescriptive route [deg]",
+    "prescriptive_min_mu": "minimum friction coefficient for the prescriptive route",
+    "analysis_max_slope_deg": "maximum slope for the analysis route [deg]",
+    "max_stories": "maximum number of stories of the building",
     "max_risk_category": "highest risk category (I = 1 ... IV = 4)",
-    "low_profile_in": "greatest height of the centre of gravity [in]",
-    "low_profile_ratio": "greatest height of the centre of gravity / least support dimension",
-    "analysis_min_motions": "fewest motions for the analysis route",
-    "analysis_mean_motions": "fewest motions for a value from the mean",
-    "analysis_factor": "factor of the mean or of the largest peak",
-    "analysis_floor": "least share of the prescriptive displacement without peer review",
+    "low_profile_in": "maximum height of the center of gravity [in]",
+    "low_profile_ratio": "maximum height of the center of gravity / smallest support spacing",
+    "analysis_min_motions": "minimum number of motions for the analysis route",
+    "analysis_mean_motions": "minimum number of motions for a value from the mean",
+    "analysis_factor": "factor on the mean or on the largest peak",
+    "analysis_floor": "minimum fraction of the prescriptive displacement without peer review",
     "separation_like": "separation between like arrays / design displacement",
     "separation_fixed": "separation to a fixed object or unlike array / design displacement",
     "separation_parapet": "separation to an edge with a qualifying parapet / design displacement",
-    "separation_edge": "separation to an edge without / design displacement",
-    "separation_edge_min_in": "least separation to an edge without a qualifying parapet [in]",
-    "parapet_height_in": "least height of a qualifying parapet above the roof [in]",
-    "parapet_over_cg_in": "least height of a qualifying parapet above the array's c.g. [in]",
+    "separation_edge": "separation to an edge without qualifying parapet / design displacement",
+    "separation_edge_min_in": "minimum separation to an edge without a qualifying parapet [in]",
+    "parapet_height_in": "minimum height of a qualifying parapet above the roof [in]",
+    "parapet_over_cg_in": "minimum height of a qualifying parapet above the array's c.g. [in]",
     "interconnection_sds": "interconnection strength / (S_DS W1)",
-    "interconnection_min": "least interconnection strength / W1",
+    "interconnection_min": "minimum interconnection strength / W1",
 }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RuleSet:
-    """One adopted document: its numbers by key, and where the importance factor enters."""
+class Amplification:
+    """Ratio of floor to ground acceleration at height z: (1 + slope z/h) / reduction."""
 
+    slope: float
+    reduction: float
+
+    def at(self, z_over_h: float) -> float:
+        """Return the ratio at a relative height z/h; there is no reduction at grade."""
+        return (1.0 + self.slope * z_over_h) / (self.reduction if z_over_h > 0.0 else 1.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RuleSet:
+    """One adopted document: its numbers by key, and where the importance factor applies."""
+
+    code: str  # on the command line
     name: str
     title: str
     values: Mapping[str, Provision]
-    importance_in_separation: bool  # else it is inside the displacement: never both
-    low_sdc_is_flat: bool  # SDC A, B, C take a flat displacement instead of the formula
+    importance_in_separation: bool  # otherwise it is included in the displacement; never both
+    low_sdc_is_flat: bool  # SDC A, B, C have a constant displacement instead of the formula
     mu_rises_with_slope: bool
+    amplification: Amplification  # from ground to roof, in AC156
 
     def __getitem__(self, key: str) -> float:
         return self.values[key].value
 
     def length_m(self, key: str) -> float:
-        """Return a number kept in inches as metres."""
+        """Return a length, stored in inches, in meters."""
         return self.values[key].value * INCH_M
 
     def overridden(self, changes: Mapping[str, tuple[float, str]]) -> RuleSet:
@@ -140,7 +152,7 @@ interconnection_sds         0.133  K  Sec. 6
 interconnection_min         0.1    K  Sec. 6
 """
 
-# Slopes of 1 in 20 and 1 in 12; no second parapet height is stated.
+# The maximum slopes are 1 in 20 and 1 in 12. No parapet height above the c.g. is stated.
 _ASCE = f"""
 prescriptive_factor_in      60     C  13.6.12
 prescriptive_minimum_in     24     K  13.6.12
@@ -168,7 +180,7 @@ interconnection_min         0.1    K  13.6.12
 
 
 def _lowered(table: dict[str, Provision]) -> dict[str, Provision]:
-    """Mark what differs in an edition that was not compared as low confidence."""
+    """Return a table for an edition not compared: all that is not confirmed has low confidence."""
     return {
         key: row
         if row.confidence is Confidence.CONFIRMED
@@ -181,6 +193,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
     rules.name: rules
     for rules in (
         RuleSet(
+            code="pv1",
             name="SEAOC PV1-2012",
             title="SEAOC PV1-2012, Structural Seismic Requirements and Commentary for Rooftop "
             "Solar Photovoltaic Arrays",
@@ -188,8 +201,10 @@ RULE_SETS: Mapping[str, RuleSet] = {
             importance_in_separation=True,
             low_sdc_is_flat=True,
             mu_rises_with_slope=False,
+            amplification=Amplification(slope=2.0, reduction=1.0),
         ),
         RuleSet(
+            code="asce7-16",
             name="ASCE 7-16",
             title="ASCE/SEI 7-16, Minimum Design Loads and Associated Criteria for Buildings "
             "and Other Structures, 13.6.12",
@@ -197,8 +212,10 @@ RULE_SETS: Mapping[str, RuleSet] = {
             importance_in_separation=False,
             low_sdc_is_flat=False,
             mu_rises_with_slope=True,
+            amplification=Amplification(slope=2.0, reduction=1.0),
         ),
         RuleSet(
+            code="asce7-22",
             name="ASCE 7-22",
             title="ASCE/SEI 7-22, Minimum Design Loads and Associated Criteria for Buildings "
             "and Other Structures, 13.6.12",
@@ -206,6 +223,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
             importance_in_separation=False,
             low_sdc_is_flat=False,
             mu_rises_with_slope=True,
+            amplification=Amplification(slope=2.5, reduction=1.3),
         ),
     )
 }

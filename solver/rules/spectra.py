@@ -1,6 +1,6 @@
 """The required response spectra of AC156.
 
-Knows no motions. Read `ac156_horizontal`.
+Independent of motions. Read `ac156_horizontal`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from solver.rules.rulesets import RuleSet
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequiredSpectrum:
-    """AC156 required response spectrum: corners to join by straight lines on log-log axes.
+    """AC156 required response spectrum: corner points, joined by straight lines on log-log axes.
 
     Attributes
     ----------
@@ -27,7 +27,7 @@ class RequiredSpectrum:
     sa_g: Floats
 
     def at(self, freq_hz: Floats) -> Floats:
-        """Return ordinates [g] at frequencies [Hz], flat outside the corners."""
+        """Return ordinates [g] at frequencies [Hz], constant outside the corners."""
         return np.asarray(
             np.exp(np.interp(np.log(freq_hz), np.log(self.freq_hz), np.log(self.sa_g))),
             dtype=np.float64,
@@ -35,14 +35,14 @@ class RequiredSpectrum:
 
 
 class Tail(StrEnum):
-    """How an AC156 spectrum falls below 1.3 Hz, which is where long slips come from."""
+    """Shape of an AC156 spectrum below 1.3 Hz, the range that causes long slips."""
 
     AC156 = "AC156"
     RECIPROCAL = "1/T"
 
     @property
     def sentence(self) -> str:
-        """The rule in words."""
+        """The rule for the reader."""
         return _TAIL_SENTENCES[self]
 
 
@@ -50,8 +50,8 @@ _FLEXIBLE_FROM_HZ = 1.3
 
 
 _TAIL_SENTENCES = {
-    Tail.AC156: "below 1.3 Hz (beyond 0.77 s) the line of AC156, down to 0.1 A_FLX at 0.1 Hz",
-    Tail.RECIPROCAL: "beyond 0.77 s (below 1.3 Hz) 1/T, down to 0.077 A_FLX at 10 s",
+    Tail.AC156: "the AC156 line below 1.3 Hz (beyond 0.77 s), to 0.1 A_FLX at 0.1 Hz (10 s)",
+    Tail.RECIPROCAL: "1/T beyond 0.77 s (below 1.3 Hz), to 0.077 A_FLX at 10 s (0.1 Hz)",
 }
 
 
@@ -65,12 +65,10 @@ def ac156_horizontal(
 
     A_FLX = S_DS (1 + 2 z/h) <= 1.6 S_DS, A_RIG = 0.4 S_DS (1 + 2 z/h); with ASCE 7-22
     A_FLX = S_DS H_f/R_mu <= 1.6 S_DS, A_RIG = 0.4 S_DS H_f/R_mu, H_f = 1 + 2.5 z/h, R_mu = 1.3
-    above grade and 1 at it.
-    PV1-2012 Sec. 9 allows the tail 1/T beyond 0.77 s in place of AC156's line.
+    above grade and 1 at grade.
+    PV1-2012 Sec. 9 permits 1/T beyond 0.77 s in place of the AC156 line.
     """
-    ratio = 1.0 + 2.0 * z_over_h
-    if rules.name == "ASCE 7-22":
-        ratio = (1.0 + 2.5 * z_over_h) / (1.3 if z_over_h > 0.0 else 1.0)
+    ratio = rules.amplification.at(z_over_h)
     return _corners(min(ratio, 1.6) * s_ds_g, 0.4 * ratio * s_ds_g, tail)
 
 

@@ -1,1 +1,1 @@
-"""One block under one motion: one axis, two axes, a row, the least model. Read `checked`."""
+"""One block under one motion: one axis, two axes, a row, model selection. Read `checked`."""

@@ -1,4 +1,4 @@
-"""Runs one block under one motion: checks the input once, calls a kernel, packs the result.
+"""Runs one block under one motion: checks the input once, runs a method, returns the result.
 
 Computes no physics itself (see `solver.kernels.one_axis`, and `solver.sliding.two_axes` for two
 axes), knows no code rules (`solver.rules.provisions`) and chooses no model
@@ -24,27 +24,12 @@ from solver.model import (
     SlideResult,
     coulomb,
 )
-from solver.rivals.methods import (
-    METHODS,
-    NO_RECORD,
-    Method,
-    Parameters,
-)
-from solver.sliding import one_axis, two_axes
+from solver.rivals.methods import METHODS, NO_RECORD, WANTED, Method, Parameters
+from solver.sliding import least_model, one_axis, two_axes
+from solver.sliding.least_model import DEFAULT, Settings, Solution
 
 _LARGEST = 1e120
-"""Of accelerations [m/s2] and of distances [m]: their squares are finite."""
-
-# What a value of each parameter of a method has to be.
-_WHOLE = "a whole number of 1 or more"
-_POSITIVE = "a finite number above 0"
-_TOLERANCE = "a number from 1e-13 to 0.1"
-_WANTED: dict[str, tuple[str, Callable[[float], bool]]] = {
-    "substeps": (_WHOLE, lambda v: v >= 1.0 and v.is_integer()),
-    "stiffness_per_m": (_POSITIVE, lambda v: 0.0 < v < math.inf),
-    "velocity_mps": (_POSITIVE, lambda v: 0.0 < v < math.inf),
-    "tolerance": (_TOLERANCE, lambda v: 1e-13 <= v <= 0.1),
-}
+"""Largest accelerations [m/s2] and distances [m] accepted: their squares are finite."""
 
 
 def slide(
@@ -60,49 +45,49 @@ def slide(
     method: str = "exact",
     **parameters: float,
 ) -> SlideResult:
-    """Slide a block on a sloped, shaken roof, held by friction alone.
+    """Slide a block on a sloped, shaken roof, resisted by friction alone.
 
     Parameters
     ----------
     ax_mps2 : array_like, shape (n,)
-        Horizontal roof acceleration at even intervals [m/s2], straight lines between samples.
+        Horizontal roof acceleration at even intervals [m/s2], linear between samples.
     dt_s : float
         Sampling interval [s], > 0.
     slope_rad : float
-        Roof slope [rad], positive down in the direction of positive ax; |slope| < pi/2.
+        Roof slope [rad], positive if positive ax points downslope; |slope| < pi/2.
     mu : float or Friction
-        Friction coefficient, static and kinetic, >= 0; or a law by speed (`solver.Friction`), which
-        the method `exact` alone takes and follows to a `tolerance`.
+        Friction coefficient, static and kinetic, >= 0; or a velocity-dependent friction law
+        (`solver.Friction`), which only the method `exact` accepts and solves to a `tolerance`.
     ay_mps2 : array_like, shape (n,), optional
-        Horizontal roof acceleration across the slope, positive to the left of down the slope
-        [m/s2]. With it the block slides in two axes, followed to a `tolerance`.
+        Cross-slope horizontal roof acceleration, positive to the left when facing downslope [m/s2].
+        If given, the block slides in two axes and the motion is solved to a `tolerance`.
     az_mps2 : array_like, shape (n,), optional
         Vertical roof acceleration, positive up [m/s2].
     scale : float
-        Factor for all components.
+        Factor on all components.
     g_mps2 : float
         Acceleration of gravity [m/s2], > 0.
     method : str
-        A key of `solver.METHODS`, which says what each one is. `exact` follows the interpolated
-        record event by event, to rounding. `paper` is the explicit algorithm of Eqs. 1-19 of
+        A key of `solver.METHODS`, which describes each one. `exact` solves the interpolated record
+        event by event, within rounding error. `paper` is the explicit algorithm of Eqs. 1-19 of
         "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to Seismic Motion",
         horizontal shaking only.
     **parameters : float
-        Those of the method: `substeps` in each sampling interval, `stiffness_per_m` of a link for
-        each unit of the block's weight [1/m], `velocity_mps` and relative `tolerance` of the
-        regularised friction; in two axes and with a law `tolerance`, of the PRD.
+        Parameters of the method: `substeps` per sampling interval; `stiffness_per_m` of a link per
+        unit weight of the block [1/m]; `velocity_mps` and relative `tolerance` of the regularized
+        friction; in two axes or with a friction law, `tolerance` relative to the PRD.
 
     Returns
     -------
     SlideResult
-        Horizontal displacement relative to the roof with its error; NaN, with the status and the
-        time, where the normal force falls below zero; NaN, with the status, where the method
-        diverged or took too many steps.
+        Horizontal displacement relative to the roof with its error. NaN with the status and the
+        time if the normal force falls below zero; NaN with the status if the method diverged or
+        exceeded the limit on steps.
 
     Raises
     ------
     InputError
-        Every argument that is not as above.
+        With every argument that is not as above.
 
     Examples
     --------
@@ -132,8 +117,8 @@ def slide_history(
 ) -> SlideHistory:
     """Return the motion at the samples, with its events; arguments and errors as in `slide`.
 
-    The method `exact` alone gives events: the slips of the others begin and end somewhere inside
-    a step.
+    Only the method `exact` gives events: with the other methods slip begins and ends at unknown
+    times within a step.
     """
     records = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
     run = _checked(records, dt_s, slope_rad, mu, scale, g_mps2, method, parameters)
@@ -158,8 +143,49 @@ def scene(
     return _checked(records, dt_s, slope_rad, mu, scale, g_mps2, "exact", {})
 
 
+def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
+    """Solve a scene with the simplest adequate model; see `solver.sliding.least_model.solve`.
+
+    Raises
+    ------
+    InputError
+        For a scene made by hand with values that `solver.scene` does not take, or a model that the
+        scene does not allow.
+    """
+    return least_model.solve(_rechecked(scene), settings)
+
+
+def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> SlideHistory:
+    """Return the motion at the samples of a scene solved by `solve`, by the same model.
+
+    Raises
+    ------
+    InputError
+        As `solve`; for a row of blocks, whose blocks have a history each.
+    """
+    return least_model.history(_rechecked(scene), solution, settings)
+
+
+def _rechecked(scene: Scene) -> Scene:
+    records = {
+        "ax_mps2": scene.ax_mps2,
+        "ay_mps2": scene.ay_mps2 if np.size(scene.ay_mps2) else None,
+        "az_mps2": scene.az_mps2 if np.size(scene.az_mps2) else None,
+    }
+    return _checked(
+        records,
+        scene.dt_s,
+        scene.slope_rad,
+        scene.friction,
+        scene.scale,
+        scene.g_mps2,
+        "exact",
+        {},
+    )
+
+
 def _is_followed_in_plane(scene: Scene) -> bool:
-    """Whether two axes' method runs a scene: it alone knows friction by speed."""
+    """Whether the two-axes solver runs a scene: only it models velocity-dependent friction."""
     return bool(scene.ay_mps2.size) or not scene.friction.is_constant
 
 
@@ -173,7 +199,7 @@ def _checked(
     method: str,
     parameters: Parameters,
 ) -> Scene:
-    """Return the scene with read-only contiguous records, or raise with every fault."""
+    """Return the scene with read-only contiguous records, or raise with every error found."""
     problems: list[str] = []
     ax, ay, az = _checked_records(records, problems)
     friction = checked_friction("mu", mu, problems)
@@ -194,14 +220,14 @@ def _checked(
         problems += _faults(METHODS[method], parameters, records["az_mps2"] is not None)
     if problems:
         raise InputError(problems)
-    found = Scene(ax_mps2=ax, ay_mps2=ay, az_mps2=az, friction=friction, **numbers)
-    if overflow := _overflow(found):
+    run = Scene(ax_mps2=ax, ay_mps2=ay, az_mps2=az, friction=friction, **numbers)
+    if overflow := _overflow(run):
         raise InputError(overflow)
-    return found
+    return run
 
 
 def _overflow(scene: Scene) -> list[str]:
-    """Return what is beyond floating point: squares of accelerations, their rates, and ways."""
+    """Return an error if squared accelerations, their rates or the distances would overflow."""
     records = (scene.ax_mps2, scene.ay_mps2, scene.az_mps2)
     peak = scene.scale * max(float(np.abs(record).max()) for record in records if record.size)
     lasts = scene.dt_s * (scene.ax_mps2.size - 1)
@@ -212,20 +238,20 @@ def _overflow(scene: Scene) -> list[str]:
         return []
     return [
         f"accelerations of {push:.2g} m/s2, scaled and with gravity and friction, over {lasts:.2g} "
-        f"s in steps of {scene.dt_s:.2g} s are beyond floating point; give another scale, dt_s, mu "
+        f"s in steps of {scene.dt_s:.2g} s exceed the floating-point range; change scale, dt_s, mu "
         "or g_mps2"
     ]
 
 
 def is_slope(value: float) -> bool:
-    """Whether it is an angle of a roof [rad]."""
+    """Whether the value is a possible roof slope [rad]."""
     return abs(value) < math.pi / 2
 
 
 def checked_number(
     name: str, value: object, wanted: str, fits: Callable[[float], bool], problems: list[str]
 ) -> float:
-    """Return a real number that fits, else NaN with a problem more; no text, no truth value."""
+    """Return the value as a float, or NaN with a problem added; text and booleans are refused."""
     if isinstance(value, Real | np.number) and not isinstance(value, bool | np.bool_):
         try:
             number = float(value)
@@ -238,7 +264,7 @@ def checked_number(
 
 
 def checked_friction(name: str, mu: float | Friction, problems: list[str]) -> Friction:
-    """Return the friction of a coefficient or a law, with a problem for every fault."""
+    """Return the friction law for a coefficient or a law, adding a problem for every error."""
     wanted = "a friction coefficient of 0 or more"
     if not isinstance(mu, Friction):
         return coulomb(checked_number(name, mu, wanted, _is_coefficient, problems))
@@ -262,7 +288,7 @@ def _is_coefficient(value: float) -> bool:
 
 
 def _shown(value: object) -> str:
-    """Return what was given, in a line."""
+    """Return the value given, shortened to one line."""
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
 
@@ -282,39 +308,39 @@ def _checked_records(records: Mapping[str, ArrayLike | None], problems: list[str
 
 
 def _plane_faults(method: str, parameters: Parameters) -> list[str]:
-    """Return what two axes, and friction by speed, do not take."""
-    found: list[str] = []
+    """Return the arguments that the two-axes solver does not accept."""
+    problems: list[str] = []
     if method != "exact":
-        found.append(
-            f"method is {method!r}; two axes and friction by speed take 'exact' alone: leave "
-            "ay_mps2 out and give one coefficient, or leave the method out"
+        problems.append(
+            f"method is {method!r}; two axes and velocity-dependent friction need 'exact': omit "
+            "ay_mps2 and give one coefficient, or omit the method"
         )
     low, high = two_axes.TOLERANCES
     wanted = f"a number from {low:g} to {high:g}"
     for name, value in parameters.items():
         if name != "tolerance":
-            found.append(f"two axes have no parameter {name!r}; they have tolerance")
+            problems.append(f"two axes have no parameter {name!r}; the only one is tolerance")
         else:
-            checked_number(name, value, wanted, lambda v: low <= v <= high, found)
-    return found
+            checked_number(name, value, wanted, lambda v: low <= v <= high, problems)
+    return problems
 
 
 def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list[str]:
-    """Return what a method does not take, and values that its parameters cannot have."""
-    found: list[str] = []
+    """Return the arguments that a method does not accept, and parameter values out of range."""
+    problems: list[str] = []
     if with_vertical and not method.takes_vertical:
-        found.append(f"method {method.name!r} takes horizontal shaking only; leave az_mps2 out")
+        problems.append(f"method {method.name!r} takes horizontal shaking only; omit az_mps2")
     for name, value in parameters.items():
         if name not in method.parameters:
             known = ", ".join(method.parameters) or "none"
-            found.append(f"method {method.name!r} has no parameter {name!r}; it has {known}")
+            problems.append(f"method {method.name!r} has no parameter {name!r}; it has {known}")
         else:
-            checked_number(name, value, *_WANTED[name], found)
-    return found
+            checked_number(name, value, *WANTED[name], problems)
+    return problems
 
 
 def checked_record(name: str, values: ArrayLike, problems: list[str]) -> Floats:
-    """Return a read-only float64 view: read-only arrays alone keep one compiled version."""
+    """Return a read-only float64 view: numba would compile a second version for writable arrays."""
     wanted = f"{name} is not a row of real numbers; give a sequence of accelerations"
     try:
         given = np.asanyarray(values)
@@ -323,7 +349,7 @@ def checked_record(name: str, values: ArrayLike, problems: list[str]) -> Floats:
         return NO_RECORD
     if given.dtype.kind not in "fiu" or (np.ma.isMaskedArray(given) and np.ma.is_masked(given)):
         what = "has masked samples" if given.dtype.kind in "fiu" else f"is of type {given.dtype}"
-        problems.append(f"{name} {what}; give a sequence of accelerations, real numbers all")
+        problems.append(f"{name} {what}; give a sequence of accelerations, all real numbers")
         return NO_RECORD
     record = np.ascontiguousarray(given, dtype=np.float64)
     if record.ndim != 1 or record.size < 2:

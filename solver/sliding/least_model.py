@@ -1,7 +1,7 @@
-"""Chooses the least model that answers a scene: one array under one motion.
+"""Selects the simplest adequate model of a scene: one array under one motion.
 
-Follows nothing itself (`solver.sliding.checked` and `solver.sliding.two_axes` do) and knows no code
-rules. Read `Rung`, then `solve`.
+Integrates nothing itself (`solver.sliding.one_axis` and `solver.sliding.two_axes` do) and knows no
+code rules. Read `Rung`, then `solve`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from solver.sliding.row import BlockRow, slide_row
 
 
 class Rung(IntEnum):
-    """The models of a scene, from the least to the fullest."""
+    """The models of a scene, from the simplest to the most complete."""
 
     NO_SLIP = 0
     ONE_AXIS = 1
@@ -32,7 +32,7 @@ class Rung(IntEnum):
 
     @property
     def title(self) -> str:
-        """The model in words."""
+        """Name of the model for the reader."""
         return _TITLES[self]
 
 
@@ -41,24 +41,25 @@ _TITLES = {
     Rung.ONE_AXIS: "one axis",
     Rung.ONE_AXIS_VERTICAL: "one axis with vertical",
     Rung.TWO_AXES: "two axes with vertical",
-    Rung.SPEED_FRICTION: "two axes, friction by speed",
+    Rung.SPEED_FRICTION: "two axes, velocity-dependent friction",
     Rung.ROW: "a row of linked blocks, one axis",
 }
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
-    """How to choose.
+    """Criteria for selecting the model.
 
     Attributes
     ----------
     matters_m, matters_share : float
-        A component whose effect on the PRD and on every excursion is below the first [m] or the
-        second, of the PRD, is not modelled.
+        A component is not modeled if its effect on the PRD and on every excursion is at most the
+        larger of the first [m] and the second as a fraction of the PRD.
     tolerance : float
-        Of two axes and of friction by speed, relative to the PRD (`two_axes.TOLERANCES`).
+        Tolerance in two axes and with velocity-dependent friction, relative to the PRD
+        (`two_axes.TOLERANCES`).
     forced : Rung or None
-        This rung and no other. A row is never chosen, only asked for.
+        Use this rung only. A row is never selected; it runs only if requested.
     row : BlockRow or None
         The blocks and links of `Rung.ROW`.
     """
@@ -70,7 +71,7 @@ class Settings:
     row: BlockRow | None = None
 
     def bound_m(self, prd_m: float) -> float:
-        """Return the effect on a PRD below which nothing more is modelled [m]."""
+        """Return the effect on a displacement up to which a component is not modeled [m]."""
         return max(self.matters_m, self.matters_share * prd_m)
 
 
@@ -79,25 +80,25 @@ DEFAULT = Settings()
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solution:
-    """A scene's result, the model that gave it, and what a fuller one would change.
+    """Result of a scene, the model used, and the effect of a more complete model.
 
     Attributes
     ----------
     rung : Rung
     reason : str
-        Why this rung, in a clause.
+        Why this rung was used, as a clause.
     result : SlideResult
     next_rung : Rung
-        The first one above that was left out; the rung itself where there is none.
+        The first more complete model that was not used; the rung itself if there is none.
     next_effect_m : float
-        What it and fuller models would change in the PRD, and in any excursion, at most [m], by
-        runs of them with their errors; inf where such a run gives no displacement, NaN where the
-        motion or the test report has nothing to tell it from.
+        Largest change of the PRD or of any excursion by the more complete models [m], from runs of
+        them and including their errors; inf if such a run gives no displacement, NaN if the input
+        has no data for a more complete model.
     friction_demand : float
-        Largest shear over normal force of a block that is held: it slips where this is above the
-        friction coefficient; inf where the normal force vanishes.
+        Largest ratio of shear to normal force with no slip. The block slips if this exceeds the
+        friction coefficient. inf if the normal force is zero or negative at a sample.
     seconds : float
-        What choosing and running took.
+        Computing time for selection and runs [s].
     """
 
     rung: Rung
@@ -110,19 +111,20 @@ class Solution:
 
 
 def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
-    """Answer a scene with the least model that does.
+    """Solve a scene with the simplest adequate model.
 
-    A block that is never pushed over is not run. Else the least rung answers whose PRD and
-    excursions agree to `Settings.bound_m` with those of all fuller ones, bounds of their errors
-    included: they are run.
-    What pushes across the slope is carried along the whole path, so that no estimate from one axis
-    alone bounds it. Friction by speed is modelled where the scene's friction depends on it. Where
-    the normal force falls below zero no rung gives a displacement, a forced one included.
+    If the friction demand never exceeds the coefficient at rest, the block does not slip and no
+    models are compared. Otherwise the simplest rung is used whose PRD and excursions agree within
+    `Settings.bound_m` with those of all more complete ones, error bounds included. The more
+    complete models are run for this comparison: the effect of cross-slope shaking accumulates along
+    the whole path, so no estimate from one axis alone bounds it. Velocity-dependent friction is
+    modeled whenever the scene has it. If the normal force falls below zero no rung gives a
+    displacement, not even a forced one.
 
     Raises
     ------
     InputError
-        Where a rung is forced that the scene does not allow.
+        If a rung is forced that the scene does not allow.
     """
     started = time.perf_counter()
     demand = forces(scene).friction_demand
@@ -136,7 +138,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
 
 
 def history(scene: Scene, found: Solution, settings: Settings = DEFAULT) -> SlideHistory:
-    """Return the motion at the samples of a scene that was solved, by the same rung.
+    """Return the motion at the samples of a solved scene, by the same rung.
 
     Raises
     ------
@@ -144,7 +146,7 @@ def history(scene: Scene, found: Solution, settings: Settings = DEFAULT) -> Slid
         For a row: `solver.sliding.row.row_history` gives the motion of each of its blocks.
     """
     if found.rung is Rung.ROW:
-        raise InputError("a row has a history for each block; ask solver.sliding.row.row_history")
+        raise InputError("a row has a history for each block; call solver.sliding.row.row_history")
     run = _run_as(scene, found.rung)
     if found.rung >= Rung.TWO_AXES:
         return two_axes.run_history(run, settings.tolerance)
@@ -155,7 +157,7 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
     if demand <= scene.friction.mu_static:
         return _still(scene, demand)
     if not scene.friction.is_constant:
-        why = "the friction coefficient is given by speed"
+        why = "the friction coefficient depends on velocity"
         return _in_plane(scene, settings, Rung.SPEED_FRICTION, why, demand)
     found = one_axis.run(scene)
     bound = settings.bound_m(found.prd_m)
@@ -163,35 +165,41 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
     both = two_axes.run(scene, settings.tolerance) if scene.ay_mps2.any() else found
     less, lesser = _left_out(found, both), _left_out(level, found, both)
     if lesser <= bound:
-        why = f"nothing more changes a displacement by over {_mm(bound)}"
+        why = f"no other component changes a displacement by more than {_mm(bound)}"
         return _along(scene, Rung.ONE_AXIS, level, lesser, why, demand)
     if less <= bound:
-        why = f"without the vertical a displacement changes by {_mm(lesser)}, over {_mm(bound)}"
+        why = (
+            f"neglecting the vertical component changes a displacement by {_mm(lesser)}, more than "
+            f"{_mm(bound)}"
+        )
         return _along(scene, Rung.ONE_AXIS_VERTICAL, found, less, why, demand)
-    why = f"without the second component a displacement changes by {_mm(less)}, over {_mm(bound)}"
+    why = (
+        f"neglecting the second horizontal component changes a displacement by {_mm(less)}, more "
+        f"than {_mm(bound)}"
+    )
     return _followed(scene, Rung.TWO_AXES, both, why, demand)
 
 
 def _left_out(found: SlideResult, *fuller: SlideResult) -> float:
-    """Return what fuller models change in a PRD or an excursion at most [m]; inf for unknown.
+    """Return the largest change of the PRD or an excursion by more complete models [m]; inf: none.
 
-    Excursions as well: two models may come as far from the start by chance, on other ways.
+    Excursions are compared as well: two models may give the same PRD by chance on different paths.
     """
     effects = [
-        abs(getattr(one, name) - getattr(found, name)) + one.error_m
-        for one in fuller
-        if one is not found
+        abs(getattr(result, name) - getattr(found, name)) + result.error_m
+        for result in fuller
+        if result is not found
         for name in ("prd_m", "down_m", "up_m", "across_m")
     ]
     return math.inf if any(map(math.isnan, effects)) else max(effects, default=0.0)
 
 
 def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solution:
-    hold, why = scene.friction.mu_static, "asked for"
+    hold, why = scene.friction.mu_static, "requested"
     if rung is Rung.NO_SLIP and demand > hold:
         raise InputError(
-            f"no slip is asked for, but the friction demand is {demand:.3g} and the coefficient "
-            f"{hold:.3g}; ask for a fuller model"
+            f"the model 'no slip' is requested, but the friction demand, {demand:.3g}, exceeds the "
+            f"friction coefficient, {hold:.3g}; request a more complete model"
         )
     if rung is Rung.NO_SLIP:
         return _still(scene, demand)
@@ -211,7 +219,7 @@ def _lifted(scene: Scene) -> Solution:
     rung = Rung.ONE_AXIS_VERTICAL if scene.az_mps2.size else Rung.ONE_AXIS
     return Solution(
         rung=rung,
-        reason="the normal force falls below zero: no model goes on from there",
+        reason="the normal force falls below zero, which no model covers",
         result=one_axis.run(scene),
         next_rung=rung,
         next_effect_m=math.nan,
@@ -223,7 +231,7 @@ def _still(scene: Scene, demand: float) -> Solution:
     hold = scene.friction.mu_static
     return Solution(
         rung=Rung.NO_SLIP,
-        reason=f"the friction demand, {demand:.2f}, is below the coefficient, {hold:.2f}",
+        reason=f"the friction demand, {demand:.2f}, is below the friction coefficient, {hold:.2f}",
         result=one_axis.run(_run_as(scene, Rung.NO_SLIP)),
         next_rung=Rung.NO_SLIP,
         next_effect_m=0.0,
@@ -234,7 +242,7 @@ def _still(scene: Scene, demand: float) -> Solution:
 def _along(
     scene: Scene, rung: Rung, found: SlideResult, effect: float, why: str, demand: float
 ) -> Solution:
-    """Return what was found in one axis, with the effect of what was left out."""
+    """Return a solution in one axis, with the effect of the components neglected."""
     following = rung
     if rung is Rung.ONE_AXIS and scene.az_mps2.size:
         following = Rung.ONE_AXIS_VERTICAL
@@ -261,7 +269,7 @@ def _in_plane(scene: Scene, settings: Settings, rung: Rung, why: str, demand: fl
 
 
 def _followed(scene: Scene, rung: Rung, found: SlideResult, why: str, demand: float) -> Solution:
-    """Return what was found in two axes, with nothing left out that the scene has."""
+    """Return a solution in two axes that neglects no component of the scene."""
     return Solution(
         rung=rung,
         reason=why,
@@ -273,9 +281,9 @@ def _followed(scene: Scene, rung: Rung, found: SlideResult, why: str, demand: fl
 
 
 def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
-    """Return the farthest of a row's blocks, with the largest excursions of them all."""
+    """Return the block with the largest PRD of a row, with the largest excursions of all blocks."""
     if row is None:
-        raise InputError("a row of blocks is asked for, but not given; give Settings.row")
+        raise InputError("a row of blocks is requested but not given; give Settings.row")
     found = slide_row(scene, row)
     worst = int(np.argmax(found.prd_m))
     result = replace(
@@ -292,7 +300,7 @@ def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
     )
     return Solution(
         rung=Rung.ROW,
-        reason=f"asked for; its links change the PRD by {_mm(found.flexibility_m)}",
+        reason=f"requested; the links change the PRD by {_mm(found.flexibility_m)}",
         result=result,
         next_rung=Rung.ROW,
         next_effect_m=math.nan,
@@ -301,7 +309,7 @@ def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
 
 
 def _run_as(scene: Scene, rung: Rung) -> Scene:
-    """Return of a scene what a rung models."""
+    """Return the scene with only the components that a rung models."""
     if rung is Rung.NO_SLIP:
         return replace(scene, friction=coulomb(scene.friction.mu_static))
     if rung is Rung.ONE_AXIS:

@@ -1,4 +1,4 @@
-"""Rungs 1 and 2: one block along the slope, by the exact method or by a rival of it.
+"""Rungs 1 and 2: one block along the slope, by the exact method or another one.
 
 Checks no input (`solver.sliding.checked`) and computes no physics (`solver.kernels.one_axis`,
 `solver.rivals`). Read `run` first.
@@ -28,21 +28,22 @@ _NO_HISTORY = np.empty((2, 0))
 
 
 def run(scene: Scene) -> SlideResult:
-    """Slide a checked scene along the slope, exactly: what shakes it across is left out."""
+    """Slide a checked scene along the slope, exactly; cross-slope shaking is neglected."""
     return run_method(METHODS["exact"], {}, scene)
 
 
 def run_history(scene: Scene) -> SlideHistory:
-    """Return the history of what `run` follows."""
+    """Return the displacement history of `run`."""
     return method_history(METHODS["exact"], {}, scene)
 
 
 def rounding(scene: Scene) -> float:
-    """Return what rounding may change in a displacement by the method `exact` [m], at most.
+    """Return the allowance for rounding error in a displacement by the method `exact` [m].
 
-    Drive and friction are rounded by 4 units in the last place of the terms they are made of.
-    Friction is monotone, so a push that is off by d makes the speed off by d t after a time t, and
-    the place by d t^2 / 2: over the whole record, here with twice that for the sums.
+    The drive and friction are computed to 4 units in the last place of their terms. Friction is
+    monotone, so an error d in the acceleration makes an error of at most d t in velocity after a
+    time t, and d t^2 / 2 in displacement. Here t is the whole record, and the result is doubled to
+    cover rounding of the sums.
     """
     return _rounding(prepared(scene))
 
@@ -61,7 +62,7 @@ def run_method(method: Method, parameters: Parameters, scene: Scene) -> SlideRes
 
 
 def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floats) -> SlideResult:
-    """Run a scene; `samples` of shape (2, n) is filled with u and its rate, (2, 0) with nothing."""
+    """Run a scene; `samples` of shape (2, n) is filled with u and u'; of shape (2, 0) it is not."""
     n_min_g, t_uplift = least_normal(scene)
     if n_min_g < 0.0:
         return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
@@ -75,7 +76,7 @@ def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floa
 
 
 def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
-    """Return the events of the exact method: at most a slip before each stop, and one more."""
+    """Return the events of the exact method: one slip before each stop, and at most one more."""
     if math.isnan(result.prd_m):
         return ()
     return tuple(
@@ -107,7 +108,7 @@ def _result(found: Outcome, cs: float, n_min_g: float, error_m: float) -> SlideR
 
 
 def without_displacement(status: Status, n_min_g: float, t_uplift: float) -> SlideResult:
-    """Return the result of a run without an answer."""
+    """Return the result of a run that gives no displacement."""
     return SlideResult(
         status=status,
         prd_m=math.nan,
@@ -126,7 +127,7 @@ def without_displacement(status: Status, n_min_g: float, t_uplift: float) -> Sli
 
 
 def method_history(method: Method, parameters: Parameters, scene: Scene) -> SlideHistory:
-    """Return the motion by a method at the samples; the exact one alone has events."""
+    """Return the motion by a method at the samples; only the exact method gives events."""
     samples = np.full((2, scene.ax_mps2.size), np.nan)
     made = prepared(scene)
     result = _run(method, parameters, made, samples)
@@ -147,7 +148,7 @@ def sample_times(scene: Scene) -> Floats:
 
 
 def prepared(scene: Scene) -> AxisScene:
-    """Return a scene in the letters of the kernels of one axis."""
+    """Return a scene in the notation of the one-axis kernels."""
     return AxisScene(
         ax=scene.ax_mps2,
         x=kernel.bounds(scene.ax_mps2),

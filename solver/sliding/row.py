@@ -1,7 +1,7 @@
-"""Rung 5: blocks in a row along the slope, joined by springs and dashpots, each with its friction.
+"""Rung 5: blocks in a row along the slope, linked by springs and dashpots, each with its friction.
 
-Shows whether one rigid block is enough for an array; not for default use. Integrates nothing itself
-(see `solver.kernels.row`). Read `BlockRow`, then `slide_row`.
+Shows whether one rigid block is adequate for an array; not used by default. Integrates nothing
+itself (see `solver.kernels.row`). Read `BlockRow`, then `slide_row`.
 """
 
 from __future__ import annotations
@@ -18,26 +18,26 @@ from solver.model import Floats, InputError, Scene, SlideResult, Status, coulomb
 from solver.sliding import one_axis
 
 MOST_STEPS = 10_000_000
-"""Steps above which links are too stiff to follow: about a minute for a row of five."""
+"""Limit on time steps, above which links are too stiff: about one minute for a row of five."""
 
 _MOST_EVENTS = 20_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BlockRow:
-    """Blocks in a row down the slope, the first the highest, with a link between neighbours.
+    """Blocks in a row, numbered from the upslope end, with a link between neighbors.
 
     Attributes
     ----------
     mus : tuple of float
         Friction coefficient of each block, static and kinetic, >= 0.
     stiffness_per_s2 : float
-        Stiffness of each link / mean mass of a block, k / m [1/s2], >= 0. A link that stretches by
-        d under the weight of a block has g / d.
+        Stiffness of each link / mean mass of a block, k / m [1/s2], >= 0. It is g / d for a link
+        that stretches by d under the weight of one mean block.
     damping_per_s : float
         Damping of each link / mean mass of a block, c / m [1/s], >= 0.
     shares : tuple of float
-        Weight of each block / weight of the row; they add up to 1. Empty for equal blocks.
+        Weight of each block / weight of the row, with a sum of 1. Empty for equal blocks.
     """
 
     mus: tuple[float, ...]
@@ -47,12 +47,12 @@ class BlockRow:
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Share of each block in the weight of the row."""
+        """Weight of each block / weight of the row."""
         return self.shares or (1.0 / len(self.mus),) * len(self.mus)
 
     @property
     def mean_mu(self) -> float:
-        """Friction coefficient of the row as one rigid array: the mean of the blocks by weight."""
+        """Friction coefficient of the row as one rigid array: the weighted mean of the blocks."""
         if len(set(self.mus)) == 1:
             return self.mus[0]
         return math.fsum(mu * share for mu, share in zip(self.mus, self.weights, strict=True))
@@ -60,16 +60,16 @@ class BlockRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Energy:
-    """Where the energy of a row went, by its mass, relative to the roof [J/kg].
+    """Energy balance of a row relative to the roof, per unit mass of the row [J/kg].
 
     Attributes
     ----------
     work : float
-        Of gravity and of the shaking along the slope.
+        Work done by gravity and by the shaking along the slope.
     friction, dampers : float
-        What they took.
+        Energy dissipated by friction and by the dashpots.
     kinetic, springs : float
-        What is there at the end.
+        Kinetic energy and energy stored in the springs at the end.
     """
 
     work: float
@@ -80,7 +80,7 @@ class Energy:
 
     @property
     def defect(self) -> float:
-        """What does not add up: 0 but for rounding."""
+        """Error of the balance: zero except for rounding error."""
         return self.work - self.friction - self.dampers - self.kinetic - self.springs
 
 
@@ -88,25 +88,25 @@ class Energy:
 class RowResult:
     """A row under one motion. Displacements are horizontal, relative to the roof.
 
-    With `Status.UPLIFT` and `Status.DIVERGED` every number but `n_stops` and `rigid` is NaN.
+    With `Status.UPLIFT` or `Status.DIVERGED` every float is NaN.
 
     Attributes
     ----------
     status : Status
     prd_m, residual_m, down_m, up_m : tuple of float
-        Of each block, as in `SlideResult` [m].
+        Values for each block, as in `SlideResult` [m].
     stretch_m : float
-        Largest lengthening or shortening of a link, along the slope [m]. Of two turns within a
-        step, a sixth of the shortest period of the links at most, one is looked for.
+        Largest lengthening or shortening of a link, along the slope [m]. At most one extreme per
+        step is located; a step is at most one sixth of the shortest period of the links.
     link_force : float
         Largest force in a link / mean weight of a block.
     energy : Energy
     error_m : float
-        No place of a block is more than this from the exact motion of the interpolated record
-        [m]: a bound, from energy (`solver.kernels.row`), rounding counted.
+        Bound of the difference of any block's position from the exact motion under the
+        interpolated record [m], from energy (`solver.kernels.row`), rounding error included.
     n_stops, n_steps : int
     rigid : SlideResult
-        The row as one rigid array with `BlockRow.mean_mu`.
+        Result for the row as one rigid array with `BlockRow.mean_mu`.
     """
 
     status: Status
@@ -124,22 +124,22 @@ class RowResult:
 
     @property
     def flexibility_m(self) -> float:
-        """What links that give way change: largest PRD of a block less that of the rigid array."""
+        """Effect of flexible links: largest PRD of a block minus the PRD of the rigid array [m]."""
         return max(self.prd_m) - self.rigid.prd_m
 
 
 def slide_row(scene: Scene, row: BlockRow) -> RowResult:
-    """Slide a row of blocks along the slope, exact to rounding between events and at them.
+    """Slide a row of blocks along the slope, exactly except for rounding error.
 
-    The row begins at rest with its links unstretched; all blocks feel the same roof motion. What
-    shakes the scene across the slope is left out, and so is the friction of the scene: the blocks
-    have their own. Links carry no vertical force, so N is that of a block by itself.
+    The row starts at rest with unstretched links, and all blocks are subjected to the same roof
+    motion. Cross-slope shaking and the friction of the scene are ignored: each block has its own
+    coefficient. Links carry no force normal to the roof, so N is that of an unlinked block.
 
     Raises
     ------
     InputError
-        With every fault of the row; and where its links are too stiff to be followed in
-        `MOST_STEPS` steps.
+        With every error in the row, or if its links are so stiff that the run would take more
+        than `MOST_STEPS` steps.
     """
     return _run(scene, row, None)
 
@@ -147,7 +147,7 @@ def slide_row(scene: Scene, row: BlockRow) -> RowResult:
 def row_history(scene: Scene, row: BlockRow) -> Floats:
     """Return the displacement of each block at the samples, shape (blocks, n) [m].
 
-    NaN where `slide_row` gives none; errors as there.
+    NaN if `slide_row` gives no displacement; errors as in `slide_row`.
     """
     samples = np.full((len(row.mus), scene.ax_mps2.size), np.nan)
     found = _run(scene, row, samples)
@@ -157,7 +157,7 @@ def row_history(scene: Scene, row: BlockRow) -> Floats:
 
 
 def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
-    """Run a row; samples are filled with s."""
+    """Run a row; `samples`, if given, is filled with s at the samples."""
     if problems := _faults(row) or _too_stiff(scene, row):
         raise InputError(problems)
     rigid = one_axis.run(replace(scene, friction=coulomb(row.mean_mu)))
@@ -225,16 +225,16 @@ def _tuple(values: Floats) -> tuple[float, ...]:
 
 
 def _faults(row: BlockRow) -> list[str]:
-    """Return every value of a row that cannot be."""
-    found = []
+    """Return an error for every invalid value of a row."""
+    problems = []
     if not row.mus:
-        found.append("mus is empty; give the friction coefficient of 1 block or more")
+        problems.append("mus is empty; give the friction coefficient of 1 block or more")
     if not all(_is_none_or_more(mu) for mu in row.mus):
-        found.append(f"mus is {row.mus!r}; give friction coefficients of 0 or more")
+        problems.append(f"mus is {row.mus!r}; give friction coefficients of 0 or more")
     for name in ("stiffness_per_s2", "damping_per_s"):
         if not _is_none_or_more(getattr(row, name)):
-            found.append(f"{name} is {getattr(row, name)!r}; give a finite number of 0 or more")
-    return found + _share_faults(row.shares, len(row.mus))
+            problems.append(f"{name} is {getattr(row, name)!r}; give a finite number of 0 or more")
+    return problems + _share_faults(row.shares, len(row.mus))
 
 
 def _share_faults(shares: Sequence[float], count: int) -> list[str]:
@@ -243,12 +243,12 @@ def _share_faults(shares: Sequence[float], count: int) -> list[str]:
     if len(shares) != count:
         return [f"shares has {len(shares)} values for {count} blocks; give one for each, or none"]
     if not all(0.0 < share < math.inf for share in shares) or abs(math.fsum(shares) - 1.0) > 1e-9:
-        return [f"shares is {shares!r}; give numbers above 0 that add up to 1"]
+        return [f"shares is {shares!r}; give numbers above 0 with a sum of 1"]
     return []
 
 
 def least_steps(row: BlockRow, seconds: float) -> float:
-    """Return how many steps a row needs at least to follow a motion of some length [s]."""
+    """Return a lower bound of the number of steps that a row needs for a motion this long [s]."""
     if len(row.mus) == 1:
         return 0.0
     least = min(row.weights) * len(row.mus)
@@ -261,7 +261,7 @@ def _too_stiff(scene: Scene, row: BlockRow) -> list[str]:
         return []
     return [
         f"stiffness_per_s2 {row.stiffness_per_s2:g} with damping_per_s {row.damping_per_s:g} takes "
-        f"more than {MOST_STEPS:.0e} steps; give softer links, or take the row as rigid"
+        f"more than {MOST_STEPS:.0e} steps; give softer links, or model the row as one rigid block"
     ]
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numba import get_num_threads
@@ -18,25 +19,52 @@ from solver.kernels import one_axis
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Status
 from solver.sliding.checked import checked_record
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 STATUSES = (Status.OK, Status.SLIDING_AT_END, Status.UPLIFT)
-"""What the numbers in `Sweep.status` stand for."""
+"""Meaning of the numbers in `Sweep.status`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sweep:
-    """Every combination of a sweep. All arrays have the shape (slopes, mus, scales).
+    """Every combination of a sweep. Arrays of results have the shape (slopes, mus, scales).
 
     Attributes
     ----------
+    slopes_rad, mus, scales : array, shape (p,), (q,), (r,)
     prd_m, residual_m : array
-        Peak relative displacement and displacement at the end [m], NaN after uplift.
+        Peak relative displacement and displacement at the end [m]; NaN if N falls below zero.
     status : array of uint8
         Index into `STATUSES`.
     """
 
+    slopes_rad: Floats
+    mus: Floats
+    scales: Floats
     prd_m: Floats
     residual_m: Floats
     status: NDArray[np.uint8]
+
+    def __repr__(self) -> str:
+        p, q, r = self.prd_m.shape
+        return f"Sweep({p} slopes, {q} friction coefficients, {r} scales)"
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the results as a table with one row per combination and the status in words."""
+        import pandas as pd
+
+        axes = (self.slopes_rad, self.mus, self.scales)
+        index = pd.MultiIndex.from_product(axes, names=("slope_rad", "mu", "scale"))
+        words = np.array([status.value for status in STATUSES])
+        return pd.DataFrame(
+            {
+                "prd_m": self.prd_m.ravel(),
+                "residual_m": self.residual_m.ravel(),
+                "status": words[self.status.ravel()],
+            },
+            index=index,
+        )
 
 
 def sweep(
@@ -52,7 +80,7 @@ def sweep(
 ) -> Sweep:
     """Run all combinations of slope, friction coefficient and scale by the exact method.
 
-    The runs go over all cores; the result does not depend on how many there are.
+    The runs are distributed over all cores; the result does not depend on the number of cores.
 
     Parameters
     ----------
@@ -60,12 +88,12 @@ def sweep(
         As in `solver.slide`.
     slopes_rad, mus, scales : array_like, shape (p,), (q,), (r,)
     progress : callable, optional
-        Called with the share that is done, as many times as there are slopes.
+        Called once for each slope, with the fraction of the work that is done.
 
     Raises
     ------
     InputError
-        As `solver.slide`, for every value that is outside its range.
+        As in `solver.slide`, for every value out of range.
     """
     problems: list[str] = []
     ax = checked_record("ax_mps2", ax_mps2, problems)
@@ -91,7 +119,7 @@ def _axis(name: str, values: ArrayLike, above: float, below: float, problems: li
         problems.append(f"{name} has shape {axis.shape}; give one row of values")
     wrong = axis[~((axis > above) & (axis < below))]
     if wrong.size:
-        problems.append(f"{name} has {wrong[0]}; give values as `slide` takes them")
+        problems.append(f"{name} has {wrong[0]}; give values that `slide` accepts")
     return axis
 
 
@@ -115,10 +143,13 @@ def _run(
         found[dealt] = out
         progress((k + 1) / slopes.size)
     s = found.reshape(slopes.size, mus.size, scales.size, 4)
-    # The same product as in a single run, so that both give the same bits.
+    # The same product as in a single run, so that both results agree to the last bit.
     cs = np.array([math.cos(slope) for slope in slopes])[:, None, None]
     status = np.where(np.isnan(s[..., 0]), 2, np.where(s[..., 3] == 0.0, 0, 1))
     return Sweep(
+        slopes_rad=slopes,
+        mus=mus,
+        scales=scales,
         prd_m=cs * np.maximum(s[..., 0], -s[..., 1]),
         residual_m=cs * s[..., 2],
         status=status.astype(np.uint8),
@@ -126,10 +157,11 @@ def _run(
 
 
 def order_alike(scenes: Floats) -> NDArray[np.intp]:
-    """Order in which neighbours yield the same way, at about the same acceleration.
+    """Order in which successive scenes begin to slip in one direction at similar accelerations.
 
-    A processor guesses the branches of a run from those before it, so runs in this order are
-    faster by 10 to 20 %. The block yields first down the slope, at g tan(phi - |theta|).
+    The processor predicts branches from previous runs, so this order is 10 to 20 % faster. With
+    phi = atan(mu), a block slips first downslope, at a horizontal acceleration of
+    g tan(phi - |theta|).
 
     Parameters
     ----------
@@ -142,5 +174,5 @@ def order_alike(scenes: Floats) -> NDArray[np.intp]:
 
 
 def _deal(order: NDArray[np.intp], threads: int) -> NDArray[np.intp]:
-    """Deal scenes out, so that the equal shares that threads take cost the same."""
+    """Deal scenes out so that equal numbers of them per thread take about equal time."""
     return np.concatenate([order[k::threads] for k in range(threads)])

@@ -1,6 +1,7 @@
-"""Tipping: whether a block would begin to turn about an edge of its supports, held or sliding.
+"""Tipping: whether a block would begin to rotate about an edge of its supports.
 
-Beside every model, as a limitation of the sliding block; follows no rocking. Read `tipping`.
+A check independent of the model, of a limitation of the sliding block. Integrates no rocking
+motion. Read `tipping`.
 """
 
 from __future__ import annotations
@@ -14,15 +15,15 @@ from solver.model import Friction, InputError, Scene
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Supports:
-    """Where the weight of a block acts over what it stands on.
+    """Position of the center of gravity of a block relative to its supports.
 
     Attributes
     ----------
     height_m : float
-        Of the centre of gravity over the plane of the supports [m], > 0. It is taken to lie
-        midway between the supports.
+        Height of the center of gravity above the plane of the supports [m], > 0. It is assumed to
+        lie midway between the supports.
     spacing_m : float
-        Of the supports, in the direction in which they are closest [m], > 0.
+        Spacing of the supports in the direction in which it is smallest [m], > 0.
     """
 
     height_m: float
@@ -30,25 +31,25 @@ class Supports:
 
     @property
     def capacity(self) -> float:
-        """Shear over normal force at which the block begins to turn about an edge, b / (2 h)."""
+        """Shear over normal force at which the block begins to tip about an edge, b / (2 h)."""
         return 0.5 * self.spacing_m / self.height_m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tipping:
-    """Shear that the supports hand on against the shear that would begin to turn the block.
+    """Shear transmitted by the supports compared with the shear at which the block begins to tip.
 
     Attributes
     ----------
     demand : float
-        Largest shear over normal force that would hold the block; inf where it lifts off.
+        Largest shear over normal force with no slip; inf if the block lifts off.
     capacity : float
         `Supports.capacity`.
     held_ratio : float
-        Held by friction, up to the moment it slips: the lesser of demand and static friction, by
-        capacity.
+        With the block at rest, up to slip: the lesser of the demand and the static friction
+        coefficient, over the capacity.
     sliding_ratio : float
-        While it slides: kinetic friction by capacity; 0 for a block that does not slip.
+        While the block slides: kinetic friction coefficient over the capacity; 0 with no slip.
     """
 
     demand: float
@@ -63,27 +64,28 @@ class Tipping:
 
     @property
     def governs(self) -> str:
-        """Which ratio is the greater, in words; held where they are equal."""
-        return "held" if self.held_ratio >= self.sliding_ratio else "sliding"
+        """The state with the greater ratio, at rest or sliding; at rest if they are equal."""
+        return "at rest" if self.held_ratio >= self.sliding_ratio else "sliding"
 
     @property
     def is_ok(self) -> bool:
-        """Whether the block never begins to turn."""
+        """Whether the block never begins to tip."""
         return self.ratio <= 1.0
 
 
 def tipping(scene: Scene, supports: Supports) -> Tipping:
-    """Compare the shear that reaches a block with what turns it about an edge of its supports.
+    """Compare the shear on a block with the shear that would tip it about an edge of its supports.
 
-    About the centre of gravity, shear V at the supports turns with V h, and the normal force can
-    balance N b / 2 at most, when all of it is at an edge: the block keeps flat while V / N <= b /
-    (2 h), held or sliding (Housner, Bull. Seism. Soc. Am. 53 (1963) 403-417, for a block that does
-    not slip; Ishiyama, Earthquake Eng. Struct. Dyn. 10 (1982) 635-650, with friction: it slides
-    before it tips where mu < b / (2 h)). Friction hands on V = mu N at most. Gravity's part on a
-    slope is in G and N, which act along the plane and across it.
+    About the center of gravity, the shear V at the supports has the moment V h. The normal force
+    can balance at most N b / 2, when all of it acts at one edge. The block therefore stays flat
+    while V / N <= b / (2 h), at rest or sliding (Housner, Bull. Seism. Soc. Am. 53 (1963) 403-417,
+    for a block that does not slip; Ishiyama, Earthquake Eng. Struct. Dyn. 10 (1982) 635-650, with
+    friction: it slides before it tips if mu < b / (2 h)). Friction transmits at most V = mu N. On a
+    slope the components of gravity are included in G (in the plane of the roof) and N (normal to
+    it).
 
-    A ratio above 1 says that rocking begins, not that the block falls over. With two horizontal
-    components the resultant is held against the closest supports, which is never less.
+    A ratio above 1 means that rocking begins, not that the block overturns. With two horizontal
+    components the resultant is compared with the smallest support spacing, which is conservative.
 
     Raises
     ------
@@ -111,7 +113,7 @@ def _kinetic(friction: Friction) -> float:
 def _check(supports: Supports) -> None:
     lengths = {"height_m": supports.height_m, "spacing_m": supports.spacing_m}
     problems = [
-        f"{name} is {value!r}; give a length in metres above 0"
+        f"{name} is {value!r}; give a length in meters above 0"
         for name, value in lengths.items()
         if not 0.0 < value < math.inf
     ]

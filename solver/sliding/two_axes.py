@@ -1,7 +1,7 @@
-"""Rungs 3 and 4: a block in two axes, with friction that may depend on speed, to a tolerance.
+"""Rungs 3 and 4: a block in two axes, with constant or velocity-dependent friction, to a tolerance.
 
-Computes no physics itself (see `solver.kernels.two_axes`) and checks no input (`solver.solve` does,
-at the border). Read `Scene`, then `follow`.
+Computes no physics itself (see `solver.kernels.two_axes`) and checks no input
+(`solver.sliding.checked` does). Read `solver.model.Scene`, then `follow`.
 """
 
 from __future__ import annotations
@@ -28,15 +28,16 @@ from solver.sliding.one_axis import prepared, sample_times, without_displacement
 
 DEFAULT_TOLERANCE = 1e-6
 TOLERANCES = (1e-10, 1e-2)
-"""Least and largest tolerance that `follow` keeps to."""
+"""Smallest and largest tolerance that `follow` accepts."""
 
-# Tolerance of a step by that of the run: then the bound of the error is below the tolerance of the
-# run in all but long slips.
+# Tolerance of a step / tolerance of the run. With this ratio the error bound is below the tolerance
+# of the run at the first attempt except for long slips.
 _SHARE = 1.5e-3
 _ATTEMPTS = 5
 
-# Steps that a run may take: at most, and more for each sample. 30 s at 0.005 s take 5,000; friction
-# that comes to its value within a micrometer per second takes the most, half a second of time.
+# Limit on the steps of a run: a fixed number and an addition per sample. A record of 30 s at
+# 0.005 s takes about 5,000. The limit corresponds to about half a second of computing time, which
+# only a friction law that reaches its final value within a micrometer per second approaches.
 _MOST_STEPS, _MOST_STEPS_OF_SAMPLE = 200_000, 20
 
 _STATUSES = {
@@ -47,31 +48,32 @@ _STATUSES = {
 
 _NO_EVENTS, _NO_HISTORY = np.empty((0, 4)), np.empty((4, 0))
 
-# What one run more, and how much finer, tells of the error where no bound does.
+# Step tolerance of the finer run / that of the run, where the difference of the two estimates the
+# error because no bound holds.
 _FINER = 0.03
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlaneOutcome:
-    """The motion of a block in plan, relative to the roof: x as the slope falls, y across.
+    """The motion of a block in plan, relative to the roof: x downslope, y cross-slope.
 
     Attributes
     ----------
     status : Status
-        `Status.OK`, or why there is no motion: then every other number means nothing.
+        `Status.OK`, or the reason why there is no result; the other numbers are then meaningless.
     prd_m, t_prd_s : float
-        Largest distance from the start [m], and when [s].
+        Largest distance from the start [m] and its time [s].
     down_m, up_m, left_m, right_m : float
-        Largest excursion towards +x, -x, +y and -y [m], all >= 0.
+        Largest excursion toward +x, -x, +y and -y [m], all >= 0.
     end_m, end_mps : tuple of float
         Displacement and velocity at the end of the record, x and y [m], [m/s].
     error_m : float
-        No place is more than this from the exact motion of the interpolated record [m]: a bound
-        where friction is monotone (`Friction.is_monotone`), else the difference between two
-        tolerances.
+        Largest difference of any position from the exact motion under the interpolated record [m]:
+        a bound if friction is monotone (`Friction.is_monotone`), otherwise twice the difference
+        between runs at two tolerances.
     n_stops, n_events, n_steps : int
     step_tolerance : float
-        What the last attempt ran with.
+        Step tolerance of the last attempt.
     """
 
     status: Status
@@ -129,18 +131,18 @@ def _result(found: PlaneOutcome, n_min_g: float) -> SlideResult:
 
 
 def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHistory:
-    """Return the history of what `run` follows."""
+    """Return the displacement history of `run`."""
     n_min_g, t_uplift = least_normal(prepared(scene))
     samples = np.full((4, scene.ax_mps2.size), np.nan)
     events: tuple[Event, ...] = ()
     if n_min_g < 0.0:
         result = without_displacement(Status.UPLIFT, n_min_g, t_uplift)
     else:
-        found = follow(_with_second_axis(scene), tolerance)
-        result = _result(found, n_min_g)
-        if found.status is Status.OK:
-            samples, seen = follow_history(_with_second_axis(scene), found)
-            events = tuple(Event(t, kind, x, y) for t, kind, x, y in seen)
+        motion = follow(_with_second_axis(scene), tolerance)
+        result = _result(motion, n_min_g)
+        if motion.status is Status.OK:
+            samples, plane_events = follow_history(_with_second_axis(scene), motion)
+            events = tuple(Event(t, kind, x, y) for t, kind, x, y in plane_events)
     return SlideHistory(
         t_s=sample_times(scene),
         u_m=samples[0],
@@ -153,7 +155,7 @@ def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHist
 
 
 def _with_second_axis(scene: Scene) -> Scene:
-    """Return the scene with a second component, zero where it has none."""
+    """Return the scene with a second horizontal component, zero if it has none."""
     if scene.ay_mps2.size:
         return scene
     zero = np.zeros_like(scene.ax_mps2)
@@ -162,21 +164,21 @@ def _with_second_axis(scene: Scene) -> Scene:
 
 
 def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> PlaneOutcome:
-    """Follow a block to a tolerance, relative to its PRD.
+    """Compute the motion of a block to a tolerance relative to its PRD.
 
-    Trusts that the normal force never falls below zero (`solver.kernels.one_axis.least_normal`).
+    Assumes that the normal force never falls below zero (`solver.kernels.one_axis.least_normal`).
 
     Parameters
     ----------
     tolerance : float
-        Within `TOLERANCES`, relative to the PRD or to a micrometer, whichever is more. The run is
-        repeated with finer steps until `error_m` is below it or rounding stands in the way.
+        Within `TOLERANCES`, relative to the PRD or to one micrometer, whichever is larger. The run
+        is repeated with finer steps until `error_m` is below it or rounding error prevents that.
     """
-    found = _bounded(scene, tolerance)
-    if scene.friction.is_monotone or found.status is not Status.OK:
-        return found
-    finer = _run(scene, _FINER * found.step_tolerance, _NO_EVENTS, _NO_HISTORY)
-    changes = np.subtract(_places(finer), _places(found))
+    motion = _bounded(scene, tolerance)
+    if scene.friction.is_monotone or motion.status is not Status.OK:
+        return motion
+    finer = _run(scene, _FINER * motion.step_tolerance, _NO_EVENTS, _NO_HISTORY)
+    changes = np.subtract(_places(finer), _places(motion))
     return replace(finer, error_m=2.0 * float(np.abs(changes).max()))
 
 
@@ -186,7 +188,7 @@ def follow_history(scene: Scene, found: PlaneOutcome) -> tuple[Floats, tuple[Pla
     Parameters
     ----------
     found : PlaneOutcome
-        Of `follow`.
+        Result of `follow` for the same scene.
     """
     events, samples = np.empty((found.n_events, 4)), np.empty((4, len(scene.ax_mps2)))
     _run(scene, found.step_tolerance, events, samples)
@@ -204,7 +206,7 @@ def follow_history(scene: Scene, found: PlaneOutcome) -> tuple[Floats, tuple[Pla
 
 
 def _bounded(scene: Scene, tolerance: float) -> PlaneOutcome:
-    """Return the first of some runs, each finer than the one before, that keeps to a tolerance."""
+    """Return the first of successively finer runs whose error bound is within the tolerance."""
     steps, share = 0, _SHARE * tolerance
     for _ in range(_ATTEMPTS):
         found = _run(scene, share, _NO_EVENTS, _NO_HISTORY)
@@ -273,5 +275,5 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOut
 
 
 def _degree(step: float) -> int:
-    """Largest degree of a series: what is cheapest for a tolerance, measured, near -log / 2."""
+    """Largest degree of a series for a step tolerance: about -ln / 2 was measured as fastest."""
     return min(kernel.ORDER, 4 + math.ceil(-0.5 * math.log(step)))

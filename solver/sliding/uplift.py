@@ -1,6 +1,6 @@
-"""Uplift: when, how long and how deep the normal force of a block falls below zero.
+"""Uplift: when, for how long and how far the normal force of a block falls below zero.
 
-Beside every model: where it happens no displacement is given. Follows no motion.
+A check independent of the model: with uplift no displacement is given. Integrates no motion.
 Read `uplift`.
 """
 
@@ -22,15 +22,15 @@ class Uplift:
     Attributes
     ----------
     n_min_g : float
-        Least N / (m g); below zero this is the depth of the uplift.
+        Minimum of N / (m g); negative with uplift.
     t_min_s : float
-        When that is [s], the first time.
+        Time of the first occurrence of that minimum [s].
     t_first_s : float
-        When N first falls below zero [s]; NaN if it never does.
+        Time when N first falls below zero [s]; NaN if it never does.
     duration_s : float
-        How long N is below zero, all times together [s].
+        Total time with N below zero [s].
     times : int
-        How often N falls below zero, a record that begins there counted.
+        Number of times that N falls below zero, including a record that begins there.
     """
 
     n_min_g: float
@@ -46,7 +46,7 @@ class Uplift:
 
 
 def uplift(scene: Scene) -> Uplift:
-    """Return when and how deep N falls below zero, exactly for straight lines between samples."""
+    """Return when and how far N falls below zero, exactly for N linear between samples."""
     normal, dt = forces(scene).normal_mps2, scene.dt_s
     least = int(np.argmin(normal))
     below, starts = _below(normal), _starts(normal)
@@ -60,7 +60,7 @@ def uplift(scene: Scene) -> Uplift:
 
 
 def _below(normal: Floats) -> Floats:
-    """Return the share of each interval in which a line between samples is below zero."""
+    """Return the fraction of each interval in which N, linear between samples, is below zero."""
     first, last = normal[:-1], normal[1:]
     deep = np.maximum(-first, 0.0) + np.maximum(-last, 0.0)
     whole = np.abs(first) + np.abs(last)
@@ -68,7 +68,7 @@ def _below(normal: Floats) -> Floats:
 
 
 def _starts(normal: Floats) -> Floats:
-    """Return when a line falls below zero, in samples, the beginning of the record included."""
+    """Return when N falls below zero, in samples, including at the beginning of the record."""
     first, last = normal[:-1], normal[1:]
     (at,) = np.nonzero((first >= 0.0) & (last < 0.0))
     begins = [0.0] if normal[0] < 0.0 else []

@@ -1,9 +1,9 @@
-"""Roof motions made to follow a target spectrum.
+"""Synthetic roof motions that match a target spectrum.
 
-Public names are listed here; knows no code rules and no files. Read `suite.make_suite` first.
+The public names are listed here. Knows no code rules and no files. Read `suite.make_suite` first.
 """
 
-from solver.synthesis.suite import CORRELATION, SuiteMotion, make_suite, synthesise
+from solver.synthesis.suite import CORRELATION, SuiteMotion, make_suite, synthesize
 from solver.synthesis.target import (
     BAND_HZ,
     DAMPING,
@@ -22,6 +22,6 @@ __all__ = [
     "Target",
     "make_suite",
     "spectrum_fit",
-    "synthesise",
+    "synthesize",
     "target_sa_g",
 ]

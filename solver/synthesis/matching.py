@@ -1,6 +1,6 @@
-"""Brings a motion's response spectrum to a target: first in frequency, then in time.
+"""Matches a motion's response spectrum to a target: first in frequency, then in the time domain.
 
-Draws nothing at random and decides nothing: `solver.synthesis.suite` does.
+Generates no random numbers and accepts or rejects no motion: `solver.synthesis.suite` does.
 Read `make_frame` first, then `shaped` and `matched`.
 """
 
@@ -17,13 +17,14 @@ from solver.model import Floats
 from solver.records.record import DECIMALS, UNITS
 from solver.synthesis.target import BAND_HZ, DAMPING, Target, target_sa_g
 
-# A little above 1: a reader with another spectrum routine then still finds the mean above 1.
+# Target factor slightly above 1, so that another spectrum routine also finds a mean above 1.
 _AIM = 1.02
 _CLOSE = 0.05
 _SHAPINGS = 6
 _MATCHINGS = 20
 _PER_OCTAVE = 24
-# Part of a correction taken at once, and how far neighbours may contradict one another.
+# Fraction of a correction applied in one iteration, and the regularization of the equations, which
+# handles conflicting corrections at neighboring frequencies.
 _RELAXATION = 0.7
 _RIDGE = 0.03
 
@@ -35,19 +36,19 @@ _QUANTUM_G = 10.0 ** -DECIMALS["g"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Frame:
-    """What all motions of one sampling, duration and band have in common.
+    """Data common to all motions of one target, sampling interval and duration.
 
     Attributes
     ----------
     dt_s : float
     envelope : array, shape (n,)
     quiet : array, shape (q, n)
-        Shapes that a motion may not contain: what would leave a velocity or displacement at the
-        end, and periods far beyond the target's longest.
+        Shapes that a motion must not contain: those that would leave a residual velocity or
+        displacement, and periods much longer than the longest of the target.
     freq_hz : array, shape (m,)
-        Oscillators to match; the last one is rigid and feels the peak acceleration.
+        Frequencies of the oscillators to match; the last one is rigid, for the peak acceleration.
     pulses : array, shape (m, n)
-        Their responses to one sample, the pseudo-accelerations 0, 1, ... samples later.
+        Their pseudo-accelerations 0, 1, ... samples after a unit sample.
     """
 
     dt_s: float
@@ -58,7 +59,10 @@ class Frame:
 
 
 def make_frame(target: Target, dt_s: float, duration_s: float) -> Frame:
-    """Return the frame of a target: its lowest frequency, or three cycles, is the lowest."""
+    """Return the frame of a target.
+
+    The lowest frequency is that of the target or three cycles in the duration, whichever is higher.
+    """
     low_hz = max(min(target[0][0], BAND_HZ[0]), 3.0 / duration_s)
     n = round(duration_s / dt_s) + 1
     from_start = np.linspace(0.0, 1.0, n)
@@ -76,9 +80,9 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> Frame:
 
 
 def _quiet(from_start: Floats, lowest_cycles: float) -> Floats:
-    """Shapes to keep out: a constant, a line, and waves up to 0.7 of the target's lowest.
+    """Shapes to exclude: a constant, a line, and waves up to 0.7 of the lowest target frequency.
 
-    Without them a motion may wander for metres where the target asks for nothing.
+    Otherwise a motion may drift by meters at periods for which there is no target.
     """
     waves = range(1, math.floor(0.7 * lowest_cycles) + 1)
     turns = [2.0 * math.pi * k * from_start for k in waves]
@@ -88,9 +92,9 @@ def _quiet(from_start: Floats, lowest_cycles: float) -> Floats:
 
 
 def _pulses(cycles: Floats, n: int) -> Floats:
-    """Responses to a hat of one sample's height and two samples' width, n samples on.
+    """Responses to a triangular pulse, unit height at one sample, over n samples.
 
-    The hat is the second difference of a ramp, and the ramp's response has a closed form.
+    The triangle is the second difference of a ramp, whose response has a closed form.
     """
     p = 2.0 * math.pi * cycles[:, None]
     kappa = math.sqrt(1.0 - DAMPING**2)
@@ -103,12 +107,12 @@ def _pulses(cycles: Floats, n: int) -> Floats:
 
 
 def goal_mps2(frame: Frame, target: Target) -> Floats:
-    """Pseudo-accelerations to aim at [m/s2], one for each oscillator of the frame."""
+    """Target pseudo-accelerations [m/s2], one for each oscillator of the frame."""
     return _AIM * _G * target_sa_g(target, frame.freq_hz)
 
 
 def shaped(frame: Frame, start: Floats, target: Target, goal: Floats) -> Floats:
-    """Enveloped motion, its amplitudes corrected by the ratio of goal and spectrum some times."""
+    """Enveloped motion whose Fourier amplitudes are corrected iteratively by goal / spectrum."""
     n = len(frame.envelope)
     padded = 1 << (n - 1).bit_length() + 1
     spectrum = np.fft.rfft(frame.envelope * start, padded)
@@ -124,22 +128,22 @@ def shaped(frame: Frame, start: Floats, target: Target, goal: Floats) -> Floats:
 
 
 def _calmed(frame: Frame, a: Floats) -> Floats:
-    """Motion without its quiet shapes, by the least change under the envelope."""
+    """Remove the quiet shapes from a motion by the smallest change under the envelope."""
     shapes = frame.quiet * frame.envelope
     return a - frame.envelope * (shapes.T @ np.linalg.solve(shapes @ shapes.T, frame.quiet @ a))
 
 
 def _peaks(frame: Frame, a: Floats) -> tuple[Floats, _Samples]:
-    """Peak pseudo-accelerations [m/s2], with their signs, and the samples where they are."""
-    seen = a.view()
-    seen.setflags(write=False)
+    """Peak pseudo-accelerations [m/s2] with their signs, and the samples at which they occur."""
+    read_only = a.view()
+    read_only.setflags(write=False)
     peak, at = np.empty(len(frame.freq_hz)), np.empty(len(frame.freq_hz), dtype=np.int64)
-    oscillator.peaks(seen, frame.dt_s, 2.0 * math.pi * frame.freq_hz, DAMPING, peak, at)
+    oscillator.peaks(read_only, frame.dt_s, 2.0 * math.pi * frame.freq_hz, DAMPING, peak, at)
     return peak, at
 
 
 def matched(frame: Frame, a: Floats, goal: Floats) -> Floats:
-    """Best of some corrected motions: the one whose farthest ordinate is nearest to the goal."""
+    """Iteratively corrected motion with the smallest maximum deviation from the goal."""
     best, least = a, math.inf
     for _ in range(_MATCHINGS):
         peak, at = _peaks(frame, a)
@@ -159,10 +163,11 @@ def _correction(
     at: _Samples,
     goal: Floats,
 ) -> Floats:
-    """Least change under the envelope that moves every peak by part of what it is off.
+    """Smallest change under the envelope that removes a fraction of the deviation of every peak.
 
-    A peak is the sum of the samples before it, each times its pulse's response at that time: the
-    pulse responses reversed. The quiet shapes stay at zero exactly.
+    A peak is the sum of the samples before it, each multiplied by the pulse response after the
+    time between them, which is the pulse response reversed in time. The quiet shapes stay exactly
+    zero.
     """
     m = len(goal)
     rows = np.zeros((m + len(frame.quiet), len(a)))
@@ -177,9 +182,9 @@ def _correction(
 
 
 def rounded(a: Floats) -> Floats:
-    """Round to the quantum that is printed without moving the end of the motion.
+    """Round to the decimals printed, without changing the velocity and displacement at the end.
 
-    The twice summed record is rounded and differenced twice, so rounding leaves no drift.
+    The record is summed twice, rounded and differenced twice, so rounding causes no drift.
     """
     counts = np.rint(np.cumsum(np.cumsum(a / (_G * _QUANTUM_G))))
     values: Floats = np.diff(counts, n=2, prepend=[0.0, 0.0]) / 10.0 ** DECIMALS["g"] * _G

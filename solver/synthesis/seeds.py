@@ -1,6 +1,6 @@
-"""What a motion grows from: noise, or a record's own phases and order of arrivals.
+"""Seeds of synthetic motions: noise, or the phases of a real record.
 
-Matches nothing: `solver.synthesis.matching` does. Read `Seed` first, then `grown`.
+Matches no spectrum: `solver.synthesis.matching` does. Read `Seed` first, then `grown`.
 """
 
 from __future__ import annotations
@@ -14,27 +14,28 @@ import numpy as np
 from solver.model import Floats
 from solver.records.record import Record
 
-# Of the duration: over what time a record's level is taken, and the window of turned phases.
+# Averaging time of a record's level and window length for phase rotation / duration.
 _LEVEL, _WINDOW = 1.0 / 7.5, 1.0 / 15.0
-# Of the largest level: what is below it is filled with noise.
+# Parts of a record whose level is below this fraction of the largest level are filled with noise.
 _FAINT = 0.1
-# A record whose motion is refused has its phases turned by this much more at every draw.
+# Increase of the phase rotation each time a motion is rejected and drawn again.
 _TURN_RAD = math.pi / 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Seed:
-    """What one component grows from.
+    """Seed of one component.
 
     Attributes
     ----------
     name : str
-        Of the record; empty for noise.
+        Name of the record; empty for noise.
     a : array, shape (n,)
-        The record's part that is used, sampled as the motion, without unit; shape (0,) for noise.
+        The part of the record that is used, at the step of the motion, dimensionless; shape (0,)
+        for noise.
     own_phases : bool
-        Whether the record's phases are kept; else drawn, and only its energy over time and
-        frequency is kept.
+        Whether the phases of the record are preserved. Otherwise they are random, and only the
+        distribution of energy over time and frequency is preserved.
     """
 
     name: str
@@ -42,33 +43,33 @@ class Seed:
     own_phases: bool
 
     def turn_rad(self, draw: int) -> float:
-        """How far phases are turned at most in a draw, counted from 0."""
+        """Largest phase rotation of a draw [rad]; draws are numbered from 0."""
         return min(_TURN_RAD * draw, math.pi) if self.own_phases else math.pi
 
     def words(self, draw: int) -> str:
-        """What a motion of that draw grew from."""
+        """Describe the seed of a motion of that draw."""
         turn = self.turn_rad(draw)
         if not self.name:
             return "noise"
         if turn == 0.0:
             return self.name
         if turn == math.pi:
-            return f"{self.name}, phases drawn"
-        return f"{self.name}, phases turned by up to {math.degrees(turn):.0f} deg"
+            return f"{self.name}, random phases"
+        return f"{self.name}, phases rotated by up to {math.degrees(turn):.0f} deg"
 
 
 def noise_seed() -> Seed:
-    """Return the seed of a motion that grows from noise."""
+    """Return a noise seed."""
     return Seed(name="", a=np.empty(0), own_phases=False)
 
 
 def seeds_of(
     records: Sequence[Sequence[Record]], motion: int, dt_s: float, n: int
 ) -> tuple[Seed, Seed, Seed]:
-    """Return the seeds of x, y and z of a motion, counted from 0.
+    """Return the seeds of x, y and z of a motion; motions are numbered from 0.
 
-    The motions take the groups of records in turn. Phases are the record's own for the components
-    that a group has, the first time round.
+    The motions use the groups of records in turn. A record's phases are preserved only in the first
+    use of a group, and only for the components that the group contains.
     """
     if not records:
         return noise_seed(), noise_seed(), noise_seed()
@@ -85,13 +86,13 @@ def seeds_of(
 
 
 def grown(seed: Seed, rng: np.random.Generator, n: int, draw: int) -> Floats:
-    """Return n samples to put under the envelope, of one level throughout."""
+    """Return n samples of uniform level, to be multiplied by the envelope."""
     if not seed.name:
         return _with_phases(np.ones(n // 2 + 1), rng, n)
     a = seed.a
     if (turn := seed.turn_rad(draw)) > 0.0:
         a = _turned(a, rng, turn)
-    return _levelled(a, rng)
+    return _leveled(a, rng)
 
 
 def _with_phases(amplitudes: Floats, rng: np.random.Generator, n: int) -> Floats:
@@ -99,14 +100,14 @@ def _with_phases(amplitudes: Floats, rng: np.random.Generator, n: int) -> Floats
 
 
 def strongest(record: Record, dt_s: float, n: int) -> Floats:
-    """Return the n samples of most energy, or the whole record amid zeros where it is shorter.
+    """Return the n samples with the most energy, or the whole record with zeros if it is shorter.
 
-    Without unit and mean; zero throughout where the record, so sampled, never moves.
+    Dimensionless and with zero mean; all zero if the record is constant at this step.
     """
     end_s = record.dt_s * (len(record.a_mps2) - 1)
     t = dt_s * np.arange(math.floor(end_s / dt_s + 1e-9) + 1)
     a = np.interp(t, record.dt_s * np.arange(len(record.a_mps2)), record.a_mps2)
-    # Before anything is squared: records may be as large or small as floats go.
+    # Scaled before squaring, because a record may have values near the limits of floats.
     a = a / max(float(np.abs(a).max()), np.finfo(float).tiny)
     a = np.where(np.ptp(a) > 0.0, a - a.mean(), 0.0)
     if len(a) <= n:
@@ -118,7 +119,7 @@ def strongest(record: Record, dt_s: float, n: int) -> Floats:
 
 
 def _turned(a: Floats, rng: np.random.Generator, by_rad: float) -> Floats:
-    """Turn the phase of every patch of time and frequency by a random angle, at most that far."""
+    """Rotate the phase in every time window and frequency by a random angle of at most by_rad."""
     half = round(0.5 * _WINDOW * len(a))
     window = np.sin(math.pi * (np.arange(2 * half) + 0.5) / (2 * half))
     padded = np.pad(a, 2 * half)
@@ -131,8 +132,8 @@ def _turned(a: Floats, rng: np.random.Generator, by_rad: float) -> Floats:
     return turned[2 * half : -2 * half]
 
 
-def _levelled(a: Floats, rng: np.random.Generator) -> Floats:
-    """Divide by the level over a few seconds, and fill what is faint with noise of its colour."""
+def _leveled(a: Floats, rng: np.random.Generator) -> Floats:
+    """Divide by the level over a few seconds; fill weak parts with noise of the same spectrum."""
     width = round(_LEVEL * len(a))
     bell = np.hanning(width + 2)[1:-1]
     level = np.sqrt(np.maximum(np.convolve(a**2, bell / bell.sum(), "same"), 0.0))

@@ -1,7 +1,7 @@
-"""Makes roof motions of three components whose response spectra follow a target.
+"""Generates roof motions of three components whose response spectra match a target.
 
-Draws and judges; the matching is in `solver.synthesis.matching`. Knows no code rules and no files.
-Read `make_suite` first, then `synthesise`.
+Draws motions and accepts or rejects them; the matching is in `solver.synthesis.matching`. Knows no
+code rules and no files. Read `make_suite` first, then `synthesize`.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ CORRELATION = 0.3
 DRAWS = 20
 
 STRONG_SHARE = 0.6
-"""Least share of the duration between 5 and 95 % of the energy; the envelope alone has 0.70."""
+"""Minimum D5-95 (5 to 95 % of the energy) / duration; the envelope alone has 0.70."""
 
-# Of the duration: a shorter record says little of how a motion goes.
+# Minimum length of a seed record / duration: a shorter one says little about a motion.
 _SHORTEST_SHARE = 1.0 / 6.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SuiteMotion:
-    """One made motion.
+    """One synthetic motion.
 
     Attributes
     ----------
     x, y, z : Record
-        Two horizontal components and the vertical one, sampled alike.
+        Two horizontal components and the vertical component, with equal steps and lengths.
     seeds : tuple of str, length 3
-        What each grew from: ``noise``, or the name of a record with what became of its phases.
+        Seed of each: ``noise``, or the name of a record and how its phases were changed.
     """
 
     x: Record
@@ -61,7 +61,7 @@ class SuiteMotion:
 
 
 def correlation(one: Record, other: Record) -> float:
-    """Correlation coefficient of two records that are sampled alike."""
+    """Correlation coefficient of two records of equal step and length."""
     return float(np.corrcoef(one.a_mps2, other.a_mps2)[0, 1])
 
 
@@ -76,34 +76,36 @@ def make_suite(
     duration_s: float = 30.0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> list[SuiteMotion]:
-    """Make motions of two horizontal components and a vertical one each.
+    """Generate motions of two horizontal components and a vertical component each.
 
-    Motion k of a seed is the same whatever the count. A component that misses its target, goes
-    with another one (`CORRELATION`) or is strong too shortly (`STRONG_SHARE`) is drawn again.
+    Motion k of a seed is the same for any count. A component is drawn again if it misses its
+    target, correlates with another one (`CORRELATION`) or has too short a strong phase
+    (`STRONG_SHARE`).
 
-    Given records take the place of the noise. Of a record is kept: the phases of its strongest
-    part, so its pulses and how its frequencies follow one another. Its level over some seconds
-    gives way to the envelope, so that AC156's strong phase holds, its spectrum to the target; what
-    is faint, or beyond a short record's ends, is filled with noise of the record's colour. Where a
-    group has no record for a component, or the groups come round again, phases are drawn and only
-    the record's energy over time and frequency is kept. Drawing again turns the phases further.
+    Records, if given, replace the noise. The phases of a record's strongest part are preserved, and
+    with them its pulses and the order of its frequencies. The envelope replaces its level over a
+    few seconds, so that the strong phase is that of AC156, and the target replaces its spectrum.
+    Weak parts, and the time beyond the ends of a short record, are filled with noise of the same
+    spectrum as the record. If a group has no record for a component, or a group is used again, the
+    phases are random and only the record's distribution of energy over time and frequency is
+    preserved. Each new draw rotates the phases further.
 
     Parameters
     ----------
     horizontal_target, vertical_target : tuple of array
-        Corner points: frequencies [Hz] and pseudo-spectral accelerations [g], 5 % damping; the
-        first is for x and y.
+        Corner points: frequencies [Hz] and pseudo-spectral accelerations [g], 5 % damping;
+        `horizontal_target` is for x and y.
     count : int
     seed : int
         >= 0.
     records : sequence of sequence of Record
-        Groups of one to three records (for x, y and z), which the motions take in turn; none of
-        them for noise.
+        Groups of one to three records (for x, y and z), which the motions use in turn; empty for
+        noise.
     dt_s, duration_s : float
-        Sampling interval and time of the last sample [s]; a sixth of the duration to rise and a
-        sixth to decay: 5, 20 and 5 s of 30 s, as AC156 has it.
+        Sampling interval and time of the last sample [s]. The envelope rises over one sixth of the
+        duration and decays over one sixth: 5, 20 and 5 s of 30 s, as in AC156.
     progress : callable
-        Told what is being made.
+        Called with a description of the motion in progress.
 
     Returns
     -------
@@ -113,14 +115,14 @@ def make_suite(
     Raises
     ------
     InputError
-        Where an argument is impossible, or no motion is found that meets the target.
+        If an argument is invalid, or no motion is found that meets the target.
     """
     if count < 1 or seed < 0:
         raise InputError(f"suite: count {count} and seed {seed}; give at least 1 and at least 0")
     for target in (horizontal_target, vertical_target):
         _check(target, dt_s, duration_s)
     _check_records(records, dt_s, duration_s)
-    across, upright = (
+    horizontal, vertical = (
         _Wanted(target=target, frame=make_frame(target, dt_s, duration_s))
         for target in (horizontal_target, vertical_target)
     )
@@ -128,16 +130,16 @@ def make_suite(
     for k, sequence in enumerate(np.random.SeedSequence(seed).spawn(count), start=1):
         progress(f"motion {k} of {count}")
         rng = np.random.Generator(np.random.PCG64(sequence))
-        # y comes last, so that x and z are those of a pair without it.
-        along, abreast, above = seeds_of(records, k - 1, dt_s, len(across.frame.envelope))
-        x, from_x = _component(across, along, rng, f"motion-{k:02d}-x", ())
-        z, from_z = _component(upright, above, rng, f"motion-{k:02d}-z", (x,))
-        y, from_y = _component(across, abreast, rng, f"motion-{k:02d}-y", (x, z))
+        # y is drawn last, so that x and z are the same as in a pair without y.
+        seed_x, seed_y, seed_z = seeds_of(records, k - 1, dt_s, len(horizontal.frame.envelope))
+        x, from_x = _component(horizontal, seed_x, rng, f"motion-{k:02d}-x", ())
+        z, from_z = _component(vertical, seed_z, rng, f"motion-{k:02d}-z", (x,))
+        y, from_y = _component(horizontal, seed_y, rng, f"motion-{k:02d}-y", (x, z))
         suite.append(SuiteMotion(x=x, y=y, z=z, seeds=(from_x, from_y, from_z)))
     return suite
 
 
-def synthesise(
+def synthesize(
     target: Target,
     *,
     rng: np.random.Generator,
@@ -146,13 +148,13 @@ def synthesise(
     name: str,
     unlike: Sequence[Record] = (),
 ) -> Record:
-    """Make one component whose 5 % damped spectrum follows the target.
+    """Generate one component whose 5 % damped spectrum matches the target.
 
     Sinusoids of random phase under an envelope (Gasparini and Vanmarcke, SIMQKE, MIT R76-4,
-    1976), shaped in frequency, then corrected in time by the reversed impulse responses of the
+    1976), adjusted in frequency, then corrected in time by the reversed impulse responses of the
     oscillators (Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824). Velocity
-    and displacement are back at zero at the end, exactly for straight lines between samples. The
-    record is rounded to what `solver.records.record.write_record` prints in g before it is checked.
+    and displacement return to zero at the end, exactly for acceleration linear between samples. The
+    record is rounded as `solver.records.record.write_record` prints it in g before it is checked.
 
     Parameters
     ----------
@@ -161,15 +163,15 @@ def synthesise(
     rng : Generator
         Source of the phases; the same state gives the same motion.
     dt_s, duration_s : float
-        Sampling interval, 0.001 to 0.01, and time of the last sample, from 10 [s].
+        Sampling interval, 0.001 to 0.01 s, and time of the last sample, 10 s or more.
     name : str
     unlike : sequence of Record
-        Components, sampled alike, that this one may not go with (`CORRELATION`).
+        Components of equal step and length with which this one must not correlate (`CORRELATION`).
 
     Raises
     ------
     InputError
-        Where an argument is impossible, or `DRAWS` motions all miss the target.
+        If an argument is invalid, or `DRAWS` motions all miss the target.
     """
     _check(target, dt_s, duration_s)
     wanted = _Wanted(target=target, frame=make_frame(target, dt_s, duration_s))
@@ -178,7 +180,7 @@ def synthesise(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Wanted:
-    """A target with the frame that its motions are matched in."""
+    """A target with the frame for matching its motions."""
 
     target: Target
     frame: Frame
@@ -187,7 +189,7 @@ class _Wanted:
 def _component(
     wanted: _Wanted, seed: Seed, rng: np.random.Generator, name: str, unlike: Sequence[Record]
 ) -> tuple[Record, str]:
-    """Return a component with what it grew from."""
+    """Return a component and the description of its seed."""
     target, frame = wanted.target, wanted.frame
     goal = goal_mps2(frame, target)
     nearest = math.inf, ""
@@ -203,13 +205,13 @@ def _component(
         nearest = min(nearest, (max(1.0 / fit.least, fit.greatest), reached))
     duration_s = frame.dt_s * (len(frame.envelope) - 1)
     raise InputError(
-        f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum, "
-        f"the nearest having {nearest[1]} of it; give a smoother target or a longer duration"
+        f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum; the closest "
+        f"has {nearest[1]} times the target; give a smoother target or a longer duration"
     )
 
 
 def _strong_share(record: Record) -> float:
-    """Share of the samples between 5 and 95 % of the energy."""
+    """Fraction of the samples between 5 and 95 % of the energy."""
     energy = np.cumsum(record.a_mps2**2)
     first, last = np.searchsorted(energy, energy[-1] * np.array([0.05, 0.95]))
     return float(last - first) / (len(energy) - 1)
@@ -226,9 +228,9 @@ def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s:
         found_s = record.dt_s * (len(record.a_mps2) - 1)
         if found_s < _SHORTEST_SHARE * duration_s:
             least = f"{_SHORTEST_SHARE * duration_s:g} s"
-            problems.append(f"{record.name}: lasts {found_s:g} s; give at least {least} of a seed")
+            problems.append(f"{record.name}: lasts {found_s:g} s; give a seed of at least {least}")
         elif not strongest(record, dt_s, n).any():
-            problems.append(f"{record.name}: never moves; give another record as a seed")
+            problems.append(f"{record.name}: is constant; give another record as a seed")
     if problems:
         raise InputError(problems)
 

@@ -1,6 +1,6 @@
-"""Target spectra, and how a motion keeps to one.
+"""Target spectra, and how closely a motion matches one.
 
-Knows no code rules: targets come in as corner points, straight on log-log axes, flat beyond.
+Knows no code rules: targets are given as corner points, linear on log-log axes and constant beyond.
 Read `solver.synthesis.suite` next.
 """
 
@@ -16,19 +16,23 @@ from solver.records.record import UNITS, Record
 from solver.records.spectrum import response_spectrum
 
 Target = tuple[Floats, Floats]
-"""Corner points of a target spectrum: frequencies [Hz], rising, and accelerations [g]."""
+"""Corner points of a target spectrum: increasing frequencies [Hz], and accelerations [g]."""
 
 DAMPING = 0.05
 BAND_HZ = (0.3, 33.3)
-"""Where a motion has to keep to its target; down to the first corner it follows roughly."""
+"""Band in which a motion must match its target; below it, down to the first corner, the match is
+approximate.
+"""
 
 LEAST, GREATEST, MEAN_OFF = 0.92, 1.25, 0.04
-"""Accepted ratios to the target, at 1/48 octave over the band; the mean is off 1 by the last."""
+"""Accepted ratios to the target, at 1/48 octave over the band: smallest, largest, and largest
+difference of the mean from 1.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpectrumFit:
-    """How a motion keeps to its target.
+    """How closely a motion matches its target.
 
     Attributes
     ----------
@@ -57,18 +61,18 @@ class SpectrumFit:
 
     @property
     def mean(self) -> float:
-        """Mean ratio, every frequency counting alike."""
+        """Mean ratio, with equal weight for every frequency."""
         return float(self.ratio.mean())
 
 
 def target_sa_g(target: Target, freq_hz: Floats) -> Floats:
-    """Target acceleration [g] at frequencies [Hz]: log-log between the corners, flat beyond."""
+    """Target acceleration [g] at frequencies [Hz]: log-log between corners, constant beyond."""
     corners_hz, corners_g = (np.log(np.asarray(column)) for column in target)
     return np.exp(np.interp(np.log(freq_hz), corners_hz, corners_g))
 
 
 def band(per_octave: int) -> Floats:
-    """Frequencies [Hz] over `BAND_HZ`, so many to an octave, both ends among them."""
+    """Frequencies [Hz] over `BAND_HZ`, `per_octave` to an octave, including both ends."""
     low, high = BAND_HZ
     steps = np.arange(math.floor(per_octave * math.log2(high / low)) + 1)
     return np.append(low * 2.0 ** (steps / per_octave), high)
@@ -82,18 +86,18 @@ def spectrum_fit(record: Record, target: Target, freq_hz: Floats | None = None) 
 
 
 def keeps(fit: SpectrumFit) -> bool:
-    """Whether a fit lies within `LEAST`, `GREATEST` and `MEAN_OFF`."""
+    """Whether a fit is within `LEAST`, `GREATEST` and `MEAN_OFF`."""
     return fit.least >= LEAST and fit.greatest <= GREATEST and abs(fit.mean - 1.0) <= MEAN_OFF
 
 
 def target_problems(target: Target) -> list[str]:
-    """Say what is impossible about a target."""
+    """Return the errors of a target."""
     freq_hz, sa_g = (np.asarray(column, dtype=np.float64) for column in target)
     problems = []
     if freq_hz.ndim != 1 or freq_hz.shape != sa_g.shape or len(freq_hz) < 2:
         problems.append("target spectrum: give as many accelerations as frequencies, at least 2")
     elif not (freq_hz[0] > 0.0 and np.all(np.diff(freq_hz) > 0.0) and np.isfinite(freq_hz[-1])):
-        problems.append("target spectrum: give rising frequencies above 0 [Hz]")
+        problems.append("target spectrum: give increasing frequencies above 0 [Hz]")
     if not np.all((sa_g > 0.0) & np.isfinite(sa_g)):
         problems.append("target spectrum: give accelerations above 0 [g]")
     return problems

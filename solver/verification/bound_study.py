@@ -1,6 +1,6 @@
-"""How far random pairs of runs in two axes come to the bound of their difference.
+"""Differences of random pairs of runs in two axes, relative to their bounds.
 
-Read `bound_ratios`; `random_pairs` makes the pairs.
+Read `bound_ratios`; `random_pairs` generates the pairs.
 """
 
 from __future__ import annotations
@@ -13,7 +13,12 @@ from solver.verification.random_pairs import KINDS, UNBOUNDED, pair
 from solver.verification.rung_evidence import BoundRatios
 
 PAIRS = (40, 1000)
-"""Of each kind, quick and full."""
+"""Number of pairs of each kind, quick and full."""
+
+_PRINTED = {
+    "N to zero": "normal force near zero",
+    "friction by speed": "velocity-dependent friction",
+}
 
 
 @cache
@@ -31,7 +36,7 @@ def _of_kind(kind: str, count: int) -> BoundRatios:
             continue
     moved = [one.ratio for one in found if one.prd_m > 0.0]
     return BoundRatios(
-        kind=kind,
+        kind=_PRINTED.get(kind, kind),
         n_pairs=count,
         n_unanswered=count - len(found),
         ratios=np.sort(np.array(moved)),

@@ -1,6 +1,6 @@
-"""The way from ground to roof, held against buildings whose ground and roof were recorded.
+"""The computed roof motion, compared with buildings whose ground and roof were recorded.
 
-Reads the records it is pointed at and fits a beam; draws nothing.
+Reads the given records and fits a beam; draws nothing.
 Read `recorded_buildings`, then `compare`; `building_checks` has the closed forms.
 """
 
@@ -23,47 +23,47 @@ from solver.verification.evidence import RoofComparison, RoofPrediction
 from solver.verification.identification import Identified, identify
 
 SPECTRUM_S = np.geomspace(0.05, 8.0, 89)
-"""Periods of the compared spectra, twelve to the octave and more [s]."""
+"""Periods of the compared spectra, twelve or more per octave [s]."""
 
 BANDS_S = ((0.05, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 4.0), (4.0, 8.0))
 
 SLOPE_DEG, MUS, PPA_G = 2.0, (0.1, 0.2, 0.3, 0.4), 1.0
-"""Scenes: both signs of the slope; the recorded roof motion is scaled to this peak."""
+"""Both signs of the slope are run; the recorded roof motion is scaled to this peak."""
 
 CODE_DAMPING = 0.05
 FRAME_ALPHA0 = 12.5
 """Middle of the usual stiffness ratios of moment frames, see `solver.building.beam.beam_modes`."""
 
-BY_HEIGHT = "period by height, nothing measured"
-"""Name of the prediction that an engineer could make beforehand."""
+BY_HEIGHT = "approximate period from height, no measurement"
+"""Name of the prediction that needs no measurement of the building."""
 
 RIGID = building_of_modes([0.1], [0.05], [0.0])
-"""A building that takes the ground's motion to its roof as it is."""
+"""A rigid building: its roof motion equals the ground motion."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FloorRecords:
-    """Motions of one building in one direction, over the same time, the roof's last.
+    """Motions of one building in one direction, over the same time, the roof's in the last column.
 
     Attributes
     ----------
-    title, story : str
+    title, description : str
     is_recorded : bool
-        In an earthquake, not made.
+        In an earthquake; otherwise computed.
     dt_s : float
     ground_mps2, floors_mps2 : array, shape (n,) and (n, m)
     floors : tuple of str
         Their ordinal numbers.
     heights : tuple of float
-        Over the height of the building.
+        Relative to the height of the building.
     code_period_s : float
-        What its type and height give; NaN for none.
+        Approximate period from type and height [s]; NaN for none.
     search_s : pair of float
-        Between which the first period is looked for [s].
+        Search range of the first period [s].
     """
 
     title: str
-    story: str
+    description: str
     is_recorded: bool
     dt_s: float
     ground_mps2: Floats
@@ -75,24 +75,25 @@ class FloorRecords:
 
 
 def recorded_buildings(folder: Path) -> tuple[FloorRecords, ...]:
-    """Return the buildings whose records lie in a folder.
+    """Return the buildings whose records are in a folder.
 
-    Known is ``roof_575_market``: 575 Market Street, San Francisco, in the Loma Prieta earthquake of
-    1989, by the U.S. Geological Survey, as text of time [s] and acceleration [g].
+    The one known building is ``roof_575_market``: 575 Market Street, San Francisco, in the 1989
+    Loma Prieta earthquake, from the U.S. Geological Survey, as text of time [s] and
+    acceleration [g].
 
     Raises
     ------
     InputError
-        Where there is none, or a record of it is missing or cannot be read.
+        If the folder has no known building, or a record is missing or cannot be read.
     """
     market = folder / "roof_575_market"
     if not market.is_dir():
-        raise InputError(f"{folder}: holds no roof_575_market; give a folder with it")
+        raise InputError(f"{folder}: no subfolder roof_575_market; give a folder that contains it")
     return (_market_street(market),)
 
 
 def _market_street(folder: Path) -> FloorRecords:
-    """Azimuth 135 of ground, 25th and 42nd floor; the ground's instrument points to 315."""
+    """Azimuth 135 of ground, 25th and 42nd floors; the ground instrument points to azimuth 315."""
     names = ("k_315", "i_135", "c_135")
     records = [
         read_record(folder / f"SF575Market_LomaPrieta_{name}.csv", units="g") for name in names
@@ -102,11 +103,12 @@ def _market_street(folder: Path) -> FloorRecords:
     code_period_s = approximate_period_s("steel moment frame", 573.0 * FOOT_M)
     return FloorRecords(
         title="575 Market Street, San Francisco, Loma Prieta 1989",
-        story="A steel frame of 1975, taken as 573 ft (175 m) high. The U.S. "
-        "Geological Survey's instruments recorded the ground floor and the 25th and 42nd floors; "
-        "compared is azimuth 135, the ground's only horizontal one. The records begin during the "
-        "shaking and hold 0.1 to 25 Hz; their beginnings are taken as common. The 42nd floor "
-        "stands for the roof, the 25th for 25/42 of the height.",
+        description="The building is a steel frame of 1975 with an assumed height of 573 ft "
+        "(175 m). Instruments of the U.S. Geological Survey recorded the ground floor and the "
+        "25th and 42nd floors. Azimuth 135 is compared; it is the only horizontal direction "
+        "recorded at the ground. The records start during the shaking and cover 0.1 to 25 Hz; a "
+        "common start time is assumed. The 42nd floor represents the roof, and the 25th floor "
+        "represents 25/42 of the height.",
         is_recorded=True,
         dt_s=records[0].dt_s,
         ground_mps2=-ground,
@@ -119,13 +121,13 @@ def _market_street(folder: Path) -> FloorRecords:
 
 
 def compare(records: FloorRecords) -> RoofComparison:
-    """Predict the roof from the ground and hold it against the record."""
+    """Predict the roof motion from the ground motion and compare it with the record."""
     roof, dt = records.floors_mps2[:, -1], records.dt_s
     scale = PPA_G * STANDARD_GRAVITY_MPS2 / float(np.abs(roof).max())
     roof_sa = response_spectrum(roof, dt, SPECTRUM_S)
     return RoofComparison(
         title=records.title,
-        story=records.story,
+        description=records.description,
         is_recorded=records.is_recorded,
         dt_s=dt,
         roof_mps2=roof,
@@ -140,8 +142,8 @@ def compare(records: FloorRecords) -> RoofComparison:
         prd_m=_slips(roof, dt, scale),
         predictions=(
             *(_predict(n, f, records, scale, roof_sa) for n, f in _properties(records)),
-            _held_against(
-                "the ground motion itself, no building",
+            _compared(
+                "ground motion applied at the roof, no building",
                 Identified(math.nan, math.nan, math.nan, math.nan),
                 to_roof(records.ground_mps2, dt, RIGID),
                 records,
@@ -153,7 +155,7 @@ def compare(records: FloorRecords) -> RoofComparison:
 
 
 def _properties(records: FloorRecords) -> Iterator[tuple[str, Identified]]:
-    """Properties: fitted to all floors, to all but the roof, by height, and with usual damping."""
+    """Properties fitted to all floors, to all but the roof, from height, and with code damping."""
     fits = []
     for count in range(len(records.floors), 0, -1):
         fits.append(
@@ -173,7 +175,7 @@ def _properties(records: FloorRecords) -> Iterator[tuple[str, Identified]]:
             Identified(records.code_period_s, CODE_DAMPING, FRAME_ALPHA0, math.nan),
         )
         yield (
-            f"fitted as first, but with {100 * CODE_DAMPING:g} % damping",
+            f"first fit, but with {100 * CODE_DAMPING:g} % damping",
             fits[0]._replace(damping=CODE_DAMPING),
         )
 
@@ -183,10 +185,10 @@ def _predict(
 ) -> RoofPrediction:
     building = building_of_periods([found.period_s], damping=[found.damping], alpha0=found.alpha0)
     motion = to_roof(records.ground_mps2, records.dt_s, building)
-    return _held_against(name, found, motion, records, scale, roof_sa)
+    return _compared(name, found, motion, records, scale, roof_sa)
 
 
-def _held_against(
+def _compared(
     name: str,
     found: Identified,
     motion: RoofMotion,
@@ -195,7 +197,7 @@ def _held_against(
     roof_sa: Floats,
 ) -> RoofPrediction:
     roof = records.floors_mps2[:, -1]
-    # The recorded motion ends with its record: what comes after it cannot be compared.
+    # The computed motion outlasts the record; only the recorded duration can be compared.
     steps = round(records.dt_s / motion.dt_s)
     a = motion.a_mps2[::steps][: roof.size]
     sa = response_spectrum(a, records.dt_s, SPECTRUM_S)

@@ -1,7 +1,7 @@
-"""Checks of the way from ground to roof: oscillators, modes, a whole building, identification.
+"""Checks of the computed roof motion: oscillators, modes, a whole building, identification.
 
-As `checks`, whose rows they are; expected values come from closed forms, from finite elements and
-from stepping all floors of a building at once. Read `building_checks`.
+Returns the same rows as `checks`; expected values come from closed forms, from finite elements and
+from direct integration of all floors of a building. Read `building_checks`.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from solver.verification.building import FloorRecords
 from solver.verification.checks import ROUNDING, check
 from solver.verification.evidence import CheckRow, RoofComparison
 
-SECTION = "From ground to roof"
+SECTION = "Roof motion computed from ground motion"
 
 STORIES, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
-"""The made building."""
+"""The model building."""
 
 _BENDING = ((1.875104069, 0.734095514), (4.694091133, 1.018467319), (7.854757438, 0.999224497))
 """gamma and sigma of a clamped-free beam: Blevins, Formulas for Natural Frequency (1979), 8-1."""
 
 
 def building_checks(made: FloorRecords, found: RoofComparison) -> Iterator[CheckRow]:
-    """Make the checks; the made building's comparison is among them."""
+    """Run the checks, including those of the model building's comparison."""
     yield from _steps()
     yield from _steady_waves()
     yield from _limits()
@@ -41,18 +41,19 @@ def building_checks(made: FloorRecords, found: RoofComparison) -> Iterator[Check
 
 
 def made_building(ground: Record) -> FloorRecords:
-    """Return the motions of equal stories on a ground, all floors stepped at once.
+    """Return the floor motions of a building with equal stories, integrated directly.
 
-    No modes are superposed. A beam half a story higher has the same modes, nearly.
+    No modal superposition. A uniform beam half a story taller has nearly the same modes.
     """
     floors = _stepped(ground.a_mps2, ground.dt_s)
     levels = (STORIES // 2, STORIES)
     return FloorRecords(
-        title=f"A made building of {STORIES} stories",
-        story=f"Equal stories and floors in shear and bending: first period {PERIOD_S:g} s, "
-        f"damping {100 * DAMPING:g} % in every mode, lateral stiffness ratio {ALPHA0:g}. Its "
-        f"ground is {ground.name}; its floors are stepped all at once, without modes, so that "
-        "modes and fit stand against something else.",
+        title=f"Model building of {STORIES} stories",
+        description=f"The model building has {STORIES} equal stories that deform in shear and "
+        f"bending, a first period of {PERIOD_S:g} s, {100 * DAMPING:g} % damping in every mode "
+        f"and a lateral stiffness ratio of {ALPHA0:g}. The ground motion is {ground.name}. The "
+        "floor motions are computed by direct integration of the full system, without modal "
+        "superposition, so that the modal solution and the fit have an independent reference.",
         is_recorded=False,
         dt_s=ground.dt_s,
         ground_mps2=ground.a_mps2,
@@ -65,9 +66,9 @@ def made_building(ground: Record) -> FloorRecords:
 
 
 def _stepped(a: Floats, dt: float) -> Floats:
-    """Absolute accelerations of all floors, unit masses, straight lines between samples.
+    """Absolute accelerations of all floors, unit masses, ground motion linear between samples.
 
-    One matrix exponential holds the floors' displacements and velocities, the ground's
+    One matrix exponential advances the floors' displacements and velocities, the ground
     acceleration and its slope.
     """
     stiff = floor_stiffness(ALPHA0, STORIES)
@@ -91,7 +92,7 @@ def _stepped(a: Floats, dt: float) -> Floats:
 
 
 def _exponential(matrix: Floats) -> Floats:
-    """Matrix exponential: its power series on a small part of the step, squared back."""
+    """Matrix exponential by power series, scaling and squaring."""
     halvings = max(0, math.ceil(math.log2(float(np.abs(matrix).sum(axis=1).max()))) + 3)
     part = matrix / 2.0**halvings
     term = found = np.eye(len(matrix))
@@ -111,9 +112,9 @@ def _steps() -> Iterator[CheckRow]:
         found = absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0]
         yield check(
             SECTION,
-            f"Step, oscillator of {period_s:g} s, {zeta:g}",
-            "1 - exp(-D t) (cos(W t) - D / W sin(W t)) after t = 1.37 s; D = zeta omega, W damped "
-            "frequency; period and damping as given",
+            f"Unit step, T = {period_s:g} s, zeta = {zeta:g}",
+            "Oscillator of period T: 1 - exp(-D t) (cos(W t) - D / W sin(W t)) at t = 1.37 s; "
+            "D = zeta omega, W = damped frequency",
             "Acceleration",
             "m/s2",
             1.0 - math.exp(-zeta * w * t) * wave,
@@ -132,10 +133,10 @@ def _steady_waves() -> Iterator[CheckRow]:
         damped = (2.0 * zeta * ratio) ** 2
         yield check(
             SECTION,
-            f"Wave of {ratio:g} times the frequency",
-            "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2, damping 0.1; "
-            "one story, step 0.001 s",
-            "Roof over ground",
+            f"Harmonic, frequency ratio r = {ratio:g}",
+            "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2; one story, "
+            "damping ratio 0.1, step 0.001 s",
+            "Roof / ground",
             "1",
             math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped)),
             float(np.abs(roof[-round(1.0 / dt) :]).max()),
@@ -150,7 +151,7 @@ def _limits() -> Iterator[CheckRow]:
         sign = (-1) ** (n - 1)
         for name, source, modes, ratio, factor, tolerance in (
             (
-                "bends",
+                "bending",
                 "Blevins (1979), Table 8-1: ratios of squared gamma, and 4 sigma / gamma",
                 bending,
                 (gamma / first) ** 2,
@@ -158,15 +159,15 @@ def _limits() -> Iterator[CheckRow]:
                 1e-8,
             ),
             (
-                "shears",
-                "Sines: 2 n - 1, and 4 / ((2 n - 1) pi) with changing sign",
+                "shear",
+                "Shear beam: 2 n - 1, and 4 / ((2 n - 1) pi) with alternating sign",
                 shear,
                 2.0 * n - 1.0,
                 sign * 4.0 / ((2.0 * n - 1.0) * math.pi),
                 ROUNDING,
             ),
         ):
-            problem = f"Cantilever that {name}, mode {n}"
+            problem = f"Cantilever in {name}, mode {n}"
             found = float(modes.factors[n - 1, 0])
             if n > 1:
                 inverse = float(1.0 / modes.period_ratios[n - 1])
@@ -174,7 +175,7 @@ def _limits() -> Iterator[CheckRow]:
                     SECTION,
                     problem,
                     source,
-                    "First period over this",
+                    "Period ratio T1 / Tn",
                     "1",
                     ratio,
                     inverse,
@@ -184,7 +185,7 @@ def _limits() -> Iterator[CheckRow]:
 
 
 def _coupled() -> Iterator[CheckRow]:
-    source = "64 cubic finite elements with consistent masses"
+    source = "64 cubic finite elements with consistent mass"
     for alpha0 in (2.0, 12.0):
         ratios, factors = _finite_elements(alpha0)
         modes = beam_modes(alpha0, 3)
@@ -196,7 +197,7 @@ def _coupled() -> Iterator[CheckRow]:
                     SECTION,
                     problem,
                     source,
-                    "First period over this",
+                    "Period ratio T1 / Tn",
                     "1",
                     ratios[n - 1],
                     found,
@@ -207,7 +208,7 @@ def _coupled() -> Iterator[CheckRow]:
 
 
 def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[float]]:
-    """Frequencies over the first one, and roof factors, of the first three modes."""
+    """Frequencies of the modes over the first frequency, and roof factors, of all modes."""
     size = 1.0 / count
     scale = np.array([1.0, size, 1.0, size])
     turned = np.outer(scale, scale)
@@ -230,12 +231,16 @@ def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[
 
 
 def _sums() -> Iterator[CheckRow]:
-    for alpha0, name in ((0.0, " that bends"), (6.0, ", ratio 6"), (math.inf, " that shears")):
+    for alpha0, name in (
+        (0.0, " in bending"),
+        (6.0, ", stiffness ratio 6"),
+        (math.inf, " in shear"),
+    ):
         sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
         yield check(
             SECTION,
-            f"Cantilever{name}, all modes together",
-            "What is stiff moves with the ground: 1; mean of the sums of 399 and 400 modes",
+            f"Cantilever{name}, all modes",
+            "1, the limit of a rigid building; mean of the sums of 399 and 400 modes",
             "Sum of roof factors",
             "1",
             1.0,
@@ -251,8 +256,8 @@ def _stories() -> Iterator[CheckRow]:
         modes = story_modes(math.inf, stories)
         yield check(
             SECTION,
-            f"Stories in shear: {stories}, first mode",
-            "Sines of (2 n - 1) pi k / (2 N + 1) at floor k",
+            f"Shear building, stories: {stories}, first mode",
+            "Mode shape sin((2 n - 1) pi k / (2 N + 1)) at floor k",
             "Roof factor",
             "1",
             float(shape.sum() * shape[-1] / (shape**2).sum()),
@@ -268,9 +273,9 @@ def _whole_building(made: FloorRecords) -> CheckRow:
     off = float(np.abs(roof[: stepped.size] - stepped).max())
     return check(
         SECTION,
-        "The made building, all modes",
-        "One matrix exponential for all floors at once; of the roof's peak",
-        "Largest difference",
+        "Model building, all modes",
+        "Direct integration of all floors by one matrix exponential",
+        "Largest difference / peak",
         "1",
         0.0,
         off / float(np.abs(stepped).max()),
@@ -280,14 +285,14 @@ def _whole_building(made: FloorRecords) -> CheckRow:
 
 def _identified(found: RoofComparison) -> Iterator[CheckRow]:
     best = found.predictions[0]
-    source = "What it was made with, as a beam half a story higher; fitted to two of its floors"
+    source = "Properties of the model building, as a beam half a story taller; fitted to two floors"
     ratio = ALPHA0 * (1.0 + 0.5 / STORIES)
     for quantity, unit, expected, value, tolerance in (
         ("First period", "s", PERIOD_S, best.period_s, 0.005),
         ("Damping", "1", DAMPING, best.damping, 0.02),
         ("Lateral stiffness ratio", "1", ratio, best.alpha0, 0.025),
-        ("Not explained", "1", 0.0, best.unexplained, 0.01),
+        ("Unexplained fraction", "1", 0.0, best.unexplained, 0.01),
     ):
         yield check(
-            SECTION, "The made building, fitted", source, quantity, unit, expected, value, tolerance
+            SECTION, "Model building, fitted", source, quantity, unit, expected, value, tolerance
         )

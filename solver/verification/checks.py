@@ -1,7 +1,7 @@
-"""Checks of the solver against what is known apart from it, one row for each value.
+"""Checks of the solver against independent results, one row for each value.
 
-Closed forms (`solver.verification.problems`) and the paper's physical checks; runs nothing but
-`solver.slide` and `slide_history`. Read `crosschecks` for 50 digits, symmetries and the rivals.
+Closed forms (`solver.verification.problems`) and the paper's physical checks; calls only
+`solver.slide` and `slide_history`. See `crosschecks` for 50 digits, symmetries and the rivals.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from solver.verification.evidence import CheckRow
 from solver.verification.scenes import scale_to
 
 G = 9.81
-"""Gravity of the closed forms [m/s2], as in their printed figures."""
+"""Gravity in the closed forms [m/s2], as in their printed values."""
 
 ROUNDING = 1e-12
-"""Tolerance where nothing but rounding is between expected and found."""
+"""Tolerance where the expected and computed values differ by rounding error only."""
 
 
 def check(
@@ -36,7 +36,7 @@ def check(
     tolerance: float,
     of: float = 0.0,
 ) -> CheckRow:
-    """Return the row; its error is relative to `of` or else `expected`, absolute if both are 0."""
+    """Return the row; the error is relative to `of`, else to `expected`; absolute if both are 0."""
     error = abs(found - expected) / (abs(of) or abs(expected) or 1.0)
     return CheckRow(
         section=section,
@@ -76,7 +76,7 @@ def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
         plateau = round(lasts / dt)
         expected = problems.pulse_travel(a * G, mu * G, plateau * dt, dt)
         found = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
-        source = "Integration of the polynomials, ramps of 0.01 s"
+        source = "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps"
         yield check(
             section,
             f"Trapezoidal pulse {name}",
@@ -91,9 +91,9 @@ def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
         newmark = (a * G * lasts) ** 2 / (2.0 * G * mu) * (1.0 - mu / a)
         ax = trapezoid(-a * G, ramps - 1, 10 * ramps)
         found = slide(ax, lasts / ramps, slope_rad=0.0, mu=mu, g_mps2=G)
-        # A ramp takes mu / A of its length from the slip: as much, relative, with some room.
+        # A ramp shortens the slip by mu / A of its length; the factor 1.5 is a margin on that.
         tolerance = 1.5 * mu / a / ramps
-        source = "Newmark, Geotechnique 15 (1965); ramps of 1/3000 of the pulse"
+        source = "Newmark, Geotechnique 15 (1965); each ramp is 1/3000 of the pulse"
         yield check(
             section,
             f"Rectangular pulse {name}",
@@ -125,8 +125,8 @@ def _pulses_on_a_slope() -> Iterator[CheckRow]:
                 "Closed forms",
                 f"Trapezoidal pulse A = {a:g} g, vertical {b:g} g, for {lasts:g} s, mu = {mu:g}, "
                 f"slope {degrees} deg",
-                "Integration of the polynomials, ramps of 0.01 s",
-                "Slip down the slope, horizontal",
+                "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps",
+                "Downslope slip, horizontal",
                 "m",
                 expected,
                 found.down_m,
@@ -137,19 +137,19 @@ def _pulses_on_a_slope() -> Iterator[CheckRow]:
 def _half_sines() -> Iterator[CheckRow]:
     for a, mu, freq in ((0.5, 0.2, 1.0), (0.8, 0.4, 2.0), (1.0, 0.1, 1.0)):
         expected = problems.half_sine_travel(a, mu, freq, G)
-        name = f"Half sine A = {a:g} g, {freq:g} Hz, mu = {mu:g}, flat roof"
+        name = f"Half-sine pulse A = {a:g} g, {freq:g} Hz, mu = {mu:g}, flat roof"
         found = []
         for steps in (100, 200, 400):
             dt = 0.5 / freq / steps
             pulse = a * G * np.sin(np.pi * np.arange(steps + 1) / steps)
             ax = np.concatenate([pulse, np.zeros(40 * steps)])
             found.append(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m)
-        source = "Integration of the sine, sampled at 400 points"
-        # The chords of a sine lose 1 / 12 of the squared step in radians of its area.
+        source = "Closed-form integration of the sine; record sampled at 400 points"
+        # Straight chords of a sine lose the share (step in radians)^2 / 12 of its area.
         tolerance = 2.0 * a / mu * (math.pi / 400) ** 2 / 12.0
         yield check("Closed forms", name, source, "PRD", "m", expected, found[-1], tolerance)
         order = math.log2(abs(found[1] - expected) / abs(found[2] - expected))
-        source = "Error with 200 and 400 samples: straight lines have order 2"
+        source = "Errors with 200 and 400 samples: linear interpolation is second order"
         yield check("Closed forms", name, source, "Order of convergence", "1", 2.0, order, 0.025)
 
 
@@ -160,7 +160,7 @@ def _harmonic() -> CheckRow:
     stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
     return check(
         "Closed forms",
-        "Steady harmonic A = 0.5 g, 1 Hz, mu = 0.2, flat roof, after 80 cycles",
+        "Steady-state harmonic A = 0.5 g, 1 Hz, mu = 0.2, flat roof, after 80 cycles",
         "(2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A; sampled at 0.0005 s",
         "Travel per half cycle",
         "m",
@@ -177,9 +177,9 @@ def _free_slide(section: str, degrees: float, mu: float, time_s: float) -> Check
     expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
     return check(
         section,
-        f"Still roof of {degrees:g} deg, mu = {mu:g}, slides from rest for {time_s:g} s",
+        f"No shaking, slope {degrees:g} deg, mu = {mu:g}: slides from rest for {time_s:g} s",
         "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2",
-        "Slip down the slope, horizontal",
+        "Downslope slip, horizontal",
         "m",
         expected,
         found.down_m,
@@ -191,11 +191,11 @@ def _yield_accelerations() -> Iterator[CheckRow]:
     for degrees, mu in ((0.0, 0.4), (4.0, 0.4), (-7.0, 0.2), (30.0, 1.0)):
         slope = math.radians(degrees)
         limits = problems.yield_accelerations(slope, mu, G)
-        for name, limit in zip(("down", "up"), limits, strict=True):
+        for name, limit in zip(("downslope", "upslope"), limits, strict=True):
             yield check(
                 "Closed forms",
-                f"Slope {degrees:g} deg, mu = {mu:g}: acceleration at which slip {name} it begins",
-                "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); bisection",
+                f"Slope {degrees:g} deg, mu = {mu:g}: onset of {name} slip",
+                "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); computed by bisection",
                 "Yield acceleration",
                 "m/s2",
                 limit,
@@ -205,7 +205,7 @@ def _yield_accelerations() -> Iterator[CheckRow]:
 
 
 def _found_limit(slope: float, mu: float, limit: float) -> float:
-    """Return the least acceleration that moves a block, by bisection up to twice the expected."""
+    """Return the least acceleration that moves the block; bisects from 0 to twice `limit`."""
     least, most = 0.0, 2.0 * limit
     for _ in range(45):
         middle = 0.5 * (least + most)
@@ -219,8 +219,8 @@ def _self_locking() -> CheckRow:
     ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
     return check(
         "Closed forms",
-        "Self-locking: 60 deg, mu = 3, pushed up the slope by 5 g",
-        "mu sin(theta) >= cos(theta): no acceleration moves it",
+        "Self-locking: slope 60 deg, mu = 3, horizontal acceleration 50 m/s2",
+        "mu sin(theta) >= cos(theta): no horizontal acceleration causes slip",
         "PRD",
         "m",
         0.0,
@@ -230,15 +230,15 @@ def _self_locking() -> CheckRow:
 
 
 def physical_checks(record: Record) -> Iterator[CheckRow]:
-    """Make the four physical checks of the paper."""
+    """Run the four physical checks of the paper."""
     section, slope, dt = "Physical checks of the paper", math.radians(30), 0.01
-    source = "Paper, Physical Checks (1): 30 deg, mu = 1"
+    source = "Paper, Physical Checks (1): slope 30 deg, mu = 1"
     still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
-    yield check(section, "Still roof", source, "PRD", "m", 0.0, still.prd_m, 0.0)
+    yield check(section, "No shaking: no slip", source, "PRD", "m", 0.0, still.prd_m, 0.0)
     drive, resist = problems.slope_pulse(slope, 1.0, 0.6, 0.0, G)
     expected = problems.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)
     loose = slide(trapezoid(-0.6 * G, 30, 900), dt, slope_rad=slope, mu=1.0, g_mps2=G)
-    name = "A pulse of 0.6 g for 0.3 s knocks it loose"
+    name = "A pulse of 0.6 g for 0.3 s causes slip"
     yield check(section, name, source, "PRD", "m", expected, loose.prd_m, ROUNDING)
     yield _free_slide(section, 7.0, 0.1, 5.0)
     one, other = (
@@ -253,9 +253,9 @@ def physical_checks(record: Record) -> Iterator[CheckRow]:
     )
     yield check(
         section,
-        f"4 and -4 deg, mu = 0.4, {record.name} at 1.5 g",
+        f"Slopes 4 and -4 deg, mu = 0.4, {record.name}, PPA = 1.5 g",
         "Paper, Physical Checks (3): the deflections differ",
-        "PRDs differ by more than 1 %: 1 for yes",
+        "PRDs differ by more than 1 % (1 = yes)",
         "1",
         1.0,
         float(abs(one.prd_m - other.prd_m) > 0.01 * max(one.prd_m, other.prd_m)),
@@ -266,13 +266,13 @@ def physical_checks(record: Record) -> Iterator[CheckRow]:
 
 def _critical_friction(section: str) -> Iterator[CheckRow]:
     slope, time_s = math.radians(0.5), 5.0
-    source = "Paper, Physical Checks (4): it slides at 0.999 but not at 1.000"
+    source = "Paper, Physical Checks (4): slides at 0.999 tan(theta), no slip at 1.000 tan(theta)"
     for factor in (0.999, 1.0):
         mu = factor * math.tan(slope)
         expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
         found = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
-        name = f"Still roof of 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
-        # What is left of sin - mu cos is a thousandth of it, and so has three digits less.
+        name = f"No shaking, slope 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
+        # sin - mu cos cancels to a thousandth of sin, which costs three digits.
         yield check(
             section,
             name,

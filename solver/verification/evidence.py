@@ -1,6 +1,6 @@
-"""What a verification finds, as frozen records: checks, work against precision, maps, figures.
+"""Results of a verification as frozen records: checks, accuracy against run time, maps, figures.
 
-Computes nothing but read-offs. Read `solver.verification` for what fills them.
+Computes only values read from the curves. See `solver.verification.run` for what fills them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from solver.model import Floats, Status
 from solver.verification.rung_evidence import RungEvidence
 
 FLOOR_M = 1e-3
-"""Errors in percent are of the exact displacement, or of a millimetre where that is less [m]."""
+"""Errors in percent are relative to the exact displacement, or to 1 mm if that is larger [m]."""
 
 
 def percent_of(off_m: Floats, exact_m: Floats | float) -> Floats:
@@ -29,7 +29,7 @@ def percent_off(found_m: Floats | float, exact_m: Floats | float) -> Floats:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckRow:
-    """One expected value and what was found.
+    """One expected value and the computed value.
 
     Attributes
     ----------
@@ -56,19 +56,19 @@ class CheckRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkPoint:
-    """One run of one method: what it costs and how far it is off the exact one.
+    """One run of one method: its run time and its error relative to the exact method.
 
     Attributes
     ----------
     method : str
         Key of `solver.METHODS`.
     setting : float
-        Value of the method's knob; NaN for a method without one.
+        Value of the method's accuracy setting; NaN for a method without one.
     parameters : mapping
         All parameters of the run.
     record, scene : str
     seconds : float
-        Least time of some repeats, warm, without the input's checks [s]; NaN for a failed run.
+        Least time of several repeats, warm, without input checks [s]; NaN for a failed run.
     prd_error_m, prd_error_percent, residual_error_m, residual_error_percent : float
         NaN for a failed run; see `percent_off`.
     status : Status
@@ -102,7 +102,7 @@ class StabilityMap:
     limit : array, shape (p,) or (0,)
         y of the theoretical limit in each column; empty for none.
     x_mark : float
-        x of a limit that holds for every y; NaN for none.
+        x of a limit independent of y; NaN for none.
     x_log, y_log : bool
     """
 
@@ -122,7 +122,7 @@ class StabilityMap:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Convergence:
-    """Fig. 5 of the paper: its own method with more and more sub-steps, in 60 scenarios.
+    """Fig. 5 of the paper: the paper's method with increasing sub-steps, in 60 scenarios.
 
     Attributes
     ----------
@@ -130,15 +130,15 @@ class Convergence:
     scenarios : int
     substeps : tuple of int
     largest_error_exact_percent, largest_error_p256_percent : array, shape (len(substeps),)
-        Of the residual, largest over the scenarios, see `percent_off`; with the exact method as
-        the truth, and with the last number of sub-steps as the paper has it (0 there).
+        Of the residual, largest over the scenarios, see `percent_off`; relative to the exact
+        method, and to the last number of sub-steps as in the paper (0 there).
     largest_error_of_prd_percent : array, shape (len(substeps),)
-        The same errors, against the exact method, in percent of the PRD: where a block comes back
-        to a millimetre from its place, an error of the residual in percent of it says little.
+        The same errors against the exact method, in percent of the PRD: where a block returns to
+        within a millimeter of its start, an error in percent of the residual is not meaningful.
     worst_cases : tuple of str
         The scenario of each `largest_error_exact_percent`.
     longest_seconds : array, shape (len(substeps),)
-        Of one run [s].
+        Longest time of one run [s].
     """
 
     record: str
@@ -161,12 +161,12 @@ class LinkComparison:
     slope_deg, ppa_g : float
     mus : array, shape (n,)
     prd_exact_m, prd_link_m, rrd_exact_m, rrd_link_m : array, shape (n,)
-        Peak and residual relative displacement, without sign [m]; NaN where the link diverged.
+        Magnitudes of peak and residual relative displacement [m]; NaN where the link diverged.
     history_mu : float
-        The friction coefficient whose RRD differs most.
+        The friction coefficient with the largest difference in RRD.
     history_t_s, history_exact_m, history_link_m : array, shape (m,)
     worst_percent, mean_percent : float
-        Difference in RRD, of the link's as in the paper, see `percent_off`.
+        Difference in RRD relative to the link's, as in the paper, see `percent_off`.
     """
 
     record: str
@@ -194,9 +194,9 @@ class DesignCurves:
     record : str
     runs : int
     seconds : float
-        Of all runs together [s].
+        Total time of all runs [s].
     slopes_deg, mus, ppas_g : array, shape (p,), (q,), (r,)
-        Rising; slopes from 0.
+        Ascending; slopes from 0.
     prd_m : array, shape (p, q, r)
         The larger of both signs of the slope [m].
     """
@@ -210,17 +210,17 @@ class DesignCurves:
     prd_m: Floats
 
     def prd(self, slope_deg: float, ppa_g: float) -> Floats:
-        """Return the PRD [m] at every friction coefficient, linear between the runs."""
+        """Return the PRD [m] at every friction coefficient, interpolated between the runs."""
         by_slope = np.apply_along_axis(
             lambda column: np.interp(slope_deg, self.slopes_deg, column), 0, self.prd_m
         )
         return np.array([np.interp(ppa_g, self.ppas_g, row) for row in by_slope])
 
     def least_mu(self, slope_deg: float, ppa_g: float, wanted_m: float) -> float:
-        """Return the least friction coefficient from which on the PRD stays within `wanted_m`.
+        """Return the least friction coefficient above which the PRD does not exceed `wanted_m`.
 
-        Linear between the runs; the least of the runs where all stay within, NaN where even the
-        greatest does not.
+        Interpolated between the runs; the smallest coefficient run if none exceeds it, NaN if
+        the largest does.
         """
         prd = self.prd(slope_deg, ppa_g)
         beyond = np.flatnonzero(prd > wanted_m)
@@ -235,17 +235,17 @@ class DesignCurves:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Conditioning:
-    """What a small change of friction does to the exact PRD: no method can be better than that.
+    """Effect of a small change of friction on the exact PRD: no method can be more accurate.
 
     Attributes
     ----------
     title, note, record : str
     slope_deg, ppa_g : float
     relative_change : float
-        Of mu, both up and down.
+        Of mu, both increased and decreased.
     mu, prd_m : array, shape (n,)
     change_percent : array, shape (n,)
-        The larger change of the PRD, see `percent_off`.
+        The larger of the two changes of the PRD, see `percent_off`.
     """
 
     title: str
@@ -261,7 +261,7 @@ class Conditioning:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PeerPoint:
-    """One run by another program, where it is installed.
+    """One run by another program, if installed.
 
     Attributes
     ----------
@@ -283,19 +283,19 @@ class PeerPoint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoofPrediction:
-    """A roof motion computed from the ground motion, held against the one that was recorded.
+    """A roof motion computed from the ground motion, compared with the recorded one.
 
     Attributes
     ----------
     name : str
-        Where the building's properties come from.
+        Source of the building's properties.
     period_s, damping, alpha0 : float
         Of the first mode [s], of every mode, and the lateral stiffness ratio.
     n_modes : int
     left_out_share : float
         See `solver.building.roof.RoofMotion`.
     unexplained : float
-        Sum of squares of computed less recorded roof acceleration, over that of the recorded one.
+        Sum of squares of (computed - recorded) roof acceleration over that of the recorded one.
     peak_mps2 : float
     sa_mps2 : array, shape (m,)
         Pseudo-spectral acceleration at `RoofComparison.periods_s`, 5 % damping [m/s2].
@@ -303,9 +303,9 @@ class RoofPrediction:
         Geometric mean of computed over recorded spectrum in each band, and the standard deviation
         of its natural logarithm there.
     a_mps2 : array, shape (n,)
-        The roof motion, as long as the recorded one.
+        The roof motion, over the duration of the recorded one.
     prd_m : array, shape (k,)
-        With the scenes of `RoofComparison` [m].
+        For the scenes of `RoofComparison` [m].
     """
 
     name: str
@@ -325,14 +325,14 @@ class RoofPrediction:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoofComparison:
-    """One building whose ground and roof were recorded, with what is computed for its roof.
+    """One building whose ground and roof were recorded, with the computed roof motions.
 
     Attributes
     ----------
-    title, story : str
-        Its name; what it is, and what was recorded where.
+    title, description : str
+        Name; type of building and location of the instruments.
     is_recorded : bool
-        In an earthquake; else the building is a made one.
+        In an earthquake; otherwise the model building.
     dt_s : float
     roof_mps2 : array, shape (n,)
         Recorded [m/s2].
@@ -341,16 +341,16 @@ class RoofComparison:
     ground_sa_mps2, roof_sa_mps2 : array, shape (m,)
         Recorded, 5 % damping [m/s2].
     bands_s : tuple of pairs of float
-        Ends of the bands of periods [s].
+        Limits of the period bands [s].
     slope_deg, scale : float
-        Slope and factor of all scenes.
+        Slope and scale factor of all scenes.
     mus, prd_m : array, shape (k,)
         Friction coefficient of each scene, and PRD under the recorded roof motion [m].
     predictions : tuple of RoofPrediction
     """
 
     title: str
-    story: str
+    description: str
     is_recorded: bool
     dt_s: float
     roof_mps2: Floats
@@ -368,7 +368,7 @@ class RoofComparison:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verification:
-    """All that `verify` found.
+    """The complete result of `verify`.
 
     Attributes
     ----------
@@ -376,23 +376,23 @@ class Verification:
     work : tuple of WorkPoint
     maps : tuple of StabilityMap
     convergence : tuple of Convergence
-        One for each record, the project's own first.
+        One for each record, the project's first.
     links : tuple of LinkComparison
-        Flat and 4 degrees for each record, the project's own first.
+        Slopes 0 and 4 degrees for each record, the project's first.
     curves : tuple of DesignCurves
-        One for each record, the project's own first.
+        One for each record, the project's first.
     conditioning : tuple of Conditioning
     roofs : tuple of RoofComparison
-        The made building first, then those whose records were given.
+        The model building first, then those whose records were given.
     rungs : tuple of RungEvidence
         One.
     peers : tuple of PeerPoint
-        Empty where none is installed.
+        Empty if none is installed.
     records : tuple of str
-        Names of the records, the project's own first.
+        Names of the records, the project's first.
     quick : bool
     seconds : float
-        Of everything together [s].
+        Total time [s].
     """
 
     checks: tuple[CheckRow, ...]

@@ -1,6 +1,6 @@
 """Period, damping and stiffness ratio of a building from motions of its ground and its floors.
 
-A search, not a method of the packages: it tells how good `solver.building.roof` can be.
+A search used for verification only: it shows how accurate `solver.building.roof` can be.
 Read `identify`.
 """
 
@@ -19,10 +19,10 @@ from solver.building.structure import MOST_DAMPING
 from solver.model import Floats
 
 MODES = 12
-"""Of a beam; more of them change nothing that a floor shows."""
+"""Modes of the beam; further modes do not change the floor motions noticeably."""
 
 DAMPINGS, ALPHAS = (0.02, 0.05, 0.12), (0.0, 2.0, 6.0, 15.0, 40.0)
-"""The coarse grid; periods step by 4 %, finer than a resonance is wide."""
+"""The coarse grid; periods are 4 % apart, less than the width of a resonance peak."""
 
 _PERIOD_STEP, _LAST_STEP = 0.04, 1e-4
 
@@ -30,7 +30,7 @@ _Point = tuple[float, float, float]
 
 
 class Identified(NamedTuple):
-    """The uniform beam whose floors come nearest to the recorded ones.
+    """The uniform beam whose floor motions fit the recorded ones best.
 
     `unexplained` is the sum of squares of the difference over that of the recorded motions.
     """
@@ -48,14 +48,14 @@ def identify(
     floors_mps2: Floats,
     periods_s: tuple[float, float],
 ) -> Identified:
-    """Return the beam with the least sum of squares: a grid first, then shrinking steps.
+    """Return the beam with the least sum of squares: grid search, then shrinking steps.
 
     Parameters
     ----------
     ground_mps2, floors_mps2 : array, shape (n,) and (n, m)
         Recorded in the same direction, over the same time.
     heights : tuple of float, m of them
-        Of the floors over the height of the building.
+        Of the floors, relative to the height of the building.
     periods_s : pair of float
         Least and greatest first period of the grid [s].
     """
@@ -78,7 +78,7 @@ def identify(
 
 
 def _plain(point: _Point) -> _Point:
-    """Return period, damping and ratio of a point of the search: logarithms, within bounds."""
+    """Return period, damping and ratio of a point of the search (logarithms), within bounds."""
     period, damping, alpha0 = np.exp(point)
     return (
         float(period),
@@ -88,7 +88,7 @@ def _plain(point: _Point) -> _Point:
 
 
 def _descend(misfit: Callable[[_Point], float], least: float, best: _Point) -> tuple[float, _Point]:
-    """Step to the best of the neighbours on each axis; halve the steps where none is better."""
+    """Step to the best of the neighbors on each axis; halve the steps where none is better."""
     reach = np.array([_PERIOD_STEP / 2.0, 0.4, 0.4])
     while reach[0] > _LAST_STEP:
         around: list[_Point] = [

@@ -1,7 +1,7 @@
-"""The studies of the paper on any record: its Figs. 5 to 12.
+"""The studies of the paper on any record: Figs. 5 to 12.
 
-Runs only; read-offs are in `evidence`. Source: "Predicted Slip of Ballasted Solar Arrays on
-Angled Roofs due to Seismic Motion".
+Runs only; values read from the curves are in `evidence`. Source: "Predicted Slip of Ballasted Solar
+Arrays on Angled Roofs due to Seismic Motion".
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ SUBSTEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 
 LINK_PER_M = 1e5
 LINK_STEP_S = 0.001
-"""The link of the paper's SAP 2000 model, 100 N/mm on a weight of 1 N, and its sub-step."""
+"""The link of the paper's SAP 2000 model, 100 N/mm for a weight of 1 N, and its sub-step."""
 
 LINK_PPA_G = 1.0
 LINK_MUS = {
@@ -125,7 +125,7 @@ def _history(record: Record, case: Case, method: str, **parameters: float) -> Sl
 
 
 def design_curves(record: Record) -> DesignCurves:
-    """Make the paper's 6,960 runs and take the larger of both signs of a slope (Figs. 10 to 12)."""
+    """Run the paper's 6,960 cases; return the larger of both signs of the slope (Figs. 10-12)."""
     both = np.concatenate([-SLOPES_DEG[:0:-1], SLOPES_DEG])
 
     def all_runs() -> Floats:

@@ -1,7 +1,7 @@
-"""Other programs as outside judges, each only where it is installed; the product needs none.
+"""Other programs for comparison, each only if installed; the product needs none of them.
 
-Each is used as its users would, on the same scene, in the axes of the roof where it knows no
-slope. What a peer raises becomes a hole with its reason.
+Each is run as its users would, on the same scene, in the axes of the roof if it has no slope.
+If a program raises an error, its result is NaN and the note gives the reason.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from solver.verification.triples import Triple
 SUBSTEPS = 10
 MOTIONS = 3
 MOTION_S = 10.0
-"""Longest part of a motion of three components [s]."""
+"""Longest duration used of a motion of three components [s]."""
 
 STIFFNESS_PER_M = 1e5
 
@@ -47,7 +47,7 @@ class Peer:
     ----------
     name, module, note : str
     prd_m : callable
-        PRD [m] of a scene; NaN where it gives up.
+        PRD [m] of a scene; NaN if it does not converge.
     """
 
     name: str
@@ -59,9 +59,9 @@ class Peer:
 def peer_points(
     records: Sequence[Record], triples: Sequence[Triple], *, quick: bool
 ) -> Iterator[PeerPoint]:
-    """Run what is installed: in one axis on records, then on the strongest part of motions.
+    """Run the installed programs: in one axis on records, then on the strongest part of motions.
 
-    Of the motions the first ones whose vertical lifts no block.
+    Uses the first motions whose vertical component does not lift the block.
     """
     kept = [triple for triple in triples if rungs.stays(triple)][:MOTIONS]
     for model, peers, scenes in (
@@ -111,8 +111,8 @@ def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> Pee
         if math.isfinite(prd_m):
             seconds = time.perf_counter() - start
         else:
-            note = f"{note}. It did not converge"
-    except Exception as error:  # nobody knows what another program raises
+            note = f"{note}; did not converge"
+    except Exception as error:  # another program may raise anything
         prd_m, note = math.nan, f"{model}; {type(error).__name__}: {error}"
     return PeerPoint(
         peer=peer.name,
@@ -137,7 +137,7 @@ def _opensees(scene: Scene) -> float:
     ops = importlib.import_module("openseespy.opensees")
     sine, cosine = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
     level, dt = scene.scale * scene.ax_mps2, scene.dt_s
-    upright = scene.scale * scene.az_mps2 if scene.az_mps2.size else np.zeros_like(level)
+    vertical = scene.scale * scene.az_mps2 if scene.az_mps2.size else np.zeros_like(level)
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)
     for node in (1, 2):
@@ -158,7 +158,7 @@ def _opensees(scene: Scene) -> float:
         return math.nan
     ops.loadConst("-time", 0.0)
     rest = ops.nodeDisp(2, 1)
-    down, off = cosine * level - sine * upright, sine * level + cosine * upright
+    down, off = cosine * level - sine * vertical, sine * level + cosine * vertical
     for axis, values in ((1, down), (2, off)):
         ops.timeSeries("Path", 1 + axis, "-dt", dt, "-values", *values.tolist())
         ops.pattern("UniformExcitation", 1 + axis, axis, "-accel", 1 + axis)
@@ -186,9 +186,9 @@ def _prepare_opensees(ops: object, analysis: str, *integrator: object) -> None:
 
 
 def _pyslammer(scene: Scene) -> float:
-    """Run its one-way rigid block down the slope and up it; the larger is the PRD.
+    """Run its one-way rigid block downslope and upslope; the larger is the PRD.
 
-    s'' = (cos(theta) + mu sin(theta)) (-a - g tan(phi - theta)) down the slope.
+    Downslope s'' = (cos(theta) + mu sin(theta)) (-a - g tan(phi - theta)).
     """
     pyslammer = importlib.import_module("pyslammer")
     mu, a = scene.friction.mu_slow, scene.scale * scene.ax_mps2
@@ -213,7 +213,7 @@ _STIFF = 'solref="{time} 1" solimp="0.99 0.9999 1e-6"'
 
 
 def _mujoco(contact: str, scene: Scene) -> float:
-    """Let a box slide on a plane, gravity being what the roof's own axes feel."""
+    """Slide a box on a plane; gravity is set to the acceleration in the axes of the roof."""
     mujoco = importlib.import_module("mujoco")
     step, mu = scene.dt_s / SUBSTEPS, scene.friction.mu_slow
     held = contact.format(time=f"{2.0 * step:g}")
@@ -241,16 +241,15 @@ _MUJOCOS = tuple(
     Peer(
         name="MuJoCo",
         module="mujoco",
-        note="box on a plane, elliptic cone, no-slip solver, "
-        f"{SUBSTEPS} sub-steps, contact as {words}",
+        note=f"box on a plane, elliptic cone, no-slip solver, {SUBSTEPS} sub-steps, {words}",
         prd_m=partial(_mujoco, contact),
     )
-    for contact, words in (("", "it comes"), (_STIFF, "stiff as its step allows"))
+    for contact, words in (("", "default contact"), (_STIFF, "stiffest contact for its step"))
 )
 _PYSLAMMER = Peer(
     name="pySLAMMER",
     module="pyslammer",
-    note="rigid block that slides one way only, the larger of both, at the record's own step",
+    note="rigid block that slides in one direction only, larger of both directions, step of record",
     prd_m=_pyslammer,
 )
 

@@ -1,8 +1,7 @@
-"""A block in two axes by SciPy: a slow, careful reference, and what a general solver does at first.
+"""A block in two axes by SciPy: a slow, accurate reference, and general-purpose solvers.
 
-SciPy is loaded when it runs, and is needed by nothing else. Apart from `solver.kernels.two_axes`:
-no series and no bound. Read `reference`, then `regularised`. Letters as in
-`solver.kernels.two_axes`.
+SciPy is imported only when needed. Independent of `solver.kernels.two_axes`: no series and no
+bound. Read `reference`, then `regularized`. Symbols as in `solver.kernels.two_axes`.
 """
 
 from __future__ import annotations
@@ -19,30 +18,30 @@ from solver.model import Floats, Scene
 Solver = Literal["RK45", "DOP853", "Radau"]
 
 REFERENCE_RTOL = 1e-12
-"""Of a step, of the speed at its beginning."""
+"""Relative tolerance of a step."""
 
 BEGINNING = 2e-5
-"""Speed, of what the interval may give, from which a slip is integrated."""
+"""Velocity from which a slip is integrated, as a share of what the interval can produce."""
 
 EVALUATIONS = 40_000
-"""Evaluations of the right-hand side before a run is given up as stalled."""
+"""Evaluations of the right-hand side after which a run counts as stalled."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Integrated:
-    """What a general solver gave.
+    """Result of a general-purpose solver.
 
     Attributes
     ----------
     followed : bool
-        Whether it came to the end; else all lengths are NaN.
+        Whether the run was completed; otherwise all lengths are NaN.
     prd_m : float
         Largest distance in plan at its steps [m].
     end_m : tuple of float
-        Place at the end, x and y [m].
+        Final position, x and y [m].
     end_speed_mps : float
     evaluations : int
-        Of the right-hand side.
+        Evaluations of the right-hand side.
     """
 
     followed: bool
@@ -53,12 +52,12 @@ class Integrated:
 
 
 def is_installed() -> bool:
-    """Whether SciPy is."""
+    """Whether SciPy is installed."""
     return importlib.util.find_spec("scipy") is not None
 
 
 def samples_of(scene: Scene) -> Floats:
-    """Return G down the slope, G across it and mu N at the samples, shape (n, 3) [m/s2]."""
+    """Return downslope G, cross-slope G and mu N at the samples, shape (n, 3) [m/s2]."""
     sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
     ax = scene.scale * scene.ax_mps2
     ay = scene.scale * scene.ay_mps2 if scene.ay_mps2.size else 0.0 * ax
@@ -79,7 +78,7 @@ class _Interval:
         return self.x + self.rx * t, self.y + self.ry * t, self.c + self.rc * t
 
     def excess(self, t: float) -> float:
-        """How much more than friction can hold the block is pushed."""
+        """Drive in excess of the friction capacity."""
         x, y, c = self.at(t)
         return math.hypot(x, y) - c
 
@@ -89,16 +88,16 @@ class _Interval:
         return np.array([vx, vy, self.x + self.rx * t - f * vx, self.y + self.ry * t - f * vy])
 
     def gained(self, t: float, h: float) -> float:
-        """Return the speed that a slow block gains in h from rest, by Simpson's rule."""
+        """Return the velocity that a block gains in h from rest, by Simpson's rule."""
         ends = max(self.excess(t), 0.0) + self.excess(t + h)
         return h * (ends + 4.0 * self.excess(t + 0.5 * h)) / 6.0
 
 
 def reference(scene: Scene) -> Floats:
-    """Return the block's place at the samples, shape (2, n) [m]: x as the slope falls, y across.
+    """Return the position at the samples, shape (2, n) [m]: x downslope, y cross-slope.
 
-    DOP853 with friction as it is, begun anew at every sample and whenever slip begins, ended when
-    it stops. A slip begins in the direction of the drive, see `BEGINNING`.
+    DOP853 with Coulomb friction, restarted at every sample and at each onset of slip, ended at
+    each stop. A slip begins in the direction of the drive, see `BEGINNING`.
     """
     rows = samples_of(scene)
     places = np.zeros((2, len(rows)))
@@ -119,7 +118,7 @@ def reference(scene: Scene) -> Floats:
 
 
 def _onset(span: _Interval, t: float) -> float:
-    """When a block at rest at t begins to slip: |G| - mu N is convex; inf for not here."""
+    """Onset of slip of a block at rest at t, inf if none; |G| - mu N is convex."""
     from scipy.optimize import brentq
 
     if span.excess(t) > 0.0:
@@ -130,7 +129,7 @@ def _onset(span: _Interval, t: float) -> float:
 
 
 def _begun(span: _Interval, t: float, state: Floats) -> tuple[float, Floats, bool]:
-    """Return the first instants of a slip: it goes as G does, behind it by the turn in w / |G|."""
+    """Return the start of a slip: along G, lagging by the rotation of G during w / |G|."""
     from scipy.optimize import brentq
 
     left = span.dt - t
@@ -164,11 +163,11 @@ def _slid(span: _Interval, t: float, state: Floats) -> tuple[float, Floats, bool
 
 
 class _StalledError(Exception):
-    """The evaluations are used up."""
+    """The limit on evaluations is reached."""
 
 
 class _Rate:
-    """The state's rate at any time, friction mu N tanh(w / v0); v0 = 0: as it is, none at rest."""
+    """Rate of the state with friction mu N tanh(w / v0); v0 = 0: Coulomb friction, none at rest."""
 
     def __init__(self, scene: Scene, velocity: float):
         self.rows: list[list[float]] = samples_of(scene).tolist()
@@ -192,23 +191,23 @@ class _Rate:
         return vx, vy, gx - f * vx, gy - f * vy
 
 
-def regularised(scene: Scene, solver: Solver, velocity_mps: float, tolerance: float) -> Integrated:
+def regularized(scene: Scene, solver: Solver, velocity_mps: float, tolerance: float) -> Integrated:
     """Run one of SciPy's adaptive solvers without events.
 
     Parameters
     ----------
     solver : Solver
     velocity_mps : float
-        v0 of the friction mu N tanh(w / v0); 0 for Coulomb's, with its jump.
+        v0 of the friction mu N tanh(w / v0); 0 for Coulomb friction with its discontinuity.
     tolerance : float
-        Relative; the absolute one is a thousandth of it, as in SciPy's defaults.
+        Relative; the absolute tolerance is a thousandth of it, as in SciPy's defaults.
     """
     from scipy.integrate import solve_ivp
 
     rate = _Rate(scene, velocity_mps)
     end = (scene.ax_mps2.size - 1) * scene.dt_s
     try:
-        with np.errstate(over="ignore"):  # Radau's own, in its differences for the Jacobian
+        with np.errstate(over="ignore"):  # from Radau's finite differences for the Jacobian
             found = solve_ivp(
                 rate, (0.0, end), np.zeros(4), method=solver, rtol=tolerance, atol=1e-3 * tolerance
             )

@@ -1,6 +1,6 @@
-"""Two axes: work against precision, and what is left of each method when a block has stopped.
+"""Two axes: accuracy against run time, and the behavior of each method after a block has stopped.
 
-Against fixed steps (`solver.kernels.fixed_steps`) and, where it is installed, SciPy. Read `work`,
+Compared with fixed steps (`solver.kernels.fixed_steps`) and, if installed, SciPy. Read `work`,
 then `stops`.
 """
 
@@ -23,12 +23,12 @@ from solver.verification.triples import Triple
 from solver.verification.workprecision import least_seconds
 
 OURS = "Power series, event by event"
-HOLDING = "Fixed steps, held where it reverses"
-CHATTERING = "Fixed steps, friction against v alone"
+HOLDING = "Fixed steps, stick at velocity reversal"
+CHATTERING = "Fixed steps, no stick"
 
 CASE = Case(2.0, 0.4, 1.0)
 SAMPLES = (101, 151)
-"""Of the part of a motion, quick and full: SciPy takes a second for a run."""
+"""Samples of the part of a motion, quick and full: SciPy takes a second per run."""
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 SUBSTEPS = (1, 4, 16, 64, 256, 1024)
@@ -44,7 +44,7 @@ SCIPY: tuple[tuple[Solver, float, tuple[float, ...]], ...] = (
 
 
 def work(triple: Triple, *, quick: bool) -> tuple[str, tuple[PlaneWork, ...]]:
-    """Return the scene in words, and every method over its settings on it."""
+    """Return the scene in words, and every method with each of its settings on it."""
     part = triple.cut(SAMPLES[not quick])
     scene = part.scene(CASE, coulomb(CASE.mu))
     exact = two_axes.run(scene, TIGHT)
@@ -53,7 +53,7 @@ def work(triple: Triple, *, quick: bool) -> tuple[str, tuple[PlaneWork, ...]]:
 
 
 def _ours(scene: Scene) -> Iterator[PlaneWork]:
-    """Its error is the largest at the samples: that of the PRD may be nothing by chance."""
+    """The error is the largest at the samples: that of the PRD may be zero by chance."""
     truth = two_axes.run_history(scene, TIGHT)
     for tolerance in TOLERANCES:
         found = two_axes.follow(scene, tolerance)
@@ -77,7 +77,7 @@ def _fixed(scene: Scene, prd_m: float) -> Iterator[PlaneWork]:
     for method, holds in ((HOLDING, True), (CHATTERING, False)):
         for substeps in SUBSTEPS:
             run = partial(fixed_steps.slide_fixed, rows, scene.dt_s, cs, substeps, holds)
-            found = run()[0]  # before the clock: the first call compiles
+            found = run()[0]  # before timing: the first call compiles
             yield PlaneWork(
                 method=method,
                 setting=f"P = {substeps}",
@@ -93,7 +93,7 @@ def _scipy(scene: Scene, prd_m: float, quick: bool) -> Iterator[PlaneWork]:
     for solver, velocity_mps, tolerances in SCIPY[:3] if quick else SCIPY:
         for tolerance in tolerances[:2] if quick else tolerances:
             start = time.perf_counter()
-            found = plane_scipy.regularised(scene, solver, velocity_mps, tolerance)
+            found = plane_scipy.regularized(scene, solver, velocity_mps, tolerance)
             seconds = time.perf_counter() - start
             yield PlaneWork(
                 method=f"SciPy {solver}, v0 = {1e3 * velocity_mps:g} mm/s",
@@ -105,9 +105,9 @@ def _scipy(scene: Scene, prd_m: float, quick: bool) -> Iterator[PlaneWork]:
 
 
 def stops() -> Iterator[StopPoint]:
-    """Run the block that is stopped under a push, and rests for 1.8 s, by every method.
+    """Run the block that stops under a transverse acceleration and rests for 1.8 s, every method.
 
-    Its place is known in closed form, see `rungs.stopped_scene` and its checks.
+    Its position is known in closed form, see `rungs.stopped_scene` and its checks.
     """
     scene = stopped_scene()
     truth = two_axes.run(scene, TIGHT)
@@ -145,7 +145,7 @@ def _scipy_stops(scene: Scene, place: tuple[float, float]) -> Iterator[StopPoint
         ("DOP853", 0.0, 1e-6),
     )
     for solver, velocity_mps, tolerance in runs:
-        found = plane_scipy.regularised(scene, solver, velocity_mps, tolerance)
+        found = plane_scipy.regularized(scene, solver, velocity_mps, tolerance)
         friction = f"v0 = {1e3 * velocity_mps:g} mm/s" if velocity_mps else "Coulomb, no events"
         yield StopPoint(
             method=f"SciPy {solver}, {friction}",

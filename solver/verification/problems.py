@@ -1,4 +1,4 @@
-"""Problems with a closed form, to hold the solver against; none leans on the kernels.
+"""Problems with a closed form; none uses the solver.
 
 Lengths are along the slope, s [m]; the horizontal displacement is s cos(theta).
 """
@@ -11,11 +11,11 @@ import math
 def pulse_travel(drive_mps2: float, resist_mps2: float, plateau_s: float, ramp_s: float) -> float:
     """Return the travel [m] under a trapezoidal pulse, by integration of its polynomials.
 
-    The driving acceleration rises over a ramp to `drive`, stays for `plateau`, falls over a ramp;
-    friction less gravity holds back with `resist` < drive throughout. With ramp 0 it is Newmark's
-    rectangular pulse, V^2 / (2 resist) (1 - resist / drive) with V = drive T.
+    The driving acceleration rises over a ramp to `drive`, stays there for `plateau` and falls over
+    a ramp; friction less gravity resists with `resist` < drive throughout. A ramp of 0 gives
+    Newmark's rectangular pulse, V^2 / (2 resist) (1 - resist / drive) with V = drive T.
 
-    The speed must not reach zero within the falling ramp: long plateaus only.
+    Valid for long plateaus only: the speed must not reach zero within the falling ramp.
     """
     push = drive_mps2 - resist_mps2
     rate = drive_mps2 / ramp_s if ramp_s else math.inf
@@ -33,9 +33,9 @@ def pulse_travel(drive_mps2: float, resist_mps2: float, plateau_s: float, ramp_s
 def slope_pulse(
     slope_rad: float, mu: float, horizontal_g: float, vertical_g: float, g_mps2: float
 ) -> tuple[float, float]:
-    """Return (drive, resist) [m/s2] for a pulse that pushes the roof up the slope.
+    """Return (drive, resist) [m/s2] for a pulse that accelerates the roof upslope.
 
-    Down the slope s'' = (g + a_v)(sin - mu cos) + a (cos + mu sin), a the acceleration up-slope.
+    Downslope s'' = (g + a_v)(sin - mu cos) + a (cos + mu sin), a the upslope acceleration.
     """
     weight = math.sin(slope_rad) - mu * math.cos(slope_rad)
     push = math.cos(slope_rad) + mu * math.sin(slope_rad)
@@ -59,7 +59,7 @@ def half_sine_travel(amplitude_g: float, mu: float, freq_hz: float, g_mps2: floa
 
 
 def harmonic_travel(amplitude_g: float, mu: float, freq_hz: float, g_mps2: float) -> float:
-    """Return the travel [m] per half cycle of the steady, never sticking harmonic, flat roof.
+    """Return the travel [m] per half cycle on a flat roof, steady-state harmonic without sticking.
 
     (2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A < 2 / sqrt(4 + pi^2).
     """
@@ -70,15 +70,15 @@ def harmonic_travel(amplitude_g: float, mu: float, freq_hz: float, g_mps2: float
 
 
 def free_slide_travel(slope_rad: float, mu: float, time_s: float, g_mps2: float) -> float:
-    """Return the travel [m] on a still roof steeper than the friction angle, from rest."""
+    """Return the travel [m] from rest on an unshaken roof steeper than the friction angle."""
     return 0.5 * g_mps2 * (math.sin(slope_rad) - mu * math.cos(slope_rad)) * time_s**2
 
 
 def yield_accelerations(slope_rad: float, mu: float, g_mps2: float) -> tuple[float, float]:
-    """Return the horizontal accelerations [m/s2] at which slip begins: down the slope, up it.
+    """Return the horizontal accelerations [m/s2] at which slip begins: downslope, upslope.
 
     -g tan(phi - theta) and g tan(phi + theta) with phi = atan(mu), no vertical shaking; the second
-    is infinite where mu sin(theta) >= cos(theta): self-locking.
+    is infinite where mu sin(theta) >= cos(theta) (self-locking).
     """
     phi = math.atan(mu)
     locked = mu * math.sin(slope_rad) >= math.cos(slope_rad)

@@ -1,7 +1,7 @@
-"""Random scenes in two axes, in pairs whose answers may differ by their stated bounds alone.
+"""Random scenes in two axes, in pairs whose results may differ only by their stated bounds.
 
-Short records of every shape that a block may meet, most of them nothing like an earthquake: equal
-samples, jumps, pushes at the yield acceleration or in proportion, no friction, no normal force.
+Short records of many shapes, most unlike an earthquake: equal samples, jumps, accelerations equal
+to the yield acceleration, proportional components, no friction, no normal force.
 Read `Pair`, then `KINDS`.
 """
 
@@ -32,17 +32,17 @@ Law = Callable[[float], Friction]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """What the two runs of a pair say of each other.
+    """Comparison of the two runs of a pair.
 
     Attributes
     ----------
     prd_m : float
-        Of the first run [m].
+        PRD of the first run [m].
     off_m : float
-        Largest difference of a place between the two [m].
+        Largest difference in position between the two [m].
     bound_m : float
-        What it may be: the sum of both bounds, and rounding of the second scene's input [m]; inf
-        where friction falls with speed.
+        Allowed difference: the sum of both bounds plus the effect of rounding error in the second
+        scene's input [m]; inf where friction falls with velocity.
     """
 
     prd_m: float
@@ -57,7 +57,7 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pair:
-    """Two scenes with one answer.
+    """Two scenes with equal results.
 
     Attributes
     ----------
@@ -65,9 +65,9 @@ class Pair:
     tolerances : tuple of float
         Of both runs.
     rounding_m : float
-        What the rounding of the second scene's input may change [m] (`rounding`).
+        Effect of rounding error in the second scene's input [m] (`rounding`).
     compare : callable
-        Returns the differences of places that should be none.
+        Returns the differences in position, which should be zero.
     """
 
     one: Scene
@@ -82,7 +82,7 @@ class Pair:
         Raises
         ------
         ArithmeticError
-            Where one of them has no answer.
+            If one of them has no result.
         """
         scenes = zip((self.one, self.two), self.tolerances, strict=True)
         a, b = (follow(scene, tolerance) for scene, tolerance in scenes)
@@ -97,15 +97,15 @@ class Pair:
 
 
 def pair(kind: str, index: int) -> Pair:
-    """Return pair number `index` of a kind: always the same one."""
+    """Return pair number `index` of a kind; the same on every call."""
     return KINDS[kind](np.random.default_rng([list(KINDS).index(kind), index]))
 
 
 def rounding(scene: Scene) -> float:
-    """Return what half a unit in the last place of every sample may change in a place [m].
+    """Return the effect on position of half a unit in the last place of every sample [m].
 
-    Friction is monotone: a push that is off by d makes the speed off by d t, the place by
-    d t^2 / 2. As much again for the time step, whose quotient is rounded.
+    Friction is monotone: an acceleration error d changes the velocity by at most d t and the
+    position by d t^2 / 2. The same is added for the time step, whose quotient is rounded.
     """
     sn, cs = abs(math.sin(scene.slope_rad)), math.cos(scene.slope_rad)
     mu = max(scene.friction.mu_slow, scene.friction.mu_fast)
@@ -129,7 +129,7 @@ def _wave(rng: Random, n: int) -> Floats:
         found = np.sin(2.0 * np.pi * freq * t + phase).sum(axis=0) / 3.0
     elif shape == 1:
         found = rng.normal(size=n)
-    elif shape == 2:  # the same push for many samples
+    elif shape == 2:  # constant over many samples
         found = np.repeat(rng.choice((-1.0, -0.5, 0.0, 0.5, 1.0), n), rng.integers(1, 6))[:n]
     elif shape == 3:  # mostly quiet
         found[rng.random(n) < 0.25] = rng.normal()
@@ -145,7 +145,7 @@ def _wave(rng: Random, n: int) -> Floats:
 
 
 def _horizontal(rng: Random, n: int, peak: float) -> tuple[Floats, Floats]:
-    """Return two components, one of them at times faint, in proportion, or of equal values."""
+    """Return two components; the second may be very small, proportional or piecewise constant."""
     ax, ay = _wave(rng, n) * peak * rng.lognormal(0.3, 0.7), _wave(rng, n)
     how = rng.integers(7)
     if how == 0:
@@ -164,9 +164,9 @@ def _horizontal(rng: Random, n: int, peak: float) -> tuple[Floats, Floats]:
 def _held_down(
     rng: Random, ax: Floats, az: Floats, slope_rad: float, least: float | None
 ) -> Floats:
-    """Return a vertical that leaves a least normal force, in g, or a twentieth where it was less.
+    """Return a vertical record whose least normal force is `least` [g]; None: 0.05 g or more.
 
-    The record is lowered or raised as a whole, or cut.
+    The record is shifted as a whole or clipped.
     """
     sn, cs = math.sin(slope_rad), math.cos(slope_rad)
     lowest = ((G + (az if az.size else 0.0)) * cs + ax * sn).min()
@@ -218,7 +218,7 @@ def _scene(
 
 
 def _by_speed(rng: Random) -> Law:
-    """Return friction that grows with speed, by a little or by much, at once or slowly."""
+    """Return friction that rises with velocity, by a random amount at a random rate."""
     rate = 0.0 if rng.random() < 0.05 else 10.0 ** rng.uniform(0.0, 3.0)
     gain = float(rng.choice((1e-6, 1e-3, 0.05, 0.5, 3.0)))
 
@@ -264,7 +264,7 @@ def _mirrored_along(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
 
 
 def finer(one: Scene, factor: int) -> Scene:
-    """Return a scene with samples put between, on the straight lines."""
+    """Return a scene with linearly interpolated samples added."""
     coarse = np.arange(one.ax_mps2.size)
     fine = np.arange((coarse.size - 1) * factor + 1) / factor
     ax, ay, az = (
@@ -320,7 +320,7 @@ def _rotated(rng: Random) -> Pair:
         x, y = cs * x - sn * y, sn * x + cs * y
         return np.array([a.prd_m - b.prd_m, math.hypot(x - b.end_m[0], y - b.end_m[1])])
 
-    # Two products and a sum for each sample, and the place turned as well.
+    # Two products and a sum per sample, and the same again for rotating the position.
     allowed = 4.0 * rounding(one)
     return Pair(
         one=one, two=two, tolerances=(tolerance, tolerance), rounding_m=allowed, compare=compare
@@ -342,7 +342,7 @@ def _light(rng: Random) -> Pair:
 
 
 KINDS: dict[str, Callable[[Random], Pair]] = {
-    "samples put between": lambda rng: _put_between(rng, _scene(rng)),
+    "interpolated samples": lambda rng: _put_between(rng, _scene(rng)),
     "mirrored": _mirrored,
     "rotated on a flat roof": _rotated,
     "two tolerances": lambda rng: _tolerances(rng, _scene(rng)),
@@ -350,16 +350,16 @@ KINDS: dict[str, Callable[[Random], Pair]] = {
     "mu = 0": lambda rng: _either(rng, _scene(rng, mu=0.0)),
     "N to zero": _light,
     "friction by speed": lambda rng: _either(rng, _scene(rng, law=_by_speed(rng))),
-    "friction that falls": lambda rng: _tolerances(rng, _scene(rng, law=_falling(rng))),
+    "velocity-weakening friction": lambda rng: _tolerances(rng, _scene(rng, law=_falling(rng))),
 }
-"""What a pair is made for, and how."""
+"""Generator of each kind of pair."""
 
-UNBOUNDED = ("friction that falls",)
-"""Kinds whose runs have no bound: they have to end."""
+UNBOUNDED = ("velocity-weakening friction",)
+"""Kinds whose runs have no bound; the runs must only finish."""
 
 
 def warm_up() -> None:
-    """Compile or load what pairs need: two axes with and without a vertical, and a law."""
+    """Compile or load what pairs need: two axes with and without vertical, and both laws."""
     push = readonly(np.array([0.0, 5.0, -5.0, 0.0]))
     one = Scene(
         ax_mps2=push,

@@ -1,7 +1,7 @@
-"""The sliding block in decimal arithmetic of 50 digits: slow, plain, apart from the kernels.
+"""The sliding block in decimal arithmetic of 50 digits: slow, plain, independent of the kernels.
 
-Written in the paper's own variables (horizontal, Eqs. 12-18 with g + a_v for g) and not along the
-slope, so that a slip in the kernels' algebra would show. Imports nothing of ours but arrays.
+Written in the paper's variables (horizontal, Eqs. 12-18 with g + a_v for g) and not along the
+slope, so that an algebra error in the kernels would show. Imports nothing from this project.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _TINY = Decimal("1e-45")
 _ZERO = Decimal(0)
 
 _Line = tuple[Decimal, Decimal]
-"""A value and its rate: an acceleration on a straight line."""
+"""A value and its rate: an acceleration that varies linearly."""
 
 
 class Reference(NamedTuple):
@@ -36,7 +36,7 @@ def slide(
     scale: float = 1.0,
     g_mps2: float,
 ) -> Reference:
-    """Follow the linearly interpolated record from event to event; N >= 0 is trusted."""
+    """Integrate the linearly interpolated record from event to event; assumes N >= 0."""
     with localcontext() as context:
         context.prec = DIGITS
         theta, friction, g, dt, factor = map(Decimal, (slope_rad, mu, g_mps2, dt_s, scale))
@@ -57,7 +57,7 @@ def slide(
 
 
 def _sine_and_cosine(theta: Decimal) -> tuple[Decimal, Decimal]:
-    """Return both by their power series."""
+    """Return both from their power series."""
     sums, term, n = [_ZERO, _ZERO], Decimal(1), 0
     while abs(term) > _TINY * _TINY:
         sums[n % 2] += term if n % 4 < 2 else -term
@@ -69,7 +69,7 @@ def _sine_and_cosine(theta: Decimal) -> tuple[Decimal, Decimal]:
 def _relative(
     sign: int, a_h: Decimal, g: Decimal, sine: Decimal, cosine: Decimal, mu: Decimal
 ) -> Decimal:
-    """Return u_x'' - u_p'' in slip of one sign, Eqs. 13 to 18."""
+    """Return u_x'' - u_p'' for slip of one sign, Eqs. 13 to 18."""
     tangent = sine / cosine
     a = sine - mu * sign * cosine
     b = cosine + mu * sign * sine
@@ -78,7 +78,7 @@ def _relative(
 
 
 class _Block:
-    """Displacement u and velocity v relative to the roof, and how far u has been."""
+    """Displacement u and velocity v relative to the roof, and the extremes of u."""
 
     def __init__(self, dt: Decimal):
         self.dt = dt
@@ -86,7 +86,7 @@ class _Block:
         self.moving = 0
 
     def follow(self, lines: dict[int, _Line]) -> None:
-        """Go on through one interval; `lines` has the acceleration in slip of either sign."""
+        """Advance one interval; `lines` holds the acceleration for slip of either sign."""
         t = _ZERO
         while t < self.dt:
             if not self.moving:
@@ -108,7 +108,7 @@ class _Block:
         return min(onsets, default=None)
 
     def _slip(self, a: Decimal, rate: Decimal, t: Decimal) -> Decimal:
-        """Slip to the stop or the end of the interval, whichever is first; return its time."""
+        """Slip to the stop or the end of the interval, whichever is first; return that time."""
         stop = _first_zero(self.v, a, rate, self.dt - t)
         h = self.dt - t if stop is None else stop
         self.u += h * (self.v + h * (a / 2 + h * rate / 6))

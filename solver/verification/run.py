@@ -1,6 +1,6 @@
-"""Everything that a verification of the software computes, as plain data.
+"""All computations of a verification, returned as plain data.
 
-Draws nothing and writes no files. Read `verify`, then `evidence` for what it gives.
+Draws nothing and writes no files. Read `verify`, then `evidence` for the result.
 """
 
 from __future__ import annotations
@@ -68,60 +68,59 @@ def verify(
     buildings: Sequence[FloorRecords] = (),
     motions: Sequence[Triple] = (),
 ) -> Verification:
-    """Check the solver and measure every method, on the project's own records and on others.
+    """Check the solver and measure every method on the project's records and on given ones.
 
     Parameters
     ----------
     records : sequence of Record
-        Others, real ones say; the project's own always run. If quick, the first one only.
+        Additional records; the project's records always run. If quick, only the first is used.
     quick : bool
-        Fewer records, scenes, settings and cells: seconds for minutes.
+        Use fewer records, scenes, settings and cells.
     progress : callable
         Called with a line for each stage.
     buildings : sequence of FloorRecords
-        Real ones with motions of their ground and floors, see `recorded_buildings`; a made one
-        always runs.
+        Recorded buildings, see `recorded_buildings`; the model building always runs.
     motions : sequence of Triple
-        Real ones of three components, see `recorded_triples`, for the comparison of the models
-        with two axes; the project's own always run. If quick, the first one only.
+        Recorded motions of three components, see `recorded_triples`, for the comparison of models;
+        the project's motions always run. If quick, only the first is used.
 
     Returns
     -------
     Verification
-        The same every time but for what is in seconds. What failed is in it, as failed: nothing
-        is raised for a wrong number.
+        Identical on every call except for run times. A failed check is returned as failed;
+        nothing is raised for it.
     """
     start = time.perf_counter()
-    progress("Making the project's own records")
+    progress("Generating the project's records")
     chosen = (*own_records(quick), *(records[:1] if quick else records))
     main = chosen[0]
-    progress("Checks: closed forms, 50 digits, symmetries, physical checks of the paper")
+    progress("Checks: closed forms, 50-digit arithmetic, symmetries, physical checks of the paper")
     rows = list(_rows(chosen))
-    progress("From ground to roof: modes, a made building, recorded ones where given")
+    progress("Roof motion from ground motion: modes, model building, recorded buildings if given")
     made = building_checks.made_building(main)
     roofs = tuple(building.compare(one) for one in (made, *buildings))
     rows += building_checks.building_checks(made, roofs[0])
-    progress("Two axes: checks, rung against rung, work against precision")
+    progress("Two axes: checks, comparison of models, accuracy against run time")
     triples = (*own_triples(quick), *(motions[:1] if quick else motions))
     rows += rungs.rung_checks(triples, quick=quick)
     models = rung_study.rung_evidence(triples, quick=quick)
-    progress(f"Work against precision: every method on {len(chosen)} records")
+    progress(f"Accuracy against run time: every method on {len(chosen)} records")
     work = tuple(workprecision.work_points(chosen, quick=quick))
-    progress("Stability: maps of error over two settings")
+    progress("Stability: maps of error over two parameters")
     maps = tuple(stability.maps(main, quick=quick))
-    progress("Conditioning: what a small change of friction does")
+    progress("Sensitivity to small changes of friction")
     conditioning = tuple(stability.conditioning(main, quick=quick))
-    progress("The paper's convergence study, its Fig. 5")
+    progress("The paper's convergence study (Fig. 5)")
     convergence = tuple(paper_studies.convergence(record) for record in chosen)
-    progress("The paper's comparison with a link, its Figs. 6 to 9")
+    progress("The paper's comparison with a link model (Figs. 6 to 9)")
     links = tuple(
         paper_studies.link_comparison(record, slope_deg)
         for record in chosen
         for slope_deg in paper_studies.LINK_MUS
     )
-    progress("The paper's design curves, its Figs. 10 to 12")
+    progress("The paper's design curves (Figs. 10 to 12)")
     curves = tuple(paper_studies.design_curves(record) for record in chosen)
-    progress("Other programs, where they are installed")
+    progress("Other programs, if installed")
     judged = tuple(peers.peer_points(chosen[:3], triples, quick=quick))
     return Verification(
         checks=tuple(rows),

@@ -1,6 +1,6 @@
-"""What the comparison of the models finds, as frozen records: rung against rung, work, speed.
+"""Results of the comparison of models as frozen records: ratios, accuracy, run times.
 
-Computes nothing but ratios. Read `solver.verification.rung_study` for what fills them.
+Computes only ratios. See `solver.verification.rung_study` for what fills them.
 """
 
 from __future__ import annotations
@@ -12,29 +12,30 @@ import numpy as np
 from solver.model import Floats
 
 LEAST_M = 5e-3
-"""PRD of both rungs from which on their ratio is told [m]: below, it says little."""
+"""Least PRD of both models for which their ratio is reported [m]; smaller ones are not telling."""
 
 VERTICAL, SECOND, WORST = "Vertical", "Second axis", "Second axis, worst heading"
 STIFF, SOFT = "Row, links of 1 mm", "Row, links of 10 mm"
-OVER_SLOW, OVER_FAST = "Friction by speed, over μ slow", "Friction by speed, over μ fast"
+OVER_SLOW = "Velocity-dependent μ / low-velocity μ"
+OVER_FAST = "Velocity-dependent μ / high-velocity μ"
 HELD_ONE, HELD = "Static friction, one axis", "Static friction, two axes"
-OVER_STATIC = "Static friction, over μ static"
+OVER_STATIC = "Static and kinetic μ / static μ"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RungChange:
-    """What a fuller model does to the PRD, over many runs.
+    """Effect of a fuller model on the PRD, over many runs.
 
     Attributes
     ----------
     name : str
     ratios : array, shape (n,)
-        PRD of the fuller model over that of the lesser, rising; of the runs in which both are
+        PRD of the fuller model over that of the simpler, ascending, for the runs in which both are
         `LEAST_M` or more.
     n_small : int
-        Runs in which one of them is less.
+        Number of the other runs.
     most_m : float
-        Largest change of the PRD, either way, of all runs [m].
+        Largest change of the PRD, of either sign, over all runs [m].
     """
 
     name: str
@@ -48,7 +49,7 @@ class RungChange:
 
     @property
     def median(self) -> float:
-        """The middle ratio."""
+        """The median ratio."""
         return self.at(50.0)
 
     @property
@@ -59,29 +60,29 @@ class RungChange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RungStudy:
-    """The same scenes by every rung.
+    """The same scenes by every model.
 
     Attributes
     ----------
     motions : tuple of str
     n_recorded : int
-        Of the motions, in earthquakes.
+        Number of motions recorded in earthquakes.
     slopes_deg, mus, ppas_g : tuple of float
-        The scenes: every one with every other.
+        The scenes are all combinations of these.
     slow_share, rate_s_per_m : float
-        Friction by speed: mu_slow, the coefficient of the other rungs, over mu_fast; its rate.
-        The same share is kinetic of static friction where they differ.
+        Velocity-dependent friction: mu_slow, the coefficient of the other models, over mu_fast, and
+        its rate. The same share is kinetic over static friction where they differ.
     n_runs, n_uplift : int
-        Scenes times motions and headings, and those in which the normal force vanishes.
+        Scenes times motions and headings, and the runs in which the normal force vanishes.
     changes : tuple of RungChange
         `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW`, `OVER_FAST`, `HELD_ONE`, `HELD`,
         `OVER_STATIC`, `STIFF` and `SOFT`.
     row_ppa_g : float
-        Of the rows, which run in the first heading alone.
+        PPA of the rows, which are run in the first heading only.
     row_shares : tuple of float
         Friction of the blocks of a row over that of the scene.
     largest_error : float
-        Largest bound of the error of two axes, of the PRD.
+        Largest error bound in two axes, relative to the PRD.
     """
 
     motions: tuple[str, ...]
@@ -99,20 +100,20 @@ class RungStudy:
     largest_error: float
 
     def named(self, name: str) -> RungChange:
-        """Return the change of a name."""
+        """Return the change with that name."""
         return next(one for one in self.changes if one.name == name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaticDifference:
-    """What is left of static above kinetic friction as their difference falls.
+    """Effect of static friction above kinetic as the difference decreases.
 
     Attributes
     ----------
     excess : float
         Static over kinetic friction, less 1.
     one_axis, two_axes : array, shape (n,)
-        Change of the PRD of each scene, of that with kinetic friction alone, rising.
+        Change of the PRD of each scene relative to kinetic friction alone, ascending.
     """
 
     excess: float
@@ -122,15 +123,15 @@ class StaticDifference:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FadingAxis:
-    """How near two axes come to one as the second component fades.
+    """Difference between two axes and one as the second component decreases.
 
     Attributes
     ----------
     share : float
         Factor of the second component.
     one_coefficient, static_above : array, shape (n,)
-        Change of the PRD of each scene, of that in one axis with the same friction, rising:
-        with kinetic friction alone, and with more of it at rest.
+        Change of the PRD of each scene relative to one axis with the same friction, ascending:
+        with kinetic friction alone, and with static friction above it.
     """
 
     share: float
@@ -140,18 +141,18 @@ class FadingAxis:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PushedPoint:
-    """A block that is pushed back by more than kinetic and less than static friction.
+    """A block driven back by a force between kinetic and static friction.
 
     Attributes
     ----------
     across_mps2 : float
-        What pushes it across as well [m/s2].
+        Transverse acceleration [m/s2].
     end_m : float
-        How far from the start it ends [m].
+        Final distance from the start [m].
     error_m : float
-        What the run says of its own error [m].
+        Error reported by the run [m].
     falling_end_m : float
-        Where friction falls from static to kinetic with speed, not at once [m].
+        Final distance where friction falls from static to kinetic gradually with velocity [m].
     """
 
     across_mps2: float
@@ -162,14 +163,14 @@ class PushedPoint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaticEvidence:
-    """What is found of static above kinetic friction.
+    """Results for static friction above kinetic friction.
 
     Attributes
     ----------
     n_scenes : int
-        Of `differences` and `fading`: those whose PRD in one axis is `LEAST_M` or more.
+        Scenes of `differences` and `fading`: those whose PRD in one axis is `LEAST_M` or more.
     ratio : float
-        Static over kinetic friction of `fading`.
+        Static over kinetic friction in `fading`.
     differences : tuple of StaticDifference
     fading : tuple of FadingAxis
     pushed : tuple of PushedPoint
@@ -184,18 +185,18 @@ class StaticEvidence:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundRatios:
-    """How far random pairs of runs come to the bound of their difference.
+    """Differences of random pairs of runs relative to their bounds.
 
     Attributes
     ----------
     kind : str
-        Of `random_pairs.KINDS`.
+        Kind of pair, see `random_pairs.KINDS`.
     n_pairs : int
-        Of which some do not move: they have no ratio.
+        Includes pairs without slip, which have no ratio.
     n_unanswered : int
-        Pairs in which a run has no answer.
+        Pairs in which a run has no result.
     ratios : array, shape (n,)
-        Difference of the two in place over the sum of their bounds, rising.
+        Difference in position over the sum of the two bounds, ascending.
     """
 
     kind: str
@@ -217,11 +218,12 @@ class PlaneWork:
     ----------
     method, setting : str
     seconds : float
-        Of a run [s]; NaN for a failed one.
+        Time per run [s]; NaN for a failed run.
     steps : int
-        Steps, or for SciPy evaluations of the right-hand side.
+        Steps; for SciPy, evaluations of the right-hand side.
     error_percent : float
-        In place, largest at samples or of the PRD, of the PRD; NaN for a failed run.
+        Error relative to the PRD: of the position, largest at samples, or of the PRD; NaN for a
+        failed run.
     """
 
     method: str
@@ -233,7 +235,7 @@ class PlaneWork:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StopPoint:
-    """One run of a block that is stopped by friction while something pushes it, and then rests.
+    """One run of a block that comes to rest under a constant transverse acceleration.
 
     Attributes
     ----------
@@ -241,9 +243,9 @@ class StopPoint:
     steps : int
         As in `PlaneWork`.
     error_m : float
-        In place at the end [m]; NaN for a failed run.
+        Error in final position [m]; NaN for a failed run.
     end_speed_mps : float
-        What is left of its speed, 0 in truth [m/s].
+        Final velocity; the exact value is 0 [m/s].
     """
 
     method: str
@@ -255,15 +257,15 @@ class StopPoint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RungTime:
-    """What a run of a rung takes, beside the others.
+    """Run time of a model relative to the others.
 
     Attributes
     ----------
     title : str
     seconds : float
-        Median over the scenes, warm, with what chooses left out [s].
+        Median over the scenes, warm, without the choice of model [s].
     ratio : float
-        To one axis.
+        Relative to one axis.
     """
 
     title: str
@@ -273,7 +275,7 @@ class RungTime:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RungEvidence:
-    """All that is found of the models.
+    """The complete comparison of models.
 
     Attributes
     ----------
@@ -284,7 +286,7 @@ class RungEvidence:
     work : tuple of PlaneWork
     stops : tuple of StopPoint
     times_motion : str
-        Length and step of the motion of `times`.
+        Name, length and time step of the motion used for `times`.
     times : tuple of RungTime
     """
 

@@ -1,6 +1,6 @@
-"""Rung against rung: the same scenes by every model, and what each takes.
+"""Comparison of models: the same scenes by every model, and the run time of each.
 
-Read `rung_evidence`, whose pieces the other functions make.
+Read `rung_evidence`; the other functions compute its parts.
 """
 
 from __future__ import annotations
@@ -44,16 +44,16 @@ from solver.verification.triples import Triple
 from solver.verification.workprecision import least_seconds
 
 SLOPES_DEG, MUS, PPAS_G = (0.0, 2.0, 5.0), (0.3, 0.4, 0.5, 0.6), (0.5, 1.0, 1.5)
-"""Scenes: every one with every other; if quick, the ends alone."""
+"""All combinations are run; if quick, only the first and last values."""
 
 SLOW_SHARE, RATE_S_PER_M = 0.8, 30.0
-"""mu_slow over mu_fast, and the rate between them [s/m]; the share is kinetic over static too."""
+"""mu_slow over mu_fast, and the rate between them [s/m]; also used as kinetic over static."""
 
 ROW_SHARES = (0.8, 1.1, 0.9, 1.2, 1.0)
-"""Friction of the blocks of a row, from the top of the slope down, over that of the scene."""
+"""Friction of the blocks of a row over that of the scene, numbered from the upslope end."""
 
 STRETCHES_M = {STIFF: 1e-3, SOFT: 1e-2}
-"""How much a link of a row stretches under the weight of a block [m]."""
+"""Elongation of a link of a row under the weight of a block [m]."""
 
 ROW_DAMPING = 0.05
 """Damping ratio of one block on its link."""
@@ -63,9 +63,9 @@ TIMED = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Runs:
-    """PRD of one motion, scene and heading by each model [m], and the error of two axes of it.
+    """PRD of one motion, scene and heading by each model [m], and the error of two axes / PRD.
 
-    `higher_m` has for every speed what is friction at great speed, or at rest, in the others.
+    `higher_m` uses at every velocity the coefficient that others have at high velocity or at rest.
     """
 
     one_axis_m: float
@@ -79,7 +79,7 @@ class _Runs:
 
 
 def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
-    """Run everything; the first motion is that of the work and the times."""
+    """Run all comparisons; accuracy and run times use the first motion."""
     scene, work = plane_work.work(triples[0], quick=quick)
     first = triples[0]
     length = (first.x_mps2.size - 1) * first.dt_s
@@ -90,13 +90,13 @@ def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
         work_scene=scene,
         work=work,
         stops=tuple(plane_work.stops()),
-        times_motion=f"{first.name}, {length:.0f} s at {first.dt_s:g} s",
+        times_motion=f"{first.name}, {length:.0f} s in steps of {first.dt_s:g} s",
         times=times(first),
     )
 
 
 def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
-    """Run every scene of every motion with every heading by every rung."""
+    """Run every scene of every motion with every heading by every model."""
     slopes, mus, ppas = _axes(quick)
     cases = _cases(quick)
     by_scene = [list(_by_heading(triple, case)) for triple in triples for case in cases]
@@ -130,7 +130,7 @@ def _cases(quick: bool) -> list[Case]:
 
 
 def static(triples: Sequence[Triple], *, quick: bool) -> StaticEvidence:
-    """Run every scene of every motion with the first heading and more friction at rest."""
+    """Run every scene of every motion with the first heading and static friction above kinetic."""
     return static_evidence(_first_scenes(triples, _cases(quick)), 1.0 / SLOW_SHARE)
 
 
@@ -155,17 +155,17 @@ def _changes(
 
 def _change(name: str, pairs: Sequence[tuple[float, float]]) -> RungChange:
     lesser, fuller = np.array(pairs).reshape(-1, 2).T
-    told = np.minimum(lesser, fuller) >= LEAST_M
+    counted = np.minimum(lesser, fuller) >= LEAST_M
     return RungChange(
         name=name,
-        ratios=np.sort(fuller[told] / lesser[told]),
-        n_small=int((~told).sum()),
+        ratios=np.sort(fuller[counted] / lesser[counted]),
+        n_small=int((~counted).sum()),
         most_m=float(np.abs(fuller - lesser).max(initial=0.0)),
     )
 
 
 def _by_heading(triple: Triple, case: Case) -> Iterator[_Runs | None]:
-    """Give the runs of each horizontal component along the slope in each sense."""
+    """Yield the runs with each horizontal component along the slope, in each sign."""
     for swapped, sign in itertools.product((False, True), (1, -1)):
         yield _runs(_scene(triple, case, Heading(swapped=swapped, sign=sign)), case.mu)
 
@@ -178,7 +178,7 @@ def _scene(triple: Triple, case: Case, heading: Heading) -> Scene:
 def _runs(scene: Scene, mu: float) -> _Runs | None:
     """Run a scene by every model; None where the normal force vanishes.
 
-    The friction of the lesser models is that at a crawl, as `solver.sliding.least_model` has it.
+    The simpler models use the low-velocity friction, as `solver.sliding.least_model` does.
     """
     vertical = one_axis.run(scene)
     if math.isnan(vertical.prd_m):
@@ -202,7 +202,7 @@ def _plane_prd(scene: Scene) -> float:
 
 
 def _rows(triples: Sequence[Triple], cases: Sequence[Case], ppa_g: float) -> Iterator[RungChange]:
-    """Compare the block that goes farthest of a row with the row as one rigid array."""
+    """Compare the largest PRD of the blocks of a row with the row as one rigid array."""
     scenes = _first_scenes(triples, [case for case in cases if case.ppa_g == ppa_g])
     for name, stretch_m in STRETCHES_M.items():
         rows = [row_of(one.friction.mu_slow, stretch_m, one.g_mps2) for one in scenes]
@@ -218,7 +218,7 @@ def _first_scenes(triples: Sequence[Triple], cases: Sequence[Case]) -> list[Scen
 
 
 def row_of(mu: float, stretch_m: float, g_mps2: float) -> BlockRow:
-    """Return five blocks whose links stretch so far under the weight of a block."""
+    """Return five blocks whose links elongate by `stretch_m` under the weight of a block."""
     stiffness = g_mps2 / stretch_m
     return BlockRow(
         mus=tuple(mu * share for share in ROW_SHARES),
@@ -228,7 +228,7 @@ def row_of(mu: float, stretch_m: float, g_mps2: float) -> BlockRow:
 
 
 def by_speed(mu_slow: float) -> Friction:
-    """Return friction that rises from a crawl on."""
+    """Return friction that rises with velocity."""
     return Friction(
         mu_slow=mu_slow,
         mu_fast=mu_slow / SLOW_SHARE,
@@ -238,7 +238,7 @@ def by_speed(mu_slow: float) -> Friction:
 
 
 def times(triple: Triple) -> tuple[RungTime, ...]:
-    """Time every rung on the scenes `TIMED`; the first two are one solver."""
+    """Time every model on the scenes `TIMED`; the first two share one solver."""
     medians = []
     for title, run, law, second, vertical in _RUNGS:
         scenes = [
@@ -261,6 +261,6 @@ _RUNGS = (
     ("One axis", one_axis.run, coulomb, False, False),
     ("One axis with vertical", one_axis.run, coulomb, False, True),
     ("Two axes with vertical", two_axes.run, coulomb, True, True),
-    ("Two axes, friction by speed", two_axes.run, by_speed, True, True),
-    ("BlockRow of five blocks, links of 1 mm", _row, coulomb, False, True),
+    ("Two axes, velocity-dependent friction", two_axes.run, by_speed, True, True),
+    ("Row of five blocks, links of 1 mm", _row, coulomb, False, True),
 )

@@ -1,6 +1,6 @@
 """Checks of the models against each other, closed forms and SciPy, one row for each value.
 
-As `checks`, whose rows they are. Read `rung_checks`.
+Returns the same rows as `checks`. Read `rung_checks`.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ TIGHT = 1e-10
 """Tightest tolerance of two axes."""
 
 AGREES = 1e-9
-"""Tolerance where two ways must give the same to rounding and the tightest tolerance."""
+"""Tolerance where two computations agree to rounding error and the tightest tolerance."""
 
 REFERENCE_SAMPLES = (61, 101)
-"""Of the part of a motion that SciPy follows carefully, quick and full."""
+"""Samples of the part of a motion that the SciPy reference integrates, quick and full."""
 
 CASES = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
 
 
 def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]:
-    """Make the checks; the first motion, a made one, stands for all where one is enough.
+    """Run the checks; the first motion, a generated one, is used where one motion is enough.
 
-    Left out are motions whose vertical lifts the block off the roof in one of `CASES`.
+    Motions whose vertical component lifts the block off the roof in one of `CASES` are excluded.
     """
     kept = [triple for triple in triples if stays(triple)]
     for triple in kept:
@@ -62,7 +62,7 @@ def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]
 
 
 def stays(triple: Triple) -> bool:
-    """Whether the vertical of a motion lifts the block off the roof in none of `CASES`."""
+    """Whether the motion's vertical component lifts the block in none of `CASES`."""
     runs = (one_axis.run(triple.scene(case, coulomb(case.mu))) for case in CASES)
     return all(run.status is not Status.UPLIFT for run in runs)
 
@@ -77,8 +77,8 @@ def _one_axis(triple: Triple) -> Iterator[CheckRow]:
         ):
             yield check(
                 SECTION,
-                f"Nothing across the slope: {triple.name}, {case}",
-                "The exact method of one axis with vertical",
+                f"No cross-slope component: {triple.name}, {case}",
+                "Exact method, one axis with vertical",
                 quantity,
                 "m",
                 known,
@@ -96,14 +96,14 @@ def _turned(triple: Triple) -> Iterator[CheckRow]:
         turned = two_axes.run(_turned_by(flat, degrees), TIGHT)
         back = _turn(np.array([turned.residual_m, turned.residual_across_m]), -degrees)
         off = math.dist(back.tolist(), (one.residual_m, one.residual_across_m))
-        name = f"Both components turned by {degrees:g} degrees: {triple.name}, {case}"
-        source = "A flat roof has no direction: the answer turns with the motion"
+        name = f"Both components rotated by {degrees:g} degrees: {triple.name}, {case}"
+        source = "Flat roof: the displacement rotates with the motion"
         yield check(SECTION, name, source, "PRD", "m", one.prd_m, turned.prd_m, AGREES)
         yield check(
             SECTION,
             name,
             source,
-            "Residual, turned back: difference of the PRD",
+            "Residual, rotated back: difference / PRD",
             "1",
             0.0,
             off / one.prd_m,
@@ -117,8 +117,8 @@ def _in_proportion(triple: Triple) -> CheckRow:
     line = two_axes.run(_turned_by(one, 53.0), TIGHT)
     return check(
         SECTION,
-        f"One component turned by 53 degrees: {triple.name}, {case}",
-        "Components in proportion slide along one line, as the exact method of one axis has it",
+        f"One component rotated by 53 degrees: {triple.name}, {case}",
+        "Proportional components cause slip along one line: exact method, one axis",
         "PRD",
         "m",
         one_axis.run(one).prd_m,
@@ -139,7 +139,7 @@ def _turn(pair: Floats, degrees: float) -> Floats:
 
 
 def _circle() -> Iterator[CheckRow]:
-    """In the turning frame v stands still: A^2 = (mu g)^2 + (w v)^2."""
+    """In the rotating frame v is constant: A^2 = (mu g)^2 + (w v)^2."""
     a, omega, mu, count, turns = 6.0, 2.0 * math.pi, 0.3, 2000, 12
     dt = 1.0 / count
     t = np.arange(turns * count + 1) * dt
@@ -156,22 +156,24 @@ def _circle() -> Iterator[CheckRow]:
         ),
         TIGHT,
     )
-    # Straight lines between samples leave so much of a sine.
+    # Linear interpolation between samples reduces the amplitude of a sine by this factor.
     a *= (math.sin(0.5 * omega * dt) / (0.5 * omega * dt)) ** 2
     speed = math.sqrt(a * a - (mu * STANDARD_GRAVITY_MPS2) ** 2) / omega
     half = history.u_m.size - 1 - count // 2
     across = math.hypot(
         history.u_m[-1] - history.u_m[half], history.across_m[-1] - history.across_m[half]
     )
-    name = "Roof in a circle, 6 m/s2 at 1 Hz, mu = 0.3, flat: after 12 turns"
-    source = "Steady: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples to a turn"
+    name = "Circular roof motion, 6 m/s2 at 1 Hz, mu = 0.3, flat roof, after 12 cycles"
+    source = (
+        "Steady state: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples per cycle"
+    )
     found = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
     yield check(SECTION, name, source, "Speed", "m/s", speed, found, AGREES)
     yield check(SECTION, name, source, "Diameter", "m", 2.0 * speed / omega, across, AGREES)
 
 
 def stopped_scene() -> Scene:
-    """Return a block thrown down the roof and stopped under a steady push across it."""
+    """Return a block set sliding downslope that stops under a constant cross-slope acceleration."""
     ax, ay = np.zeros(201), np.full(201, -2.0)
     ax[1:6] = -9.0
     return Scene(
@@ -196,15 +198,25 @@ def _stop() -> Iterator[CheckRow]:
     rest = (c * w + along) / less
     ahead = (w * w + (2.0 * c * w * along + along * along) / push**2) / (4.0 * less) * push
     aside = -push * vx * (2.0 * c * w + along) / (push * (4.0 * c * c - push * push))
-    name = "A block stopped under a push of 2 m/s2 across its way, mu = 0.4, flat"
+    name = "Sliding block stops under a transverse acceleration of 2 m/s2, mu = 0.4, flat roof"
     source = (
-        "(v (mu N + G cos ψ))' = G^2 - (mu N)^2, ψ the angle from G to v, and its like for both "
-        "ways, from the speed at 0.06 s on"
+        "(v (mu N + G cos ψ))' = G^2 - (mu N)^2, ψ = angle from drive G to v, and similar forms "
+        "for displacement, from 0.06 s"
     )
     for quantity, unit, known, found in (
-        ("Time to the stop", "s", rest, history.events[-1].t_s - at * scene.dt_s),
-        ("Way along the push", "m", ahead, float(history.across_m[-1] - history.across_m[at])),
-        ("Way across the push", "m", -aside, float(history.u_m[-1] - history.u_m[at])),
+        ("Time to stop", "s", rest, history.events[-1].t_s - at * scene.dt_s),
+        (
+            "Transverse displacement",
+            "m",
+            ahead,
+            float(history.across_m[-1] - history.across_m[at]),
+        ),
+        (
+            "Longitudinal displacement",
+            "m",
+            -aside,
+            float(history.u_m[-1] - history.u_m[at]),
+        ),
     ):
         yield check(SECTION, name, source, quantity, unit, known, found, AGREES)
 
@@ -222,8 +234,8 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
         found = two_axes.run(triple.scene(case, law), TIGHT)
         yield check(
             SECTION,
-            f"Friction less by {100.0 * drop:.4g} % at a crawl: {triple.name}, {case}",
-            "Tends to two axes with one coefficient: within 50 times the difference",
+            f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.name}, {case}",
+            "Converges to two axes with one coefficient: within 50 times the difference",
             "PRD",
             "m",
             plain.prd_m,
@@ -233,7 +245,7 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
 
 
 def _static_friction(triple: Triple) -> Iterator[CheckRow]:
-    """A slip that begins later by a difference lacks a speed of its square."""
+    """A delay of the onset of slip changes the velocity by its square."""
     case = CASES[1]
     both = triple.scene(case, coulomb(case.mu))
     alone = triple.scene(case, coulomb(case.mu), second=False)
@@ -241,12 +253,13 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
         law = replace(both.friction, mu_static=(1.0 + excess) * case.mu)
         for scene, axes, kinetic, method in (
             (alone, "one axis", one_axis.run(alone).prd_m, "the exact method with vertical"),
-            (both, "two axes", two_axes.run(both, TIGHT).prd_m, "one coefficient"),
+            (both, "two axes", two_axes.run(both, TIGHT).prd_m, "two axes with one coefficient"),
         ):
             yield check(
                 SECTION,
-                f"Static friction {100.0 * excess:g} % above, {axes}: {triple.name}, {case}",
-                f"Tends to {method}: within 50 times the square of the difference",
+                f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.name}, "
+                f"{case}",
+                f"Converges to {method}: within 50 times the square of the difference",
                 "PRD",
                 "m",
                 kinetic,
@@ -256,7 +269,7 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
 
 
 def _one_block(triple: Triple) -> Iterator[CheckRow]:
-    """Rows that move as one block: of one, and of three alike, whose links have nothing to do."""
+    """Rows that move as one block: one block, and three identical ones with unloaded links."""
     case = CASES[1]
     scene = triple.scene(case, coulomb(case.mu), second=False)
     exact = one_axis.run(scene)
@@ -264,8 +277,8 @@ def _one_block(triple: Triple) -> Iterator[CheckRow]:
         found = slide_row(scene, BlockRow(mus=(case.mu,) * count, stiffness_per_s2=1e4))
         yield check(
             SECTION,
-            f"BlockRow of equal blocks, {count} of them: {triple.name}, {case}",
-            "The exact method of one axis with vertical: their links have nothing to do",
+            f"Row of identical blocks, {count} in all: {triple.name}, {case}",
+            "Exact method, one axis with vertical: the links carry no force",
             "PRD, largest of the blocks",
             "m",
             exact.prd_m,
@@ -275,7 +288,7 @@ def _one_block(triple: Triple) -> Iterator[CheckRow]:
 
 
 def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
-    """How many of some scenes are changed by what was left out more than was said."""
+    """Count scenes in which the neglected component matters more than the stated estimate."""
     over = count = 0
     for share in (0.3, 0.1, 0.03, 0.01, 0.003):
         for case in CASES[:2] if quick else CASES:
@@ -288,9 +301,9 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
             count += 1
     return check(
         SECTION,
-        f"Effect of what was left out: {triple.name}, {count} scenes",
-        "The second component times 0.3, 0.1, 0.03, 0.01 and 0.003, run by the fullest model",
-        "Scenes in which it is more than said",
+        f"Effect of the neglected component: {triple.name}, {count} cases",
+        "Two axes with vertical, second component times 0.3, 0.1, 0.03, 0.01 and 0.003",
+        "Cases that exceed the stated effect",
         "1",
         0.0,
         float(over),
@@ -299,13 +312,14 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
 
 
 def _random_pairs(*, quick: bool) -> Iterator[CheckRow]:
-    """How many random pairs of every kind have no answer, or differ by more than their bounds."""
+    """Count the random pairs of every kind that have no result or exceed their bounds."""
     for one in bound_ratios(quick=quick):
         yield check(
             SECTION,
-            f"{one.n_pairs} random pairs of runs, {one.kind}",
-            "Two runs that must give the same, but for the sum of their bounds",
-            "Pairs over their bounds or without an answer",
+            f"{one.n_pairs} random pairs, {one.kind}",
+            "Both runs of a pair have a result, and they agree within the sum of their error "
+            "bounds",
+            "Failed pairs",
             "1",
             0.0,
             float(one.n_over + one.n_unanswered),
@@ -322,16 +336,16 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
     level = replace(faint, az_mps2=readonly(1e-5 * full.az_mps2))
     for what, scene, rung in (
         ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Rung.NO_SLIP),
-        ("Two components of nearly nothing", level, Rung.ONE_AXIS),
-        ("A second component of nearly nothing", faint, Rung.ONE_AXIS_VERTICAL),
+        ("Second and vertical components negligible", level, Rung.ONE_AXIS),
+        ("Second component negligible", faint, Rung.ONE_AXIS_VERTICAL),
         ("Three components", full, Rung.TWO_AXES),
-        ("Friction by speed", replace(full, friction=law), Rung.SPEED_FRICTION),
+        ("Velocity-dependent friction", replace(full, friction=law), Rung.SPEED_FRICTION),
     ):
         yield check(
             SECTION,
             f"{what}: {triple.name}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g",
-            "The least model that answers, number of its rung",
-            "Rung chosen",
+            "Number of the simplest sufficient model (section 12)",
+            "Model chosen",
             "1",
             float(rung),
             float(least_model.solve(scene, Settings()).rung),
@@ -349,8 +363,8 @@ def _against_scipy(triple: Triple, samples: int) -> Iterator[CheckRow]:
         yield check(
             SECTION,
             f"Tolerance of 1 / {1.0 / tolerance:,.0f}: {triple.cut(samples).name}, {case}",
-            "SciPy's DOP853 with a relative tolerance of 10⁻¹², begun anew at samples and events",
-            "Largest difference in place, of the PRD",
+            "SciPy DOP853, relative tolerance 10⁻¹², restarted at every sample and event",
+            "Position error / PRD",
             "1",
             0.0,
             off / history.result.prd_m,

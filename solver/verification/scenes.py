@@ -1,6 +1,7 @@
-"""The records and scenes that a verification runs.
+"""The records and scenes of a verification.
 
-Makes its own records, the same on every machine; runs nothing. Read `solver.verification` first.
+Generates the project's records, identical on every machine; runs nothing. Read
+`solver.verification.run` first.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from solver.rivals.methods import NO_RECORD, AxisScene
 from solver.synthesis import SuiteMotion, Target, make_suite
 
 SEED = 2003
-"""Of the project's own records."""
+"""Seed of the project's generated records."""
 
 HORIZONTAL: Target = (np.array([0.1, 1.3, 8.3, 33.3]), np.array([0.16, 1.6, 1.6, 1.2]))
 """Corners of an AC156 spectrum at the roof, S_DS = 1 g: frequencies [Hz], accelerations [g]."""
@@ -28,7 +29,7 @@ VERTICAL: Target = (np.array([0.1, 1.3, 8.3, 33.3]), np.array([0.067, 0.67, 0.67
 
 
 class Case(NamedTuple):
-    """A block and how hard it is shaken."""
+    """A block on a slope and the peak acceleration of its record."""
 
     slope_deg: float
     mu: float
@@ -51,23 +52,23 @@ CASES = (
     Case(2.0, 0.1, 0.5),
     Case(-2.0, 0.5, 1.5),
 )
-"""From little slip to much, with both signs of the slope; the first ones stand for all."""
+"""From small to large slip, with both signs of the slope; quick runs take the first ones."""
 
 
 def own_records(quick: bool) -> tuple[Record, ...]:
-    """Return the project's records: motions that follow AC156, and a near-fault pulse."""
+    """Return the project's records: motions matched to AC156, and a near-fault pulse."""
     return (*(motion.x for motion in own_suite(quick)), near_fault_pulse())
 
 
 @lru_cache
 def own_suite(quick: bool) -> tuple[SuiteMotion, ...]:
-    """Return the motions whose first component the records are."""
+    """Return the motions whose first components are the records."""
     count = 1 if quick else 2
     return tuple(make_suite(HORIZONTAL, VERTICAL, count=count, seed=SEED, dt_s=0.01))
 
 
 def near_fault_pulse() -> Record:
-    """Return a pulse of two seconds under a bell, after Mavroeidis and Papageorgiou (2003)."""
+    """Return a 2 s pulse with a Gaussian envelope, after Mavroeidis and Papageorgiou (2003)."""
     dt = 0.01
     t = np.arange(801) * dt - 4.0
     a = np.exp(-((t / 1.2) ** 2)) * np.sin(math.pi * t) * STANDARD_GRAVITY_MPS2
@@ -76,12 +77,12 @@ def near_fault_pulse() -> Record:
 
 
 def scale_to(record: Record, ppa_g: float) -> float:
-    """Return the factor that brings the peak of the record to so many g."""
+    """Return the factor that scales the peak of the record to `ppa_g` [g]."""
     return ppa_g * STANDARD_GRAVITY_MPS2 / float(np.abs(record.a_mps2).max())
 
 
 def prepared(record: Record, case: Case) -> AxisScene:
-    """Return what `Method.follow` takes, so that nothing but the method is timed."""
+    """Return the input of `Method.follow`, so that only the method is timed."""
     return AxisScene(
         ax=record.a_mps2,
         x=one_axis.bounds(record.a_mps2),
@@ -103,9 +104,10 @@ def shortened(record: Record, duration_s: float) -> Record:
     first = int(energy.argmax())
     a: Floats = record.a_mps2[first : first + count].copy()
     a.setflags(write=False)
-    return Record(name=f"{record.name}, {duration_s:g} s of it", dt_s=record.dt_s, a_mps2=a)
+    name = f"{record.name}, strongest {duration_s:g} s"
+    return Record(name=name, dt_s=record.dt_s, a_mps2=a)
 
 
 def is_runnable(method: str) -> bool:
-    """Whether what the method needs is installed: SciPy for the regularised one."""
-    return method != "regularised" or importlib.util.find_spec("scipy") is not None
+    """Whether the method's library is installed: SciPy for regularized friction."""
+    return method != "regularized" or importlib.util.find_spec("scipy") is not None

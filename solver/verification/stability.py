@@ -1,7 +1,7 @@
-"""Where methods blow up, stall or are off: maps of error over two settings; and where no method
-can be right, because the problem itself hangs on the last digits of its friction coefficient.
+"""Maps of error over two parameters, where methods diverge, stall or lose accuracy; and cases in
+which the problem itself is sensitive to the last digits of the friction coefficient.
 
-Runs only. A failed run is a failed cell, never left out. Read `solver.rivals.methods` for the
+Runs only. A failed run is a failed cell and is never omitted. See `solver.rivals.methods` for the
 limits.
 """
 
@@ -22,35 +22,36 @@ from solver.verification.workprecision import run
 
 SLOPE_DEG = 4.0
 CRITICAL_MU = math.tan(math.radians(SLOPE_DEG))
-"""Friction that just holds the block on a still roof of that slope."""
+"""Least friction without slip on an unshaken roof of that slope."""
 
 PPA_G = 0.3
-"""Of the maps near the critical friction, so that the block both sticks and slips."""
+"""PPA of the maps near the critical friction, where the block both sticks and slips."""
 
 _Run = tuple[Case, Mapping[str, float]]
 
 
 def maps(record: Record, *, quick: bool) -> Iterator[StabilityMap]:
-    """Make all maps on one record."""
+    """Compute all maps on one record."""
     part = shortened(record, 10.0)
     yield from (
         link_map(part, name, quick=quick) for name in ("penalty-explicit", "penalty-implicit")
     )
-    for name in ("paper", "linear"):  # the adaptive one gives the numbers of the paper's
+    for name in ("paper", "linear"):  # "adaptive" gives the same results as "paper"
         yield slope_map(part, name, quick=quick)
         yield friction_map(part, name, quick=quick)
-    if is_runnable("regularised"):
+    if is_runnable("regularized"):
         yield tolerance_map(shortened(record, 1.0), quick=quick)
 
 
 def link_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
-    """Map the sub-step over the stiffness of a link, with the explicit one's limit, 2 / omega."""
+    """Map sub-step against link stiffness, with the stability limit 2 / omega of the explicit."""
     stiffness = np.geomspace(1e2, 1e8, 13 if quick else 25)
     substeps = np.unique(np.geomspace(1, 512, 10 if quick else 24).round().astype(int))[::-1]
     cases = CASES[:2] if quick else CASES[:3]
     note = (
-        "Line: 2 / ω, ω = √(g k); above it the explicit link is unstable, and the implicit one may "
-        "go to and fro between stick and slip. Left: a soft link stretches by μ / k."
+        "Line: 2 / ω with ω = √(g k). Above the line the explicit link is unstable, and the "
+        "iterations of the implicit link may alternate between stick and slip. At the left, a "
+        "soft link elongates by μ / k."
     )
     return _map(
         record,
@@ -60,7 +61,7 @@ def link_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
         ],
         title=f"{METHODS[name].title}: sub-step against stiffness",
         note=note,
-        x_label="Stiffness for each unit of weight [1/m]",
+        x_label="Stiffness per unit weight [1/m]",
         x=stiffness,
         y_label="Sub-step [s]",
         y=record.dt_s / substeps,
@@ -71,14 +72,15 @@ def link_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
 
 
 def slope_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
-    """Map the sub-step over slopes about the friction angle, where free sliding begins."""
+    """Map sub-step against slopes near the friction angle, where free sliding begins."""
     slopes = SLOPE_DEG + np.linspace(-2.0, 2.0, 17 if quick else 41)
     return _map(
         record,
         name,
         lambda slope, h: [_near(record, h, float(slope), CRITICAL_MU)],
         title=f"{METHODS[name].title}: sub-step against slope",
-        note=f"μ = tan {SLOPE_DEG:g}°, PPA = {PPA_G:g} g. Line: θ = atan μ, beyond it no rest.",
+        note=f"μ = tan {SLOPE_DEG:g}°, PPA = {PPA_G:g} g. Line: θ = atan μ; on steeper slopes the "
+        "block cannot stay at rest.",
         x_label="Slope [deg]",
         x=slopes,
         y_label="Sub-step [s]",
@@ -90,14 +92,15 @@ def slope_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
 
 
 def friction_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
-    """Map the sub-step over friction coefficients about the tangent of the slope."""
+    """Map sub-step against friction coefficients near the tangent of the slope."""
     mus = CRITICAL_MU * np.linspace(0.5, 2.0, 16 if quick else 46)
     return _map(
         record,
         name,
         lambda mu, h: [_near(record, h, SLOPE_DEG, float(mu))],
         title=f"{METHODS[name].title}: sub-step against friction",
-        note=f"θ = {SLOPE_DEG:g}°, PPA = {PPA_G:g} g. Line: μ = tan θ, below it no rest.",
+        note=f"θ = {SLOPE_DEG:g}°, PPA = {PPA_G:g} g. Line: μ = tan θ; with less friction the "
+        "block cannot stay at rest.",
         x_label="Friction coefficient",
         x=mus,
         y_label="Sub-step [s]",
@@ -109,16 +112,17 @@ def friction_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
 
 
 def tolerance_map(record: Record, *, quick: bool) -> StabilityMap:
-    """Map the tolerance of the regularised method over its velocity v_0."""
+    """Map the tolerance of the regularized method over its velocity v_0."""
     velocities = np.geomspace(1e-3, 1.0, 4) if quick else np.geomspace(1e-4, 1.0, 9)
     tolerances = np.geomspace(1e-2, 1e-5, 4) if quick else np.geomspace(1e-2, 1e-8, 7)
     case = CASES[1]
     return _map(
         record,
-        "regularised",
+        "regularized",
         lambda v, tolerance: [(case, {"velocity_mps": v, "tolerance": tolerance})],
-        title=f"{METHODS['regularised'].title}: tolerance against velocity",
-        note=f"{case}. Right: it creeps where it should stick, and no tolerance mends that.",
+        title=f"{METHODS['regularized'].title}: tolerance against velocity",
+        note=f"{case}. At the right, the block creeps where it should stick; a tighter tolerance "
+        "does not reduce this error.",
         x_label="Velocity v₀ [m/s]",
         x=velocities,
         y_label="Relative tolerance",
@@ -153,7 +157,7 @@ def _map(
     x_mark: float,
     x_log: bool,
 ) -> StabilityMap:
-    """Run every cell, the largest error of its runs; one that gives no number fails the cell."""
+    """Return the largest error of the runs of each cell; a run without a result fails the cell."""
     error = np.array([[_largest_error(record, name, runs(a, b)) for a in x] for b in y])
     return StabilityMap(
         title=title,
@@ -178,23 +182,23 @@ def _largest_error(record: Record, name: str, runs: list[_Run]) -> float:
 
 
 def conditioning(record: Record, *, quick: bool) -> Iterator[Conditioning]:
-    """Change the friction coefficient a little and see what the exact PRD does."""
+    """Compute the change of the exact PRD for small changes of the friction coefficient."""
     count = 60 if quick else 240
-    # Towards the critical friction from both sides, to a millionth of it.
+    # Toward the critical friction from both sides, to within a millionth of it.
     near = CRITICAL_MU * (1.0 + np.geomspace(1e-6, 0.5, count // 2))
     below = 2.0 * CRITICAL_MU - near[::-1]
     both = np.concatenate([below, near])
     wide = np.linspace(0.02, 0.8, count)
-    still = "Still roof: it slides freely below μ = tan θ and rests above; at the limit "
-    still += "no method can help, because the problem itself hangs on the last digits of μ."
-    shaken = "Shaken roof: a change of the 9th digit of μ changes PRD by about as little, except "
-    shaken += "where a slip only just happens."
-    design = "What 5 % more or less friction does to the answer."
+    still = "Without shaking the block slides freely if μ < tan θ and stays at rest if μ > tan θ. "
+    still += "At the limit the result depends on the last digits of μ, for every method."
+    shaken = "With shaking, a change in the 9th digit of μ changes the PRD by a similarly small "
+    shaken += "share, except where a slip barely occurs."
+    design = "This is the effect of 5 % more or less friction on the PRD."
     for title, note, ppa_g, change, mu in (
-        ("PRD for 10⁻⁹ of μ, still roof", still, 0.0, 1e-9, both),
-        ("PRD for 10⁻⁹ of μ, shaken near μ = tan θ", shaken, PPA_G, 1e-9, both),
-        ("PRD for 10⁻⁹ of μ, shaken", shaken, 1.0, 1e-9, wide),
-        ("PRD for 5 % of μ, shaken", design, 1.0, 0.05, wide),
+        ("μ changed by 10⁻⁹, no shaking", still, 0.0, 1e-9, both),
+        ("μ changed by 10⁻⁹, shaking, μ near tan θ", shaken, PPA_G, 1e-9, both),
+        ("μ changed by 10⁻⁹, shaking", shaken, 1.0, 1e-9, wide),
+        ("μ changed by 5 %, shaking", design, 1.0, 0.05, wide),
     ):
         yield _conditioning(record, ppa_g, change, mu, title, note)
 

@@ -1,6 +1,6 @@
-"""Static above kinetic friction: what is left of it as the difference, or the second axis, fades.
+"""Static friction above kinetic: limits of a small difference and of a small second component.
 
-In one axis against the exact method, in two against one coefficient. Read `static_evidence`.
+Compared in one axis with the exact method, in two with one coefficient. Read `static_evidence`.
 """
 
 from __future__ import annotations
@@ -31,17 +31,17 @@ FADING = (1e-1, 1e-2, 1e-4)
 """Factors of the second component."""
 
 ACROSS_MPS2 = (0.0, 1e-9, 1e-6, 0.1)
-"""Pushes across the way of the block that is pushed back [m/s2]."""
+"""Transverse accelerations of the block that is driven back [m/s2]."""
 
 PUSHED_BACK_G = 0.45
-"""What pushes it back [g], between its kinetic and static friction."""
+"""Acceleration that drives it back [g], between kinetic and static friction."""
 
 PUSHED_TOLERANCE = 1e-8
-"""Of its runs: above the least pushes across, so that what passes for rest is seen to change."""
+"""Tolerance of its runs: above the least transverse accelerations, so that the change shows."""
 
 
 def held(mu: float, ratio: float) -> Friction:
-    """Return friction that at rest is so many times that in motion."""
+    """Return friction whose static coefficient is `ratio` times the kinetic one."""
     return Friction(mu_slow=mu, mu_fast=mu, rate_s_per_m=0.0, mu_static=ratio * mu)
 
 
@@ -49,18 +49,18 @@ JUMPING = held(0.4, 1.25)
 """Friction of that block."""
 
 FALLING = replace(JUMPING, mu_slow=JUMPING.mu_static, rate_s_per_m=100.0)
-"""The same friction, but falling from static to kinetic with speed instead of at once."""
+"""The same friction, falling from static to kinetic gradually with velocity."""
 
 
 def static_evidence(scenes: Sequence[Scene], ratio: float) -> StaticEvidence:
-    """Run scenes with one coefficient as kinetic friction; those that hardly slide are left out.
+    """Run scenes with their coefficient as kinetic friction; scenes with little slip are excluded.
 
     Parameters
     ----------
     scenes : sequence of Scene
         Of three components.
     ratio : float
-        Static over kinetic friction where the second component fades.
+        Static over kinetic friction where the second component decreases.
     """
     alone = [(scene, one_axis.run(scene).prd_m) for scene in scenes]
     slid = [(scene, prd_m) for scene, prd_m in alone if prd_m >= LEAST_M]
@@ -116,7 +116,7 @@ def _changes(ratios: Sequence[float]) -> Floats:
 
 
 def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
-    """Return a block thrown down a flat roof, pushed back by `PUSHED_BACK_G`, and across."""
+    """Return a sliding block driven back by `PUSHED_BACK_G`, with a transverse acceleration."""
     back = np.full(201, PUSHED_BACK_G * STANDARD_GRAVITY_MPS2)
     back[0], back[1:6] = 0.0, -9.0
     return Scene(

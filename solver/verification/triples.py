@@ -1,4 +1,4 @@
-"""Motions of three components for the comparison of rungs: made ones, and real ones of a folder.
+"""Motions of three components for the comparison of models: generated, or recorded in a folder.
 
 Runs nothing. Read `own_triples`, then `Triple.scene`.
 """
@@ -17,7 +17,7 @@ from solver.rivals.methods import NO_RECORD
 from solver.verification.scenes import Case, own_suite
 
 _UP = ("up", "v", "ud", "vertical", "vert", "z")
-"""Words by which a channel of a file says that it is the vertical one."""
+"""Words in a channel's name that mark the vertical component."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +28,7 @@ class Triple:
     ----------
     name : str
     is_recorded : bool
-        In an earthquake, not made.
+        In an earthquake; otherwise generated.
     dt_s : float
     x_mps2, y_mps2, z_mps2 : array, shape (n,)
         Read-only [m/s2].
@@ -43,7 +43,7 @@ class Triple:
 
     @property
     def motion(self) -> Motion:
-        """The motion with both senses of both horizontal components, unscaled."""
+        """The motion with both signs of both horizontal components, unscaled."""
         return Motion(
             id=self.name,
             source="",
@@ -56,14 +56,14 @@ class Triple:
         )
 
     def scale_to(self, ppa_g: float) -> float:
-        """Return the factor that brings the larger horizontal peak to so many g."""
+        """Return the factor that scales the larger horizontal peak to `ppa_g` [g]."""
         peak = max(float(np.abs(a).max()) for a in (self.x_mps2, self.y_mps2))
         return ppa_g * STANDARD_GRAVITY_MPS2 / peak
 
     def scene(
         self, case: Case, friction: Friction, *, second: bool = True, vertical: bool = True
     ) -> Scene:
-        """Return a case of this motion as recorded, or of a part of its components."""
+        """Return a case of this motion with all components, or without the second or vertical."""
         return Scene(
             ax_mps2=self.x_mps2,
             ay_mps2=self.y_mps2 if second else NO_RECORD,
@@ -76,14 +76,14 @@ class Triple:
         )
 
     def cut(self, samples: int) -> Triple:
-        """Return so many samples with the most horizontal energy."""
+        """Return the `samples` consecutive samples with the most horizontal energy."""
         energy = np.convolve(self.x_mps2**2 + self.y_mps2**2, np.ones(samples), "valid")
         first = int(energy.argmax())
         x, y, z = (
             readonly(a[first : first + samples]) for a in (self.x_mps2, self.y_mps2, self.z_mps2)
         )
         return Triple(
-            name=f"{(samples - 1) * self.dt_s:g} s of {self.name}",
+            name=f"{self.name}, strongest {(samples - 1) * self.dt_s:g} s",
             is_recorded=self.is_recorded,
             dt_s=self.dt_s,
             x_mps2=x,
@@ -93,14 +93,14 @@ class Triple:
 
 
 def readonly(values: Floats) -> Floats:
-    """Return a copy that nobody changes: the kernels compile another version for such as may be."""
+    """Return a read-only copy: numba compiles a second version for writable arrays."""
     copied = np.array(values, dtype=np.float64)
     copied.setflags(write=False)
     return copied
 
 
 def own_triples(quick: bool) -> tuple[Triple, ...]:
-    """Return motions of the project whose components follow AC156 spectra."""
+    """Return the project's generated motions, whose components match AC156 spectra."""
     return tuple(
         Triple(
             name=motion.x.name.removesuffix("-x"),
@@ -115,10 +115,10 @@ def own_triples(quick: bool) -> tuple[Triple, ...]:
 
 
 def recorded_triples(folder: Path) -> tuple[Triple, ...]:
-    """Return the motions of those files below a folder that hold three components.
+    """Return the motions of all files below a folder that hold three components.
 
-    Two horizontal ones and one that calls itself up or vertical; what cannot be read, or holds
-    less, is passed over.
+    Two horizontal components and one named up or vertical; files that cannot be read or have
+    other channels are skipped.
     """
     found = (_triple(path) for path in sorted(folder.rglob("*")) if path.is_file())
     return tuple(triple for triple in found if triple is not None)

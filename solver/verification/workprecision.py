@@ -1,7 +1,7 @@
-"""Work against precision: every method over its settings, timed and held against the exact one.
+"""Accuracy against run time: every method with each setting, timed and compared with the exact one.
 
-The timing is of one thread, warm, the least of some repeats, with the record prepared and the
-input checked before. Read `solver.rivals.methods` for the methods and their knobs.
+Times are for one thread, warm, the least of several repeats, after the record is prepared and the
+input checked. See `solver.rivals.methods` for the methods and their settings.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from solver.verification.scenes import CASES, Case, is_runnable, prepared, scale
 
 REPEATS = 5
 ENOUGH_S = 0.02
-"""Repeats end after so many, or so many seconds."""
+"""Repeats end after this number, or after this time [s]."""
 
 SLOW_RECORDS, SLOW_CASES = 6, 2
-"""First records and cases of each for a method in plain Python, which takes a second a run."""
+"""Number of records, and of cases of each, for a method that takes a second per run."""
 
 SLOW_DURATION_S = 40.0
 """Longest record for such a method [s]."""
@@ -33,7 +33,7 @@ NO_SAMPLES = np.empty((2, 0))
 
 
 def work_points(records: Sequence[Record], *, quick: bool) -> Iterator[WorkPoint]:
-    """Run every method over its settings on every record and case, see `settings`."""
+    """Run every method with each setting on every record and case, see `settings`."""
     cases = CASES[:3] if quick else CASES
     methods = [method for method in METHODS.values() if is_runnable(method.name)]
     for i, record in enumerate(records):
@@ -49,13 +49,13 @@ def work_points(records: Sequence[Record], *, quick: bool) -> Iterator[WorkPoint
 
 def is_slow(method: Method) -> bool:
     """Whether the method runs in plain Python."""
-    return method.name == "regularised"
+    return method.name == "regularized"
 
 
 def settings(
     method: Method, record: Record, *, quick: bool
 ) -> Iterator[tuple[float, Mapping[str, float]]]:
-    """Give values of the knob with all parameters, every second one if quick."""
+    """Yield values of the setting with all parameters, every second one if quick."""
     if not method.knob:
         yield math.nan, method.parameters
         return
@@ -80,7 +80,7 @@ def run(record: Record, case: Case, name: str, parameters: Mapping[str, float]) 
 
 
 def least_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> float:
-    """Return the least time of some repeats, fewer where they take long."""
+    """Return the least time of several repeats, fewer if they take long [s]."""
     begun, least = time.perf_counter(), math.inf
     for _ in range(REPEATS):
         start = time.perf_counter()
@@ -93,7 +93,7 @@ def least_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> flo
 
 
 def timed(method: Method, scene: AxisScene, parameters: Mapping[str, float]) -> float:
-    """Return the least seconds of a run by a method, on a prepared scene."""
+    """Return the least time of a run by a method on a prepared scene [s]."""
     return least_seconds(lambda: method.follow(scene, parameters, NO_SAMPLES))
 
 

@@ -2,7 +2,7 @@
 
 Run from the top: .venv/bin/python tests/bench/solver_lanes.py [RECORD.csv ...] The exact method for
 LANES cases at once, in explicit vectors. The cases are sorted by what they yield at, so that
-neighbours slip together, and go through the record in lockstep: past what is quiet for all, sample
+neighbors slip together, and go through the record in lockstep: past what is quiet for all, sample
 by sample without branches while no lane has an event, and where one has, all events of the interval
 at once. Prints the speed beside `one_axis.slide_exact`, over the grid and the records of
 `solver_speed`, and the largest difference in s relative to the PRD.

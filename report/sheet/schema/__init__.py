@@ -1,7 +1,7 @@
-"""The input sheet as data: what is asked, in which unit, within which range, and how it is said.
+"""The input workbook as data: fields, units, allowed ranges, labels and help texts.
 
-Template, reader, input echo and documentation all come from these models; values are SI. Checks
-that look at more than one cell are in `checks`. Read `workbook` next.
+Template, reader and input echo all come from these models; values are SI. Checks that involve more
+than one cell are in `checks`. Read `report.sheet.read` next.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, model_validator
 
 from report.sheet.fields import Cell, Frozen, Section, YesNo
 from report.sheet.formerly import PROVISIONS
@@ -32,7 +32,6 @@ from report.sheet.schema.choices import (
     SlopeUnit,
     Statistic,
     StructureType,
-    TailRule,
     UnitsFirst,
 )
 from report.sheet.schema.links import Links, coefficients
@@ -74,7 +73,6 @@ __all__ = [
     "SpectrumPoint",
     "Statistic",
     "StructureType",
-    "TailRule",
     "TargetInput",
     "UnitsFirst",
     "YesNo",
@@ -84,7 +82,7 @@ __all__ = [
 ]
 
 PROVISION_KEYS = OVERRIDABLE
-"""Provisions that can be overridden, each with what it is and its unit."""
+"""Provisions that can be overridden, each with its meaning and unit."""
 
 
 class Options(Frozen):
@@ -93,25 +91,26 @@ class Options(Frozen):
     statistic: Annotated[
         Statistic,
         Cell(
-            "Design value from peaks",
-            "Rule set: what the chosen rule set states for this number of motions.",
+            "Design value statistic",
+            "Rule set: the statistic that the rule set requires for this number of motions.",
             "rule set",
         ),
     ] = Statistic.RULE_SET
     peer_reviewed: Annotated[
-        bool, Cell("Analysis is peer reviewed", "Lifts the floor on the value from analysis.", "No")
+        bool,
+        Cell("Peer review", "Yes removes the lower limit on the displacement from analysis.", "No"),
     ] = False
 
 
 class Override(Frozen):
-    """A provision's number, replaced, with the reason that the package prints."""
+    """A replacement for the number of a provision, with the reason that the package prints."""
 
     provision: Annotated[
         RequiredText,
         AfterValidator(lambda key: PROVISIONS.get(key, key)),
-        Cell("Provision", "Choose which number to replace.", "parapet_height_in"),
+        Cell("Provision", "The number to replace, from the list.", "parapet_height_in"),
     ]
-    value: Annotated[float, Cell("Value", "In the unit that the sheet Provisions names.", 18.0)]
+    value: Annotated[float, Cell("Value", "In the unit stated on the sheet Provisions.", 18.0)]
     reason: Annotated[
         RequiredText,
         Cell(
@@ -121,7 +120,7 @@ class Override(Frozen):
 
 
 class ProjectInput(Frozen):
-    """Everything a workbook says."""
+    """The complete input of a workbook."""
 
     project: Project
     revisions: tuple[Revision, ...] = ()
@@ -136,6 +135,24 @@ class ProjectInput(Frozen):
     options: Options = Options()
     target: TargetInput = TargetInput()
     overrides: tuple[Override, ...] = ()
+
+    @model_validator(mode="after")
+    def _spell_ids_alike(self) -> ProjectInput:
+        """Spell every reference as the id it refers to: capitals do not distinguish ids."""
+        ids = {row.id.casefold(): row.id for row in self.arrays}
+        ids |= {row.id.casefold(): row.id for row in self.objects}
+
+        def spelled(name: str) -> str:
+            return ids.get(name.casefold(), name)
+
+        clearances = tuple(
+            row.model_copy(update={"array": spelled(row.array), "object": spelled(row.object)})
+            for row in self.clearances
+        )
+        links = tuple(row.model_copy(update={"array": spelled(row.array)}) for row in self.links)
+        object.__setattr__(self, "clearances", clearances)  # the model itself is frozen
+        object.__setattr__(self, "links", links)
+        return self
 
 
 def _block(
@@ -167,15 +184,16 @@ SECTIONS = (
         "arrays",
         "Arrays",
         "Arrays",
-        "One row for each array that moves as one. Columns behind Downslope may stay blank.",
+        "One row for each array that moves as a unit. Columns to the right of Downslope direction"
+        " are optional.",
         Array,
     ),
     _table(
         "objects",
         "Objects",
         "Objects and roof edges",
-        "One row for each thing an array could strike or fall from. The plan rectangle is optional;"
-        " an edge is a strip outside the roof.",
+        "One row for each object that an array could strike and each edge it could fall from. The"
+        " plan rectangle is optional; enter an edge as a strip outside the roof.",
         RoofObject,
     ),
     _table(
@@ -189,24 +207,25 @@ SECTIONS = (
         "motions",
         "Motions",
         "Roof motions",
-        "One row for each motion. Records lie beside this workbook (file, or file | channel), or in"
-        " a sheet as columns (Sheet!Header). Columns behind Source may stay blank.",
+        "One row for each motion. Records are files beside this workbook (file, or file |"
+        " channel) or columns pasted into a sheet (Sheet!Header). Columns to the right of Source"
+        " are optional.",
         MotionInput,
     ),
     _block(
         "building",
         "Building",
         "Building between ground and roof",
-        "Only for motions recorded on the ground: give period T1, or a structure type.",
+        "Required only for ground motions: give period T1 or a structure type.",
         BuildingInput,
         may_be_absent=True,
     ),
     _table(
         "spectrum",
         "Spectrum",
-        "The project's own target spectrum",
-        "Optional; it replaces AC156's at the roof, or the design spectrum on the ground. 5 %"
-        " damping, at least two rows.",
+        "Project-specific target spectrum",
+        "Optional. Replaces the AC156 spectrum for roof motions, or the design spectrum for ground"
+        " motions. 5 % damping, at least two rows.",
         SpectrumPoint,
         may_be_absent=True,
     ),
@@ -214,8 +233,8 @@ SECTIONS = (
         "links",
         "Links",
         "Rows of linked blocks",
-        "Optional: one row for each array of which the package is to say whether one rigid block"
-        " is enough for it. Blocks of equal weight, in a row down the slope.",
+        "Optional: one row for each array for which the package checks whether one rigid block is"
+        " adequate. The blocks have equal weights and lie in a row along the slope.",
         Links,
         may_be_absent=True,
     ),
@@ -224,7 +243,8 @@ SECTIONS = (
         "target",
         "Options",
         "Target spectrum and scaling",
-        "The target at the roof is AC156's; for ground motions the design spectrum of ASCE 7.",
+        "The default target is the AC156 spectrum for roof motions and the ASCE 7 design"
+        " spectrum for ground motions.",
         TargetInput,
         may_be_absent=True,
     ),

@@ -1,4 +1,4 @@
-"""The building between a ground motion and its roof, and the spectra that motions are held against.
+"""The building between a ground motion and its roof, and the target spectra of the motions.
 
 Read `report.sheet.schema` first; `solver.building.roof` and `solver.records.scaling` use them.
 """
@@ -10,21 +10,22 @@ from typing import Annotated
 from pydantic import Field
 
 from report.sheet.fields import Cell, Frozen
-from report.sheet.schema.choices import StructureType, TailRule
+from report.sheet.schema.choices import StructureType
+from solver.rules.spectra import Tail
 
 Period = Annotated[float, Field(gt=0, le=10)]
 Percent = Annotated[float, Field(ge=1, le=50)]
 
 
 class BuildingInput(Frozen):
-    """An elastic building of a few modes; blank where all motions are those of the roof."""
+    """An elastic building of a few modes; blank if all motions are roof motions."""
 
     structure: Annotated[
         StructureType | None,
         Cell(
             "Structure type",
-            "For the approximate period C_t h^x of ASCE 7, 12.8.2.1, h from the sheet Site. Blank"
-            " where period T1 is given.",
+            "Gives the approximate period C_t h^x of ASCE 7, 12.8.2.1, with h from the sheet Site."
+            " Leave blank if period T1 is given.",
             "other",
         ),
     ] = None
@@ -32,42 +33,43 @@ class BuildingInput(Frozen):
         Period | None,
         Cell(
             "Period T1",
-            "Of the first mode, from an analysis or a measurement: better than C_t h^x, which is"
-            " meant to be short.",
+            "First mode, from analysis or measurement. More accurate than C_t h^x, which is"
+            " intended to be a low estimate.",
             0.62,
             "s",
         ),
     ] = None
     period_2_s: Annotated[
         Period | None,
-        Cell("Period T2", "Of the second mode, where known; blank: that of a beam.", 0.2, "s"),
+        Cell("Period T2", "Second mode, if known. Blank: that of a uniform beam.", 0.2, "s"),
     ] = None
     transverse_s: Annotated[
         Period | None,
         Cell(
             "Period T1, transverse",
-            "Of the building in the direction of the transverse record; blank: the same.",
+            "First mode in the direction of the transverse record. Blank: equal to T1.",
             0.55,
             "s",
         ),
     ] = None
     damping_percent: Annotated[
-        Percent, Cell("Damping", "Of all modes, in percent of critical damping.", 5.0, "%")
+        Percent, Cell("Damping", "Damping of all modes, in percent of critical.", 5.0, "%")
     ] = 5.0
     stiffness_ratio: Annotated[
         Annotated[float, Field(ge=0, le=1000)] | None,
         Cell(
             "Lateral stiffness ratio",
-            "H sqrt(GA/EI): 0 walls in bending, 1.5 to 6 walls with frames, over 20 frames;"
-            " blank: shear alone.",
+            "H sqrt(GA/EI): 0 for shear walls, 1.5 to 6 for walls with frames, over 20 for moment"
+            " frames. Blank: shear deformation only.",
             4.0,
         ),
     ] = None
     left_out_percent: Annotated[
         Annotated[float, Field(ge=0, le=50)],
         Cell(
-            "Modes may leave out",
-            "All modes that are left out together, in percent of the roof's peak.",
+            "Modal truncation limit",
+            "Allowed effect of all neglected modes together, in percent of the peak roof"
+            " acceleration.",
             5.0,
             "%",
         ),
@@ -75,41 +77,46 @@ class BuildingInput(Frozen):
 
 
 class TargetInput(Frozen):
-    """How target spectra fall at long periods, and over which periods motions are scaled."""
+    """Target spectra at long periods, and the period range over which motions are scaled."""
 
     tail: Annotated[
-        TailRule,
+        Tail,
         Cell(
             "AC156 below 1.3 Hz",
-            "The line of AC156, or 1/T beyond 0.77 s, which PV1-2012 Sec. 9 allows.",
+            "The line of AC156, or 1/T for periods above 0.77 s as PV1-2012 Sec. 9 permits.",
             "AC156",
         ),
-    ] = TailRule.AC156
+    ] = Tail.AC156
     t_l_s: Annotated[
         Annotated[float, Field(gt=0, le=20)] | None,
         Cell(
             "Long-period transition T_L",
-            "ASCE 7, 11.4.6. For ground motions: with S_1 and F_v it gives the design spectrum.",
+            "ASCE 7, 11.4.6. Used with S_1 and F_v for the design spectrum of ground motions.",
             8.0,
             "s",
         ),
     ] = None
     from_s: Annotated[
         Annotated[float, Field(ge=0.02, le=10)],
-        Cell("Scaling periods from", "Of motions scaled to the target spectrum.", 0.2, "s"),
+        Cell("Shortest scaling period", "For motions scaled to the target spectrum.", 0.2, "s"),
     ] = 0.2
     to_s: Annotated[
         Annotated[float, Field(ge=0.02, le=10)],
-        Cell("Scaling periods to", "Long periods drive sliding: do not stop at 1.3 Hz.", 5.0, "s"),
+        Cell(
+            "Longest scaling period",
+            "Long periods govern sliding: use more than 0.77 s (1.3 Hz).",
+            5.0,
+            "s",
+        ),
     ] = 5.0
 
 
 class SpectrumPoint(Frozen):
-    """A point of the project's own target spectrum."""
+    """A point of the project-specific target spectrum."""
 
     period_s: Annotated[
         Annotated[float, Field(ge=0.001, le=1000)],
-        Cell("Period", "Each once, in any order; straight between them on log-log axes.", 1.0, "s"),
+        Cell("Period", "Each period once, in any order. Interpolated on log-log axes.", 1.0, "s"),
     ]
     horizontal_g: Annotated[
         Annotated[float, Field(gt=0, le=100)],
@@ -117,5 +124,5 @@ class SpectrumPoint(Frozen):
     ]
     vertical_g: Annotated[
         Annotated[float, Field(gt=0, le=100)] | None,
-        Cell("Vertical", "In every row, or blank in all: that of AC156.", 0.4, "g"),
+        Cell("Vertical", "In every row, or blank in every row to use AC156.", 0.4, "g"),
     ] = None

@@ -1,14 +1,20 @@
-"""The choices that cells offer, and the kinds of text and number that they take.
+"""The choices that cells offer, and the types of text and number that they accept.
 
 Owns no fields and no labels. Read `report.sheet.schema` first.
 """
 
 from __future__ import annotations
 
+import re
 from enum import StrEnum
 from typing import Annotated
 
 from pydantic import Field
+
+from solver.building.periods import APPROXIMATE_PERIODS
+from solver.records.units import UNIT_CHOICES
+from solver.rules.provisions import Basis
+from solver.rules.rulesets import RULE_SETS
 
 MAX_TEXT = 2000
 
@@ -21,11 +27,11 @@ NotNegative = Annotated[float, Field(ge=0)]
 
 
 class RuleSetName(StrEnum):
-    """Rule set to compare with."""
+    """Rule set to compare with: any of `solver.rules`."""
 
-    PV1_2012 = "SEAOC PV1-2012"
-    ASCE_7_16 = "ASCE 7-16"
-    ASCE_7_22 = "ASCE 7-22"
+    _ignore_ = "_rules"
+    for _rules in RULE_SETS.values():
+        vars()[_rules.code.upper().replace("-", "_")] = _rules.name
 
 
 class UnitsFirst(StrEnum):
@@ -45,7 +51,7 @@ class RiskCategory(StrEnum):
 
 
 class SiteClass(StrEnum):
-    """Site class, ASCE 7 chapter 20; the halves came with the 2022 edition."""
+    """Site class, ASCE 7 chapter 20; BC, CD and DE were added in the 2022 edition."""
 
     A = "A"
     B = "B"
@@ -71,7 +77,7 @@ class Sdc(StrEnum):
 
 
 class SlopeUnit(StrEnum):
-    """How a roof slope is written."""
+    """Unit of a roof slope."""
 
     DEGREES = "degrees"
     PERCENT = "percent"
@@ -88,7 +94,7 @@ class ObjectKind(StrEnum):
 
 
 class Model(StrEnum):
-    """Model of an array's motion: the least that answers, or one that is asked for."""
+    """Model of an array's motion: the simplest adequate one, or one that is requested."""
 
     CHOOSE = "choose"
     ONE_AXIS = "one axis"
@@ -97,7 +103,7 @@ class Model(StrEnum):
 
 
 class Direction(StrEnum):
-    """Where a clearance lies, seen from the array."""
+    """Direction of a clearance from the array: downslope, upslope, cross-slope, or any."""
 
     DOWN = "down"
     UP = "up"
@@ -106,18 +112,16 @@ class Direction(StrEnum):
 
 
 class AccelUnit(StrEnum):
-    """Unit of a motion record."""
+    """Unit of a motion record: that of the file, or any of `solver.records.units`."""
 
+    _ignore_ = "_unit"
     FROM_FILE = "from file"
-    G = "g"
-    M_S2 = "m/s2"
-    CM_S2 = "cm/s2"
-    MM_S2 = "mm/s2"
-    GAL = "gal"
+    for _unit in UNIT_CHOICES:
+        vars()[_unit.upper().replace("/", "_")] = _unit
 
 
 class Scaling(StrEnum):
-    """How a record is scaled; a PPA is a peak of the horizontal component."""
+    """How a record is scaled; the PPA is the peak of the horizontal component."""
 
     AS_RECORDED = "as recorded"
     FACTOR = "factor"
@@ -126,14 +130,14 @@ class Scaling(StrEnum):
 
 
 class RecordedAt(StrEnum):
-    """Where a motion was recorded, or made for."""
+    """Where a motion was recorded, or for which level it was generated."""
 
     ROOF = "roof"
     GROUND = "ground"
 
 
 class Baseline(StrEnum):
-    """What is fitted to an acceleration and taken off."""
+    """Baseline fitted to an acceleration and subtracted."""
 
     NONE = "none"
     MEAN = "mean"
@@ -143,19 +147,11 @@ class Baseline(StrEnum):
 
 
 class StructureType(StrEnum):
-    """Seismic system, as far as its approximate period knows it (ASCE 7, Table 12.8-2)."""
+    """Structure type for the approximate period (ASCE 7, Table 12.8-2)."""
 
-    STEEL_MOMENT_FRAME = "steel moment frame"
-    CONCRETE_MOMENT_FRAME = "concrete moment frame"
-    STEEL_BRACES = "steel eccentric or buckling-restrained braces"
-    OTHER = "other"
-
-
-class TailRule(StrEnum):
-    """How an AC156 spectrum falls below 1.3 Hz."""
-
-    AC156 = "AC156"
-    RECIPROCAL = "1/T"
+    _ignore_ = "_system"
+    for _system in APPROXIMATE_PERIODS:
+        vars()[re.sub(r"\W", "_", _system).upper()] = _system
 
 
 class Polarity(StrEnum):
@@ -167,9 +163,10 @@ class Polarity(StrEnum):
 
 
 class Statistic(StrEnum):
-    """From the peaks of all motions to one value."""
+    """Statistic that gives the design value from the peaks of all motions."""
 
+    _ignore_ = "_basis"
     RULE_SET = "rule set"
-    MEAN_1_1 = "1.1 x mean"
-    LARGEST_1_1 = "1.1 x largest"
-    MEAN = "mean"
+    for _basis in Basis:
+        if _basis is not Basis.TOO_FEW:
+            vars()[_basis.name] = _basis.value

@@ -1,4 +1,4 @@
-"""Rows of linked blocks: arrays of which the workbook asks whether one rigid block is enough.
+"""Rows of linked blocks, requested to check whether one rigid block is adequate for an array.
 
 Read `report.sheet.schema` first; `report.assessment.links` runs them.
 """
@@ -24,9 +24,9 @@ _COEFFICIENT = re.compile(r"[0-9]*\.[0-9]+")
 
 
 def coefficients(text: str) -> tuple[float, ...]:
-    """Return a list such as `0.40, 0.45, 0.50`; empty where the text is none.
+    """Return the numbers of a list such as `0.40, 0.45, 0.50`; empty if the text is not one.
 
-    Each has a decimal point, so that a decimal comma never makes two of one.
+    Each needs a decimal point, so that a decimal comma never splits one number into two.
     """
     parts = [part.strip() for part in text.split(",")]
     if not all(map(_COEFFICIENT.fullmatch, parts)):
@@ -36,16 +36,16 @@ def coefficients(text: str) -> tuple[float, ...]:
 
 
 class Links(Frozen):
-    """An array as a row of blocks of equal weight down the slope, a link between neighbours."""
+    """An array as a row of linked blocks of equal weight along the slope."""
 
-    array: Annotated[Id, Cell("Array", "ID of the array. One line for each.", "A1")]
+    array: Annotated[Id, Cell("Array", "ID of the array. One row for each.", "A1")]
     friction: Annotated[
         str,
         Field(min_length=1, max_length=200),
         Cell(
-            "Friction of blocks",
-            "From the highest block down, 2 to 20 coefficients with commas between them, the "
-            "array's own within their range.",
+            "Block friction",
+            "2 to 20 friction coefficients separated by commas, from the upslope block to the "
+            "downslope block. Their range must include the array's coefficient.",
             "0.40, 0.45, 0.50",
         ),
     ]
@@ -53,14 +53,14 @@ class Links(Frozen):
         Positive,
         Cell(
             "Link stiffness",
-            "Force along the slope for each unit by which a link gets longer or shorter.",
+            "Axial force per unit elongation or shortening of a link.",
             5000.0,
             Quantity.STIFFNESS,
         ),
     ]
     damping_ratio: Annotated[
         Annotated[float, Field(ge=0, le=1)],
-        Cell("Link damping", "Ratio of critical, of one block on one link. Blank: none.", 0.02),
+        Cell("Link damping", "Damping ratio of one block on one link. Blank: none.", 0.02),
     ] = 0.0
 
     @model_validator(mode="after")
@@ -71,7 +71,7 @@ class Links(Frozen):
 
     @property
     def mus(self) -> tuple[float, ...]:
-        """Friction coefficient of each block, from the highest down."""
+        """Friction coefficient of each block, from the upslope end."""
         return coefficients(self.friction)
 
     def row(self, weight_n: float) -> BlockRow:

@@ -1,4 +1,4 @@
-"""The roof motions, as asked for; `report.motions.components` loads them.
+"""The roof motions, as requested; `report.motions.components` loads them.
 
 Read `report.sheet.schema` first.
 """
@@ -23,15 +23,15 @@ from report.sheet.schema.choices import (
 
 
 class MotionInput(Frozen):
-    """A roof motion, as asked for; `records` loads it."""
+    """A roof motion, as requested."""
 
     id: Annotated[Id, Cell("ID", "Short and unique, such as M1.", "M1")]
     record: Annotated[
         RequiredText,
         Cell(
             "Horizontal record",
-            "A file beside this workbook, or Sheet!Header of a pasted column. Where a file has"
-            " several channels: file | channel, its name or number.",
+            "A file beside this workbook, or Sheet!Header of a pasted column. If the file has"
+            " several channels: file | channel, by name or number.",
             "records/m1-x.csv",
         ),
     ]
@@ -39,8 +39,8 @@ class MotionInput(Frozen):
         RequiredText | None,
         Cell(
             "Transverse record",
-            "The other horizontal component; blank for none. Each of the two is run along the"
-            " slope, and the largest counts.",
+            "Second horizontal component; blank for none. Each component is run along the slope,"
+            " and the larger displacement is used.",
             "records/m1-y.csv",
         ),
     ] = None
@@ -48,36 +48,41 @@ class MotionInput(Frozen):
         RequiredText | None,
         Cell(
             "Vertical record",
-            "As the horizontal one, positive upwards; blank for none.",
+            "Given like the horizontal record, positive upward; blank for none.",
             "records/m1-z.csv",
         ),
     ] = None
     units: Annotated[
         AccelUnit,
-        Cell("Record units", "Of all components, where their files do not say.", "from file"),
+        Cell(
+            "Record units", "Units of all components, if the files do not state them.", "from file"
+        ),
     ] = AccelUnit.FROM_FILE
     dt_s: Annotated[
         Annotated[float, Field(gt=0, le=1)] | None,
-        Cell("Time step", "Leave blank where the file says it or has times.", 0.01, "s"),
+        Cell("Time step", "Leave blank if the file states it or has a time column.", 0.01, "s"),
     ] = None
     scaling: Annotated[
         Scaling,
         Cell(
             "Scaling",
             "By a factor, to a PPA (peak of the horizontal record), or to the target spectrum over"
-            " the periods of the sheet Options. One factor for all components.",
+            " the scaling periods on the sheet Options. All components get the same factor.",
             "as recorded",
         ),
     ] = Scaling.AS_RECORDED
     scale_value: Annotated[
         Annotated[float, Field(gt=0, le=1000)] | None,
-        Cell("Factor or PPA", "The factor, or the PPA in g; blank for other scalings.", 1.0),
+        Cell(
+            "Factor or PPA", "The factor, or the PPA in g; blank for other types of scaling.", 1.0
+        ),
     ] = None
     polarity: Annotated[
         Polarity,
         Cell(
             "Polarity",
-            "Both runs each horizontal component in both senses, and the largest counts.",
+            "Both: each horizontal component is run as recorded and reversed, and the larger"
+            " displacement is used.",
             "both",
         ),
     ] = Polarity.BOTH
@@ -93,45 +98,50 @@ class MotionInput(Frozen):
         RecordedAt,
         Cell(
             "Recorded at",
-            "A motion of the ground goes to the roof through the building of the sheet Building.",
+            "Ground motions are carried to the roof by the building on the sheet Building.",
             "roof",
         ),
     ] = RecordedAt.ROOF
     from_s: Annotated[
         Annotated[float, Field(ge=0)] | None,
-        Cell("Keep from", "Time from the first sample; blank: from the start.", 2.0, "s"),
+        Cell("Start time", "Measured from the first sample; blank: first sample.", 2.0, "s"),
     ] = None
     to_s: Annotated[
         Annotated[float, Field(gt=0)] | None,
-        Cell("Keep to", "Time from the first sample; blank: to the end.", 40.0, "s"),
+        Cell("End time", "Measured from the first sample; blank: last sample.", 40.0, "s"),
     ] = None
     baseline: Annotated[
         Baseline,
-        Cell("Baseline", "Fitted to the acceleration and taken off.", "linear"),
+        Cell("Baseline", "Fitted to the acceleration and subtracted.", "linear"),
     ] = Baseline.NONE
     highpass_hz: Annotated[
         Annotated[float, Field(gt=0, le=100)] | None,
         Cell(
             "High-pass corner",
-            "Zero phase; blank for none. Longer periods are lost, and with them some of the slip:"
-            " the package says how much.",
+            "Zero-phase; blank for none. Removing long periods also removes some slip; the package"
+            " states how much.",
             0.1,
             "Hz",
         ),
     ] = None
     lowpass_hz: Annotated[
         Annotated[float, Field(gt=0, le=1000)] | None,
-        Cell("Low-pass corner", "Zero phase; blank for none.", 40.0, "Hz"),
+        Cell("Low-pass corner", "Zero-phase; blank for none.", 40.0, "Hz"),
     ] = None
     order: Annotated[
         Annotated[int, Field(ge=2, le=12)],
-        Cell("Filter order", "Of both filters, which have half the power at the corner.", 4),
+        Cell("Filter order", "Order of both filters. The power at the corner is one half.", 4),
     ] = 4
     new_dt_s: Annotated[
         Annotated[float, Field(gt=0, le=1)] | None,
-        Cell("New time step", "Resampled, without aliases; blank: as it is.", 0.005, "s"),
+        Cell("New time step", "Resampled without aliasing; blank: unchanged.", 0.005, "s"),
     ] = None
     pad_s: Annotated[
         Annotated[float, Field(gt=0, le=600)] | None,
-        Cell("Zeros at the end", "Time in which an array comes to rest; blank: none.", 5.0, "s"),
+        Cell(
+            "Zero padding",
+            "Added at the end, for the array to come to rest; blank: none.",
+            5.0,
+            "s",
+        ),
     ] = None

@@ -1,4 +1,4 @@
-"""Whose calculation it is, and the site with the rules that govern there.
+"""Project data, and the site with the rules that govern there.
 
 Read `report.sheet.schema` first.
 """
@@ -26,7 +26,7 @@ from report.words.units import Quantity
 
 
 class Project(Frozen):
-    """Whose calculation this is."""
+    """Project data."""
 
     name: Annotated[
         RequiredText, Cell("Project name", "Printed on the cover.", "Alameda Warehouse")
@@ -34,7 +34,7 @@ class Project(Frozen):
     number: Annotated[RequiredText, Cell("Project number", "Printed on every page.", "24-117")]
     client: Annotated[Text, Cell("Client", "Printed on the cover.", "Harbor Logistics LLC")] = ""
     address: Annotated[
-        Text, Cell("Address", "Of the building.", "1200 Alameda St, Los Angeles, CA")
+        Text, Cell("Address", "Address of the building.", "1200 Alameda St, Los Angeles, CA")
     ] = ""
     prepared_by: Annotated[
         RequiredText, Cell("Prepared by", "Name or initials, printed on every page.", "RG")
@@ -43,16 +43,16 @@ class Project(Frozen):
         Text,
         Cell(
             "Checked by",
-            "Name or initials, printed on every page. Leave blank until it is checked.",
+            "Name or initials, printed on every page. Leave blank until checked.",
             "MT",
         ),
     ] = ""
     date: Annotated[dt.date, Cell("Date", "Date of this issue.", dt.date(2026, 3, 5))]
     revision: Annotated[
-        RequiredText, Cell("Revision", "Of this issue, printed on every page.", "0")
+        RequiredText, Cell("Revision", "Revision of this issue, printed on every page.", "0")
     ]
     units_first: Annotated[
-        UnitsFirst, Cell("Units first", "Both are printed; this one comes first.", "US")
+        UnitsFirst, Cell("Primary units", "Both systems are printed; this one comes first.", "US")
     ] = UnitsFirst.US
 
 
@@ -79,40 +79,40 @@ class Site(Frozen):
 
     rule_set: Annotated[
         RuleSetName,
-        Cell("Rule set", "The adopted provisions. Rules are never mixed.", "SEAOC PV1-2012"),
+        Cell("Rule set", "The adopted provisions. Rule sets are never combined.", "SEAOC PV1-2012"),
     ]
     risk_category: Annotated[RiskCategory, Cell("Risk category", "ASCE 7 Table 1.5-1.", "II")]
     i_e: Annotated[
         float,
         Field(ge=1.0, le=2.0),
         Cell(
-            "Importance factor I_e", "Risk category I, II: 1.0; III: 1.25; IV: 1.5; or more.", 1.0
+            "Importance factor I_e",
+            "At least 1.0 in risk category I or II, 1.25 in III, 1.5 in IV.",
+            1.0,
         ),
     ]
     s_s_g: Annotated[
         Annotated[float, Field(gt=0, le=10)] | None,
-        Cell("S_S", "Mapped, 0.2 s. With F_a, or give S_DS.", 1.97, "g"),
+        Cell("S_S", "Mapped value at 0.2 s. Give S_S and F_a, or S_DS.", 1.97, "g"),
     ] = None
     s_1_g: Annotated[
         Annotated[float, Field(gt=0, le=10)] | None,
-        Cell("S_1", "Mapped, 1 s. From 0.75 g on the design category is E or F.", 0.70, "g"),
+        Cell("S_1", "Mapped value at 1 s. At 0.75 g or more the SDC is E or F.", 0.70, "g"),
     ] = None
     site_class: Annotated[SiteClass | None, Cell("Site class", "ASCE 7 chapter 20.", "D")] = None
     f_a: Annotated[
         Annotated[float, Field(gt=0, le=10)] | None,
-        Cell("F_a", "Site coefficient, 0.2 s. With S_S, or give S_DS.", 1.2),
+        Cell("F_a", "Site coefficient at 0.2 s. Give S_S and F_a, or S_DS.", 1.2),
     ] = None
     f_v: Annotated[
-        Annotated[float, Field(gt=0, le=10)] | None, Cell("F_v", "Site coefficient, 1 s.", 1.7)
+        Annotated[float, Field(gt=0, le=10)] | None, Cell("F_v", "Site coefficient at 1 s.", 1.7)
     ] = None
     s_ds_g: Annotated[
         Annotated[float, Field(gt=0, le=5)] | None,
-        Cell(
-            "S_DS", "Design, short period. Leave blank to have 2/3 F_a S_S, unrounded.", 1.566, "g"
-        ),
+        Cell("S_DS", "Design value, short period. Blank: 2/3 F_a S_S, unrounded.", 1.566, "g"),
     ] = None
     sdc: Annotated[Sdc, Cell("Seismic design category", "ASCE 7 section 11.6.", "D")]
-    stories: Annotated[int, Field(ge=1, le=200), Cell("Stories", "Above grade.", 1)]
+    stories: Annotated[int, Field(ge=1, le=200), Cell("Number of stories", "Above grade.", 1)]
     structure_height_m: Annotated[
         Positive,
         Cell(
@@ -126,7 +126,7 @@ class Site(Frozen):
         NotNegative,
         Cell(
             "Height of the array z",
-            "Of the roof that carries the array, above the base.",
+            "Height above the base of the roof that supports the array.",
             36.0,
             Quantity.PLAN,
         ),

@@ -1,4 +1,4 @@
-"""What is on the roof: arrays, what they could strike or fall from, and the room between.
+"""What is on the roof: arrays, the objects and edges around them, and the clearances.
 
 Read `report.sheet.schema` first.
 """
@@ -29,7 +29,8 @@ from solver.model import Friction
 MuCell = Annotated[float, Field(ge=0.0, le=1.5)]
 
 MOST_RATE_S_PER_M = 1000.0
-"""Up to here the bounds of two axes were tried (`solver.verification.random_pairs`)."""
+"""Largest rate for which the error bounds in two axes were tested (see
+`solver.verification.random_pairs`)."""
 
 RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
 
@@ -66,15 +67,13 @@ class Array(Frozen):
 
     id: Annotated[Id, Cell("ID", "Short and unique, such as A1.", "A1")]
     slope_value: Annotated[
-        NotNegative, Cell("Slope", "Of the roof under the array, 0 to under 45 deg.", 2.0)
+        NotNegative, Cell("Slope", "Slope of the roof under the array, 0 to less than 45 deg.", 2.0)
     ]
-    slope_unit: Annotated[
-        SlopeUnit, Cell("Slope unit", "In which the slope is written.", "degrees")
-    ]
+    slope_unit: Annotated[SlopeUnit, Cell("Slope unit", "Unit of the slope.", "degrees")]
     mu: Annotated[
         float,
         Field(ge=0.0, le=1.5),
-        Cell("Friction coefficient", "Kinetic, by test, the least of wet and dry.", 0.45),
+        Cell("Friction coefficient", "Kinetic, from tests; the smaller of wet and dry.", 0.45),
     ]
     mu_report: Annotated[
         Text,
@@ -88,21 +87,21 @@ class Array(Frozen):
         RequiredText,
         Cell(
             "Construction",
-            "Product and layout. Arrays with the same text here are like arrays.",
+            "Product and layout. Arrays with the same text are like arrays.",
             "Tray 10 deg, landscape",
         ),
     ]
     weight_n: Annotated[
-        Positive, Cell("Weight", "Of modules, racking and ballast.", 42000.0, Quantity.WEIGHT)
+        Positive, Cell("Weight", "Modules, racking and ballast.", 42000.0, Quantity.WEIGHT)
     ]
     cg_height_m: Annotated[
-        Positive, Cell("CG height", "Centre of gravity above the roof surface.", 9.0, Quantity.SIZE)
+        Positive, Cell("CG height", "Center of gravity above the roof surface.", 9.0, Quantity.SIZE)
     ]
     support_spacing_m: Annotated[
         Positive,
         Cell(
             "Support spacing",
-            "Least spacing of the supports on the roof, either way in plan.",
+            "Smallest spacing of the supports on the roof, in either plan direction.",
             40.0,
             Quantity.SIZE,
         ),
@@ -116,7 +115,7 @@ class Array(Frozen):
         Field(ge=0.0, le=360.0),
         Cell(
             "Downslope direction",
-            "In plan, counter-clockwise from +x: 0 is +x, 90 is +y.",
+            "In plan, counterclockwise from +x: 0 is +x, 90 is +y.",
             270.0,
             "deg",
         ),
@@ -125,9 +124,9 @@ class Array(Frozen):
     mu_fast: Annotated[
         MuCell | None,
         Cell(
-            "Friction at speed",
-            "Only where a test gives friction by speed: the coefficient at great speed. The "
-            "friction coefficient is then that at a crawl.",
+            "High-velocity friction",
+            "Only if tests give velocity-dependent friction: the coefficient at high velocity. The "
+            "friction coefficient is then the low-velocity value.",
             0.5,
         ),
     ] = None
@@ -135,8 +134,8 @@ class Array(Frozen):
         RateCell | None,
         Cell(
             "Friction rate",
-            "How soon it turns from crawl to speed: fast - (fast - slow) exp(-rate x speed). "
-            "Goes with friction at speed.",
+            "Rate of transition from low to high velocity: fast - (fast - slow) exp(-rate x "
+            "velocity). Required with high-velocity friction.",
             30.0,
             "s/m",
         ),
@@ -145,8 +144,8 @@ class Array(Frozen):
         MuCell | None,
         Cell(
             "Static friction",
-            "Only where a test gives it: what must be overcome before it slips. Blank: the "
-            "friction coefficient.",
+            "Only if tests give it: the coefficient at which slip starts. Blank: the friction "
+            "coefficient.",
             0.55,
         ),
     ] = None
@@ -154,8 +153,8 @@ class Array(Frozen):
         Model,
         Cell(
             "Model",
-            "Choose: the least model that answers, for each motion. Another is run as asked for, "
-            "and the package says what the chosen one would give.",
+            "Choose: the simplest adequate model for each motion. Any other model is run as "
+            "requested, and the package states what the automatic choice would give.",
             "choose",
         ),
     ] = Model.CHOOSE
@@ -167,7 +166,7 @@ class Array(Frozen):
 
     @property
     def friction(self) -> Friction:
-        """The friction coefficient by speed."""
+        """The friction coefficient as a function of velocity."""
         return Friction(
             mu_slow=self.mu,
             mu_fast=self.mu if self.mu_fast is None else self.mu_fast,
@@ -177,7 +176,7 @@ class Array(Frozen):
 
     @property
     def least_mu(self) -> float:
-        """The least friction coefficient at any speed."""
+        """The smallest friction coefficient at any velocity."""
         return min(self.friction.mu_slow, self.friction.mu_fast)
 
     @property
@@ -187,14 +186,14 @@ class Array(Frozen):
 
 
 class RoofObject(Frozen):
-    """What stands on the roof beside the arrays, and the roof's edges."""
+    """An object on the roof, or a roof edge."""
 
     id: Annotated[Id, Cell("ID", "Short and unique, such as RTU-1.", "RTU-1")]
     kind: Annotated[
         ObjectKind,
         Cell(
             "Kind",
-            "An unlike array is one of other construction that is not in Arrays.",
+            "An unlike array has a different construction and is not listed in Arrays.",
             "fixed object",
         ),
     ]
@@ -202,7 +201,7 @@ class RoofObject(Frozen):
         NotNegative | None,
         Cell(
             "Height",
-            "Of the object or parapet above the roof; an edge with parapet needs it.",
+            "Of the object or parapet above the roof; required for an edge with parapet.",
             42.0,
             Quantity.SIZE,
         ),
@@ -214,7 +213,7 @@ class RoofObject(Frozen):
 
     @property
     def rectangle(self) -> Rectangle | None:
-        """The object in roof plan, where given."""
+        """The object in roof plan, if given."""
         x_from, x_to, y_from, y_to = self.x_from_m, self.x_to_m, self.y_from_m, self.y_to_m
         if x_from is None or x_to is None or y_from is None or y_to is None:
             return None
@@ -222,13 +221,14 @@ class RoofObject(Frozen):
 
 
 class Clearance(Frozen):
-    """The room an array has towards an object or another array."""
+    """The clearance from an array to an object or another array."""
 
     array: Annotated[Id, Cell("Array", "ID of the array that moves.", "A1")]
     object: Annotated[Id, Cell("Object", "ID of an object, or of another array.", "RTU-1")]
     direction: Annotated[
-        Direction, Cell("Direction", "From the array: down the slope, up, across.", "any")
+        Direction,
+        Cell("Direction", "From the array: downslope, upslope, cross-slope, or any.", "any"),
     ]
     provided_m: Annotated[
-        NotNegative, Cell("Provided", "Clear distance in roof plan.", 96.0, Quantity.SIZE)
+        NotNegative, Cell("Provided clearance", "Clear distance in roof plan.", 96.0, Quantity.SIZE)
     ]

@@ -1,4 +1,4 @@
-"""Arrays held against rows of linked blocks: the solver's own rows, limits, missing values."""
+"""Arrays compared with rows of linked blocks: the solver's own rows, limits, missing values."""
 
 import math
 from dataclasses import replace
@@ -141,7 +141,7 @@ def test_links_raise_the_value_of_the_model_that_the_motions_need():
     assert item.estimated_m == pytest.approx(item.ratio * fuller)
 
 
-def test_what_every_model_minds_is_allowed():
+def test_a_difference_below_the_model_tolerance_is_allowed():
     _, item = assessed("0.40, 0.45, 0.50", 50)
     design = item.found.design_m
     for extra, enough in ((0.99, True), (1.01, False)):

@@ -1,4 +1,4 @@
-"""What lies across each clearance, how much room it asks for, and whose displacement counts."""
+"""The object across each clearance, its required separation, and the governing displacement."""
 
 import pytest
 
@@ -34,7 +34,7 @@ def test_clearances_take_the_factor_of_what_lies_across(done):
         assert item.demand_capacity == item.required_m / item.clearance.provided_m
 
 
-def test_between_arrays_the_larger_displacement_counts_for_both():
+def test_between_arrays_the_larger_displacement_governs_for_both():
     arrays = [stand_in.array("A1", 0.5, mu=0.6), stand_in.array("A2", 3.0, mu=0.3, x=120)]
     done = assessed(
         arrays=arrays,
@@ -45,7 +45,7 @@ def test_between_arrays_the_larger_displacement_counts_for_both():
     assert gap.governing_array == "A2"
     assert gap.design_m == done.arrays[1].design_m > done.arrays[0].design_m
     assert done.governing_clearance("A2") is gap
-    assert (gap.across_from("A2"), gap.across_from("A1")) == ("A1", "a2")
+    assert (gap.across_from("A2"), gap.across_from("A1")) == ("A1", "A2")
 
 
 def test_arrays_of_other_construction_are_unlike():
@@ -72,7 +72,7 @@ def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7(
     assert ratio == pytest.approx(1.25)
 
 
-def test_asce_keeps_four_feet_to_an_edge():
+def test_asce_requires_four_feet_to_an_edge():
     done = assessed(
         stand_in.motions(peak_g=0.05, vertical_peak_g=0.01),
         site=site(rule_set="ASCE 7-16", s_ds_g=0.5),

@@ -1,4 +1,4 @@
-"""What is held against the rule set, and how a missing value never passes."""
+"""The checks against the rule set; a missing value never passes."""
 
 import math
 import statistics
@@ -59,7 +59,7 @@ def four(motion, slope_deg, mu):
     return [slid(motion, s * x, y, slope_deg, mu) for x, y in pairs for s in (1, -1)]
 
 
-def test_each_motion_counts_with_its_worst_component_and_polarity(done):
+def test_each_motion_is_governed_by_its_worst_component_and_polarity(done):
     item = done.arrays[1]
     peaks = [max(r.prd_m for r in four(motion, 2.0, 0.45)) for motion in stand_in.motions()]
     assert [run.governing.result.prd_m for run in item.motions] == peaks
@@ -101,7 +101,7 @@ def test_a_reversed_motion_is_the_motion_on_the_opposite_slope(done):
     assert reversed_.down_m == pytest.approx(opposite.up_m, rel=1e-6)
 
 
-def test_a_model_that_is_asked_for_is_run_and_held_against_the_one_that_is_needed():
+def test_a_requested_model_is_run_and_compared_with_the_adequate_one():
     arrays = [
         stand_in.array("A1", 2.0, model="one axis with vertical"),
         stand_in.array("A2", 2.0, x=120),
@@ -186,7 +186,7 @@ def test_uplift_withholds_the_displacement_and_fails_every_clearance():
     assert any("normal force falls below zero" in line and "(at " in line for line in done.warnings)
 
 
-def test_a_run_without_an_answer_withholds_the_displacement(monkeypatch):
+def test_a_run_without_a_result_withholds_the_displacement(monkeypatch):
     monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS", 10)
     monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS_OF_SAMPLE", 0)
     done = assessed(stand_in.motions(3))
@@ -195,7 +195,7 @@ def test_a_run_without_an_answer_withholds_the_displacement(monkeypatch):
     assert math.isnan(item.design_m)
     assert not any(gap.ok for gap in done.clearances)
     assert not done.ok
-    assert any("more steps are needed than a run may take" in line for line in done.warnings)
+    assert any("the run exceeded the limit on time steps" in line for line in done.warnings)
 
 
 def test_two_motions_are_too_few():

@@ -32,7 +32,7 @@ PEER = {"peer_reviewed": True}
 
 @pytest.fixture(scope="module")
 def usual():
-    """Without the floor, so that friction decides."""
+    """Without the floor, so that friction governs."""
     return made(stand_in.project(options=PEER))
 
 
@@ -73,20 +73,20 @@ def test_each_method_is_run_on_the_governing_scene(usual):
         assert run.error == pytest.approx(abs(again.prd_m - exact) / exact)
 
 
-def test_the_page_says_plainly_that_the_rivals_know_one_axis(usual):
+def test_the_page_states_that_the_other_methods_have_one_axis(usual):
     _, scene, found = usual
     page = accuracy_page.page(scene, found)
     peak = found.rivals.motion.governing.result.prd_m
     assert f"PRD {peak / 0.0254:.1f} in" in page["run"]
     assert "two axes with vertical" in page["run"]
-    assert "know one axis only" in page["plane"]
+    assert "apply to one axis only" in page["plane"]
     assert f"{found.rivals.exact.prd_m / 0.0254:.1f} in" in page["plane"]
-    assert "no result of this package" in page["plane"]
+    assert "is not a result of this package" in page["plane"]
     assert found.rivals.motion.governing.result.error_m < 1e-6
     assert "below 10" in page["plane"]
 
 
-def test_in_one_axis_the_rivals_are_held_against_the_result_itself():
+def test_in_one_axis_the_methods_are_compared_with_the_result_itself():
     alone = tuple(replace(m, ay_mps2=np.empty(0)) for m in stand_in.motions(3, seconds=8.0))
     _, scene, found = made(found=alone)
     assert found.rivals.exact == found.rivals.motion.governing.result
@@ -104,7 +104,7 @@ def test_without_vertical_shaking_the_papers_own_method_is_shown():
     assert "without vertical shaking" in accuracy_page.page(scene, found)["run"]
 
 
-def test_the_same_motion_with_twice_the_samples_gives_the_same_answer(usual):
+def test_the_same_motion_with_twice_the_samples_gives_the_same_result(usual):
     *_, found = usual
     assert found.rivals.doubled < 1e-12
 
@@ -153,7 +153,7 @@ def test_friction_is_changed_by_five_percent_and_all_motions_run_again(usual):
         assert row.cells[6].rstrip("†") == f"{more.design_m / 0.0254:.1f}"
 
 
-def test_a_sentence_says_what_friction_does_to_each_array(usual):
+def test_a_sentence_gives_the_effect_of_friction_on_each_array(usual):
     _, scene, found = usual
     text = words(accuracy_page.page(scene, found))
     for item in scene.assessment.arrays:
@@ -164,7 +164,7 @@ def test_a_sentence_says_what_friction_does_to_each_array(usual):
     assert f"+{grown:.1f} %" in text
 
 
-def test_clearances_that_less_friction_costs_are_named():
+def test_clearances_not_satisfied_with_less_friction_are_named():
     def project(provided_m):
         gaps = [stand_in.clearance("A2", "A3", provided_m)]
         return stand_in.project(clearances=gaps, options=PEER)
@@ -173,14 +173,14 @@ def test_clearances_that_less_friction_costs_are_named():
     needed = roomy.assessment.clearances[0].required_m
     _, scene, found = made(project(needed * 1.001))
     text = words(accuracy_page.page(scene, found))
-    assert "1 clearance would no longer be kept: A2 to A3." in text
+    assert "1 clearance would no longer be satisfied: A2 to A3." in text
 
 
-def test_a_floor_that_governs_throughout_is_said_once():
+def test_a_floor_that_always_governs_is_stated_once():
     arrays = [stand_in.array(name, 0.5, mu=1.2) for name in ("B1", "B2")]
     _, scene, found = made(stand_in.project(arrays=arrays, objects=[], clearances=[]))
     text = words(accuracy_page.page(scene, found))
-    assert "Arrays B1, B2: 5 % less or more friction changes nothing" in text
+    assert "Arrays B1, B2: ±5 % friction does not change" in text
     assert "40.8 in (1040 mm)" in text
 
 
@@ -190,17 +190,17 @@ def test_where_nothing_slides_there_is_no_chart():
     _, scene, found = made(stand_in.project(arrays=arrays, objects=[], clearances=[]), still)
     assert found.rivals.runs == ()
     page = accuracy_page.page(scene, found)
-    assert "Nothing slides" in page["method"]
+    assert "No sliding along the slope" in page["method"]
     assert page["methods"] is None
 
 
-def test_a_block_that_leaves_the_roof_has_no_error_and_no_friction_to_speak_of():
+def test_a_block_that_lifts_off_has_no_error_and_no_sensitivity():
     up = np.zeros(800)
     up[300:400] = -1.4 * stand_in.G
     lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
     _, scene, found = made(found=(*stand_in.motions(3, seconds=4.0), lifted))
     page = accuracy_page.page(scene, found)
-    assert "leaves the roof" in page["method"]
+    assert "lifts off the roof" in page["method"]
     assert "no design displacement" in words(page)
     assert not re.search(r"\bnan\b", words(page))
     assert math.isnan(found.rivals.doubled)
@@ -231,7 +231,7 @@ def test_the_page_is_in_the_package():
     section = html[html.index('<h1 id="accuracy">') : html.index('<h1 id="echo">')]
     assert "Governing run: array A" in section
     assert "The governing run along the slope alone, by every method" in section
-    assert "Design displacement at other friction" in section
+    assert "Design displacement with changed friction" in section
     assert section.count("<img") == 1
 
 

@@ -41,7 +41,7 @@ def test_all_three_components_are_taken_as_run(assessment):
     assert found[2].target is assessment.targets.vertical
 
 
-def test_motions_without_a_component_are_left_out_there(assessment):
+def test_motions_without_a_component_are_omitted_there(assessment):
     first, second, third = given()
     bare = [replace(first, ay_mps2=np.empty(0), az_mps2=np.empty(0)), second, third]
     found = spectra(under(assessment, bare))
@@ -88,7 +88,7 @@ def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment
         assert row.cells[column] == f"{fold(part.sa_g[:, at]) / part.target_g[at]:.2f}"
 
 
-def test_an_own_spectrum_counts_where_it_is_given_and_nowhere_else():
+def test_a_project_spectrum_applies_only_where_it_is_given():
     points = [(0.1, 2.0), (2.0, 0.5)]
     rows = [{"period_s": t, "horizontal_g": a} for t, a in points]
     data = stand_in.project(spectrum=rows)
@@ -105,7 +105,7 @@ def test_an_own_spectrum_counts_where_it_is_given_and_nowhere_else():
     assert "—" not in row.cells
 
 
-def test_an_own_spectrum_of_long_periods_alone_leaves_the_band_unjudged():
+def test_a_project_spectrum_of_long_periods_alone_gives_no_ratios_in_the_band():
     rows = [{"period_s": t, "horizontal_g": 0.1} for t in (4.0, 9.0)]
     done = stand_in.assessed(stand_in.book(stand_in.project(spectrum=rows), given()))
     parts = spectra(under(done, given()))

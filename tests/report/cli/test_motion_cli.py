@@ -1,4 +1,4 @@
-"""The commands on records, as a person or a script calls them."""
+"""The commands on records, as a user or a script calls them."""
 
 import json
 import re
@@ -67,12 +67,12 @@ def test_a_picture_of_too_many_channels_is_refused(tmp_path):
     path.write_text(f"time [s],{names}\n" + "".join(f"{t},{'0.1,' * 12}0\n" for t in (0, 0.01)))
     done = run("info", path, "--plot", tmp_path / "a.svg")
     assert done.exit_code == 2
-    assert "a.svg: a picture holds 12 channels; choose one by its name" in done.output
+    assert "a.svg: a plot shows at most 12 channels; select one with --channel" in done.output
     assert not (tmp_path / "a.svg").exists()
 
 
 @pytest.mark.parametrize("command", ["info", "convert"])
-def test_a_channel_that_is_not_there_is_said_with_the_names(command, three, tmp_path):
+def test_a_missing_channel_is_reported_with_the_names(command, three, tmp_path):
     out = [tmp_path / "out.csv"] if command == "convert" else []
     done = run(command, three, *out, "--channel", "HNE")
     assert done.exit_code == 2
@@ -129,7 +129,7 @@ def test_info_prints_a_table_for_people(column):
     heading = re.split(r"  +", lines[1].strip())
     row = dict(zip(heading, re.split(r"  +", lines[2].strip())[1:], strict=True))
     assert row["dt [s]"] == "0.02"
-    assert row["points"] == "4"
+    assert row["samples"] == "4"
     assert row["PGA [g]"] == "0.25"
     # Trapezia of 0.125 and -0.25 g; the velocity ends at -0.0025 g s.
     assert row["final v [cm/s]"] == f"{-0.0025 * G * 100:.4g}"
@@ -153,7 +153,7 @@ def test_info_draws_a_picture_the_same_each_time(tmp_path, name, start):
 def test_info_never_draws_over_a_record(column):
     done = run("info", column, "--dt", 0.02, "--units", "g", "--plot", column)
     assert done.exit_code == 2
-    assert "end it in .svg or .png" in done.output
+    assert "use the extension .svg or .png" in done.output
     assert column.read_text() == "0\n0.125\n-0.25\n0\n"
 
 
@@ -195,12 +195,12 @@ def test_convert_loses_nothing_of_a_small_record(tmp_path, scale):
     assert np.abs(back - values * 0.01).max() <= 1.001e-9 * np.abs(values * 0.01).max()
 
 
-def test_convert_never_writes_over_a_file(column, tmp_path):
+def test_convert_never_overwrites_a_file(column, tmp_path):
     out = tmp_path / "out.csv"
     out.write_text("mine")
     done = run("convert", column, out, "--dt", 0.02, "--units", "g")
     assert done.exit_code == 2
-    assert "is there already; give another name" in done.output
+    assert "already exists; give another name" in done.output
     assert out.read_text() == "mine"
 
 
@@ -211,7 +211,7 @@ def test_convert_into_a_folder_that_is_not_there_exits_2(column, tmp_path):
 
 
 @pytest.mark.parametrize("command", ["info", "convert"])
-def test_what_cannot_be_read_is_said_and_exits_2(command, column, tmp_path):
+def test_an_unreadable_file_is_reported_and_exits_2(command, column, tmp_path):
     out = [tmp_path / "out.csv"] if command == "convert" else []
     missing = run(command, tmp_path / "none.at2", *out)
     assert missing.exit_code == 2

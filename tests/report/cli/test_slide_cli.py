@@ -1,4 +1,4 @@
-"""The command `slide`: the solver's numbers, by the least model that answers, or a clear error."""
+"""The command `slide`: the solver's numbers, with the simplest adequate model, or a clear error."""
 
 import json
 import math
@@ -93,7 +93,7 @@ def test_slide_takes_a_second_horizontal_record_and_names_the_model():
         (("--factor", 0.01), "0, no slip"),
     ],
 )
-def test_the_model_is_the_least_that_answers_or_the_one_asked_for(words, model):
+def test_the_model_is_the_simplest_adequate_one_or_the_requested_one(words, model):
     assert found(RECORD, *PLACE, *words)["model"] == model
 
 
@@ -107,16 +107,16 @@ def test_a_file_of_several_channels_gives_each_component():
     assert "found several channels" in done.output
 
 
-def test_every_fault_of_every_record_is_told_at_once(tmp_path):
+def test_the_errors_of_all_records_are_reported_together(tmp_path):
     short = tmp_path / "short.csv"
     short.write_text("time_s,acceleration_g\n0,0\n0.005,0.1\n0.01,0\n")
     done = run("slide", RECORD, *PLACE, "--transverse", short, "--vertical", tmp_path / "none.csv")
     assert done.exit_code == 2
-    assert "short.csv: has 3 samples of 0.005 s, RM1-x.csv 6001" in done.output
+    assert "short.csv: has 3 samples at 0.005 s, but RM1-x.csv has 6001" in done.output
     assert "none.csv: no such file" in done.output
 
 
-def test_no_slip_asked_for_where_it_slips_is_refused():
+def test_no_slip_requested_for_a_block_that_slips_is_rejected():
     done = run("slide", RECORD, *PLACE, "--model", "no-slip")
     assert done.exit_code == 2
     assert "friction demand" in done.output

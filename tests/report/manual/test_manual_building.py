@@ -1,4 +1,4 @@
-"""Recorded roofs held against computed ones: found again, told honestly, printed and drawn."""
+"""Recorded roofs compared with computed ones: identification, printed results, charts."""
 
 import math
 from dataclasses import replace
@@ -43,9 +43,9 @@ def found(made):
 
 @pytest.fixture(scope="module")
 def recorded(made):
-    """The made building as if it had been recorded, with a period by its height."""
+    """The model building as if it had been recorded, with a period from its height."""
     return compare(
-        replace(made, title="A tower", prepared="Told.", is_recorded=True, code_period_s=1.0)
+        replace(made, title="A tower", description="A frame.", is_recorded=True, code_period_s=1.0)
     )
 
 
@@ -135,8 +135,8 @@ def test_predictions_are_what_their_parts_say(made, recorded):
         "fitted to the 12th and 24th floors",
         "fitted to the 12th floor",
         BY_HEIGHT,
-        "fitted as first, but with 5 % damping",
-        "the ground motion itself, no building",
+        "first fit, but with 5 % damping",
+        "ground motion applied at the roof, no building",
     ]
     one = recorded.predictions[2]
     model = building_of_periods([1.0], damping=[0.05], alpha0=one.alpha0)
@@ -192,7 +192,7 @@ def test_575_market_street_is_read_and_its_misfit_stays_what_it_was():
 
 def test_a_folder_without_a_known_building_is_refused(tmp_path):
     for folder in (tmp_path, tmp_path / "nowhere"):
-        with pytest.raises(InputError, match="holds no roof_575_market"):
+        with pytest.raises(InputError, match="no subfolder roof_575_market"):
             recorded_buildings(folder)
 
 
@@ -218,17 +218,17 @@ def test_the_command_names_a_folder_without_records_and_exits_2(tmp_path):
         main, ["verify", "--records", str(tmp_path), "--out", str(tmp_path / "out")]
     )
     assert done.exit_code == 2
-    assert "holds no roof_575_market; give a folder with it" in done.output
+    assert "no subfolder roof_575_market; give a folder that contains it" in done.output
     assert not Path(tmp_path / "out").exists()
 
 
 # What the manual prints
 
 
-def test_without_records_the_manual_says_that_nothing_real_was_compared(found):
+def test_without_records_the_manual_says_that_no_real_building_was_compared(found):
     section = building(verification(found))
     assert "No records of a real building were given to this run" in texts(section)
-    assert "nothing about how well a uniform beam stands for a real building" in texts(section)
+    assert "does not show how well a uniform beam represents a real building" in texts(section)
     assert [block.title for block in section.blocks] == ["", found.title]
     assert answer(verification(found)) == ""
 
@@ -237,12 +237,12 @@ def test_with_records_the_manual_says_how_far_off_each_prediction_is(found, reco
     both = verification(found, recorded)
     section = building(both)
     said = texts(section)
-    assert "Records of a real building were at hand: A tower." in said
+    assert "Records of a real building were given: A tower." in said
     ratios = recorded.predictions[2].prd_m / recorded.prd_m
     span = f"{ratios.min():.2f} to {ratios.max():.2f}"
     assert f"{BY_HEIGHT}: {span}" in said
     assert f"{BY_HEIGHT}: PRD {span} times" in answer(both)
-    assert "One building in one earthquake is no margin for another." in said
+    assert "One building in one earthquake does not establish a margin for another" in said
     tables = [*section.blocks[2].top, *section.blocks[2].tables]
     cells = [str(cell) for table in tables for row in table.rows for cell in row.cells]
     for one in recorded.predictions:
@@ -251,16 +251,16 @@ def test_with_records_the_manual_says_how_far_off_each_prediction_is(found, reco
             assert f"{ratio:.2f} ({100 * scatter:.0f} %)" in cells
         for prd, true in zip(one.prd_m, recorded.prd_m, strict=True):
             assert f"{1e3 * prd:.0f} ({prd / true:.2f})" in cells
-    assert cells.count("As recorded") == 2
+    assert cells.count("Recorded") == 2
     assert not any("nan" in cell for cell in cells)
 
 
 def test_charts_name_each_line_and_only_records_have_a_history(found, recorded):
     one, other = (building(verification(f)).blocks[1].charts[0] for f in (found, recorded))
-    assert one.name == "building-a-made-building-of-24-stories"
-    for text in (">ground<", ">roof, stepped<", ">fitted to the 12th floor<"):
+    assert one.name == "building-model-building-of-24-stories"
+    for text in (">ground<", ">roof, integrated directly<", ">fitted to the 12th floor<"):
         assert text in one.picture.svg
     for text in (">roof, recorded<", f">{BY_HEIGHT}<", ">Roof acceleration: recorded (solid)"):
         assert text in other.picture.svg
     assert "Roof acceleration" not in one.picture.svg
-    assert "the ground motion itself" not in other.picture.svg
+    assert "ground motion applied at the roof" not in other.picture.svg

@@ -1,4 +1,4 @@
-"""The comparison of the models in the manual: what was found is printed, and nothing else."""
+"""The comparison of models in the manual: the printed text follows from the results."""
 
 import io
 import re
@@ -19,7 +19,9 @@ from solver.verification.evidence import Verification
 from solver.verification.rung_evidence import HELD, SECOND
 from solver.verification.triples import own_triples
 
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="generated motions take minutes without JIT"
+)
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +49,7 @@ def test_the_factor_of_the_second_axis_is_told(evidence):
     said = words(rungs(verification(evidence)))
     second = evidence.study.named(SECOND)
     assert f"PRD is {second.median:.2f} times that of one axis with the same heading" in said
-    assert "One axis underestimates." in said
+    assert "One axis underestimates the PRD." in said
     assert "No records of three components were given" in said
     (answer,) = answers(verification(evidence))
     assert f"{second.median:.2f} times" in answer[1]
@@ -56,20 +58,21 @@ def test_the_factor_of_the_second_axis_is_told(evidence):
 def test_static_friction_is_told_beside_friction_by_speed(evidence):
     said = words(rungs(verification(evidence)))
     held, least = evidence.study.named(HELD), evidence.static.differences[-1]
-    assert f"{held.median:.2f} times ({held.at(10.0):.2f} to {held.at(90.0):.2f}) in two" in said
+    span = f"({held.at(10.0):.2f} to {held.at(90.0):.2f})"
+    assert f"{held.median:.2f} times in two axes {span}" in said
     assert percent(100.0 * least.two_axes[-1]) in said
     assert "the power 2.0 and 2.0 of the difference" in said
 
 
 def test_the_distribution_of_error_over_bound_is_told(evidence):
     said = words(rungs(verification(evidence)))
-    assert "Every pair keeps to its bound." in said
+    assert "Every pair is within its bound." in said
     pairs = sum(one.n_pairs for one in evidence.bounds)
     assert f"{pairs:,} pairs of runs" in said
     one = evidence.bounds[0]
     broken = replace(one, ratios=np.array([0.5, 3.0]), n_unanswered=2)
     said = words(rungs(verification(replace(evidence, bounds=(broken, *evidence.bounds[1:])))))
-    assert "Pairs over their bounds: 1; without an answer: 2." in said
+    assert "Pairs over their bounds: 1; without a result: 2." in said
 
 
 def test_no_number_is_printed_raw(evidence):
@@ -81,7 +84,7 @@ def test_recorded_motions_and_lifted_runs_are_told(evidence):
     study = replace(evidence.study, n_recorded=1, n_uplift=3)
     said = words(rungs(verification(replace(evidence, study=study))))
     assert "1 recorded in earthquakes" in said
-    assert "In 3 runs the vertical lifts the block" in said
+    assert "In 3 runs the vertical component lifts the block" in said
     assert "No records of three" not in said
 
 
@@ -90,7 +93,7 @@ def test_where_nothing_slides_nothing_is_claimed(evidence):
     study = replace(evidence.study, changes=tuple(none))
     static = replace(evidence.static, n_scenes=0)
     found = verification(replace(evidence, study=study, static=static))
-    assert "No scene slides 5 mm or more" in words(rungs(found))
+    assert "No run slides 5 mm or more" in words(rungs(found))
     assert answers(found) == ()
 
 
@@ -114,4 +117,4 @@ def test_the_runs_are_in_the_table_of_the_verification(evidence):
     assert list(table["PRD error [%]"]) == pytest.approx(
         [one.error_percent for one in evidence.work], rel=1e-12
     )
-    assert set(table["scene"]) == {evidence.work_scene}
+    assert set(table["case"]) == {evidence.work_scene}

@@ -1,4 +1,4 @@
-"""From records to motions as run: processing, scaling, and the way up the building."""
+"""From records to motions as run: processing, scaling, and the building response."""
 
 import math
 from dataclasses import replace
@@ -25,7 +25,7 @@ def row(**changes):
 
 
 def records(count=3, seconds=6.0):
-    """Some components of one motion, by the fields of the sheet."""
+    """Components of one motion, by the fields of the sheet."""
     (given,) = stand_in.motions(1, seconds=seconds, peak_g=0.6)
     values = (given.ax_mps2, given.ay_mps2, given.az_mps2)[:count]
     fields = ("record", "transverse", "vertical")
@@ -73,7 +73,7 @@ def log_ratio(motion, target, periods_s):
 
 
 @pytest.mark.parametrize(("start", "end"), [(0.2, 5.0), (0.5, 2.0)])
-def test_a_motion_scaled_to_the_target_lies_on_it_over_the_periods_asked_for(start, end):
+def test_a_motion_scaled_to_the_target_matches_it_over_the_scaling_periods(start, end):
     data = {"target": {"from_s": start, "to_s": end}}
     motion, prepared = shaken(records(), data, scaling="target spectrum")
     target = stand_in.assessed(stand_in.book(found=(motion,) * 3)).targets.roof
@@ -127,7 +127,7 @@ def test_the_period_is_as_given_or_approximate_by_structure_and_height():
     assert math.isnan(first_period_s(stand_in.project()))
 
 
-def test_what_is_left_at_the_end_is_measured_after_scaling():
+def test_drift_is_measured_after_scaling():
     drifting = {
         field: replace(record, a_mps2=record.a_mps2 + 0.02) for field, record in records().items()
     }
@@ -136,7 +136,7 @@ def test_what_is_left_at_the_end_is_measured_after_scaling():
     assert prepared.measures["horizontal"] == measures(scaled)
 
 
-def test_the_motion_without_its_high_pass_keeps_the_factor():
+def test_the_motion_without_its_high_pass_has_the_same_factor():
     found = records()
     cut = {field: replace(r, a_mps2=0.5 * r.a_mps2) for field, r in found.items()}
     motion, prepared = shaken(cut, None, found, scaling="PPA", scale_value=1.0, highpass_hz=0.2)
@@ -145,7 +145,7 @@ def test_the_motion_without_its_high_pass_keeps_the_factor():
     assert np.array_equal(bare.ax_mps2, found["record"].a_mps2)
 
 
-def test_each_cell_of_the_processing_has_its_part():
+def test_each_processing_cell_sets_its_parameter():
     asked = MotionInput(
         **row(
             from_s=1.0,

@@ -1,4 +1,4 @@
-"""Which spectrum a motion is held against, at the roof and on the ground."""
+"""Target spectra of motions at the roof and on the ground."""
 
 import math
 import pickle
@@ -46,30 +46,30 @@ def test_the_tail_is_chosen_on_the_sheet():
     assert np.array_equal(targets(data).roof.at(np.array([0.2])), wanted.at(np.array([0.2])))
 
 
-def test_a_project_of_roof_motions_takes_its_own_spectrum_at_the_roof():
+def test_with_roof_motions_the_project_spectrum_applies_at_the_roof():
     found = targets(stand_in.project(spectrum=own()))
-    assert found.roof.name == found.vertical.name == "project's own"
+    assert found.roof.name == found.vertical.name == "project-specific"
     for t, across, upward in POINTS:
         assert found.roof.ordinates(np.array([t])) == pytest.approx([across])
         assert found.vertical.ordinates(np.array([t])) == pytest.approx([upward])
 
 
-def test_between_points_the_own_spectrum_is_straight_on_log_log_axes_and_nothing_beyond():
+def test_the_project_spectrum_is_interpolated_on_log_log_axes_and_undefined_beyond():
     roof = targets(stand_in.project(spectrum=own())).roof
     middle = math.sqrt(0.5 * 4.0)
     assert roof.ordinates(np.array([middle])) == pytest.approx([math.sqrt(2.0 * 0.2)])
     assert np.isnan(roof.ordinates(PERIODS)).tolist() == [True, *[False] * 5, True]
 
 
-def test_without_a_vertical_of_its_own_that_of_ac156_stays():
+def test_without_a_vertical_column_the_vertical_of_ac156_applies():
     found = targets(stand_in.project(spectrum=own(with_vertical=False)))
-    assert (found.roof.name, found.vertical.name) == ("project's own", "AC156")
+    assert (found.roof.name, found.vertical.name) == ("project-specific", "AC156")
 
 
-def test_with_ground_motions_the_own_spectrum_is_one_of_the_ground():
+def test_with_ground_motions_the_project_spectrum_applies_at_the_ground():
     motions = [motion(recorded_at="ground")]
     found = targets(stand_in.project(spectrum=own(), motions=motions))
-    assert (found.roof.name, found.ground.name) == ("AC156", "project's own")
+    assert (found.roof.name, found.ground.name) == ("AC156", "project-specific")
     assert found.horizontal(RecordedAt.GROUND) is found.ground
     assert found.horizontal(RecordedAt.ROOF) is found.roof
 
@@ -84,7 +84,7 @@ def test_on_the_ground_the_target_is_the_design_spectrum_of_asce_7():
 
 
 @pytest.mark.parametrize("changes", [{}, {"target": {"t_l_s": 8.0}}, {"spectrum": own()}])
-def test_targets_can_be_handed_to_another_process(changes):
+def test_targets_can_be_pickled(changes):
     found = targets(stand_in.project(motions=[motion(recorded_at="ground")], **changes))
     handed = pickle.loads(pickle.dumps(found))
     for name in ("roof", "vertical", "ground"):

@@ -1,4 +1,4 @@
-"""The example is what its script makes."""
+"""The example agrees with the script that makes it."""
 
 import importlib.util
 
@@ -28,7 +28,7 @@ def book():
     return read_workbook(EXAMPLE)
 
 
-def test_the_workbook_holds_the_project_that_the_script_describes(make, book):
+def test_the_workbook_has_the_project_of_the_script(make, book):
     expected = make.example().model_dump()
     found = book.input.model_dump()
     assert found.keys() == expected.keys()
@@ -64,15 +64,15 @@ def targets(make):
     return across, across, ac156_vertical(s_ds_g=make.S_DS_G)
 
 
-def test_the_first_motion_is_made_again_up_to_the_last_digit(make, records, targets):
-    """One of seven keeps the test short; other machines' sines may differ in the last digit."""
+def test_the_first_motion_is_reproduced_to_the_last_digit(make, records, targets):
+    """One of seven, to keep the test short; sines may differ in the last digit between machines."""
     across, _, upward = ((part.freq_hz, part.sa_g) for part in targets)
     again = make.make_suite(across, upward, count=1, seed=make.SEED)[0]
     for made, committed in zip(again.components, records[0], strict=True):
         assert np.abs(made.a_mps2 - committed.a_mps2).max() <= 3e-5 * 9.80665
 
 
-def test_the_folder_holds_the_motions_and_nothing_else(make):
+def test_the_folder_has_the_motions_and_nothing_else(make):
     names = {path.name for path in (EXAMPLE / "records").iterdir()}
     assert names == {f"RM{n}-{axis}.csv" for n in range(1, make.COUNT + 1) for axis in "xyz"}
 
@@ -84,7 +84,7 @@ def test_the_workbook_runs_the_records(book, records):
         assert np.array_equal(motion.az_mps2, z.a_mps2)
 
 
-def test_every_record_keeps_to_the_ac156_spectrum_at_the_roof(records, targets):
+def test_every_record_matches_the_ac156_spectrum_at_the_roof(records, targets):
     freq = 0.3 * 2.0 ** (np.arange(82) / 12)
     for motion in records:
         for record, target in zip(motion, targets, strict=True):
@@ -100,7 +100,7 @@ def test_components_of_all_motions_are_independent(records):
     assert np.abs(together - np.eye(len(together))).max() <= 0.3
 
 
-def test_no_record_leaves_the_roof_moving_or_displaced(records):
+def test_every_record_ends_with_zero_velocity_and_displacement(records):
     for motion in records:
         for record in motion:
             whole = [round(a) for a in (record.a_mps2 / 9.80665 * 1e5).tolist()]

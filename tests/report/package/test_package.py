@@ -20,7 +20,7 @@ from solver.model import DefectError
 from solver.records.record import Record
 
 GOLDEN = GOLDEN_TEXTS / "package.txt"
-# Pages whose text hangs on nothing but the project: no versions, no hashes.
+# Pages whose text depends only on the project: no versions, no hashes.
 GOLDEN_PARTS = (
     "Structural calculation package",
     "1 Summary",
@@ -46,7 +46,7 @@ def flat(text):
 
 @pytest.fixture
 def said():
-    """The words of a package, before they are laid out: a tenth of the time."""
+    """The words of a package before layout, in a tenth of the time."""
 
     def words(data=None, found=None):
         html = stand_in.html(stand_in.book(data, found))
@@ -156,7 +156,7 @@ def test_what_fails_is_said_on_the_summary(texts):
 
 def test_every_run_and_every_cell_is_listed(texts, whole):
     for name in ("A1", "A2", "A3"):
-        page = next(text for text in texts if f"Array {name}: every motion" in flat(text))
+        page = next(text for text in texts if f"Array {name}: PRD of every motion" in flat(text))
         assert all(f"M{k}" in page for k in range(1, 8))
         assert "Mean" in page
         assert "Design" in page
@@ -221,14 +221,14 @@ def test_an_analysis_above_the_prescriptive_value_is_said_and_governs(said):
     arrays = [stand_in.array("A1", 3.0, mu=0.2)]
     data = stand_in.project(arrays=arrays, objects=[], clearances=[])
     whole = said(data, stand_in.motions(3, seconds=30.0))
-    found = re.search(r"more than the prescriptive displacement \((\d\.\d\d) of it", whole)
+    found = re.search(r"by analysis is (\d\.\d\d) times the prescriptive displacement \(", whole)
     assert float(found[1]) > 1.0
-    assert "3 of 3 PRDs exceed it) and governs" in whole
+    assert "(3 of 3 PRDs exceed it) and governs" in whole
 
 
-def test_clearances_name_the_direction_whose_displacement_counts(whole):
-    assert "A2, down" in whole
-    assert "A3, up" in whole
+def test_clearances_name_the_direction_of_the_governing_displacement(whole):
+    assert "A2 down 2.00" in whole
+    assert "A3 up 1.00" in whole
     assert "in its own direction" in whole
 
 
@@ -236,7 +236,7 @@ def test_one_array_without_clearances_or_vertical_motion():
     level = tuple(stand_in.motion(motion.id, motion.ax_mps2, dt_s=motion.dt_s) for motion in few())
     data = stand_in.project(arrays=[stand_in.array("A1", 2.0)], objects=[], clearances=[])
     whole = flat(" ".join(pages(made(data, level))))
-    assert "The workbook gives no clearances" in whole
+    assert "The workbook lists no clearances" in whole
     assert "0 of 3 have a vertical component" in whole
 
 
@@ -282,7 +282,7 @@ def test_other_editions_say_their_own_name_and_clauses(said, edition):
         (-1.2345, "−48.6 in (−1230 mm)"),
     ],
 )
-def test_displacements_of_a_metre_and_more_print_three_digits(value_m, text):
+def test_displacements_of_a_meter_and_more_print_three_digits(value_m, text):
     assert pair(value_m, Quantity.DISPLACEMENT) == text
 
 
@@ -301,11 +301,11 @@ def test_nothing_is_fetched_but_what_is_shipped(address):
 
 
 def ground(name="G1", **changes):
-    """A ground motion that went through a building of 0.5 s, with its prepared."""
+    """A ground motion transferred through a building of 0.5 s, with its prepared."""
     (given,) = stand_in.motions(1, seconds=8.0, peak_g=0.5)
-    asked = {"id": name, "record": "x", "recorded_at": "ground"}
+    row = {"id": name, "record": "x", "recorded_at": "ground"}
     data = stand_in.project(
-        motions=[asked | changes], building={"period_s": 0.5}, target={"t_l_s": 8.0}
+        motions=[row | changes], building={"period_s": 0.5}, target={"t_l_s": 8.0}
     )
     components = {
         field: Record(name=field, dt_s=given.dt_s, a_mps2=a)
@@ -328,14 +328,14 @@ def test_the_way_from_ground_to_roof_is_said_with_its_numbers():
     assert "4.3 From ground to roof" in whole
     assert "4.4 Response spectra" in whole
     assert "one story; period 0.5 s; damping 5 % of critical." in whole
-    assert "The array's mass is neglected" in whole
-    assert "vertical motion passes unchanged" in whole
+    assert "The mass of the array is neglected" in whole
+    assert "The vertical motion at the roof is that of the ground" in whole
     roof = prepared.roof["horizontal"]
     peaks = f"{roof.ground_peak_mps2 / stand_in.G:.3f} {roof.roof_peak_mps2 / stand_in.G:.3f}"
     assert f"G1 record {peaks}" in whole
-    assert "those of the ground through the building of part 4" in whole
+    assert "with ground records transferred through the building of part 4" in whole
     assert "Ground, horizontal: pseudo-acceleration" in whole
-    assert "the design response spectrum of ASCE 7" in whole
+    assert "the two-period design response spectrum of ASCE 7" in whole
     assert "0.793 g" in whole
 
 
@@ -343,7 +343,7 @@ def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
     data, motion, prepared = ground(highpass_hz=0.2)
     half = replace(motion, ax_mps2=0.5 * motion.ax_mps2)
     whole = words_of(data, half, prepared)
-    assert "Periods beyond the high-pass corner: PRD of array" in whole
+    assert "Effect of the high-pass filter: PRD of array" in whole
     row = re.search(r"G1 0\.2 5 ([\d.]+) \d+ ([\d.]+) \d+ (−?\d+)", whole)
     assert row
     with_it, without = float(row[1]), float(row[2])
@@ -351,7 +351,7 @@ def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
     assert float(row[3]) == pytest.approx(100 * (without - with_it) / without, abs=2)
 
 
-def test_drift_is_marked_from_ten_millimetres_on():
+def test_drift_is_marked_above_ten_millimeters():
     base = stand_in.motions(1, seconds=8.0)[0]
     still = stand_in.prepared(base)
     for end_m, is_marked in ((0.0099, False), (-0.0101, True)):
@@ -362,7 +362,7 @@ def test_drift_is_marked_from_ten_millimetres_on():
 
 
 def still(given):
-    """The prepared of a motion that ends where it began, at rest."""
+    """The prepared of a motion that ends at rest, without residual displacement."""
     found = stand_in.prepared(given)
     level = {
         name: replace(one, final_displacement_m=0.0, final_velocity_mps=0.0)
@@ -377,16 +377,19 @@ def test_what_was_done_is_one_sentence_where_nothing_was_done_and_a_table_else(d
     first, *others = map(still, book.motions)
     preparations = (replace(first, done=done), *others)
     html = stand_in.html(book.having(prepared=preparations))
-    is_said = "At the end no component moves faster than 0.00 in/s or lies farther than 0.00 in"
+    is_said = (
+        "The final velocity of every component is at most 0.00 in/s and its final displacement "
+        "at most 0.00 in"
+    )
     assert (is_said in html) == (done == "as recorded")
-    assert ("Processing, and what is left" in html) == (done != "as recorded")
+    assert ("Processing, and final velocity" in html) == (done != "as recorded")
 
 
-def test_the_projects_own_spectrum_takes_the_place_of_ac156(said):
+def test_a_project_specific_spectrum_replaces_that_of_ac156(said):
     rows = [{"period_s": t, "horizontal_g": a, "vertical_g": a} for t, a in ((0.03, 2), (10, 1))]
     whole = said(stand_in.project(spectrum=rows), few())
-    assert "Target at the roof: the project's own spectrum" in whole
-    assert "Target, project's own [g]" in whole
+    assert "Target at the roof: the project-specific spectrum" in whole
+    assert "Target, project-specific [g]" in whole
     assert "1.6 × 1.566" not in whole
     assert "0.67 × 1.566" not in whole
 

@@ -1,4 +1,4 @@
-"""What the package says of rows of linked blocks, and that it says nothing where none is asked."""
+"""The text on rows of linked blocks, and its absence where none is requested."""
 
 import re
 
@@ -13,10 +13,10 @@ from report.pages.registry import package_data
 MATTERS = "1 mm (0.04 in) or 0.5 %"
 
 
-def scene(asked, found=None, **changes):
+def scene(requested, found=None, **changes):
     arrays = [stand_in.array("A1", 2.0, mu=0.45), stand_in.array("A2", 2.0, mu=0.40, x=120)]
     data = stand_in.project(
-        **{"arrays": arrays, "options": {"peer_reviewed": True}, "links": asked}
+        **{"arrays": arrays, "options": {"peer_reviewed": True}, "links": requested}
         | {"objects": [], "clearances": []}
         | changes
     )
@@ -42,7 +42,7 @@ def test_the_inputs_list_the_rows_as_given(both):
     assert len(rows) == 2
 
 
-def test_each_array_has_its_row_and_what_it_changes(both):
+def test_each_array_has_its_row_and_its_effect_on_the_design(both):
     page = model.page(both)["links"]
     first, second = both.assessment.linked
     for found, row, design in zip(
@@ -72,29 +72,29 @@ def test_the_equation_has_its_numbers(both):
     assert result == both.fmt.both(found.estimated_m)
 
 
-def test_an_array_for_which_one_block_is_not_enough_is_ng_everywhere(both):
+def test_an_array_for_which_one_block_is_not_adequate_is_ng_everywhere(both):
     first, second = both.assessment.arrays
     assert not both.assessment.ok
     assert (both.assessment.array_ok(first), both.assessment.array_ok(second)) == (False, True)
     (text,) = links.link_troubles(both)
     assert text in troubles(both)
-    assert text.startswith("Array A1: a row of linked blocks goes 1.")
+    assert text.startswith("Array A1: a row of linked blocks slides 1.")
     assert text.endswith(
-        "Enter 0.400, the least of its blocks, as its friction coefficient, or give it stiffer"
-        " links."
+        "Enter 0.400, the smallest value of its blocks, as its friction coefficient, or provide"
+        " stiffer links."
     )
     assert front.summary(both)["sentence"] == "Marked NG: 1 of 2 arrays."
-    assert "(but part 11 holds A1, A2 against a row" in front.basis(both)["linked"]
+    assert "(part 11 compares A1, A2 with a row" in front.basis(both)["linked"]
 
 
-def test_nothing_is_said_where_nobody_asked():
+def test_nothing_is_printed_where_no_row_is_requested():
     found = scene([])
     page = model.page(found)
     assert not page["links"]["rows"].rows
     assert page["links"]["lines"] == ()
     assert front.basis(found)["linked"] == ""
     assert not inputs.inputs(found)["links"].rows
-    assert page["left_out"].notes[0].endswith("the array's own flexibility (part 2).")
+    assert page["neglected"].notes[0].endswith("the flexibility of the array (part 2).")
 
 
 def test_a_row_without_a_displacement_says_so_and_is_ng():
@@ -123,9 +123,9 @@ def test_a_row_that_slides_where_one_block_does_not_has_no_limit():
     page = model.page(found)["links"]
     assert texts(page["design"].rows[0])[5:] == ["∞", "0.0", "0", "∞", "∞", "NG"]
     assert page["lines"][1].steps[0][1] == "no limit"
-    assert "one rigid block does not slide in one axis" in page["troubles"][0]
+    assert "in one axis, one rigid block does not slide" in page["troubles"][0]
 
 
 def test_only_stiffer_links_help_where_the_array_has_the_least_coefficient_already(both):
     found = both.assessment.linked[1]
-    assert links._what_would_do(found) == "Give it stiffer links."
+    assert links._remedy(found) == "Provide stiffer links."

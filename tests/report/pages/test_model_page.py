@@ -1,4 +1,4 @@
-"""The page on the models: which answered, why, and what was left out."""
+"""The page on the models: which is used, why, and what it neglects."""
 
 import re
 from dataclasses import replace
@@ -50,11 +50,14 @@ def test_each_array_has_its_model_its_runs_and_its_reason(usual):
     assert [row[1] for row in rows] == [
         "1, one axis",
         "3, two axes with vertical",
-        "4, two axes, friction by speed",
+        "4, two axes, velocity-dependent friction",
     ]
     assert {row[2] for row in rows} == {"12 of 12"}
-    assert rows[0][5] == "asked for in the workbook"
-    why = r"without the second component a displacement changes by \d+ mm, over \d(\.\d)? mm"
+    assert rows[0][5] == "requested in the workbook"
+    why = (
+        r"neglecting the second horizontal component changes a displacement by \d+ mm, more than "
+        r"\d(\.\d)? mm"
+    )
     assert re.fullmatch(why, rows[1][5])
     assert rows[2][3] == "0.55"
     assert all(re.fullmatch("below 10⁻[¹²³⁴⁵⁶⁷⁸⁹⁰]+ mm", row[6]) for row in rows)
@@ -66,24 +69,24 @@ def test_the_demand_is_the_largest_of_the_runs(usual):
         assert texts(row)[4] == f"{max(demands):.2f}"
 
 
-def test_a_model_that_was_asked_for_is_told_what_the_needed_one_gives(usual):
-    rows = {row.cells[0]: texts(row) for row in model.page(usual)["left_out"].rows}
-    asked, free, tested = usual.assessment.arrays
+def test_a_requested_model_is_compared_with_the_adequate_one(usual):
+    rows = {row.cells[0]: texts(row) for row in model.page(usual)["neglected"].rows}
+    forced, free, tested = usual.assessment.arrays
     change = max(
         abs(more.governing.result.prd_m - run.governing.result.prd_m)
-        for run, more in zip(asked.motions, free.motions, strict=True)
+        for run, more in zip(forced.motions, free.motions, strict=True)
     )
     assert rows["A1"][2] == f"{change / 0.0254:.1f}"
-    grown = max(free.design_m - asked.design_m, 0.0)
+    grown = max(free.design_m - forced.design_m, 0.0)
     assert rows["A1"][4] == f"{grown / 0.0254:.1f}"
-    assert rows["A1"][1] == "What two axes with vertical add"
-    assert rows["A1"][-1].startswith("exact: run both ways")
-    assert rows["A2"][1:3] == ["Friction by speed", "not known"]
-    assert rows["A3"][1] == "Nothing that the workbook gives"
+    assert rows["A1"][1] == "Effects of two axes with vertical"
+    assert rows["A1"][-1].startswith("exact: both models run")
+    assert rows["A2"][1:3] == ["Velocity-dependent friction", "not known"]
+    assert rows["A3"][1] == "None of the given inputs"
     assert tested.analysis.value_m < free.analysis.value_m
 
 
-def test_a_model_that_is_not_enough_is_ng():
+def test_a_model_that_is_not_adequate_is_ng():
     found = scene(
         stand_in.motions(3, seconds=12.0),
         arrays=[stand_in.array("A1", 2.0, mu=0.3, model="one axis")],
@@ -92,12 +95,12 @@ def test_a_model_that_is_not_enough_is_ng():
     item = found.assessment.arrays[0]
     assert item.chosen_towards_m(Direction.ANY) > 1.1 * item.design_m
     (text,) = model.page(found)["troubles"]
-    assert text.startswith("Array A1: the model asked for, one axis, gives")
+    assert text.startswith("Array A1: the requested model, one axis, gives")
     assert not found.assessment.ok
     assert not found.assessment.array_ok(item)
 
 
-def test_a_vertical_that_was_left_out_has_its_exact_effect():
+def test_a_neglected_vertical_component_has_its_exact_effect():
     gentle = tuple(
         replace(m, az_mps2=m.az_mps2 * 1e-3) for m in alone(stand_in.motions(3, seconds=8.0))
     )
@@ -107,49 +110,50 @@ def test_a_vertical_that_was_left_out_has_its_exact_effect():
     item = found.assessment.arrays[0]
     solutions = [run.solution for m in item.motions for run in m.runs]
     assert {one.rung for one in solutions} == {Rung.ONE_AXIS}
-    (row,) = model.page(found)["left_out"].rows
+    (row,) = model.page(found)["neglected"].rows
     effect = max(one.next_effect_m for one in solutions)
     assert 0.0 < effect < 2e-3
     assert texts(row)[1] == "Vertical shaking"
     assert texts(row)[3] == f"{1e3 * effect:.0f}" or effect < 1e-3
-    assert texts(row)[-1] == "exact: run both ways"
+    assert texts(row)[-1] == "exact: both models run"
 
 
-def test_where_nothing_slips_nothing_is_left_out():
+def test_where_nothing_slips_nothing_is_neglected():
     still = tuple(replace(motion, scale=1e-3) for motion in stand_in.motions(3, seconds=4.0))
     page = model.page(scene(still, arrays=[stand_in.array("A1", 1.0)]))
     assert texts(page["table"].rows[0])[1] == "0, no slip"
-    assert texts(page["left_out"].rows[0])[1] == "Nothing: it never slips"
+    assert texts(page["neglected"].rows[0])[1] == "None: no slip"
 
 
-def test_the_eight_combinations_and_the_worst_of_them_are_named(usual):
+def test_the_eight_combinations_and_the_governing_one_are_named(usual):
     page = model.page(usual)
     assert "eight combinations" in page["combinations"]
     assert "four are run" in page["combinations"]
     for found, text in zip(usual.assessment.arrays, page["sentences"][:3], strict=True):
         worst = found.worst
         assert f"{worst.motion.id}, {worst.governing.heading.name}, with PRD" in text
-    assert "0.500 at a crawl, 0.600 at speed, rate 10.0 s/m, 0.550 at rest" in page["sentences"][2]
-    assert "no bound" in page["sentences"][3]
-    assert page["sentences"][3].startswith("Array A3: its friction falls as it begins to move")
-    assert sum("no bound" in text for text in page["sentences"]) == 1
+    tested = "0.500 at low velocity, 0.600 at high velocity, rate 10.0 s/m, 0.550 at rest"
+    assert tested in page["sentences"][2]
+    assert "not a bound" in page["sentences"][3]
+    assert page["sentences"][3].startswith("Array A3: the friction decreases at the onset")
+    assert sum("not a bound" in text for text in page["sentences"]) == 1
     single = model.page(scene(alone(stand_in.motions(3, seconds=4.0))))
     assert "No motion has a second horizontal component" in single["combinations"]
     assert "with both components most displacements are larger" in single["combinations"]
 
 
-def test_a_block_that_leaves_the_roof_has_no_error_and_no_limit_of_demand():
+def test_a_block_that_lifts_off_has_no_error_and_no_limit_of_demand():
     up = np.zeros(800)
     up[300:400] = -1.4 * stand_in.G
     lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
     page = model.page(scene((*stand_in.motions(3, seconds=4.0), lifted)))
     rows = [texts(row) for row in page["table"].rows]
     assert any(row[4] == "no limit" and row[6] == "no value" for row in rows)
-    assert "leaves the roof" in " ".join(page["sentences"])
+    assert "uplift occurs" in " ".join(page["sentences"])
     assert not re.search(r"\bnan\b", " ".join(map(str, rows)))
 
 
-def test_an_array_that_keeps_flat_says_so_with_its_ratios(usual):
+def test_a_stable_array_has_its_tipping_ratios(usual):
     rows = [texts(row) for row in model.page(usual)["stability"].rows]
     for row, found in zip(rows[:2], usual.assessment.arrays[:2], strict=True):
         capacity = 0.5 * found.array.support_spacing_m / found.array.cg_height_m
@@ -179,8 +183,8 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     assert ">NG<" in texts(model.page(found)["stability"].rows[0])[7]
 
 
-def test_the_least_normal_force_is_that_of_the_whole_motion_where_the_vertical_is_left_out(usual):
-    asked, text = usual.assessment.arrays[0], model.page(usual)["sentences"][0]
-    modelled = min(run.result.n_min_g for m in asked.motions for run in m.runs)
-    assert asked.uplift.n_min_g < modelled
-    assert f"Least normal force {asked.uplift.n_min_g:.2f} m g" in text
+def test_the_minimum_normal_force_includes_a_neglected_vertical_component(usual):
+    forced, text = usual.assessment.arrays[0], model.page(usual)["sentences"][0]
+    modeled = min(run.result.n_min_g for m in forced.motions for run in m.runs)
+    assert forced.uplift.n_min_g < modeled
+    assert f"Minimum normal force {forced.uplift.n_min_g:.2f} m g" in text

@@ -1,4 +1,4 @@
-"""results.json, and that files appear complete or not at all."""
+"""results.json, and publishing of files: all of them or none."""
 
 import json
 import math
@@ -19,7 +19,7 @@ def document():
     return json.loads(results_json(stand_in.assessed(book)))
 
 
-def test_json_holds_what_was_assessed_in_si(document):
+def test_json_has_the_assessment_in_si(document):
     book = stand_in.book()
     assessment = stand_in.assessed(book)
     assert [array["design_m"] for array in document["arrays"]] == [
@@ -32,7 +32,7 @@ def test_json_holds_what_was_assessed_in_si(document):
     assert document["s_ds_g"] == 1.566
 
 
-def test_json_holds_the_model_of_each_run_and_the_peaks_in_each_direction(document):
+def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document):
     assessment = stand_in.assessed(stand_in.book())
     array, item = document["arrays"][2], assessment.arrays[2]
     for direction in Direction:
@@ -50,7 +50,7 @@ def test_json_holds_the_model_of_each_run_and_the_peaks_in_each_direction(docume
     assert gap["design_m"] == item.design_towards_m(Direction.UP)
 
 
-def test_json_holds_rows_of_linked_blocks_with_their_runs():
+def test_json_has_rows_of_linked_blocks_with_their_runs():
     data = stand_in.project(links=[stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)])
     book = stand_in.book(data, stand_in.motions(3, seconds=8.0))
     found, document = (
@@ -68,7 +68,7 @@ def test_json_holds_rows_of_linked_blocks_with_their_runs():
     check_units(document)
 
 
-def test_every_number_in_json_says_its_unit_or_has_none(document):
+def test_every_number_in_json_states_its_unit_or_has_none(document):
     check_units(document)
 
 
@@ -128,14 +128,14 @@ def test_a_locked_file_changes_nothing_and_is_named(tmp_path, monkeypatch):
     assert (tmp_path / "a.txt").read_bytes() == b"old a"
 
 
-def test_a_folder_in_the_place_of_a_file_is_told(tmp_path):
+def test_a_folder_in_place_of_a_file_is_reported(tmp_path):
     (tmp_path / "a.txt").mkdir()
     with pytest.raises(InputError, match=r"a\.txt: cannot be replaced"):
         publish({"a.txt": b"1"}, tmp_path)
     assert (tmp_path / "a.txt").is_dir()
 
 
-def test_a_folder_that_cannot_be_made_is_told(tmp_path):
+def test_a_folder_that_cannot_be_created_is_reported(tmp_path):
     (tmp_path / "out").write_text("a file")
     with pytest.raises(InputError, match=r"out: cannot be written .*--out"):
         publish({"a.txt": b"1"}, tmp_path / "out")
@@ -153,7 +153,7 @@ def test_a_full_disk_leaves_the_old_package(tmp_path, monkeypatch):
     assert [p.read_bytes() for p in tmp_path.iterdir()] == [b"old"]
 
 
-def test_infinite_demand_over_no_room_is_null():
+def test_infinite_demand_over_zero_clearance_is_null():
     data = stand_in.project(clearances=[stand_in.clearance("A1", "RTU-1", 0.0)])
     book = stand_in.book(data)
     assessment = stand_in.assessed(book)

@@ -1,4 +1,4 @@
-"""results.xlsx: its formulas, computed here by a few lines of their own, give its values."""
+"""results.xlsx: its formulas, evaluated here independently, give its values."""
 
 import io
 import re
@@ -62,7 +62,7 @@ CASES = {
         "links": [stand_in.links("A1", "0.40, 0.50", 50), stand_in.links("A3", "0.55, 0.55", 50)],
         "options": {"peer_reviewed": True},
     },
-    "a row beside a model that is asked for": {
+    "a row beside a model that is requested": {
         "arrays": [stand_in.array("A1", 0.5, model="one axis")],
         "clearances": [],
         "links": [stand_in.links("A1", "0.40, 0.50", 50)],
@@ -87,7 +87,7 @@ def test_every_formula_gives_the_value_written_with_it(case):
     assert checked > 50
 
 
-def test_what_links_change_follows_from_their_runs():
+def test_the_effect_of_links_follows_from_their_runs():
     data = stand_in.project(**CASES["a row of linked blocks"])
     formulas, values = made(stand_in.book(data))
     first, second = stand_in.assessed(stand_in.book(data)).linked
@@ -105,12 +105,12 @@ def test_what_links_change_follows_from_their_runs():
     assert sheet["L6"].value == pytest.approx(second.found.design_m / 0.0254)
 
 
-def test_without_rows_of_linked_blocks_the_book_has_no_sheet_of_them():
+def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets():
     formulas, _ = made(stand_in.book())
     assert not {"Links", "LinkRuns"} & set(formulas.sheetnames)
 
 
-def test_a_row_without_a_value_is_ng_in_the_book():
+def test_a_row_without_a_value_is_ng_in_the_workbook():
     data = stand_in.project(links=[stand_in.links("A1", "0.40, 0.50", 50)])
     _, values = made(stand_in.book(data, stand_in.motions(2, seconds=8.0)))
     assert [values["Links"][f"{c}5"].value for c in "ALO"] == ["A1", "no value", "NG"]
@@ -148,11 +148,11 @@ def test_the_model_of_every_run_is_listed():
     _, values = made(stand_in.book())
     head, first, *_ = values["Runs"].iter_rows(values_only=True)
     assert first[head.index("Model")] == "3, two axes with vertical"
-    assert "without the second component" in first[head.index("Why")]
-    assert first[head.index("Across [in]")] > 0.0
+    assert "second horizontal component" in first[head.index("Reason")]
+    assert first[head.index("Cross-slope [in]")] > 0.0
 
 
-def test_without_a_value_the_book_says_so_and_ng():
+def test_without_a_value_the_workbook_states_no_value_and_ng():
     _, values = made(stand_in.book(found=stand_in.motions(2)))
     assert values["Design"]["N5"].value == "no value"
     assert values["Clearances"]["I5"].value == "no value"
@@ -189,7 +189,7 @@ def test_two_runs_give_the_same_bytes():
     assert created.date() == book.input.project.date
 
 
-def test_what_was_done_to_each_component_is_listed():
+def test_the_processing_of_each_component_is_listed():
     _, values = made(stand_in.book())
     head, *rows = values["Motions"].iter_rows(values_only=True)
     assert len(rows) == 7 * 3

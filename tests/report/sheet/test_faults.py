@@ -1,4 +1,4 @@
-"""What is wrong with an input is told by cell: what was found, and what would do."""
+"""Input errors are reported by cell: what was found, and what to give."""
 
 import datetime as dt
 
@@ -7,7 +7,7 @@ from openpyxl import Workbook
 
 from sheets import edit, make, problems, read_workbook
 
-# Sheet, cell, what is typed there, and the line that comes of it.
+# Sheet, cell, its content, and the resulting line.
 SINGLE_CELLS = [
     ("Arrays", "E8", "abc", "friction coefficient is 'abc'; give a number from 0 to 1.5"),
     ("Arrays", "E8", 1.7, "friction coefficient is 1.7; give a number from 0 to 1.5"),
@@ -27,7 +27,7 @@ SINGLE_CELLS = [
         "Arrays",
         "E8",
         True,
-        "friction coefficient is TRUE, a truth value; give a number from 0 to 1.5",
+        "friction coefficient is TRUE, a logical value; give a number from 0 to 1.5",
     ),
     (
         "Arrays",
@@ -51,30 +51,30 @@ SINGLE_CELLS = [
         " Excel or LibreOffice and save it",
     ),
     ("Arrays", "D8", "deg", "slope unit is 'deg'; choose degrees, percent or in/12"),
-    ("Arrays", "B8", "A" * 41, "ID is 'A{40}'; give a text of at most 40 characters"),
-    ("Arrays", "B8", None, "ID is missing; give a text of at most 40 characters"),
+    ("Arrays", "B8", "A" * 41, "ID is 'A{40}'; give text of at most 40 characters"),
+    ("Arrays", "B8", None, "ID is missing; give text of at most 40 characters"),
     (
         "Arrays",
         "F8",
         "x" * 2001,
-        "friction test report is 2001 characters long; give a text of at most 2000 characters",
+        "friction test report is 2001 characters long; give text of at most 2000 characters",
     ),
     (
         "Project",
         "B6",
         dt.datetime(2024, 3, 5),
-        "project number is 2024-03-05, which is no text; format the cell as text and type it again",
+        "project number is 2024-03-05, which is not text; format the cell as text and retype it",
     ),
     (
         "Project",
         "B5",
         "A_x0007_B",
-        "project name is 'A?B', with control characters; type it again",
+        "project name is 'A?B', with control characters; retype it",
     ),
     ("Project", "B11", "3/5/26", "date is '3/5/26'; give a date such as 2026-03-05"),
     ("Project", "B11", True, "date is TRUE; give a date such as 2026-03-05"),
-    ("Site", "B15", 1.5, "stories is 1.5; give a whole number from 1 to 200"),
-    ("Site", "B15", 0, "stories is 0; give a whole number from 1 to 200"),
+    ("Site", "B15", 1.5, "number of stories is 1.5; give a whole number from 1 to 200"),
+    ("Site", "B15", 0, "number of stories is 0; give a whole number from 1 to 200"),
     (
         "Site",
         "B5",
@@ -84,22 +84,24 @@ SINGLE_CELLS = [
     ("Site", "B13", 7, "S_DS is 7; give a number of more than 0 to 5 [g]"),
     ("Motions", "G8", 0, "time step is 0; give a number of more than 0 to 1 [s]"),
     ("Motions", "G8", -0.01, "time step is -0.01; give a number of more than 0 to 1 [s]"),
-    ("Options", "B6", "maybe", "analysis is peer reviewed is 'maybe'; choose Yes or No"),
+    ("Options", "B6", "maybe", "peer review is 'maybe'; choose Yes or No"),
 ]
 
 
 @pytest.mark.parametrize(("sheet", "cell", "value", "line"), SINGLE_CELLS)
-def test_a_cell_is_named_with_what_it_holds_and_what_would_do(tmp_path, sheet, cell, value, line):
+def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(
+    tmp_path, sheet, cell, value, line
+):
     path = edit(make(tmp_path), lambda book: book[sheet].__setitem__(cell, value))
     assert f"{sheet}!{cell}: {line.replace('A{40}', 'A' * 41)}" in problems(path)
 
 
-# Cells that are changed together, and all the lines that come of it.
+# Cells that are changed together, and all resulting lines.
 CONTRADICTIONS = [
     (
         {"Arrays!B9": "a1", "Clearances!C8": "RTU-1"},
         [
-            "Arrays!B9: ID is 'a1', as at Arrays!B8; give each its own",
+            "Arrays!B9: ID is 'a1', already used at Arrays!B8; give a unique ID",
             "Clearances!B10: array is 'A2', which is not in Arrays; give one of A1, a1",
             "Clearances!B11: array is 'A2', which is not in Arrays; give one of A1, a1",
             "Clearances!B12: array is 'A2', which is not in Arrays; give one of A1, a1",
@@ -107,12 +109,18 @@ CONTRADICTIONS = [
     ),
     (
         {"Objects!B9": "A1", "Clearances!C11": "S", "Clearances!E11": 9},
-        ["Objects!B9: ID is 'A1', as at Arrays!B8; give each its own"],
+        ["Objects!B9: ID is 'A1', already used at Arrays!B8; give a unique ID"],
     ),
-    ({"Motions!B10": "m1"}, ["Motions!B10: ID is 'm1', as at Motions!B8; give each its own"]),
+    (
+        {"Motions!B10": "m1"},
+        ["Motions!B10: ID is 'm1', already used at Motions!B8; give a unique ID"],
+    ),
     (
         {"Clearances!C10": "rtu-1"},
-        ["Clearances!C10: object is 'rtu-1', which is not in Objects or Arrays; write 'RTU-1'?"],
+        [
+            "Clearances!C10: object is 'rtu-1', which is not in Objects or Arrays; did you"
+            " mean 'RTU-1'?"
+        ],
     ),
     (
         {"Clearances!C10": "chimney"},
@@ -133,21 +141,21 @@ CONTRADICTIONS = [
         {"Clearances!C11": "RTU-1", "Clearances!E11": 50},
         [
             "Clearances!B11: array is 'A2', with the same object and direction as at"
-            " Clearances!B10; keep one"
+            " Clearances!B10; delete one"
         ],
     ),
     (
         {"Clearances!E10": 61},
         [
-            "Clearances!E10: provided is 61.0 in (1549 mm), but the plan leaves 60.0 in (1524 mm)"
-            " between A2 and RTU-1; give no more, or correct the rectangles"
+            "Clearances!E10: provided clearance is 61.0 in (1549 mm), but A2 and RTU-1 are 60.0 in"
+            " (1524 mm) apart in plan; reduce it, or correct the rectangles"
         ],
     ),
     (
         {"Objects!G8": 70},
         [
-            "Clearances!E10: provided is 60.0 in (1524 mm), but A2 and RTU-1 overlap in plan;"
-            " correct their rectangles"
+            "Clearances!E10: provided clearance is 60.0 in (1524 mm), but A2 and RTU-1 overlap in"
+            " plan; correct their rectangles"
         ],
     ),
     (
@@ -157,15 +165,15 @@ CONTRADICTIONS = [
     (
         {"Site!B14": "C"},
         [
-            "Site!B14: seismic design category is 'C'; S_DS = 1.566 g in risk category II needs D"
-            " or more severe (ASCE 7 Table 11.6-1)"
+            "Site!B14: seismic design category is 'C'; S_DS = 1.566 g in risk category II requires"
+            " D or higher (ASCE 7 Table 11.6-1)"
         ],
     ),
     (
         {"Site!B9": 0.75},
         [
-            "Site!B14: seismic design category is 'D'; S_1 = 0.75 g in risk category II needs E or"
-            " more severe (ASCE 7 section 11.6)"
+            "Site!B14: seismic design category is 'D'; S_1 = 0.75 g in risk category II requires E"
+            " or higher (ASCE 7 section 11.6)"
         ],
     ),
     ({"Site!B13": None}, ["Site!B13: S_DS is missing; give S_DS, or both S_S and F_a"]),
@@ -188,21 +196,24 @@ CONTRADICTIONS = [
     ({"Arrays!C9": 120}, ["Arrays!C9: slope is 120 percent; give 0 to less than 100 percent"]),
     (
         {"Arrays!P8": 0.5},
-        ["Arrays!Q8: friction rate is missing; give friction at speed with its rate, or neither"],
+        [
+            "Arrays!Q8: friction rate is missing; give high-velocity friction and friction rate,"
+            " or neither"
+        ],
     ),
     (
         {"Arrays!Q9": 20, "Arrays!R9": 0.4},
         [
-            "Arrays!P9: friction at speed is missing; give friction at speed with its rate, or"
-            " neither",
+            "Arrays!P9: high-velocity friction is missing; give high-velocity friction and friction"
+            " rate, or neither",
             "Arrays!R9: static friction is 0.4; give the friction coefficient, 0.45, or more",
         ],
     ),
     (
         {"Arrays!P8": 0.5, "Arrays!Q8": 20, "Arrays!S8": "one axis"},
         [
-            "Arrays!S8: model is 'one axis', which leaves friction by speed out; leave it at"
-            " choose, or blank friction at speed and static"
+            "Arrays!S8: model is 'one axis', which neglects velocity-dependent and static friction;"
+            " select 'choose', or leave high-velocity and static friction blank"
         ],
     ),
     (
@@ -229,18 +240,21 @@ CONTRADICTIONS = [
     ({"Motions!I10": None}, ["Motions!I10: factor or PPA is missing; give the PPA in g"]),
     (
         {"Motions!D8": "records/x.csv"},
-        ["Motions!D8: transverse record is 'records/x.csv', as the horizontal one; give its own"],
+        [
+            "Motions!D8: transverse record is 'records/x.csv', the same as the horizontal record;"
+            " give another record"
+        ],
     ),
     (
         {"Motions!H8": "target spectrum", "Motions!I8": 2},
         [
-            "Motions!I8: factor or PPA is 2, but scaling is 'target spectrum'; choose another"
-            " scaling or leave it blank"
+            "Motions!I8: factor or PPA is 2, but scaling is 'target spectrum'; change the"
+            " scaling or leave this blank"
         ],
     ),
     (
         {"Motions!M8": 1.5, "Motions!N8": 1.5},
-        ["Motions!N8: keep to is 1.5 s; give more than keep from, 1.5 s"],
+        ["Motions!N8: end time is 1.5 s; give more than the start time, 1.5 s"],
     ),
     (
         {"Motions!P8": 20, "Motions!Q8": 20},
@@ -252,7 +266,7 @@ CONTRADICTIONS = [
     ),
     (
         {"Building!B7": 0.3},
-        ["Building!B7: period T2 is 0.3 s; give period T1 with it, or leave it blank"],
+        ["Building!B7: period T2 is 0.3 s; give period T1 as well, or leave it blank"],
     ),
     (
         {"Building!B6": 0.2, "Building!B7": 0.3},
@@ -261,8 +275,8 @@ CONTRADICTIONS = [
     (
         {"Building!B6": 0.2, "Motions!L9": "ground", "Site!B15": 101},
         [
-            "Site!B15: stories is 101; ground motions reach the roof of at most 100, give motions"
-            " of the roof"
+            "Site!B15: number of stories is 101, more than the 100 of the building model; give roof"
+            " motions"
         ],
     ),
     (
@@ -271,7 +285,7 @@ CONTRADICTIONS = [
     ),
     (
         {f"Spectrum!{c}{r}": 1 for r in (8, 9) for c in "BC"},
-        ["Spectrum!B9: period is 1 s, as at Spectrum!B8; give each once"],
+        ["Spectrum!B9: period is 1 s, already given at Spectrum!B8; give each period once"],
     ),
     (
         {f"Spectrum!{c}{r}": r for r in (8, 9) for c in "BC"} | {"Spectrum!D8": 1},
@@ -280,28 +294,28 @@ CONTRADICTIONS = [
     (
         {f"Spectrum!{c}{r}": r for r in (8, 9) for c in "BC"} | {"Motions!H8": "target spectrum"},
         [
-            "Spectrum!B7: periods reach from 8 to 9 s, but motions are scaled over 0.2 to 5 s; add"
+            "Spectrum!B7: periods range from 8 to 9 s, but motions are scaled over 0.2 to 5 s; add"
             " rows, or change the scaling periods"
         ],
     ),
     (
         {"Options!B15": 5},
-        ["Options!B16: scaling periods to is 5 s; give more than scaling periods from, 5 s"],
+        ["Options!B16: longest scaling period is 5 s; give more than the shortest, 5 s"],
     ),
     (
         {"Motions!H8": "target spectrum", "Motions!P8": 0.5},
         [
-            "Motions!P8: high-pass corner is 0.5 Hz, a period of 2 s, but the motion is scaled up"
-            " to periods of 5 s; lower one of them"
+            "Motions!P8: high-pass corner is 0.5 Hz, a period of 2 s, but the longest scaling"
+            " period is 5 s; reduce one of them"
         ],
     ),
     (
         {"Motions!H8": "target spectrum", "Motions!L8": "ground", "Building!B6": 0.5},
         [
             "Site!B12: F_v is missing; Motions!H8 scales a ground motion to the design spectrum,"
-            " which needs S_1, F_v and T_L",
+            " which requires S_1, F_v and T_L",
             "Options!B14: long-period transition T_L is missing; Motions!H8 scales a ground motion"
-            " to the design spectrum, which needs S_1, F_v and T_L",
+            " to the design spectrum, which requires S_1, F_v and T_L",
         ],
     ),
     (
@@ -314,19 +328,19 @@ CONTRADICTIONS = [
     (
         {"Motions!I8": 2},
         [
-            "Motions!I8: factor or PPA is 2, but scaling is 'as recorded'; choose another scaling"
-            " or leave it blank"
+            "Motions!I8: factor or PPA is 2, but scaling is 'as recorded'; change the scaling or"
+            " leave this blank"
         ],
     ),
     (
         {f"Options!{c}27": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
-        ["Options!B27: provision is 'parapet_height_in', as at Options!B26; keep one"],
+        ["Options!B27: provision is 'parapet_height_in', already given at Options!B26; delete one"],
     ),
 ]
 
 
 @pytest.mark.parametrize(("changes", "lines"), CONTRADICTIONS)
-def test_contradictions_are_told_at_the_cell_to_change(tmp_path, changes, lines):
+def test_inconsistencies_are_reported_at_the_cell_to_change(tmp_path, changes, lines):
     assert list(problems(edit(make(tmp_path), typed(changes)))) == lines
 
 
@@ -339,13 +353,13 @@ def typed(changes):
     return change
 
 
-def test_an_unknown_provision_is_told_with_those_there_are(tmp_path):
+def test_an_unknown_provision_is_reported_with_the_valid_ones(tmp_path):
     path = edit(make(tmp_path), typed({"Options!B26": "parapet"}))
     (line,) = problems(path)
     assert line.startswith("Options!B26: provision is 'parapet'; choose one of prescriptive_fac")
 
 
-def test_every_error_comes_at_once_in_the_order_of_the_sheets(tmp_path):
+def test_all_errors_are_reported_together_in_the_order_of_the_sheets(tmp_path):
     changes = {
         "Motions!C8": "records/none.csv",
         "Arrays!E9": "abc",
@@ -367,7 +381,7 @@ def test_every_error_comes_at_once_in_the_order_of_the_sheets(tmp_path):
     ]
 
 
-def test_a_percentage_is_no_number_of_percent(tmp_path):
+def test_a_percentage_is_not_a_number_in_percent(tmp_path):
     def change(book):
         book["Arrays"]["C9"] = 0.05
         book["Arrays"]["C9"].number_format = "0.0%"
@@ -379,10 +393,10 @@ def test_a_percentage_is_no_number_of_percent(tmp_path):
 
 
 @pytest.mark.parametrize(("key", "noun"), [("arrays", "array"), ("motions", "motion")])
-def test_at_least_one_row_is_needed(tmp_path, key, noun):
+def test_at_least_one_row_is_required(tmp_path, key, noun):
     changes = {"clearances": [], key: []}
     assert problems(make(tmp_path, **changes)) == (
-        f"{key.title()}!B7: no {noun} is given; fill at least one row",
+        f"{key.title()}!B7: no {noun} is given; fill in at least one row",
     )
 
 
@@ -391,13 +405,13 @@ def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent(tmp_path):
     assert read_workbook(edit(make(tmp_path), changes)).input.clearances
 
 
-def test_a_clearance_to_an_array_of_unreadable_plan_is_not_judged(tmp_path):
+def test_a_clearance_to_an_array_with_an_unreadable_plan_is_not_checked(tmp_path):
     assert problems(edit(make(tmp_path), typed({"Arrays!L9": "abc"}))) == (
         "Arrays!L9: x to is 'abc'; give a number [ft]",
     )
 
 
-def test_a_sheet_that_is_gone_is_told_once(tmp_path):
+def test_a_missing_sheet_is_reported_once(tmp_path):
     path = edit(make(tmp_path), lambda book: book.remove(book["Arrays"]))
     assert problems(path) == (
         "Arrays: the sheet is missing: no table arrays_table and no row of its headings; copy it"
@@ -405,18 +419,18 @@ def test_a_sheet_that_is_gone_is_told_once(tmp_path):
     )
 
 
-def test_a_single_field_that_is_gone_is_told_by_name_and_label(tmp_path):
+def test_a_missing_single_field_is_reported_by_name_and_label(tmp_path):
     def change(book):
         del book.defined_names["project_number"]
         book["Project"]["A6"] = None
 
     assert problems(edit(make(tmp_path), change)) == (
-        "Project: project number is not there (no name project_number and no label 'Project"
+        "Project: project number is missing (no name project_number and no label 'Project"
         " number'); copy it from a fresh workbook (roofslip new)",
     )
 
 
-def test_a_heading_that_is_gone_is_told(tmp_path):
+def test_a_missing_heading_is_reported(tmp_path):
     path = edit(make(tmp_path), typed({"Arrays!E7": "Grip"}))
     assert problems(path) == (
         "Arrays!B7: heading 'Friction coefficient' is missing; copy it from a fresh workbook"
@@ -424,13 +438,13 @@ def test_a_heading_that_is_gone_is_told(tmp_path):
     )
 
 
-def test_an_optional_column_may_be_taken_out(tmp_path):
+def test_an_optional_column_may_be_deleted(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Motions"].delete_cols(11))
     book = read_workbook(path)
     assert [motion.source for motion in book.input.motions] == ["", "", ""]
 
 
-def test_an_optional_column_that_was_renamed_is_told_not_ignored(tmp_path):
+def test_a_renamed_optional_column_is_reported_not_ignored(tmp_path):
     path = edit(make(tmp_path), typed({"Motions!E7": "Vertical file"}))
     assert problems(path) == (
         "Motions!B7: heading 'Vertical record' is missing; copy it from a fresh workbook"
@@ -438,9 +452,9 @@ def test_an_optional_column_that_was_renamed_is_told_not_ignored(tmp_path):
     )
 
 
-def test_a_heading_that_is_there_twice_is_told(tmp_path):
+def test_a_duplicate_heading_is_reported(tmp_path):
     path = edit(make(tmp_path), typed({"Arrays!P7": "Slope"}))
-    assert problems(path) == ("Arrays!P7: heading 'Slope' is there twice; keep one",)
+    assert problems(path) == ("Arrays!P7: heading 'Slope' appears twice; keep one",)
 
 
 @pytest.mark.parametrize(
@@ -453,18 +467,18 @@ def test_a_heading_that_is_there_twice_is_told(tmp_path):
         ("E7", "Friction coefficient [%]", "unit of friction coefficient is '%'; write one of"),
     ],
 )
-def test_a_heading_must_name_a_unit_that_fits(tmp_path, cell, heading, line):
+def test_a_heading_must_have_a_valid_unit(tmp_path, cell, heading, line):
     (found,) = problems(edit(make(tmp_path), typed({f"Arrays!{cell}": heading})))
     assert found.startswith(f"Arrays!{cell}: {line}")
 
 
-def test_the_unit_of_a_single_field_must_fit(tmp_path):
+def test_the_unit_of_a_single_field_must_be_valid(tmp_path):
     assert problems(edit(make(tmp_path), typed({"Site!C16": "yd", "Site!C17": None}))) == (
         "Site!C16: unit of structure height h is 'yd'; write one of in, ft, mm, cm, m",
         "Site!C17: unit of height of the array z is missing; write one of in, ft, mm, cm, m",
     )
 
 
-def test_merged_cells_in_a_table_are_told(tmp_path):
+def test_merged_cells_in_a_table_are_reported(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Arrays"].merge_cells("F8:F9"))
     assert problems(path) == ("Arrays!F8:F9: cells are merged; unmerge them",)

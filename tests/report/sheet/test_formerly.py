@@ -1,20 +1,45 @@
-"""Workbooks of earlier versions go on being read."""
+"""Workbooks of earlier versions can still be read."""
 
 from places import DATA, ROOT
 from report.sheet import formerly
 from report.sheet.fields import entries
 from report.sheet.read import read
 from report.sheet.schema import PROVISION_KEYS, SECTIONS
-from sheets import edit, make, same
+from sheets import edit, make, project, same
 
 
-def test_the_workbook_of_0_1_reads_as_the_present_one():
+def test_the_workbook_of_0_1_is_read_as_the_present_one():
     then, now = read(DATA / "input-0.1.xlsx"), read(ROOT / "projects" / "example")
     assert then.problems == ()
     assert same(then.project, now.project)
 
 
-def test_a_former_key_of_a_provision_overrides_the_present_one(tmp_path):
+def earlier_labels(book):
+    """Replace each renamed label and heading by its oldest name, and remove all defined names."""
+    oldest = {
+        (section.sheet, entry.cell.label): formerly.LABELS[section.key, entry.name][0]
+        for section in SECTIONS
+        for entry in entries(section.model)
+        if (section.key, entry.name) in formerly.LABELS
+    }
+    for name in list(book.defined_names):
+        del book.defined_names[name]
+    changed = set()
+    for sheet in book.worksheets:
+        for row in sheet.iter_rows():
+            for cell in row:
+                label, bracket, unit = str(cell.value).removesuffix(" *").partition(" [")
+                if (sheet.title, label) in oldest:
+                    cell.value = oldest[sheet.title, label] + bracket + unit
+                    changed.add((sheet.title, label))
+    assert changed == oldest.keys()
+
+
+def test_every_earlier_label_is_read_as_the_present_one(tmp_path):
+    assert same(read(edit(make(tmp_path), earlier_labels)).project, project())
+
+
+def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
     def change(book):
         book["Options"]["B26"] = "max_storeys"
 
@@ -22,7 +47,7 @@ def test_a_former_key_of_a_provision_overrides_the_present_one(tmp_path):
     assert override.provision == "max_stories"
 
 
-def test_a_former_choice_is_the_present_one(tmp_path, monkeypatch):
+def test_an_earlier_choice_is_read_as_the_present_one(tmp_path, monkeypatch):
     monkeypatch.setitem(formerly.CHOICES, "old name", "fixed object")
 
     def change(book):
@@ -34,7 +59,15 @@ def test_a_former_choice_is_the_present_one(tmp_path, monkeypatch):
     assert read(edit(make(tmp_path), change)).project.objects[0].kind == "fixed object"
 
 
-def test_every_former_name_leads_to_a_present_one():
+def test_every_earlier_name_belongs_to_a_present_one():
     known = {(section.key, entry.name) for section in SECTIONS for entry in entries(section.model)}
     assert formerly.LABELS.keys() | formerly.FIELDS.keys() <= known
+    labels = {
+        (section.key, other.cell.label): other.name
+        for section in SECTIONS
+        for other in entries(section.model)
+    }
+    for (section, field), earlier in formerly.LABELS.items():
+        for label in earlier:
+            assert labels.get((section, label), field) == field
     assert set(formerly.PROVISIONS.values()) <= PROVISION_KEYS.keys()

@@ -1,4 +1,4 @@
-"""Rows of linked blocks in the workbook: how they are read, and what is told of bad ones."""
+"""Rows of linked blocks in the workbook: reading and error messages."""
 
 import math
 
@@ -40,7 +40,7 @@ def test_a_row_is_read_in_the_units_of_the_sheet(tmp_path):
         assert found.damping_ratio == 0.02
 
 
-def test_a_workbook_without_the_sheet_asks_for_no_row(path):
+def test_a_workbook_without_the_sheet_requests_no_row(path):
     assert read_workbook(edit(path, lambda book: book.remove(book["Links"]))).input.links == ()
 
 
@@ -61,7 +61,7 @@ def test_the_blocks_share_the_weight_and_the_damping_is_that_of_one_block_on_one
         (", ".join(["0.0"] * 20), (0.0,) * 20),
     ],
 )
-def test_coefficients_stand_between_commas(text, found):
+def test_coefficients_are_separated_by_commas(text, found):
     assert coefficients(text) == found
 
 
@@ -72,37 +72,37 @@ NO_LISTS = [
 
 
 @pytest.mark.parametrize("text", NO_LISTS)
-def test_what_is_no_list_of_coefficients_is_told(tmp_path, text):
+def test_text_that_is_not_a_list_of_coefficients_is_reported(tmp_path, text):
     assert coefficients(text) == ()
     path = make(tmp_path, links=[links(), links("A2")])
     edit(path, lambda book: book["Links"].__setitem__("C9", text))
-    assert problems(path) == (f"Links!C9: friction of blocks is '{text}'; {WANTED}",)
+    assert problems(path) == (f"Links!C9: block friction is '{text}'; {WANTED}",)
     with pytest.raises(ValidationError, match="2 to 20 blocks"):
         Links(**links(friction=text))
 
 
 CELLS = [
-    ("B8", "a1", "array is 'a1', which is not in Arrays; write 'A1'?"),
+    ("B8", "a1", "array is 'a1', which is not in Arrays; did you mean 'A1'?"),
     ("B8", "RTU-1", "array is 'RTU-1', which is not in Arrays; give one of A1, A2"),
-    ("B8", None, "array is missing; give a text of at most 40 characters"),
-    ("B9", "A1", "array is 'A1', as at Links!B8; keep one"),
-    ("C8", None, "friction of blocks is missing; give a text of at most 200 characters"),
+    ("B8", None, "array is missing; give text of at most 40 characters"),
+    ("B9", "A1", "array is 'A1', already given at Links!B8; delete one"),
+    ("C8", None, "block friction is missing; give text of at most 200 characters"),
     (
         "C8",
         "0.4," * 51,
-        "friction of blocks is 204 characters long; give a text of at most 200 characters",
+        "block friction is 204 characters long; give text of at most 200 characters",
     ),
     (
         "C8",
         "0.50, 0.55",
-        "friction of blocks is '0.50, 0.55', all above the 0.45 at Arrays!E8; give coefficients"
-        " that reach it, or change it",
+        "block friction is '0.50, 0.55', all above the 0.45 at Arrays!E8; give a range"
+        " that includes it, or change it",
     ),
     (
         "C9",
         "0.40, 0.42",
-        "friction of blocks is '0.40, 0.42', all below the 0.45 at Arrays!E9; give coefficients"
-        " that reach it, or change it",
+        "block friction is '0.40, 0.42', all below the 0.45 at Arrays!E9; give a range"
+        " that includes it, or change it",
     ),
     ("D8", 0, "link stiffness is 0; give a number of more than 0 [lb/in]"),
     ("D8", "inf", "link stiffness is 'inf'; give a number of more than 0 [lb/in]"),
@@ -113,12 +113,12 @@ CELLS = [
 
 
 @pytest.mark.parametrize(("cell", "value", "line"), CELLS)
-def test_a_cell_is_named_with_what_it_holds_and_what_would_do(path, cell, value, line):
+def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
     found = problems(edit(path, lambda book: book["Links"].__setitem__(cell, value)))
     assert any(one.startswith(f"Links!{cell}: {line}") for one in found), found
 
 
-def test_everything_is_told_at_once(path):
+def test_all_errors_are_reported_together(path):
     def change(book):
         for cell, value in (("B8", "A7"), ("C8", "0.4"), ("E9", 2)):
             book["Links"][cell] = value
@@ -134,20 +134,20 @@ def test_everything_is_told_at_once(path):
 def test_a_row_takes_one_coefficient_for_each_block(tmp_path, friction):
     path = make(tmp_path, arrays=arrays(**friction), links=[links(), links("A2")])
     assert problems(path) == (
-        "Links!B8: array is 'A1', whose friction is not one coefficient; blank its friction at"
-        " speed and static friction, or take this row out",
+        "Links!B8: array is 'A1', which has high-velocity or static friction; leave both blank on"
+        " the sheet Arrays, or delete this row",
     )
 
 
-def test_links_of_arrays_that_cannot_be_found_are_not_told_twice(path):
+def test_links_of_missing_arrays_are_not_reported_twice(path):
     (line,) = problems(edit(path, lambda book: book.remove(book["Arrays"])))
     assert line.startswith("Arrays: the sheet is missing")
 
 
-def test_links_that_are_too_stiff_to_follow_are_told_with_what_would_do(tmp_path):
+def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted(tmp_path):
     path = make(tmp_path, links=[links(lb_in=1e16, damping_ratio=1.0), links("A2", lb_in=1e300)])
     first, second = problems(path)
-    assert first.startswith("Links!D8: link stiffness is 1e+16 lb/in (1.8e+15 kN/m), too much to")
+    assert first.startswith("Links!D8: link stiffness is 1e+16 lb/in (1.8e+15 kN/m), too stiff to")
     assert second.startswith("Links!D9: link stiffness is 1e+300 lb/in")
     for cell, line in (("D8", first), ("D9", second)):
         most = float(line.split("give ")[1].split(" lb/in")[0])

@@ -1,4 +1,4 @@
-"""Reading an input workbook: the same project comes back, however the sheets were arranged."""
+"""Reading an input workbook: the project is recovered for any arrangement of the sheets."""
 
 import datetime as dt
 import hashlib
@@ -29,7 +29,7 @@ def test_a_project_is_read_as_it_was_written(path):
     assert same(read_workbook(path).input, project())
 
 
-def test_a_folder_stands_for_its_input(path):
+def test_a_folder_is_read_as_its_input_workbook(path):
     book = read_workbook(path.parent)
     assert book.path == path
     assert book.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
@@ -82,14 +82,14 @@ def inputs(draw):
     max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(data=inputs(), units=st.sampled_from(UnitsFirst))
-def test_whatever_passes_comes_back_from_the_workbook(tmp_path, data, units):
+def test_every_valid_project_is_recovered_from_the_workbook(tmp_path, data, units):
     path = make(tmp_path)
     write_template(path, units=units, example=data)
     assert same(read_workbook(path).input, data)
 
 
-# What people do to a workbook. openpyxl moves neither names nor tables, so they are moved here as
-# Excel does.
+# Changes that users make. openpyxl moves neither names nor tables, so they are moved here as Excel
+# does.
 
 
 def shift(book, title, rows):
@@ -179,7 +179,7 @@ CHANGES = {
     "numbers as text": lambda book: book["Arrays"].__setitem__("E8", " 0.45 "),
     "a date as text": lambda book: book["Project"].__setitem__("B11", "2026-03-05"),
     "a number as a text": lambda book: book["Project"].__setitem__("B12", 1),
-    "a truth value for a yes": lambda book: book["Options"].__setitem__("B6", True),
+    "a logical value for a yes": lambda book: book["Options"].__setitem__("B6", True),
     "notes beside the table": lambda book: book["Arrays"].__setitem__("V9", "ask the client"),
     "notes far to the right": lambda book: book["Arrays"].__setitem__("GR9", "ask the client"),
     "a name in other capitals": lambda book: setattr(
@@ -218,16 +218,16 @@ def test_a_blank_choice_takes_its_default(tmp_path):
     ]
 
 
-def test_a_heading_that_is_not_ours_is_named_in_the_echo(tmp_path):
+def test_an_unknown_heading_is_listed_in_the_echo(tmp_path):
     def change(book):
-        book["Arrays"]["T7"], book["Arrays"]["T8"] = "Colour", "black"
+        book["Arrays"]["T7"], book["Arrays"]["T8"] = "Color", "black"
 
     book = read_workbook(edit(make(tmp_path), change))
     (row,) = [row for row in book.echo if row.value.startswith("not an input")]
-    assert (row.sheet, row.cell, row.label) == ("Arrays", "T7", "column 'Colour'")
+    assert (row.sheet, row.cell, row.label) == ("Arrays", "T7", "column 'Color'")
 
 
-def test_every_cell_is_echoed_with_what_was_typed_and_what_was_taken(path):
+def test_every_cell_is_echoed_as_typed_and_as_used(path):
     book = read_workbook(path)
     rows = {(row.sheet, row.cell): row for row in book.echo}
     weight = rows["Arrays", "H8"]
@@ -240,7 +240,7 @@ def test_every_cell_is_echoed_with_what_was_typed_and_what_was_taken(path):
     assert len(fields) == len(set(fields))
 
 
-# Formulas: openpyxl saves none of their values, so LibreOffice saved these.
+# Formulas: openpyxl saves no values, so LibreOffice saved these.
 
 
 def test_a_workbook_saved_by_libreoffice_reads_the_same(tmp_path):
@@ -249,7 +249,7 @@ def test_a_workbook_saved_by_libreoffice_reads_the_same(tmp_path):
     assert same(read_workbook(path).input, project())
 
 
-def test_formulas_count_with_their_saved_values_and_are_marked_in_the_echo(tmp_path):
+def test_formulas_use_their_saved_values_and_are_shown_in_the_echo(tmp_path):
     path = make(tmp_path)
     path.write_bytes((DATA / "saved-by-libreoffice.xlsx").read_bytes())
     rows = {(row.sheet, row.cell): row.typed for row in read_workbook(path).echo}
@@ -257,7 +257,7 @@ def test_formulas_count_with_their_saved_values_and_are_marked_in_the_echo(tmp_p
     assert rows["Arrays", "E9"] == "=E8 → 0.45"
 
 
-def test_an_array_formula_without_value_is_told_like_any_other(tmp_path):
+def test_an_array_formula_without_a_value_is_reported_like_any_other(tmp_path):
     formula = ArrayFormula("E8", "=SUM(C8:C9*0)")
     path = edit(make(tmp_path), lambda book: book["Arrays"].__setitem__("E8", formula))
     assert problems(path)[0].startswith(
@@ -268,7 +268,7 @@ def test_an_array_formula_without_value_is_told_like_any_other(tmp_path):
 # Motions.
 
 
-def test_motions_are_scaled_and_signed_as_asked(tmp_path):
+def test_motions_are_scaled_and_signed_as_requested(tmp_path):
     book = read_workbook(make(tmp_path))
     m1, m2, m3 = book.motions
     assert [m.id for m in book.motions] == ["M1", "M2", "M3"]
@@ -358,7 +358,7 @@ PASTED = "Motions!C9: horizontal record:"
         (pasted([0.1, "#N/A", 0.2]), [f"{PASTED} Pasted!B5 is #N/A; correct it"]),
         (
             pasted([0.1, None, 0.2]),
-            [f"{PASTED} Pasted!B5 is blank, with values below; close the gap"],
+            [f"{PASTED} Pasted!B5 is blank, with values below it; fill it in or delete it"],
         ),
         (
             pasted(["x"] * 8),
@@ -377,7 +377,7 @@ PASTED = "Motions!C9: horizontal record:"
         (
             pasted([0.1, 0.2], name="Elsewhere!North"),
             [
-                f"{PASTED} 'Elsewhere!North' names no sheet of this workbook; write Sheet!Header,"
+                f"{PASTED} 'Elsewhere!North' names no sheet of this workbook; give Sheet!Header,"
                 " or a file"
             ],
         ),
@@ -393,7 +393,7 @@ PASTED = "Motions!C9: horizontal record:"
                 pasted([0.1, 0.2])(book),
                 book["Pasted"].__setitem__("D2", "North"),
             ),
-            [f"{PASTED} heading 'North' is at Pasted!D2 and Pasted!B3; give each its own"],
+            [f"{PASTED} heading 'North' appears at Pasted!D2 and Pasted!B3; rename one"],
         ),
         (
             lambda book: (
@@ -401,7 +401,7 @@ PASTED = "Motions!C9: horizontal record:"
                 book["Pasted"].__setitem__("B300000", 1),
             ),
             [
-                f"{PASTED} Pasted!B300000 holds something more than 200,000 rows below the heading;"
+                f"{PASTED} Pasted!B300000 contains data more than 200,000 rows below the heading;"
                 " clear it, or give the record as a file"
             ],
         ),
@@ -411,24 +411,24 @@ def test_a_pasted_column_is_refused_by_its_cell(tmp_path, change, lines):
     assert list(problems(edit(make(tmp_path), change))) == lines
 
 
-WITHIN = "give a file within the workbook's folder, such as records/m1-x.csv"
+WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
 
 
 @pytest.mark.parametrize(
     ("name", "line"),
     [
-        ("records/none.csv", f"'records/none.csv' is not there; {WITHIN}"),
-        ("records", f"'records' is no file; {WITHIN}"),
-        ("/etc/hostname", f"'/etc/hostname' leads out of the workbook's folder; {WITHIN}"),
-        ("../x.csv", f"'../x.csv' leads out of the workbook's folder; {WITHIN}"),
-        ("..\\x.csv", f"'../x.csv' leads out of the workbook's folder; {WITHIN}"),
-        ("C:\\x.csv", f"'C:/x.csv' leads out of the workbook's folder; {WITHIN}"),
-        ("\\\\host\\x", f"'//host/x' leads out of the workbook's folder; {WITHIN}"),
-        ("link.csv", f"'link.csv' leads out of the workbook's folder by a link; {WITHIN}"),
+        ("records/none.csv", f"'records/none.csv' does not exist; {WITHIN}"),
+        ("records", f"'records' is not a file; {WITHIN}"),
+        ("/etc/hostname", f"'/etc/hostname' is outside the workbook's folder; {WITHIN}"),
+        ("../x.csv", f"'../x.csv' is outside the workbook's folder; {WITHIN}"),
+        ("..\\x.csv", f"'../x.csv' is outside the workbook's folder; {WITHIN}"),
+        ("C:\\x.csv", f"'C:/x.csv' is outside the workbook's folder; {WITHIN}"),
+        ("\\\\host\\x", f"'//host/x' is outside the workbook's folder; {WITHIN}"),
+        ("link.csv", f"'link.csv' is a link to a file outside the workbook's folder; {WITHIN}"),
         ("loop.csv", f"'loop.csv' cannot be found; {WITHIN}"),
         ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
-        ("pipe.csv", f"'pipe.csv' is no file; {WITHIN}"),
-        ("big.csv", "'big.csv' has 65 MB; at most 64 MB do"),
+        ("pipe.csv", f"'pipe.csv' is not a file; {WITHIN}"),
+        ("big.csv", "'big.csv' has 65 MB; give at most 64 MB"),
         ("input.xlsx", "input.xlsx: not a text file; give the text of a record"),
     ],
 )
@@ -450,13 +450,13 @@ def os_pipe(path):
     os.mkfifo(path)
 
 
-def test_a_bad_line_of_a_record_is_told_with_its_file_and_number(tmp_path):
+def test_an_invalid_line_of_a_record_is_reported_with_its_file_and_number(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "z.csv").write_text("0.1\nabc\n0.2\n")
     assert problems(path) == ("Motions!E8: vertical record: z.csv:2: found 'abc'; give a number",)
 
 
-def test_components_of_different_length_or_step_do_not_go_together(tmp_path):
+def test_components_of_different_length_or_step_are_rejected(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("G8", None))
     for name, step, count in (("x", 0.01, 50), ("z", 0.02, 40)):
         text = "".join(f"{i * step:.2f},0.1\n" for i in range(count))
@@ -464,20 +464,20 @@ def test_components_of_different_length_or_step_do_not_go_together(tmp_path):
     edit(path, lambda b: [b["Motions"].__setitem__(f"{c}9", None) for c in "BCDEFGHIJ"])
     edit(path, lambda b: [b["Motions"].__setitem__(f"{c}10", None) for c in "BCDEFGHIJ"])
     assert problems(path) == (
-        "Motions!E8: vertical record has a time step of 0.02 s, the horizontal one 0.01 s; give"
-        " both the same",
-        "Motions!E8: vertical record has 40 samples, the horizontal one 50; give both the same, or"
-        " keep to 0.39 s at most",
+        "Motions!E8: vertical record has a time step of 0.02 s, but the horizontal record has 0.01"
+        " s; make them equal",
+        "Motions!E8: vertical record has 40 samples, but the horizontal record has 50; make them"
+        " equal, or give an end time of 0.39 s or less",
     )
 
 
-def test_components_that_end_apart_go_together_up_to_where_both_are_kept(tmp_path):
+def test_components_of_different_length_are_accepted_with_a_common_end_time(tmp_path):
     path = make(tmp_path)
     for name, count in (("x", 200), ("z", 196)):
         (path.parent / "records" / f"{name}.csv").write_text("0.1\n-0.2\n" * (count // 2))
     assert problems(path) == (
-        "Motions!E8: vertical record has 196 samples, the horizontal one 200; give both the same,"
-        " or keep to 1.95 s at most",
+        "Motions!E8: vertical record has 196 samples, but the horizontal record has 200; make them"
+        " equal, or give an end time of 1.95 s or less",
     )
     book = read_workbook(edit(path, lambda b: b["Motions"].__setitem__("N8", 1.95)))
     assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 196
@@ -509,7 +509,7 @@ def test_channels_of_one_file_are_components(tmp_path, names):
     assert book.records[1].format == "text"
 
 
-def test_a_channel_that_is_not_named_or_not_there_is_told_with_the_names(tmp_path):
+def test_an_unnamed_or_missing_channel_is_reported_with_the_names(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "all.csv").write_text(CHANNELS)
 
@@ -521,18 +521,18 @@ def test_a_channel_that_is_not_named_or_not_there_is_told_with_the_names(tmp_pat
     names = "give one by name or number: 1 East; 2 North; 3 Up"
     assert problems(edit(path, change)) == (
         f"Motions!C8: horizontal record: all.csv: found several channels; {names}",
-        f"Motions!E8: vertical record: all.csv: channel 'Down' is not there; {names}",
+        f"Motions!E8: vertical record: all.csv: found no channel 'Down'; {names}",
     )
 
 
-def test_units_that_neither_file_nor_sheet_says_are_asked_for(tmp_path):
+def test_units_that_neither_file_nor_sheet_states_are_requested(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("F8", "from file"))
     found = problems(path)
     assert [line.split(": ")[0] for line in found] == ["Motions!C8", "Motions!E8"]
     assert all("give units, one of" in line for line in found)
 
 
-def test_a_file_that_says_other_units_than_the_sheet_is_told(tmp_path):
+def test_units_that_differ_between_file_and_sheet_are_reported(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "all.csv").write_text(CHANNELS)
 
@@ -553,7 +553,7 @@ def test_gals_of_a_pasted_column_are_cm_s2(tmp_path):
     assert read_workbook(edit(make(tmp_path), change)).motions[1].ax_mps2.tolist() == [1.0, -2.0]
 
 
-def test_records_are_processed_as_their_row_asks(tmp_path):
+def test_records_are_processed_as_their_row_requests(tmp_path):
     def change(book):
         sheet = book["Motions"]
         for cell, value in {"M8": 0.5, "N8": 1.5, "O8": "mean", "S8": 0.005, "T8": 1}.items():
@@ -571,7 +571,7 @@ def test_records_are_processed_as_their_row_asks(tmp_path):
     assert book.prepared[0].unfiltered == ()
 
 
-def test_a_high_pass_keeps_the_motion_without_it_for_comparison(tmp_path):
+def test_the_motion_without_its_high_pass_is_preserved_for_comparison(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("P8", 2.0))
     book = read_workbook(path)
     (bare,) = book.prepared[0].unfiltered
@@ -579,13 +579,13 @@ def test_a_high_pass_keeps_the_motion_without_it_for_comparison(tmp_path):
     assert not np.allclose(book.motions[0].ax_mps2[: len(bare.ax_mps2)], bare.ax_mps2)
 
 
-def test_processing_that_does_not_fit_a_record_is_told(tmp_path):
+def test_processing_that_does_not_suit_a_record_is_reported(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("Q8", 60))
     (line,) = problems(path)
     assert line.startswith("Motions!C8: horizontal record: x.csv: low-pass corner is 60 Hz; give")
 
 
-def test_a_ground_motion_comes_out_at_the_roof(tmp_path):
+def test_a_ground_motion_is_carried_to_the_roof(tmp_path):
     def change(book):
         book["Motions"]["L8"], book["Building"]["B6"] = "ground", 0.5
 
@@ -609,16 +609,19 @@ def test_a_workbook_without_the_sheets_of_later_versions_is_read(tmp_path):
     assert same(data, project())
 
 
-def test_silence_cannot_be_scaled_to_a_peak(tmp_path):
+def test_a_record_of_zeros_cannot_be_scaled_to_a_peak(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "x.csv").write_text("0\n0\n0\n")
-    assert "Motions!C10: horizontal record is all zeros; a PPA cannot scale it" in problems(path)
+    assert (
+        "Motions!C10: horizontal record is all zeros and cannot be scaled to a PPA; change the"
+        " record or scaling" in problems(path)
+    )
 
 
 @pytest.mark.parametrize(
     ("scaling", "goal"), [("PPA", "a PPA"), ("target spectrum", "a target spectrum")]
 )
-def test_a_part_that_is_silent_cannot_be_scaled_either(tmp_path, scaling, goal):
+def test_a_part_of_zeros_cannot_be_scaled_either(tmp_path, scaling, goal):
     path = make(tmp_path)
     (path.parent / "records" / "x.csv").write_text("0.1\n" * 100 + "0\n" * 100)
 
@@ -627,11 +630,12 @@ def test_a_part_that_is_silent_cannot_be_scaled_either(tmp_path, scaling, goal):
         sheet["H8"], sheet["I8"], sheet["M8"] = scaling, 1 if scaling == "PPA" else None, 1.5
 
     assert problems(edit(path, change)) == (
-        f"Motions!C8: horizontal record is all zeros; {goal} cannot scale it",
+        f"Motions!C8: horizontal record is all zeros and cannot be scaled to {goal}; change the"
+        " record or scaling",
     )
 
 
-def test_records_are_looked_at_even_where_their_row_has_other_faults(tmp_path):
+def test_records_are_checked_even_if_their_row_has_other_errors(tmp_path):
     def change(book):
         book["Motions"]["B9"] = None
         book["Motions"]["F9"] = "furlongs"

@@ -1,4 +1,4 @@
-"""The models of the input, and how their fields are taken apart."""
+"""The models of the input, and the parts of their fields."""
 
 import datetime as dt
 import math
@@ -75,7 +75,7 @@ def test_provisions_to_override_are_those_of_the_solver():
     assert PROVISION_KEYS is OVERRIDABLE
 
 
-def test_a_field_tells_its_kind_its_need_and_its_range():
+def test_a_field_has_its_type_requirement_and_range():
     mu = entry(Array, "mu")
     assert (mu.kind, mu.is_required, mu.bounds.words()) == (float, True, "0 to 1.5")
     assert mu.spoken == "friction coefficient"
@@ -91,12 +91,12 @@ def test_a_field_tells_its_kind_its_need_and_its_range():
     assert entry(Project, "date").kind is dt.date
 
 
-def test_a_field_that_may_be_blank_keeps_the_range_behind_it():
+def test_an_optional_field_keeps_its_range():
     step = entry(MotionInput, "dt_s")
     assert (step.kind, step.is_required, step.bounds.words()) == (float, False, "more than 0 to 1")
 
 
-def test_a_yes_or_no_is_chosen_by_these_words():
+def test_yes_and_no_are_the_choices_of_a_boolean():
     options = next(section for section in SECTIONS if section.key == "options")
     assert entry(options.model, "peer_reviewed").choices == tuple(YesNo)
 
@@ -114,11 +114,11 @@ def test_a_yes_or_no_is_chosen_by_these_words():
         (Bounds(low=1, high=2, excludes_high=True), "1 to less than 2"),
     ],
 )
-def test_ranges_are_said_in_words(bounds, words):
+def test_ranges_are_written_in_words(bounds, words):
     assert bounds.words() == words
 
 
-def test_ranges_are_said_in_the_unit_of_the_sheet():
+def test_ranges_are_written_in_the_unit_of_the_sheet():
     assert Bounds(low=0, high=10 * INCH).words(INCH) == "0 to 10"
 
 
@@ -148,12 +148,12 @@ def test_a_site_without_s_ds_is_refused():
         Site(**SITE, s_s_g=1.313)
 
 
-def test_records_of_the_input_are_frozen_and_take_nothing_else():
+def test_input_models_are_frozen_and_accept_no_other_fields():
     site = Site(**SITE, s_ds_g=1.0)
     with pytest.raises(ValidationError):
         site.i_e = 1.5
     with pytest.raises(ValidationError):
-        Site(**SITE, s_ds_g=1.0, colour="red")
+        Site(**SITE, s_ds_g=1.0, color="red")
     with pytest.raises(ValidationError):
         Site(**SITE, s_ds_g=math.nan)
 
@@ -163,7 +163,7 @@ def test_rectangles_come_with_arrays_and_with_objects_that_have_all_sides():
     assert data.arrays[0].rectangle.x_to_m == pytest.approx(30.48)
     assert data.objects[1].rectangle is None
     assert data.objects[0].rectangle.y_from_m == pytest.approx(24.384)
-    assert data.site.rule_set is RuleSetName.PV1_2012
+    assert data.site.rule_set is RuleSetName.PV1
 
 
 # ASCE 7-16 Table 11.6-1 and the sentences on S_1 in section 11.6.
@@ -201,7 +201,7 @@ def test_gaps_are_measured_between_nearest_points(other, gap):
     assert gap_m(Rectangle(0, 1, 0, 1), Rectangle(*other)) == pytest.approx(gap)
 
 
-def test_units_of_the_input_have_their_legal_sizes():
+def test_input_units_have_their_legal_definitions():
     assert LENGTHS == {"in": 0.0254, "ft": 0.3048, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
     assert WEIGHTS["lb"] == pytest.approx(0.45359237 * 9.80665, rel=1e-15)
     assert WEIGHTS["kip"] == pytest.approx(1000 * WEIGHTS["lb"])

@@ -1,4 +1,4 @@
-"""The workbook that is made: names, tables, help, protection, looks that matter."""
+"""The input template: names, tables, help, protection, essential formatting."""
 
 import pytest
 from openpyxl import load_workbook
@@ -34,7 +34,7 @@ def validation(sheet, cell):
     return next(rule for rule in validations(sheet) if cell in rule.sqref)
 
 
-def test_sheets_stand_in_the_order_of_work(blank):
+def test_sheets_are_in_working_order(blank):
     assert blank[1].sheetnames == [*SHEETS, "Provisions"]
 
 
@@ -58,7 +58,7 @@ def test_every_table_has_its_name_and_twenty_blank_rows(blank):
             assert all(value is None for row in cells for value in row)
 
 
-def test_headings_name_the_units_of_the_system(blank):
+def test_headings_state_the_units_of_the_system(blank):
     units, book = blank
     sheet, table = tables(book)["arrays_table"]
     headings = [cell.value for cell in sheet[table.ref][0]]
@@ -85,7 +85,7 @@ def test_only_inputs_are_unlocked_and_sheets_are_protected_without_password(blan
     assert site["B5"].fill.start_color.rgb == "00FFF6CC"
 
 
-def test_rows_below_the_prepared_ones_are_open_too(blank):
+def test_rows_below_the_prepared_ones_are_unlocked_too(blank):
     assert not blank[1]["Arrays"].column_dimensions["D"].protection.locked
 
 
@@ -97,7 +97,7 @@ def test_choices_are_dropdowns_with_a_message_and_an_alert(blank):
     assert rule.prompt
 
 
-def test_numbers_are_held_to_their_range(blank):
+def test_numbers_are_validated_against_their_range(blank):
     rule = validation(blank[1]["Arrays"], "E8")
     assert (rule.type, rule.operator, rule.formula1, rule.formula2) == (
         "decimal",
@@ -108,7 +108,7 @@ def test_numbers_are_held_to_their_range(blank):
     assert "0 to 1.5" in rule.prompt
 
 
-def test_clearances_offer_the_arrays_and_objects_but_take_others(blank):
+def test_clearances_offer_the_arrays_and_objects_but_accept_other_text(blank):
     sheet = blank[1]["Clearances"]
     assert validation(sheet, "B8").formula1 == "Arrays!$B$8:$B$500"
     assert validation(sheet, "C8").formula1 == "Objects!$B$8:$B$500"
@@ -120,7 +120,7 @@ def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank):
     sheet, table = tables(book)["links_table"]
     headings = [cell.value for cell in sheet[table.ref][0]]
     unit = "lb/in" if units is UnitsFirst.US else "kN/m"
-    assert headings == ["Array", "Friction of blocks", f"Link stiffness [{unit}]", "Link damping"]
+    assert headings == ["Array", "Block friction", f"Link stiffness [{unit}]", "Link damping"]
     assert validation(sheet, "B8").formula1 == "Arrays!$B$8:$B$500"
     assert [sheet[f"{c}6"].value for c in "CE"] == ["0.40, 0.45, 0.50", "0.02"]
     assert float(sheet["D6"].value) == (5000 if units is UnitsFirst.US else 876)
@@ -140,7 +140,7 @@ def test_no_cell_has_two_validations(blank):
             assert all(area.isdisjoint(other) for other in areas[i + 1 :])
 
 
-def test_messages_keep_the_limits_of_excel(blank):
+def test_messages_satisfy_the_limits_of_excel(blank):
     for sheet in blank[1].worksheets:
         for rule in validations(sheet):
             assert len(rule.promptTitle) <= 32
@@ -149,7 +149,7 @@ def test_messages_keep_the_limits_of_excel(blank):
             assert len(rule.formula1) <= 255
 
 
-def test_headings_stay_in_view_and_sheets_print_one_page_wide(blank):
+def test_headings_are_frozen_and_sheets_print_one_page_wide(blank):
     for name in SHEETS[1:]:
         sheet = blank[1][name]
         assert sheet.freeze_panes
@@ -166,7 +166,7 @@ def test_defaults_are_filled_and_the_rest_is_blank(blank):
     assert all(book["Site"].cell(row, 2).value is None for row in range(5, 18))
 
 
-def test_readme_names_the_steps_and_the_commands(blank):
+def test_readme_lists_the_steps_and_the_commands(blank):
     text = "\n".join(
         str(value) for row in blank[1]["README"].values for value in row if value is not None
     )
@@ -174,13 +174,15 @@ def test_readme_names_the_steps_and_the_commands(blank):
         assert part in text
 
 
-def test_values_of_a_project_are_written_in_the_units_of_the_sheets_without_dust(tmp_path):
+def test_values_of_a_project_are_written_in_the_units_of_the_sheets_without_rounding_error(
+    tmp_path,
+):
     us, si = (load_workbook(make(tmp_path / str(units), units))["Arrays"] for units in UnitsFirst)
     assert [us[f"{c}8"].value for c in "HIJKL"] == [42000, 9, 40, 20, 100]
     assert [si[f"{c}8"].value for c in "IJKL"] == [228.6, 1016, 6.096, 30.48]
 
 
-def test_a_project_of_many_arrays_gets_a_table_that_holds_them(tmp_path):
+def test_a_project_with_many_arrays_gets_a_larger_table(tmp_path):
     array = project().arrays[0].model_dump()
     arrays = [array | {"id": f"A{i}"} for i in range(40)]
     book = load_workbook(make(tmp_path, arrays=arrays, clearances=[]))

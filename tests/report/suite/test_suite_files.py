@@ -1,4 +1,4 @@
-"""The command that makes suites: its files, its table, and what it refuses."""
+"""The command that generates suites: its files, its table, and its input errors."""
 
 import hashlib
 import json
@@ -62,7 +62,7 @@ def test_every_file_is_written_and_nothing_else(made):
     assert (made[0] / "suite.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_the_files_hold_what_suite_json_says_of_them(made, document):
+def test_the_files_agree_with_suite_json(made, document):
     freq_hz = 0.3 * 2.0 ** (np.arange(82) / 12.0)
     assert document["seed"] == 5
     assert document["envelope_s"] == [5.0, 20.0, 5.0]
@@ -102,14 +102,17 @@ def test_the_target_is_that_of_the_code(document):
     assert (target["tail"], target["tail_rule"]) == ("AC156", Tail.AC156.sentence)
 
 
-def test_the_table_says_target_tail_seed_and_how_each_component_keeps(made):
+def test_the_table_states_target_tail_seed_and_the_fit_of_each_component(made):
     lines = made[1].splitlines()
     assert "AC156 with ASCE 7-16, S_DS 1.2 g, z/h 1: A_FLX 1.92 g, A_RIG 1.44 g" in made[1]
-    assert "tail: below 1.3 Hz (beyond 0.77 s) the line of AC156" in made[1]
+    assert f"tail: {Tail.AC156.sentence}" in made[1]
     rows = [line for line in lines if re.search(r" [xyz]  \d", line)]
     assert len(rows) == 6
     assert all("noise" in row for row in rows)
-    assert "6 of 6 components within 0.90 to 1.30 of the target, mean within 5 %" in made[1]
+    assert (
+        "6 of 6 components have spectra of 0.90 to 1.30 times the target and a mean ratio within 5"
+        " %" in made[1]
+    )
     assert lines[-1].endswith("suite: 6 records, suite.json, suite.png; seed 5")
 
 
@@ -124,9 +127,9 @@ def test_the_same_seed_gives_the_same_bytes_whatever_the_count(made, tmp_path):
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
-def test_motions_of_an_older_suite_are_not_left_beside_the_new_ones(made):
+def test_motions_of_an_earlier_suite_never_remain_beside_the_new_ones(made):
     output = refused(made[0], *AC156, "--count", 1)
-    assert "motion-02-x.csv and 2 others of an older suite would be left" in output
+    assert "motion-02-x.csv and 2 other files of an earlier suite would remain" in output
 
 
 def test_records_seed_the_motions(made, tmp_path):
@@ -140,13 +143,13 @@ def test_records_seed_the_motions(made, tmp_path):
         [part["grew_from"] for part in motion["components"]] for motion in document["motions"]
     )
     assert first == [x.name, y.name, z.name]
-    assert second == [other.name, *[f"{other.name}, phases drawn"] * 2]
+    assert second == [other.name, *[f"{other.name}, random phases"] * 2]
     assert document["seed_records"][3] == {
         "file": str(other),
         "sha256": hashlib.sha256(other.read_bytes()).hexdigest(),
     }
     assert document["target"]["tail"] == "1/T"
-    assert "beyond 0.77 s (below 1.3 Hz) 1/T" in done.output
+    assert Tail.RECIPROCAL.sentence in done.output
     # The option may be repeated as well.
     again = run(tmp_path / "b", *words[1:], "--records", f"{x},{y},{z}", "--records", other)
     assert again.exit_code == 0
@@ -174,12 +177,12 @@ def test_a_vertical_among_three_channels_seeds_z(tmp_path):
     assert [record.name for record in group] == ["X.csv", "Y.csv", "Z.csv"]
 
 
-def test_too_many_channels_and_every_bad_file_are_told(tmp_path):
+def test_too_many_channels_and_every_unreadable_file_are_reported(tmp_path):
     path = columns(tmp_path / "many.csv", "time_s,a_g,b_g,c_g,d_g")
     with pytest.raises(InputError) as caught:
         read_seeds([str(path), "none.csv", "a.csv,b.csv"], units="g", dt_s=math.nan)
     found = caught.value.problems
-    assert "many.csv: found 4 channels; give one, two or three" in found[0]
+    assert "many.csv: has 4 channels; give one, two or three" in found[0]
     assert found[1].startswith("none.csv: no such file")
     assert found[2].startswith("a.csv: no such file")
 
@@ -191,13 +194,13 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
         workbook.active.append(row)
     workbook.save(tmp_path / "book.xlsx")
     words = (tmp_path / "suite", "--target", f"{tmp_path / 'book.xlsx'}!Site", "--count", 1)
-    assert "book.xlsx!Site: has no vertical; add a column vertical [g], or give --sds" in refused(
+    assert "book.xlsx!Site: has no vertical column; add vertical [g], or give --sds" in refused(
         *words
     )
     assert not (tmp_path / "suite").exists()
     done = run(*words, "--sds", 0.9)
     assert done.exit_code == 0, done.output
-    assert "target: book.xlsx!Site, 4 points to a period of 5 s" in done.output
+    assert "target: book.xlsx!Site, 4 points, periods up to 5 s" in done.output
     document = json.loads((tmp_path / "suite" / "suite.json").read_text())
     assert document["target"]["horizontal"]["sa_g"] == [0.12, 1.0, 1.0, 0.5]
     assert document["target"]["vertical"]["sa_g"][1] == pytest.approx(0.67 * 0.9)
@@ -216,33 +219,39 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
     [
         ((), "no target; give --sds and --code, or --target"),
         (("--sds", 1.0), "no target"),
-        (("--sds", 0.0, "--code", "pv1"), "S_DS is 0 g; give a number above 0, at most 5"),
+        (
+            ("--sds", 0.0, "--code", "pv1"),
+            "S_DS is 0 g; give a number greater than 0 and at most 5",
+        ),
         (("--sds", "inf", "--code", "pv1"), "S_DS is inf g"),
         (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "z/h is 1.5; give a number from 0"),
         (("--sds", 1.0, "--code", "pv1", "--zh", "nan"), "z/h is nan"),
-        (("--sds", 1.0, "--code", "ibc"), "Invalid value for '--code'"),
+        (("--sds", 1.0, "--code", "ibc"), "--code is 'ibc'; give one of"),
         ((*AC156, "--count", 0), "Invalid value for '--count'"),
         ((*AC156, "--seed", -1), "Invalid value for '--seed'"),
-        ((*AC156, "stray.csv"), "'stray.csv' belongs to nothing; write --records before files"),
+        (
+            (*AC156, "stray.csv"),
+            "unexpected argument 'stray.csv'; write --records before the files",
+        ),
         ((*AC156, "--records", "none.csv"), "none.csv: no such file"),
         (("--target", "none.csv"), "none.csv: no such file"),
     ],
 )
-def test_what_is_missing_or_impossible_is_told(tmp_path, words, expected):
+def test_missing_or_invalid_options_are_reported(tmp_path, words, expected):
     assert expected in refused(tmp_path / "suite", *words)
     assert not (tmp_path / "suite").exists()
 
 
-def test_a_folder_that_cannot_be_written_is_told(tmp_path):
+def test_a_folder_that_cannot_be_written_is_reported(tmp_path):
     (tmp_path / "file").write_text("")
     assert "cannot be written" in refused(tmp_path / "file", *AC156, "--count", 1)
 
 
-def test_a_miss_is_counted(made, monkeypatch):
+def test_a_component_outside_the_limits_is_counted(made, monkeypatch):
     monkeypatch.setattr(files, "LEAST", 1.5)
     targets = ac156_targets("pv1", s_ds_g=1.2, z_over_h=1.0, tail=Tail.AC156)
     from solver.synthesis import SuiteMotion
 
     x, y, z = records(made[0], 1)
     motion = SuiteMotion(x=x, y=y, z=z, seeds=("noise",) * 3)
-    assert "0 of 3 components within 1.50" in files.suite_table([motion], targets)[-1]
+    assert "0 of 3 components have spectra of 1.50" in files.suite_table([motion], targets)[-1]

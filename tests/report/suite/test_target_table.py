@@ -1,4 +1,4 @@
-"""Target spectra that people bring: sheets and csv, and everything that can be wrong with them."""
+"""User-defined target spectra: sheets and CSV files, and their input errors."""
 
 import math
 
@@ -67,7 +67,7 @@ def test_csv_of_frequencies_is_read_without_a_vertical(tmp_path, separator):
     assert not found.has_vertical
 
 
-def test_every_bad_cell_is_told_by_its_address(tmp_path):
+def test_every_invalid_cell_is_reported_by_its_address(tmp_path):
     rows = [list(row) for row in ROWS]
     rows[1][1] = "1,5"
     rows[2][2] = None
@@ -77,17 +77,17 @@ def test_every_bad_cell_is_told_by_its_address(tmp_path):
     assert problems(f"{book(tmp_path, rows)}!Target") == (
         "Target!A4: period is 0; give a number from 0.001 to 1000 [s]",
         "Target!B2: horizontal is '1,5'; write 1.5",
-        "Target!B5: horizontal is TRUE, a truth value; give a number above 0 [g]",
-        "Target!C3: vertical is blank; give a number above 0",
+        "Target!B5: horizontal is TRUE, a logical value; give a number greater than 0 [g]",
+        "Target!C3: vertical is blank; give a number greater than 0",
         "Target!C6: vertical is 250; give a number from 1e-06 to 100 [g]",
     )
 
 
-def test_lines_of_csv_are_told_by_their_number(tmp_path):
+def test_lines_of_csv_are_reported_by_their_number(tmp_path):
     content = "frequency [Hz],horizontal [g]\n0.1,0.2\n1,x\n50\n"
     assert problems(text(tmp_path, content)) == (
-        "target.csv:3: horizontal is 'x'; give a number above 0 [g]",
-        "target.csv:4: horizontal is blank; give a number above 0",
+        "target.csv:3: horizontal is 'x'; give a number greater than 0 [g]",
+        "target.csv:4: horizontal is blank; give a number greater than 0",
     )
 
 
@@ -96,13 +96,13 @@ def test_lines_of_csv_are_told_by_their_number(tmp_path):
     [
         ("period [ms],horizontal [g]", "target.csv:1: is 'period [ms]'; give period [s]"),
         ("period [s],horizontal [m/s2]", "is 'horizontal [m/s2]'; give horizontal [g]"),
-        ("period [s],sa [g],sa [g]", "target.csv:1: a second horizontal; give one"),
-        ("period,frequency,sa", "both frequency and period; give one of them"),
+        ("period [s],sa [g],sa [g]", "target.csv:1: a second horizontal column; delete one"),
+        ("period,frequency,sa", "both frequency and period; delete one of them"),
         ("a,b", "target.csv: no row of headings in the first 10 rows; give frequency [Hz]"),
         ("period [s],vertical [g]", "no row of headings"),
     ],
 )
-def test_headings_that_cannot_be_told_are_refused(tmp_path, heading, expected):
+def test_ambiguous_headings_are_rejected(tmp_path, heading, expected):
     found = problems(text(tmp_path, heading + "\n0.01,1,1\n5,1,1\n"))
     assert any(expected in problem for problem in found)
 
@@ -112,12 +112,12 @@ def test_headings_that_cannot_be_told_are_refused(tmp_path, heading, expected):
     [
         ("", "has no rows of numbers; give at least 2"),
         ("0.1,1\n", "has 1 row of numbers; give at least 2"),
-        ("0.1,1\n50,1\n50,2\n", "50 Hz (0.02 s) is there twice"),
-        ("0.5,1\n50,1\n", "reaches from 0.5 to 50 Hz; give 0.3 to 33.3 Hz (periods from 0.03"),
-        ("0.1,1\n20,1\n", "reaches from 0.1 to 20 Hz"),
+        ("0.1,1\n50,1\n50,2\n", "50 Hz (0.02 s) appears twice"),
+        ("0.5,1\n50,1\n", "covers 0.5 to 50 Hz; give 0.3 to 33.3 Hz (periods from 0.03"),
+        ("0.1,1\n20,1\n", "covers 0.1 to 20 Hz"),
     ],
 )
-def test_a_table_too_short_is_refused(tmp_path, body, expected):
+def test_a_table_too_short_is_rejected(tmp_path, body, expected):
     (found,) = problems(text(tmp_path, "frequency [Hz],horizontal [g]\n" + body))
     assert expected in found
 
@@ -131,16 +131,16 @@ def test_periods_printed_to_two_decimals_reach_the_band(tmp_path):
     ("name", "expected"),
     [
         ("!Nothing", "spectra.xlsx: has no sheet 'Nothing'; give one of 'Target', 'Notes'"),
-        ("", "spectra.xlsx: has 2 sheets; write spectra.xlsx!Sheet, one of 'Target', 'Notes'"),
+        ("", "spectra.xlsx: has 2 sheets; give spectra.xlsx!Sheet, one of 'Target', 'Notes'"),
         ("!Notes", "spectra.xlsx!Notes: no row of headings"),
     ],
 )
-def test_a_sheet_that_is_not_there_is_told(tmp_path, name, expected):
+def test_a_sheet_that_is_not_there_is_reported(tmp_path, name, expected):
     (found,) = problems(f"{book(tmp_path, ROWS)}{name}")
     assert expected in found
 
 
-def test_formulas_never_computed_are_told(tmp_path):
+def test_formulas_never_computed_are_reported(tmp_path):
     rows = [list(row) for row in ROWS]
     rows[1][1] = "=1+1"
     (found,) = problems(f"{book(tmp_path, rows)}!Target")
@@ -148,10 +148,10 @@ def test_formulas_never_computed_are_told(tmp_path):
     assert "=1+1" in found
 
 
-def test_far_away_cells_and_long_files_are_refused(tmp_path):
+def test_far_away_cells_and_long_files_are_rejected(tmp_path):
     path = book(tmp_path, [*ROWS, *[(None,)] * (MAX_ROWS + 10), (1.0,)])
     (found,) = problems(f"{path}!Target")
-    assert f"Target!A{MAX_ROWS + 17}: holds something beyond row" in found
+    assert f"Target!A{MAX_ROWS + 17}: contains data beyond row" in found
     long = "period,sa\n" + "1,1\n" * (MAX_ROWS + 10)
     assert f"give at most {MAX_ROWS} rows" in problems(text(tmp_path, long))[0]
 
@@ -161,23 +161,23 @@ def test_far_away_cells_and_long_files_are_refused(tmp_path):
     [
         (b"\x00\x01", "not a text file"),
         (b"period,sa\n\xff\xfe", "cannot be read as text"),
-        (b'period,"sa\n', "not csv"),
+        (b'period,"sa\n', "not CSV"),
         (b"x" * 1_000_001, "larger than 1 MB"),
     ],
 )
-def test_what_is_no_table_is_told(tmp_path, content, expected):
+def test_a_file_that_is_not_a_table_is_reported(tmp_path, content, expected):
     assert expected in problems(text(tmp_path, content))[0]
 
 
-def test_what_is_no_workbook_is_told(tmp_path):
+def test_a_file_that_is_not_a_workbook_is_reported(tmp_path):
     path = tmp_path / "spectra.xlsx"
     path.write_bytes(b"PK nonsense")
-    assert "not a workbook, or cut short" in problems(f"{path}!Target")[0]
+    assert "not a workbook, or truncated" in problems(f"{path}!Target")[0]
     assert "no such file" in problems(tmp_path / "none.csv")[0]
     assert "no such file" in problems(f"{tmp_path / 'none.xlsx'}!Target")[0]
 
 
-def test_between_its_rows_a_target_is_straight_on_log_log_axes(tmp_path):
+def test_a_target_is_interpolated_on_log_log_axes(tmp_path):
     from solver.synthesis import target_sa_g
 
     found = read_target(text(tmp_path, "frequency,sa\n0.1,0.1\n100,10\n"))

@@ -189,9 +189,9 @@ def test_floors_bend_as_a_cantilever_under_a_load_at_its_top():
 
 @pytest.mark.parametrize("alpha0", [-0.1, 1001.0, math.nan, -math.inf])
 def test_a_stiffness_ratio_out_of_range_is_refused(alpha0):
-    with pytest.raises(InputError, match="give 0 to 1000, or infinite"):
+    with pytest.raises(InputError, match="give 0 to 1000, or infinity"):
         beam_modes(alpha0, 3)
-    with pytest.raises(InputError, match="give 0 to 1000, or infinite"):
+    with pytest.raises(InputError, match="give 0 to 1000, or infinity"):
         story_modes(alpha0, 3)
 
 

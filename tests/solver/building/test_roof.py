@@ -314,7 +314,7 @@ def test_a_building_says_how_it_was_made(alpha0, stories, words):
 def test_modes_of_an_analysis_are_taken_as_they_are():
     building = building_of_modes([0.8, 0.3], [0.05, 0.05], [1.3, -0.4])
     assert building.roof_factors.tolist() == [1.3, -0.4]
-    assert building.words == "2 modes as given, roof factors adding up to 0.900"
+    assert building.words == "2 modes as given, sum of roof factors 0.900"
 
 
 @pytest.mark.parametrize(
@@ -349,7 +349,7 @@ def test_modes_that_do_not_match_are_refused():
         ([1.0], 0.01, 0.05, "two or more finite numbers"),
         ([1.0, math.inf], 0.01, 0.05, "two or more finite numbers"),
         ([1.0, 2.0], 0.0, 0.05, "time step"),
-        ([1.0, 2.0], 0.01, 1.0, "share of modes"),
+        ([1.0, 2.0], 0.01, 1.0, "limit on neglected modes"),
     ],
 )
 def test_what_cannot_be_a_motion_is_refused(a, dt_s, share, said):

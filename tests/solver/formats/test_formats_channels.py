@@ -50,7 +50,7 @@ def test_a_channel_that_is_not_there_is_refused(name: str) -> None:
     with pytest.raises(InputError) as caught:
         made("x", "y").channel(name)
     assert caught.value.problems == (
-        f"a.v2: channel '{name}' is not there; give one by name or number: 1 x; 2 y",
+        f"a.v2: found no channel '{name}'; give one by name or number: 1 x; 2 y",
     )
 
 
@@ -71,7 +71,7 @@ def test_notes_name_their_channel_where_there_are_several() -> None:
 
 
 def test_no_channel_or_no_samples_are_refused() -> None:
-    with pytest.raises(InputError, match=r"a\.v2: found no acceleration in this made file; give o"):
+    with pytest.raises(InputError, match=r"a\.v2: found no acceleration in this made file; give a"):
         made()
     short = Channel(name="x", dt_s=0.01, a_mps2=np.zeros(1), notes=())
     with pytest.raises(InputError, match=r"a\.v2: found 1 sample; give at least 2"):

@@ -73,7 +73,7 @@ def test_a_format_that_ends_in_a_letter_is_understood(altered: Any) -> None:
 
 def test_a_file_without_its_last_line_says_so(altered: Any) -> None:
     found = read_motion_file(altered("cosmos.v2c", ("End-of-data for Chan  1 acceleration", "")))
-    assert found.notes == ("no end-of-data line stands behind the values: the file may be cut",)
+    assert found.notes == ("no end-of-data line follows the values: the file may be truncated",)
 
 
 @pytest.mark.parametrize(
@@ -81,8 +81,8 @@ def test_a_file_without_its_last_line_says_so(altered: Any) -> None:
     [
         ([("1.212500e+01", "********")], "52: found '********', a number too large for its col"),
         ([("1.212500e+01", "twelve")], "52: found 'twelve'; give a number"),
-        ([("   21 accel", "   22 accel")], "49: promises 22 values, found 21; give the whole"),
-        ([("   21 accel", "   20 accel")], "49: promises 20 values, found more of them in line"),
+        ([("   21 accel", "   22 accel")], "49: states 22 values, found 21; give the whole"),
+        ([("   21 accel", "   20 accel")], "49: states 20 values, found more in line"),
         ([("(1E15.6)", "(free)")], "49: found format (free); give one as (8F10.3)"),
         ([("cm/sec2(04)", "counts(50)")], "49: found unit 'counts', code 50; give a file of acc"),
         ([("cm/sec2(04)", "counts")], "49: found unit 'counts'; give an acceleration in g, m/s2"),
@@ -111,7 +111,7 @@ def test_a_step_that_no_heading_has_may_be_given(altered: Any) -> None:
 def test_a_file_of_velocity_alone_is_refused(altered: Any) -> None:
     path = altered("cosmos.v2c", ("21 acceleration pts", "21 velocity pts"))
     assert problems_of(path) == (
-        "cosmos.v2c: found no acceleration in this COSMOS V1.20 file; give one",
+        "cosmos.v2c: found no acceleration in this COSMOS V1.20 file; give a file of acceleration",
     )
 
 
@@ -134,4 +134,6 @@ def test_what_the_caller_says_must_agree() -> None:
     path = SAMPLES / "cosmos.v2c"
     assert read_motion_file(path, units="cm/s2", dt_s=1 / 128).channel().dt_s == 1 / 128
     assert "the file is in cm/sec2 but units are g" in problems_of(path, units="g")[0]
-    assert "the file steps by 0.0078125 s but dt is 0.01" in problems_of(path, dt_s=0.01)[0]
+    assert (
+        "the time step of the file is 0.0078125 s but dt is 0.01" in problems_of(path, dt_s=0.01)[0]
+    )

@@ -66,9 +66,9 @@ class TestVolume2:
             ([("    98.000", "    98,000")], "47: found '98,000'; give a number with a decimal"),
             ([("  -45.250\r\n", "  -45.250   1.0000\r\n")], "47: found 9 values; give 8"),
             ([("  -45.250\r\n", "\r\n")], "47: found 7 values; give 8"),
-            ([("   21 POINTS OF ACCEL", "   22 POINTS OF ACCEL")], "46: promises 22 values, found"),
-            ([("   21 POINTS OF ACCEL", "   31 POINTS OF ACCEL")], "46: promises 31 values, found"),
-            ([("   21 POINTS OF ACCEL", "   16 POINTS OF ACCEL")], "46: promises 16 values, found"),
+            ([("   21 POINTS OF ACCEL", "   22 POINTS OF ACCEL")], "46: states 22 values, found"),
+            ([("   21 POINTS OF ACCEL", "   31 POINTS OF ACCEL")], "46: states 31 values, found"),
+            ([("   21 POINTS OF ACCEL", "   16 POINTS OF ACCEL")], "46: states 16 values, found"),
             ([(" 21 POINTS OF ACCEL", " xx POINTS OF ACCEL")], "1: found no line ... POINTS OF"),
             ([("  .005 SEC.  (UNITS: CM/SEC/", "  .005 SEC.  (UNITS: CM/")], "46: found unit 'CM"),
             ([("(UNITS: CM/SEC/SEC)", "in cm/sec2. (free)")], "46: found format (free); give one"),
@@ -99,14 +99,17 @@ class TestVolume2:
         found = read_motion_file(file(text[: text.index("points of displ")]))
         assert found.channel().a_mps2 == pytest.approx(1.5 * WAVE / 100, rel=1e-14)
         assert found.notes == (
-            "no end-of-data line (/&) stands behind the values: the file may be cut",
+            "no end-of-data line (/&) follows the values: the file may be truncated",
         )
 
     def test_what_the_caller_says_must_agree(self) -> None:
         path = SAMPLES / "csmip-old.v2"
         assert len(read_motion_file(path, units="gal", dt_s=0.005).channels) == 2
         assert "the file is in CM/SEC/SEC but units are g" in problems_of(path, units="g")[0]
-        assert "the file steps by 0.005 s but dt is 0.02 s" in problems_of(path, dt_s=0.02)[0]
+        assert (
+            "the time step of the file is 0.005 s but dt is 0.02 s"
+            in problems_of(path, dt_s=0.02)[0]
+        )
 
 
 class TestVolume1:
@@ -152,27 +155,27 @@ class TestVolume1:
             (
                 "renadic.v1",
                 [("=     21", "=     26")],
-                "11: promises 52 values, found 42; give the",
+                "11: states 52 values, found 42; give the",
             ),
             (
                 "renadic.v1",
                 [("=     21", "=     20")],
-                "11: promises 40 values, found more of them",
+                "11: states 40 values, found more in line",
             ),
             (
                 "renadic.v1",
                 [("=     21", "=      1")],
-                "11: promises 2 values, found 10; give the c",
+                "11: states 2 values, found 10; correct the c",
             ),
             (
                 "csmip-pairs.v1",
                 [("=     13", "=      1")],
-                "11: promises 2 values, found 10; give t",
+                "11: states 2 values, found 10; correct t",
             ),
             (
                 "csmip-pairs.v1",
                 [("=     13", "=      0")],
-                "11: promises 0 values; give at least 2",
+                "11: states 0 values; give at least 2",
             ),
             ("renadic.v1", [("NO. OF POINTS", "NO. OF THINGS")], "1: found no line NO. OF POINTS"),
             (
@@ -198,7 +201,7 @@ class TestVolume1:
                 "28: found 200 points per second in format",
             ),
             ("csmip-even.raw", [("units of g .", "units of v .")], "28: found unit 'v'; give an"),
-            ("csmip-even.raw", [("   21 Acc", "   25 Acc")], "28: promises 25 values, found 21; g"),
+            ("csmip-even.raw", [("   21 Acc", "   25 Acc")], "28: states 25 values, found 21; g"),
         ],
     )
     def test_faults_are_told_with_their_line(

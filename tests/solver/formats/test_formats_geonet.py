@@ -73,13 +73,13 @@ def test_faults_are_told_with_their_line(
 def test_counts_must_hold(altered: Any, file: Any) -> None:
     text = (SAMPLES / "geonet.v1a").read_text()
     line = next(line for line in text.splitlines() if line.startswith("      21"))
-    for count, found in (("22", "21"), ("20", "more of them in line 29")):
+    for count, found in (("22", "21"), ("20", "more in line 29")):
         changed = line[:24] + count.rjust(8) + line[32:]
         (problem,) = problems_of(altered("geonet.v1a", (line, changed)))
-        assert problem.startswith(f"geonet.v1a:20: promises {count} values, found {found}")
+        assert problem.startswith(f"geonet.v1a:20: states {count} values, found {found}")
     changed = line[:24] + "       0" + line[32:]
     assert problems_of(altered("geonet.v1a", (line, changed))) == (
-        "geonet.v1a:20: promises 0 values; give at least 2",
+        "geonet.v1a:20: states 0 values; give at least 2",
     )
     changed = line[:24] + "    none" + line[32:]
     (problem,) = problems_of(altered("geonet.v1a", (line, changed)))
@@ -90,9 +90,9 @@ def test_a_cut_file_is_told(file: Any) -> None:
     lines = (SAMPLES / "geonet.v2a").read_text().splitlines()
     whole = len(lines) // 3
     cut = read_motion_file(file("\n".join(lines[: whole - 3])))
-    assert cut.notes == ("velocities or displacements are not all there: the file may be cut",)
+    assert cut.notes == ("velocities or displacements are incomplete: the file may be truncated",)
     (problem,) = problems_of(file("\n".join(lines[:27])))
-    assert problem == "roof.csv:20: promises 21 values, found 10; give the whole file"
+    assert problem == "roof.csv:20: states 21 values, found 10; give the whole file"
 
 
 def test_a_peak_of_the_heading_that_is_twice_that_of_the_values_is_refused(altered: Any) -> None:
@@ -105,4 +105,6 @@ def test_what_the_caller_says_must_agree() -> None:
     path = SAMPLES / "geonet.v2a"
     assert len(read_motion_file(path, units="mm/s2", dt_s=0.02).channels) == 3
     assert "the file is in mm/s/s but units are g" in problems_of(path, units="g")[0]
-    assert "the file steps by 0.02 s but dt is 0.005 s" in problems_of(path, dt_s=0.005)[0]
+    assert (
+        "the time step of the file is 0.02 s but dt is 0.005 s" in problems_of(path, dt_s=0.005)[0]
+    )

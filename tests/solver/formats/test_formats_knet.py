@@ -62,8 +62,8 @@ def test_the_peak_may_be_named_without_a_point(altered: Any) -> None:
     ("changes", "expected"),
     [
         ([("   15611", "   1561x")], ":18: found '1561x'; give a number"),
-        ([("Duration Time(s)  0.2", "Duration Time(s)  0.3")], ":12: promises 30 values, found 20"),
-        ([("Duration Time(s)  0.2", "Duration Time(s)  0.1")], ":12: promises 10 values, found 20"),
+        ([("Duration Time(s)  0.2", "Duration Time(s)  0.3")], ":12: states 30 values, found 20"),
+        ([("Duration Time(s)  0.2", "Duration Time(s)  0.1")], ":12: states 10 values, found 20"),
         ([("100Hz", "0Hz")], ":11: found '0Hz'; give a number above 0"),
         ([("100Hz", "unknown")], ":11: found 'unknown'; give a number above 0"),
         ([("3920(gal)/6182761", "3920/6182761")], ":14: found '3920/6182761'; give a scale as 39"),
@@ -85,4 +85,4 @@ def test_what_the_caller_says_must_agree() -> None:
     path = SAMPLES / "knet.ns"
     assert read_motion_file(path, units="gal", dt_s=0.01).channel().dt_s == 0.01
     assert "the file is in gal but units are g" in problems_of(path, units="g")[0]
-    assert "the file steps by 0.01 s but dt is 0.02 s" in problems_of(path, dt_s=0.02)[0]
+    assert "the time step of the file is 0.01 s but dt is 0.02 s" in problems_of(path, dt_s=0.02)[0]

@@ -72,7 +72,7 @@ def test_free_numbers_may_touch_at_a_sign() -> None:
     read = free_values(source("-.1234E-02-.5678E+01 1.-2.5+3"), block(5, 1))
     assert read.tolist() == [-0.001234, -5.678, 1.0, -2.5, 3.0]
     # An exponent without its letter is not guessed at: the count does not hold.
-    with pytest.raises(InputError, match=r"a:10: promises 2 values, found 3"):
+    with pytest.raises(InputError, match=r"a:10: states 2 values, found 3"):
         free_values(source("1.0-101 2.0"), block(2, 1))
 
 
@@ -100,12 +100,12 @@ def test_counts_that_do_not_hold_are_told_at_the_line_of_the_promise() -> None:
     for count, found in (
         (5, "found 4; give the whole"),
         (9, "found 4; give the whole"),
-        (3, "found 4; give the count"),
-        (2, "found more of them in line 2"),
+        (3, "found 4; correct the count"),
+        (2, "found more in line 2"),
     ):
         with pytest.raises(InputError) as caught:
             fixed_values(source(*lines), block(count, 3), layout)
-        assert caught.value.problems[0].startswith(f"a:10: promises {count} values, {found}")
+        assert caught.value.problems[0].startswith(f"a:10: states {count} values, {found}")
 
 
 def test_unused_fields_of_a_heading_may_be_anything() -> None:

@@ -70,8 +70,8 @@ def test_units_are_asked_for_only_where_the_heading_has_none(file: Any) -> None:
 @pytest.mark.parametrize(
     ("line", "values", "expected"),
     [
-        ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: promises 4 values, found 3; give the whole file"),
-        ("NPTS= 2, DT= .01 SEC", "1 2 3", "4: promises 2 values, found 3; give the count that"),
+        ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; give the whole file"),
+        ("NPTS= 2, DT= .01 SEC", "1 2 3", "4: states 2 values, found 3; correct the count"),
         ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; give dt"),
         ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; give a number above 0"),
         ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; give the count and the step as in NPTS="),
@@ -79,8 +79,8 @@ def test_units_are_asked_for_only_where_the_heading_has_none(file: Any) -> None:
         ("NPTS= 3, DT= .01 SEC", "1 ***** 3", "5: found '*****', a number too large for its"),
         ("NPTS= 3, DT= .01 SEC", "1 1_0 3", "5: found '1_0'; give a number"),
         ("NPTS= 3, DT= .01 SEC", "1 nan 3", "5: found 'nan'; give a number"),
-        ("NPTS= 1, DT= .01 SEC", "1", "4: promises 1 value; give at least 2"),
-        ("NPTS= 0, DT= .01 SEC", "", "4: promises 0 values; give at least 2"),
+        ("NPTS= 1, DT= .01 SEC", "1", "4: states 1 value; give at least 2"),
+        ("NPTS= 0, DT= .01 SEC", "", "4: states 0 values; give at least 2"),
     ],
 )
 def test_faults_are_told_with_their_line(file: Any, line: str, values: str, expected: str) -> None:
@@ -103,9 +103,10 @@ def test_a_file_of_velocity_is_refused(file: Any) -> None:
 def test_units_and_step_that_contradict_the_heading_are_refused() -> None:
     path = SAMPLES / "peer-nga.at2"
     assert problems_of(path, units="m/s2") == (
-        "peer-nga.at2:3: the file is in G but units are m/s2; give the file's own, or none",
+        "peer-nga.at2:3: the file is in G but units are m/s2; give the units of the file, or none",
     )
     assert problems_of(path, dt_s=0.01) == (
-        "peer-nga.at2:4: the file steps by 0.005 s but dt is 0.01 s; give the file's own, or none",
+        "peer-nga.at2:4: the time step of the file is 0.005 s but dt is 0.01 s; give the dt of the"
+        " file, or none",
     )
     assert read_motion_file(path, units="g", dt_s=0.005).channel().dt_s == 0.005

@@ -74,16 +74,16 @@ def test_a_flagged_record_says_so(altered: Any) -> None:
     [
         ("smc-corrected.smc", [(" 1.2125E+1", " *********")], "30: found '*********', a nu"),
         ("smc-corrected.smc", [(" 1.2125E+1", " 1.21x5E+1")], "30: found '1.21x5E+1'; give a num"),
-        ("smc-corrected.smc", [("        21  ", "        22  ")], "14: promises 22 values, f"),
-        ("smc-corrected.smc", [("        21  ", "        16  ")], "14: promises 16 values, f"),
+        ("smc-corrected.smc", [("        21  ", "        22  ")], "14: states 22 values, f"),
+        ("smc-corrected.smc", [("        21  ", "        16  ")], "14: states 16 values, f"),
         ("smc-corrected.smc", [("        21  ", "    -32768  ")], "14: found no number of values"),
         ("smc-corrected.smc", [("         2\r", "    -32768\r")], "13: found no number of li"),
         ("smc-corrected.smc", [("         2\r", "         3\r")], "30: found a line without | am"),
         ("smc-corrected.smc", [("-0.1234600E+03", "-0.9234600E+03")], "23: the header states a pe"),
-        ("smc-uneven.smc", [("        26  ", "        28  ")], "14: promises 28 values, found 26;"),
+        ("smc-uneven.smc", [("        26  ", "        28  ")], "14: states 28 values, found 26;"),
         ("smc-uneven.smc", [(" 1.2500E+1", "          ")], "30: found ''; give a number"),
         ("smc-uneven.smc", [(" 2.0000E-2", " 1.2000E-2")], "30: found time 0.012 s after 0.012 s,"),
-        ("smc-uneven.smc", [("-6.1250E+1", "          ")], "14: promises 26 values, found 25; g"),
+        ("smc-uneven.smc", [("-6.1250E+1", "          ")], "14: states 26 values, found 25; g"),
         ("smc-uneven.smc", [("-6.1250E+1", "          "), ("        26  ", "        25  ")],
          "31: found 1 values; give pairs of time and acceleration"),
     ],
@@ -106,4 +106,6 @@ def test_what_the_caller_says_must_agree() -> None:
     path = SAMPLES / "smc-corrected.smc"
     assert read_motion_file(path, units="gal", dt_s=0.005).channel().dt_s == 0.005
     assert "the file is in cm/s2 but units are mm/s2" in problems_of(path, units="mm/s2")[0]
-    assert "the file steps by 0.005 s but dt is 0.01 s" in problems_of(path, dt_s=0.01)[0]
+    assert (
+        "the time step of the file is 0.005 s but dt is 0.01 s" in problems_of(path, dt_s=0.01)[0]
+    )

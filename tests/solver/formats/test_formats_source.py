@@ -86,7 +86,9 @@ def test_a_given_step_may_differ_by_the_rounding_of_the_stated_one(
 
 def test_a_given_step_beyond_the_rounding_is_refused(file: Any) -> None:
     source = open_source(file("x"), units="", dt_s=0.01)
-    with pytest.raises(InputError, match=r"the file steps by 0.008 s but dt is 0.01 s; give the f"):
+    with pytest.raises(
+        InputError, match=r"the time step of the file is 0.008 s but dt is 0.01 s; give the dt"
+    ):
         source.step(Stated(value=0.008, rounding=0.0005, index=0))
 
 

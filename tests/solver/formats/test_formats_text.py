@@ -108,7 +108,7 @@ class TestUnits:
     def test_units_that_a_heading_contradicts_are_refused(self, file: Any) -> None:
         (problem,) = problems_of(file("# x\ntime_s,acc_gal\n0,100\n1,200\n"), units="g")
         assert problem == (
-            "roof.csv:2: the file is in gal but units are g; give the file's own, or none"
+            "roof.csv:2: the file is in gal but units are g; give the units of the file, or none"
         )
 
     def test_two_units_in_one_heading_are_refused(self, file: Any) -> None:
@@ -128,12 +128,16 @@ class TestStep:
     def test_a_step_that_a_remark_contradicts_is_refused(self, file: Any) -> None:
         (problem,) = problems_of(file("# dt = 0.005\n1\n2\n"), dt_s=0.01)
         assert problem == (
-            "roof.csv:1: the file steps by 0.005 s but dt is 0.01 s; give the file's own, or none"
+            "roof.csv:1: the time step of the file is 0.005 s but dt is 0.01 s; give the dt of the"
+            " file, or none"
         )
 
     def test_a_given_step_that_disagrees_with_the_times_is_refused(self, file: Any) -> None:
         (problem,) = problems_of(file("0,1\n0.01,2\n"), dt_s=0.02)
-        assert problem == "roof.csv: the times step by 0.01 s but dt is 0.02 s; give one of them"
+        assert problem == (
+            "roof.csv: the time step in the file is 0.01 s but dt is 0.02 s; omit dt, or correct"
+            " one of them"
+        )
 
 
 class TestSeveralColumns:
@@ -145,7 +149,7 @@ class TestSeveralColumns:
         assert {record.dt_s for record in found.channels} == {0.5}
         assert found.channel("ew").a_mps2.tolist() == [0.02, 0.05]
         assert found.channel("3").a_mps2.tolist() == [3 * G, 6 * G]
-        assert found.notes == ("column 'vel_cm/s' is left out: it is no acceleration",)
+        assert found.notes == ("column 'vel_cm/s' is ignored: it is not an acceleration",)
 
     def test_a_channel_must_be_chosen(self, file: Any) -> None:
         (problem,) = problems_of(file(self.CONTENT), units="")
@@ -153,7 +157,7 @@ class TestSeveralColumns:
             "roof.csv: found several channels; give one by name or number: 1 NS; 2 EW; 3 UD"
         )
         (problem,) = problems_of(file(self.CONTENT), units="", channel="roof")
-        assert problem.startswith("roof.csv: channel 'roof' is not there; give one by name")
+        assert problem.startswith("roof.csv: found no channel 'roof'; give one by name")
 
     def test_a_letter_g_among_letters_is_no_unit(self, file: Any) -> None:
         content = "time_s,ch_f,ch_g,ch_h\n0,1,2,3\n1,4,5,6\n"

@@ -58,8 +58,8 @@ class TestUnevenTimes:
         expected = [0.0, 0.5, 1.0, -2.0, -1.375, -0.75, -0.125, 0.5, 3.0, 0.0]
         assert found.columns[0].tolist() == pytest.approx(expected, abs=1e-12)
         assert found.notes == (
-            "times are uneven, steps of 0.01 to 0.04 s: resampled at 0.01 s by straight lines,"
-            " which moves no sample",
+            "times are uneven, steps of 0.01 to 0.04 s: resampled at 0.01 s by linear"
+            " interpolation, which changes no sample",
         )
 
     @given(
@@ -117,7 +117,7 @@ class TestUnevenTimes:
         t = [i / 100 + 2.0 * (i // 20) for i in range(120)]
         found = read_motion_file(file("".join(f"{x:.2f},1\n" for x in t)), units="g")
         assert found.notes[1] == (
-            "roof.csv:21: no samples between 0.19 and 2.2 s: a straight line stands there"
+            "roof.csv:21: no samples between 0.19 and 2.2 s: interpolated linearly"
         )
         assert len(found.notes) == 5
         assert found.notes[-1] == "... and 2 more gaps"
@@ -138,7 +138,7 @@ class TestUnevenTimes:
         with pytest.raises(InputError) as caught:
             read_record(file("0 1\n1 2\n3 4\n"), units="g", dt_s=1.0)
         assert caught.value.problems == (
-            "roof.csv: found uneven times but dt is 1 s; give no dt, the record is then resampled",
+            "roof.csv: found uneven times but dt is 1 s; omit dt, and the record is resampled",
         )
 
     def test_a_record_that_would_grow_without_end_is_refused(

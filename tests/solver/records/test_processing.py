@@ -234,14 +234,15 @@ class TestTogether:
 def test_words_say_everything_that_is_done():
     assert Processing().words() == "as recorded"
     assert Processing(baseline=0, highpass_hz=0.1).words() == (
-        "mean removed; high-pass 0.1 Hz, order 4, zero phase; 60 s of zeros before and after kept"
+        "mean removed; high-pass 0.1 Hz, order 4, zero phase; pads of 60 s before and after are "
+        "kept"
     )
     assert Processing(
         from_s=2.0, to_s=30.5, baseline=1, highpass_hz=0.25, lowpass_hz=25.0, order=2, dt_s=0.005,
         pad_s=10.0,
     ).words() == (
         "cut to 2 s to 30.5 s; straight line removed; high-pass 0.25 Hz, order 2, zero phase; "
-        "low-pass 25 Hz, order 2, zero phase; 12 s of zeros before and after kept; resampled to "
+        "low-pass 25 Hz, order 2, zero phase; pads of 12 s before and after are kept; resampled at "
         "0.005 s; 10 s of zeros added at the end"
     )  # fmt: skip
     assert Processing(from_s=3.0, baseline=5).words() == (
@@ -257,8 +258,8 @@ def test_words_say_everything_that_is_done():
         ({"from_s": math.nan}, "r: cut from nan s to inf s"),
         ({"from_s": 20.0}, "leaves 0 samples of a record of 19.99 s; give a longer part"),
         ({"to_s": 0.05, "baseline": 5}, "leaves 6 samples of a record of 19.99 s"),
-        ({"baseline": 9}, "degree of the base line is 9; give 0 (mean) to 8, or -1 for none"),
-        ({"baseline": -2}, "degree of the base line is -2"),
+        ({"baseline": 9}, "degree of the baseline is 9; give 0 (mean) to 8, or -1 for none"),
+        ({"baseline": -2}, "degree of the baseline is -2"),
         ({"highpass_hz": -0.1}, "high-pass corner is -0.1 Hz; give a frequency, 0 for none"),
         ({"lowpass_hz": math.inf}, "low-pass corner is inf Hz"),
         ({"highpass_hz": 50.0}, "high-pass corner is 50 Hz; give less than 50 Hz, half"),
@@ -269,9 +270,9 @@ def test_words_say_everything_that_is_done():
         ({"dt_s": -0.1}, "new time step: -0.1 s; give a number of seconds, 0 for none"),
         ({"dt_s": 30.0}, "new time step is 30 s; give less than the 19.99 s of the record"),
         ({"pad_s": math.nan}, "zeros at the end: nan s; give a number of seconds"),
-        ({"pad_s": 1e9}, "becomes 1e+11 samples; give a coarser step, higher corners or fewer"),
-        ({"highpass_hz": 1e-6}, "becomes 1.2e+09 samples"),
-        ({"dt_s": 1e-7}, "becomes 2e+08 samples"),
+        ({"pad_s": 1e9}, "gives 1e+11 samples; give a larger step, higher corners or fewer"),
+        ({"highpass_hz": 1e-6}, "gives 1.2e+09 samples"),
+        ({"dt_s": 1e-7}, "gives 2e+08 samples"),
     ],
 )  # fmt: skip
 def test_what_makes_no_sense_is_said(noise, settings, message):

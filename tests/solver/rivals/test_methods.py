@@ -75,7 +75,7 @@ def test_a_sweep_ends_finer_than_it_begins(noise):
     record = noise[500:1100]
     for method in METHODS.values():
         ends = [method.settings(value, 0.01, G) for value in method.sweep[::5]]
-        if ends and method.name != "regularised":
+        if ends and method.name != "regularized":
             coarse, *_, fine = (errors(record, 0.01, method.name, **some).max() for some in ends)
             assert fine < 0.1 * coarse
 
@@ -100,10 +100,10 @@ CEILINGS = {
     "adaptive": 0.01,
     "penalty-explicit": 0.005,
     "penalty-implicit": 0.005,
-    "regularised": 0.01,
+    "regularized": 0.01,
 }
 FINE = {
-    "regularised": {"velocity_mps": 1e-3, "tolerance": 1e-6},
+    "regularized": {"velocity_mps": 1e-3, "tolerance": 1e-6},
     **dict.fromkeys(LINKS, link_at(0.5, 0.01, 100)),
 }
 
@@ -214,7 +214,7 @@ def test_linear_acceleration_follows_a_lasting_slip_to_rounding():
     assert found.prd_m == pytest.approx(exact.prd_m, rel=1e-13)
 
 
-# Stick and slip: an envelope over scenes and neighbouring numbers of sub-steps, and a ceiling.
+# Stick and slip: an envelope over scenes and neighboring numbers of sub-steps, and a ceiling.
 
 
 @pytest.mark.parametrize(
@@ -371,10 +371,10 @@ def test_a_block_that_slides_freely_needs_no_link():
         assert found.status is Status.SLIDING_AT_END
 
 
-# Regularised friction
+# Regularized friction
 
 
-def test_regularised_friction_creeps_where_the_block_should_stick():
+def test_regularized_friction_creeps_where_the_block_should_stick():
     slope, mu, velocity = math.radians(4), 0.3, 0.001
     scene = {"slope_rad": slope, "mu": mu}
     still = np.zeros(400)
@@ -382,7 +382,7 @@ def test_regularised_friction_creeps_where_the_block_should_stick():
     creep = velocity * math.atanh(math.tan(slope) / mu) * 3.99 * math.cos(slope)
     for tolerance in (1e-4, 1e-6):
         some = {"velocity_mps": velocity, "tolerance": tolerance}
-        found = slide(still, 0.01, **scene, method="regularised", **some)
+        found = slide(still, 0.01, **scene, method="regularized", **some)
         assert found.down_m == pytest.approx(creep, rel=0.01)
         assert found.status is Status.OK
 
@@ -392,7 +392,7 @@ def test_no_tolerance_mends_what_a_large_velocity_spoils(noise):
 
     def off(v, tolerance):
         some = {"velocity_mps": v, "tolerance": tolerance}
-        return errors(record, 0.01, "regularised", scenes=scenes, **some).max()
+        return errors(record, 0.01, "regularized", scenes=scenes, **some).max()
 
     loose, tight, slow = off(0.02, 1e-3), off(0.02, 1e-6), off(0.002, 1e-4)
     assert tight > 0.5 * loose
@@ -402,7 +402,7 @@ def test_no_tolerance_mends_what_a_large_velocity_spoils(noise):
 def test_a_tighter_tolerance_comes_closer_to_its_own_limit():
     t = np.arange(201) * 0.01
     ax = 4.0 * np.sin(2 * np.pi * t)
-    scene = {"slope_rad": 0.0, "mu": 0.2, "method": "regularised", "velocity_mps": 0.05}
+    scene = {"slope_rad": 0.0, "mu": 0.2, "method": "regularized", "velocity_mps": 0.05}
     limit = slide(ax, 0.01, **scene, tolerance=1e-11).residual_m
     off = [
         abs(slide(ax, 0.01, **scene, tolerance=e).residual_m - limit) for e in (1e-3, 1e-5, 1e-7)
@@ -413,14 +413,14 @@ def test_a_tighter_tolerance_comes_closer_to_its_own_limit():
 
 def test_a_stalled_run_is_given_up(monkeypatch, noise):
     monkeypatch.setattr(regularized, "EVALUATIONS", 200)
-    found = slide(noise, 0.01, slope_rad=0.0, mu=0.3, method="regularised")
+    found = slide(noise, 0.01, slope_rad=0.0, mu=0.3, method="regularized")
     assert found.status is Status.DIVERGED
 
 
-def test_without_scipy_the_regularised_method_says_what_to_install(monkeypatch, noise):
+def test_without_scipy_the_regularized_method_says_what_to_install(monkeypatch, noise):
     monkeypatch.setitem(sys.modules, "scipy.integrate", None)
     with pytest.raises(InputError, match=r"install roofslip\[verify\]"):
-        slide(noise, 0.01, slope_rad=0.0, mu=0.3, method="regularised")
+        slide(noise, 0.01, slope_rad=0.0, mu=0.3, method="regularized")
 
 
 # One signature
@@ -471,8 +471,8 @@ def test_vertical_shaking_is_taken_or_refused_as_the_method_says(noise, name):
         ("linear", {"substeps": math.inf}, "substeps is inf; give a whole number"),
         ("linear", {"substeps": "8"}, "substeps is '8'; give a whole number"),
         ("penalty-implicit", {"stiffness_per_m": 0.0}, "stiffness_per_m is 0.0; give a finite"),
-        ("regularised", {"velocity_mps": math.nan}, "velocity_mps is nan; give a finite"),
-        ("regularised", {"tolerance": 1.0}, "tolerance is 1.0; give a number from 1e-13 to 0.1"),
+        ("regularized", {"velocity_mps": math.nan}, "velocity_mps is nan; give a finite"),
+        ("regularized", {"tolerance": 1.0}, "tolerance is 1.0; give a number from 1e-13 to 0.1"),
     ],
 )
 def test_parameters_at_fault_raise_the_input_error(name, parameters, message):

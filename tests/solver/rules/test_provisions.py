@@ -9,7 +9,7 @@ from solver.model import InputError
 from solver.rules.provisions import (
     RULE_SETS,
     Basis,
-    Neighbour,
+    Neighbor,
     analysis_checks,
     analysis_value,
     array_checks,
@@ -61,7 +61,7 @@ def test_a_permit_sheet_is_reproduced_with_full_precision_kept():
     assert f"{delta / INCH:.1f}" == "25.4"
     feet = [
         f"{required_separation(A16, kind, design_m=delta, importance=1.0) / 0.3048:.2f}"
-        for kind in (Neighbour.LIKE, Neighbour.FIXED, Neighbour.PARAPET, Neighbour.EDGE)
+        for kind in (Neighbor.LIKE, Neighbor.FIXED, Neighbor.PARAPET, Neighbor.EDGE)
     ]
     assert feet == ["1.06", "2.12", "2.12", "4.23"]
 
@@ -69,18 +69,18 @@ def test_a_permit_sheet_is_reproduced_with_full_precision_kept():
 def test_the_importance_factor_enters_once_in_each_rule_set():
     for rules in (PV1, A16):
         delta = prescriptive_displacement(rules, s_ds_g=1.4, sdc="D", importance=1.25).value_m
-        found = required_separation(rules, Neighbour.UNLIKE, design_m=delta, importance=1.25)
+        found = required_separation(rules, Neighbor.UNLIKE, design_m=delta, importance=1.25)
         assert found == pytest.approx(1.25 * 60 * INCH, rel=1e-12)
 
 
 def test_an_edge_without_parapet_needs_at_least_four_feet_in_asce_7():
     for rules, expected in ((PV1, 0.2), (A16, 4 * 0.3048)):
-        found = required_separation(rules, Neighbour.EDGE, design_m=0.1, importance=1.0)
+        found = required_separation(rules, Neighbor.EDGE, design_m=0.1, importance=1.0)
         assert found == pytest.approx(expected, rel=1e-12)
 
 
 def test_without_a_design_displacement_there_is_no_separation():
-    for kind in Neighbour:
+    for kind in Neighbor:
         assert math.isnan(required_separation(A16, kind, design_m=math.nan, importance=1.0))
 
 
@@ -193,4 +193,4 @@ def test_the_reciprocal_tail_falls_as_one_over_the_period_beyond_0_77_s():
         assert line.at(1 / period[-1:]) == pytest.approx(0.1 * flexible, rel=1e-12)
         assert np.array_equal(reciprocal.sa_g[1:], line.sa_g[1:])
     assert "1/T" in Tail.RECIPROCAL.sentence
-    assert "line of AC156" in Tail.AC156.sentence
+    assert "AC156 line" in Tail.AC156.sentence

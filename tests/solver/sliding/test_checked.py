@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -357,7 +358,7 @@ def test_vertical_shaking_alone_can_lift_the_block():
 
 
 def law(**changes):
-    """A law of friction by speed, with changes."""
+    """A velocity-dependent friction law, with changes."""
     values = {"mu_slow": 0.2, "mu_fast": 0.3, "rate_s_per_m": 20.0, "mu_static": 0.2}
     return Friction(**(values | changes))
 
@@ -380,13 +381,16 @@ def law(**changes):
         ({"dt_s": 10**400}, r"dt_s is 10+\.\.\.; give"),
         ({"mu": "0.3"}, "mu is '0.3'; give a friction coefficient of 0 or more"),
         ({"mu": 0.3 + 0.0j}, r"mu is \(0.3\+0j\)"),
-        ({"scale": 1e308}, "are beyond floating point; give another scale"),
-        ({"dt_s": 5e-324}, "are beyond floating point"),
-        ({"dt_s": 1e200}, "are beyond floating point"),
+        ({"scale": 1e308}, "exceed the floating-point range; change scale"),
+        ({"dt_s": 5e-324}, "exceed the floating-point range"),
+        ({"dt_s": 1e200}, "exceed the floating-point range"),
         ({"mu": law(mu_slow=-0.1)}, "mu_slow is -0.1; give a friction coefficient of 0 or more"),
         ({"mu": law(rate_s_per_m=math.nan)}, "rate_s_per_m is nan; give a number of s/m"),
         ({"mu": law(mu_static=0.1)}, "mu_static is 0.1; give mu_slow, 0.2, or more"),
-        ({"mu": law(), "method": "paper"}, "method is 'paper'; two axes and friction by speed"),
+        (
+            {"mu": law(), "method": "paper"},
+            "method is 'paper'; two axes and velocity-dependent friction",
+        ),
         ({"mu": law(), "tolerance": 1.0}, "tolerance is 1.0; give a number from 1e-10 to 0.01"),
         ({"az_mps2": [0.0, 0.0]}, r"az_mps2 has shape \(2,\)"),
         ({"az_mps2": [0.0, math.inf, 0.0]}, r"az_mps2\[1\] is inf"),
@@ -463,3 +467,41 @@ def test_methods_that_are_not_exact_state_no_error(noise):
     assert math.isnan(slide(noise, 0.01, slope_rad=0.0, mu=0.2, method="paper").error_m)
     exact = slide(noise, 0.01, slope_rad=0.0, mu=0.2)
     assert 0.0 < exact.error_m < 1e-11
+
+
+def test_every_public_call_checks_a_scene_made_by_hand():
+    good = solver.scene([0.0, 4.0, -4.0, 0.0], 0.1, slope_rad=0.0, mu=0.1)
+    bad = replace(good, dt_s=-0.1, scale=math.nan)
+    for call in (solver.solve, lambda scene: solver.history(scene, solver.solve(good))):
+        with pytest.raises(InputError) as error:
+            call(bad)
+        assert len(error.value.problems) == 2
+
+
+def test_a_solved_scene_has_a_history():
+    scene = solver.scene([0.0, 4.0, -4.0, 0.0], 0.1, slope_rad=0.0, mu=0.1)
+    solution = solver.solve(scene)
+    assert solver.history(scene, solution).result == solution.result
+
+
+def test_results_are_short_to_read_and_tables_where_they_are_rows():
+    scene = solver.scene([0.0] * 6000, 0.005, slope_rad=0.02, mu=0.5)
+    history = solver.slide_history([0.0, 4.0, -4.0, 0.0], 0.1, slope_rad=0.0, mu=0.1)
+    sweep = solver.sweep([0.0, 4.0, 0.0], 0.1, slopes_rad=[0.0, 0.1], mus=[0.2], scales=[1.0, 2.0])
+    assert repr(scene) == (
+        "Scene(1 component of 6000 samples at 0.005 s, slope 1.146 deg, mu 0.5, scale 1)"
+    )
+    assert repr(sweep) == "Sweep(2 slopes, 1 friction coefficients, 2 scales)"
+    assert len(repr(history)) < 500
+    frame = history.to_frame()
+    assert frame["u_m"].tolist() == history.u_m.tolist()
+    assert frame.index.tolist() == history.t_s.tolist()
+    assert (
+        "across_m"
+        in solver.slide_history(
+            [0.0, 4.0, 0.0], 0.1, slope_rad=0.0, mu=0.1, ay_mps2=[0.0, 1.0, 0.0]
+        ).to_frame()
+    )
+    table = sweep.to_frame()
+    assert table.loc[(0.1, 0.2, 2.0), "prd_m"] == sweep.prd_m[1, 0, 1]
+    assert set(table["status"]) <= {"ok", "sliding_at_end", "uplift"}

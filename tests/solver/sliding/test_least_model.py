@@ -169,7 +169,7 @@ def test_a_forced_rung_is_run_and_tells_what_the_next_would_change():
     assert one.next_effect_m == pytest.approx(max(both), abs=2.0 * two.result.error_m)
     assert lifted.next_rung is Rung.TWO_AXES
     assert lifted.next_effect_m >= abs(two.result.prd_m - lifted.result.prd_m)
-    assert {one.reason, lifted.reason, two.reason} == {"asked for"}
+    assert {one.reason, lifted.reason, two.reason} == {"requested"}
 
 
 def test_two_axes_forced_with_one_component_give_one_axis():

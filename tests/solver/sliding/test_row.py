@@ -368,7 +368,7 @@ def test_every_fault_of_a_row_is_named():
     ]  # fmt: skip
     with pytest.raises(InputError, match="mus is empty"):
         slide_row(shaken(1), BlockRow(mus=(), stiffness_per_s2=1.0))
-    with pytest.raises(InputError, match="add up to 1"):
+    with pytest.raises(InputError, match="with a sum of 1"):
         slide_row(shaken(1), replace(MIXED, shares=(0.2, 0.2, 0.2, 0.2)))
     with pytest.raises(InputError, match="softer links"):
         slide_row(shaken(1), replace(MIXED, stiffness_per_s2=1e16))

@@ -68,7 +68,7 @@ def test_every_value_at_fault_is_named():
         assert name in text
 
 
-def test_scenes_that_yield_alike_are_neighbours():
+def test_scenes_that_yield_alike_are_neighbors():
     scenes = np.array([(s, m, k) for s in SLOPES for m in FRICTIONS for k in SCALES])
     order = order_alike(scenes)
     assert sorted(order) == list(range(len(scenes)))

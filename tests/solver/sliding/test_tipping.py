@@ -36,7 +36,7 @@ def test_a_block_that_friction_holds_tips_by_its_demand():
     assert found.demand == pytest.approx(0.3, rel=1e-15)
     assert found.held_ratio == pytest.approx(1.2, rel=1e-15)
     assert found.sliding_ratio == 0.0
-    assert (found.governs, found.is_ok) == ("held", False)
+    assert (found.governs, found.is_ok) == ("at rest", False)
 
 
 @pytest.mark.parametrize("peak_g", [0.6, 2.0, 50.0])
@@ -57,7 +57,7 @@ def test_static_friction_governs_at_the_moment_it_slips():
     law = Friction(mu_slow=0.2, mu_fast=0.2, rate_s_per_m=0.0, mu_static=0.3)
     found = tipping(replace(scene([0.0, 1.0, 0.0]), friction=law), SLENDER)
     assert (found.held_ratio, found.sliding_ratio) == (1.2, 0.8)
-    assert (found.governs, found.is_ok) == ("held", False)
+    assert (found.governs, found.is_ok) == ("at rest", False)
 
 
 def test_friction_that_grows_with_speed_governs_while_it_slides():

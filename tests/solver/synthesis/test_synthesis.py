@@ -20,7 +20,7 @@ from solver.synthesis import (
     make_suite,
     spectrum_fit,
     suite,
-    synthesise,
+    synthesize,
     target,
     target_sa_g,
 )
@@ -180,21 +180,21 @@ class TestSynthesis:
     ) -> None:
         # 1/T beyond 0.77 s, then flat and falling.
         tail = np.array([0.1, 1.0 / 0.77, 8.3, 33.3]), np.array([0.077, 1.0, 1.0, 0.75])
-        record = synthesise(tail, rng=rng(1), dt_s=dt_s, duration_s=duration_s, name="tail")
+        record = synthesize(tail, rng=rng(1), dt_s=dt_s, duration_s=duration_s, name="tail")
         assert len(record.a_mps2) == round(duration_s / dt_s) + 1
         ratio = modal_psa_g(record, BAND) / target_sa_g(tail, BAND)
         assert 0.9 <= ratio.min() <= ratio.max() <= 1.3
 
     def test_a_target_that_begins_above_the_band_is_flat_below(self) -> None:
         flat = np.array([2.0, 20.0]), np.array([1.0, 1.0])
-        record = synthesise(flat, rng=rng(1), dt_s=0.01, duration_s=20.0, name="flat")
+        record = synthesize(flat, rng=rng(1), dt_s=0.01, duration_s=20.0, name="flat")
         assert modal_psa_g(record, BAND[:24]) == pytest.approx(1.0, abs=0.1)
 
     def test_a_motion_like_another_is_drawn_again(self) -> None:
         how: dict[str, Any] = {"dt_s": 0.01, "duration_s": 12.0, "name": "x"}
-        first = synthesise(HORIZONTAL, rng=rng(1), **how)
-        assert np.array_equal(synthesise(HORIZONTAL, rng=rng(1), **how).a_mps2, first.a_mps2)
-        second = synthesise(HORIZONTAL, rng=rng(1), unlike=(first,), **how)
+        first = synthesize(HORIZONTAL, rng=rng(1), **how)
+        assert np.array_equal(synthesize(HORIZONTAL, rng=rng(1), **how).a_mps2, first.a_mps2)
+        second = synthesize(HORIZONTAL, rng=rng(1), unlike=(first,), **how)
         assert abs(np.corrcoef(first.a_mps2, second.a_mps2)[0, 1]) <= 0.3
 
     def test_a_target_out_of_reach_is_told(self, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -202,17 +202,17 @@ class TestSynthesis:
         monkeypatch.setattr(target, "LEAST", 1.5)
         with pytest.raises(
             InputError,
-            match=r"x: 2 motions of 12 s all miss .*, the nearest having 0\.9\d to 1\.\d\d of it",
+            match=r"x: 2 motions of 12 s all miss .*; the closest has 0\.9\d to 1\.\d\d times",
         ):
-            synthesise(HORIZONTAL, rng=rng(1), dt_s=0.01, duration_s=12.0, name="x")
+            synthesize(HORIZONTAL, rng=rng(1), dt_s=0.01, duration_s=12.0, name="x")
 
     @pytest.mark.parametrize(
         ("how", "expected"),
         [
             ({"target": ([1.0], [1.0])}, "as many accelerations as frequencies"),
             ({"target": ([1.0, 2.0], [1.0, 1.0, 1.0])}, "as many accelerations as frequencies"),
-            ({"target": ([2.0, 1.0], [1.0, 1.0])}, "give rising frequencies above 0"),
-            ({"target": ([0.0, 1.0], [1.0, 1.0])}, "give rising frequencies above 0"),
+            ({"target": ([2.0, 1.0], [1.0, 1.0])}, "give increasing frequencies above 0"),
+            ({"target": ([0.0, 1.0], [1.0, 1.0])}, "give increasing frequencies above 0"),
             ({"target": ([1.0, 2.0], [1.0, -1.0])}, "give accelerations above 0"),
             ({"target": ([1.0, 2.0], [1.0, np.nan])}, "give accelerations above 0"),
             ({"dt_s": 0.02}, "time step dt is 0.02; give 0.001 to 0.01 s"),
@@ -223,7 +223,7 @@ class TestSynthesis:
     def test_impossible_arguments_are_refused(self, how: dict[str, Any], expected: str) -> None:
         usual: dict[str, Any] = {"target": HORIZONTAL, "dt_s": 0.005, "duration_s": 30.0}
         with pytest.raises(InputError, match=expected):
-            synthesise(**(usual | how), rng=rng(1), name="x")
+            synthesize(**(usual | how), rng=rng(1), name="x")
 
 
 class TestFit:

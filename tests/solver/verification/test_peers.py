@@ -53,7 +53,7 @@ def test_a_peer_that_raises_or_gives_up_is_a_hole_with_its_reason(monkeypatch):
     assert all(math.isnan(p.seconds) and math.isnan(p.prd_error_percent) for p in found)
     assert [point.note for point in found[::2]] == [
         "one axis; RuntimeError: no library",
-        "one axis; as is. It did not converge",
+        "one axis; as is; did not converge",
     ]
 
 

@@ -24,7 +24,7 @@ def test_every_check_passes(rows):
 
 
 def test_each_rung_is_chosen_once(rows):
-    assert [row.found for row in rows if row.quantity == "Rung chosen"] == [0, 1, 2, 3, 4]
+    assert [row.found for row in rows if row.quantity == "Model chosen"] == [0, 1, 2, 3, 4]
 
 
 def test_every_tolerance_is_met_against_scipy(rows):
@@ -43,8 +43,8 @@ def test_a_solver_that_is_off_by_a_millionth_fails(monkeypatch):
 
     monkeypatch.setattr(two_axes, "run", off)
     failed = [row for row in rungs.rung_checks(own_triples(True), quick=True) if not row.passed]
-    assert any(row.problem.startswith("Nothing across") for row in failed)
-    assert any(row.problem.startswith("One component turned") for row in failed)
+    assert any(row.problem.startswith("No cross-slope") for row in failed)
+    assert any(row.problem.startswith("One component rotated") for row in failed)
 
 
 def test_a_motion_whose_vertical_lifts_the_block_is_left_out():

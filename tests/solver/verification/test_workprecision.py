@@ -30,10 +30,10 @@ def test_every_method_runs_in_every_case_over_its_settings(points):
     assert {point.method for point in points} == set(METHODS)
     for name, method in METHODS.items():
         mine = [point for point in points if point.method == name]
-        cases = 2 if name == "regularised" else 3
+        cases = 2 if name == "regularized" else 3
         assert len({point.scene for point in mine}) == cases
         wanted = [math.nan] if not method.knob else list(method.sweep[::2])
-        if name == "regularised":
+        if name == "regularized":
             wanted = list(method.sweep[:2])
         np.testing.assert_array_equal([p.setting for p in mine], wanted * cases)
 
