@@ -41,7 +41,9 @@ def _ac156(package: PackageData) -> Iterator[Line]:
     found, vertical = package.assessment.horizontal_target, package.assessment.vertical_target
     s_ds, height = number(site.s_ds, 3), number(site.roof_height_m / site.structure_height_m, 3)
     amplification = package.assessment.rules.amplification
-    slope, reduction = f"{amplification.slope:g}", f"{amplification.reduction:g}"
+    is_above_grade = site.roof_height_m > 0.0  # at grade there is no reduction
+    slope = f"{amplification.slope:g}"
+    reduction = f"{amplification.reduction:g}" if is_above_grade else "1"
     if reduction == "1":
         formula = rf"S_{{DS}}\left(1+{slope}\,\frac{{z}}{{h}}\right)"
         amplified = f"(1 + {slope} × {height})"

@@ -135,7 +135,7 @@ def _combinations(package: PackageData) -> str:
             "No motion has a second horizontal component: each record is applied along the slope, "
             "in the polarities that the workbook requests. Cross-slope shaking also uses part of "
             "the friction: with both components most displacements are larger (verification "
-            "manual, section 12)."
+            "manual)."
         )
     both = all(len(motion.signs) == 2 for motion in motions)
     of = "Each motion has" if two == len(motions) else f"{two} of {len(motions)} motions have"
@@ -237,7 +237,9 @@ def _neglected_rows(
     solutions = [run.solution for run in _runs(found)]
     neglected = sorted({one.next_rung for one in solutions if one.next_rung > one.rung})
     for rung in neglected:
-        yield _effect_row(package, found, rung, [one for one in solutions if one.next_rung is rung])
+        # A run that already has this model has nothing to tell of it.
+        without = [one for one in solutions if one.next_rung is rung > one.rung]
+        yield _effect_row(package, found, rung, without)
     if neglected:
         return
     blank = ("—",) * 4

@@ -118,6 +118,17 @@ def test_a_neglected_vertical_component_has_its_exact_effect():
     assert texts(row)[-1] == "exact: both models run"
 
 
+def test_a_run_that_has_the_model_says_nothing_of_neglecting_it():
+    gentle, full = alone(stand_in.motions(2, seconds=8.0))
+    gentle = replace(gentle, az_mps2=gentle.az_mps2 * 1e-3)
+    gentle.az_mps2.setflags(write=False)
+    found = scene((gentle, full, full), arrays=[stand_in.array("A1", 1.0, mu=0.5)])
+    rungs = {run.solution.rung for m in found.assessment.arrays[0].motions for run in m.runs}
+    assert rungs == {Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL}
+    vertical = next(texts(row) for row in model.page(found)["neglected"].rows)
+    assert float(vertical[2]) < 0.1
+
+
 def test_where_nothing_slips_nothing_is_neglected():
     still = tuple(replace(motion, scale=1e-3) for motion in stand_in.motions(3, seconds=4.0))
     page = model.page(scene(still, arrays=[stand_in.array("A1", 1.0)]))
