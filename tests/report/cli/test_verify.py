@@ -37,9 +37,32 @@ DATE = dt.date(2026, 3, 5)
 
 
 @pytest.fixture(scope="module")
-def found():
+def quick(tmp_path_factory):
+    """What `roofslip verify --quick` computes, and how the command ends."""
+    computed = []
+    with pytest.MonkeyPatch.context() as patch:
+
+        def kept(*arguments, **options):
+            computed.append(verify(*arguments, **options))
+            return computed[0]
+
+        patch.setattr(solver.verification.run, "verify", kept)
+        out = tmp_path_factory.mktemp("quick")
+        done = CliRunner().invoke(main, ["verify", "--quick", "--out", str(out)])
+    return computed[0], done, out
+
+
+@pytest.fixture(scope="module")
+def found(quick):
     """A quick verification; other programs, where some are installed, are tested apart."""
-    return replace(verify((), quick=True, progress=lambda line: None), peers=())
+    return replace(quick[0], peers=())
+
+
+def test_the_quick_command_of_the_readme_passes(quick):
+    found, done, out = quick
+    assert done.exit_code == 0, done.output
+    assert done.stdout.startswith(f"PASS: {len(found.checks)} of {len(found.checks)} checks")
+    assert (out / "verification.pdf").read_bytes().startswith(b"%PDF")
 
 
 @pytest.fixture(scope="module")
