@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import Progress, input_errors
+from report.cli.terminal import Progress, input_errors, no_collections
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
@@ -74,7 +74,7 @@ def check(source: Path) -> None:
 @click.option("--out", type=SOURCE, help="Output folder; default: out/ beside the input.")
 def report(source: Path, out: Path | None) -> None:
     """Write calc-package.pdf, results.xlsx and results.json, and print a summary."""
-    with input_errors(source), Progress() as progress:
+    with input_errors(source), Progress() as progress, no_collections():
         assessment, folder, files = make(source, out, progress)
     _print_summary(assessment)
     click.echo("")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import Progress, input_errors
+from report.cli.terminal import Progress, input_errors, no_collections
 
 if TYPE_CHECKING:
     from solver.verification.evidence import Verification
@@ -32,7 +32,7 @@ def verify(out: Path, quick: bool, records: Path | None) -> None:
     """
     from report.results.publish import publish
 
-    with input_errors(records or out), Progress() as progress:
+    with input_errors(records or out), Progress() as progress, no_collections():
         verification, files = _verification(quick, records, progress)
         progress("writing the files")
         publish(files, out)

@@ -6,7 +6,6 @@ in the renderer's log is an internal error.
 
 from __future__ import annotations
 
-import gc
 import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -35,13 +34,9 @@ def lay_out(html: str) -> bytes:
     from weasyprint import HTML
     from weasyprint.text.fonts import FontConfiguration
 
-    gc.disable()  # layout keeps about a million live objects, which each collection would visit
-    try:
-        with _clean_log():
-            document = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=_fetcher())
-            pdf: bytes = document.write_pdf(font_config=FontConfiguration())
-    finally:
-        gc.enable()
+    with _clean_log():
+        document = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=_fetcher())
+        pdf: bytes = document.write_pdf(font_config=FontConfiguration())
     return pdf
 
 
