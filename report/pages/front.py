@@ -21,6 +21,7 @@ from report.pages.parts import (
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
 from report.words.units import number, ratio
+from solver.model import Motion
 
 
 def sheet(package: PackageData) -> Mapping[str, str]:
@@ -182,28 +183,52 @@ def _array_row(package: PackageData, found: ArrayAssessment) -> TableRow:
 def basis(package: PackageData) -> Mapping[str, object]:
     """Return the computed texts of the page on basis and limits."""
     motions = [run.motion for run in package.governing.motions]
-    count = len(motions)
-    with_vertical = sum(motion.has_vertical for motion in motions)
-    with_transverse = sum(motion.has_transverse for motion in motions)
-    both = sum(len(motion.signs) == 2 for motion in motions)
     return {
         "title": package.assessment.rules.title,
-        "vertical": f"{with_vertical} of {count} have a vertical component",
+        "components": _components(motions),
+        "runs": _runs(motions),
         "moves": "the records prescribe, with ground records transferred through the building of "
         f"{package.part('motions')}"
         if any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
         else "the records prescribe",
-        "transverse": f"{with_transverse} of {count} motions have a second horizontal component",
         "friction": _friction(package),
         "requested": _requested(package),
         "linked": _linked(package),
-        "both": f"{both} of {count} motions are run in both polarities",
         "peer": "is stated to be peer reviewed"
         if package.data.options.peer_reviewed
         else "is not stated to be peer reviewed",
         "floor": "does not apply" if package.data.options.peer_reviewed else "applies",
         "failed": troubles(package),
     }
+
+
+def _components(motions: Sequence[Motion]) -> str:
+    """Return which components act, as the motions have them."""
+    count = len(motions)
+    transverse = sum(motion.has_transverse for motion in motions)
+    vertical = sum(motion.has_vertical for motion in motions)
+    has = (
+        f"{transverse} of {count} motions have a second horizontal component, {vertical} of "
+        f"{count} a vertical component."
+    )
+    if transverse:
+        return f"All components of a motion act together, along and across the slope: {has}"
+    return f"Shaking and sliding along the slope only: {has}"
+
+
+def _runs(motions: Sequence[Motion]) -> str:
+    """Return how each motion is applied, as the motions have it."""
+    both = sum(len(motion.signs) == 2 for motion in motions)
+    applied = (
+        "Each horizontal component in turn is applied along the slope, with the other, if any, "
+        "across the slope"
+        if any(motion.has_transverse for motion in motions)
+        else "The horizontal component is applied along the slope"
+    )
+    return (
+        f"{applied}; {both} of {len(motions)} motions are run both as recorded and reversed. The "
+        "run with the largest peak relative displacement (PRD) governs."
+    )
 
 
 def _requested(package: PackageData) -> str:

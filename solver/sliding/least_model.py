@@ -165,7 +165,9 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
     both = two_axes.run(scene, settings.tolerance) if scene.ay_mps2.any() else found
     less, lesser = _left_out(found, both), _left_out(level, found, both)
     if lesser <= bound:
-        why = f"no other component changes a displacement by more than {_mm(bound)}"
+        why = "the motion has no other component"
+        if scene.az_mps2.size or scene.ay_mps2.size:
+            why = f"no other component changes a displacement by more than {_mm(bound)}"
         return _along(scene, Rung.ONE_AXIS, level, lesser, why, demand)
     if less <= bound:
         why = (
