@@ -117,3 +117,8 @@ def joined(names: Sequence[str]) -> str:
     """Return `a, b and c`."""
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last
+
+
+def small(value: float) -> str:
+    """Return two digits of a number, by powers of ten where it is small."""
+    return f"{value:.2g}" if value >= 1e-3 else scientific(value)

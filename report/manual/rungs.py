@@ -5,11 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from report.figures import rungs as figures
 from report.figures.scales import power_of_ten
-from report.manual.blocks import Block, Chart, ManualSection, joined, percent, scientific, seconds
+from report.manual import bounds
+from report.manual.blocks import (
+    Block,
+    Chart,
+    ManualSection,
+    joined,
+    percent,
+    scientific,
+    seconds,
+    small,
+)
 from report.manual.static_friction import block, effect
 from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered
@@ -21,7 +29,6 @@ from solver.verification.rung_evidence import (
     OVER_SLOW,
     SECOND,
     WORST,
-    BoundRatios,
     PlaneWork,
     RungChange,
     RungEvidence,
@@ -64,12 +71,7 @@ def _blocks(found: RungEvidence) -> tuple[Block, ...]:
             charts=(_work_chart(found),),
             tables=(_work_table(found.work),),
         ),
-        Block(
-            title="Verification of the stated error bound",
-            texts=(_bound_words(found.bounds),),
-            charts=(_bound_chart(found.bounds),),
-            tables=(_bound_table(found.bounds),),
-        ),
+        bounds.block(found.bounds),
         Block(
             title="Behavior at a stop",
             texts=(_stop_words(),),
@@ -288,71 +290,6 @@ def _work_table(points: Sequence[PlaneWork]) -> Table:
     )
 
 
-def _bound_words(found: Sequence[BoundRatios]) -> str:
-    pairs, over = sum(one.n_pairs for one in found), sum(one.n_over for one in found)
-    unanswered = sum(one.n_unanswered for one in found)
-    verdict = (
-        "Every pair is within its bound."
-        if over + unanswered == 0
-        else f"Pairs over their bounds: {over}; without a result: {unanswered}."
-    )
-    return (
-        f"The error bound is tested with {pairs:,} pairs of runs on random cases. Most of the "
-        "motions are unlike an earthquake: equal samples, jumps, accelerations equal to the yield "
-        "acceleration to the last digit, proportional or negligible components, time steps of "
-        "0.0005 to 0.5 s, and tolerances of 10⁻² to 10⁻¹⁰. The two runs of a pair have the same "
-        "exact result: the second has interpolated samples added, is mirrored, is rotated on a "
-        "flat roof, or has another tolerance. The difference is the largest of the differences in "
-        "PRD, in the four excursions and in final position. The allowed difference is the sum of "
-        "both stated bounds; where the input of the second run is rounded again, the effect of "
-        "half a unit in the last place of every sample, applied as an acceleration over the whole "
-        f"record, is added. {verdict}"
-    )
-
-
-def _bound_chart(found: Sequence[BoundRatios]) -> Chart:
-    return Chart(
-        name="rungs-bounds",
-        picture=Picture(
-            svg=figures.bounds(found),
-            caption="Share of the pairs whose ratio of difference to bound exceeds a value. "
-            f"Ratios below {power_of_ten(figures.LEAST_RATIO)} are drawn at "
-            f"{power_of_ten(figures.LEAST_RATIO)}.",
-            alt="Distribution of the ratio of the difference of two runs to the sum of bounds",
-        ),
-    )
-
-
-def _bound_table(found: Sequence[BoundRatios]) -> Table:
-    return Table(
-        caption="Difference of the two runs of a pair / sum of their bounds",
-        columns=(
-            TableColumn(head="Kind of pair", align="left", share=2.4),
-            TableColumn(head="Pairs"),
-            TableColumn(head="With slip"),
-            TableColumn(head="Median"),
-            TableColumn(head="99 %"),
-            TableColumn(head="Largest"),
-            TableColumn(head="Above 1"),
-            TableColumn(head="No result"),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    one.kind.replace("mu", "μ"),
-                    str(one.n_pairs),
-                    str(one.ratios.size),
-                    *(_small(float(value)) for value in np.percentile(one.ratios, (50, 99, 100))),
-                    str(one.n_over),
-                    str(one.n_unanswered),
-                )
-            )
-            for one in found
-        ),
-        kind="compact",
-    )
-
-
 def _stop_words() -> str:
     return (
         "A block is set in motion on a flat roof while a transverse acceleration of 2 m/s² acts on "
@@ -382,8 +319,8 @@ def _stop_table(points: Sequence[StopPoint]) -> Table:
                     lettered(one.method),
                     _setting(one.setting),
                     str(one.steps),
-                    "stalled" if math.isnan(one.error_m) else _small(1e3 * one.error_m),
-                    _small(1e3 * one.end_speed_mps),
+                    "stalled" if math.isnan(one.error_m) else small(1e3 * one.error_m),
+                    small(1e3 * one.end_speed_mps),
                 )
             )
             for one in points
@@ -396,10 +333,6 @@ def _stop_table(points: Sequence[StopPoint]) -> Table:
 def _setting(words: str) -> str:
     name, _, value = words.partition(" ")
     return f"{name} {power_of_ten(float(value))}" if name == "tol." else words
-
-
-def _small(value: float) -> str:
-    return f"{value:.2g}" if value >= 1e-3 else scientific(value)
 
 
 def _times_table(found: RungEvidence) -> Table:

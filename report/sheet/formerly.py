@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("project", "units_first"): ("Units first",),
-    ("site", "stories"): ("Storeys", "Stories"),
+    ("site", "stories"): ("Storeys",),
     ("arrays", "mu_fast"): ("Friction at speed",),
     ("clearances", "provided_m"): ("Provided",),
     ("motions", "from_s"): ("Keep from",),
