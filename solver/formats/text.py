@@ -72,6 +72,11 @@ def read(source: Source) -> MotionFile:
     columns = range(int(timed), table.values.shape[1])
     taken = [i for i in columns if not _is_other(table, i)]
     left = [table.headings[i].text for i in columns if i not in taken]
+    if not taken:
+        raise InputError(
+            f"{source.name}: found no column of accelerations beside "
+            f"{', '.join(shown(text) for text in left)}; give one a heading such as acc_g"
+        )
     even = _evened(source, table, table.values[:, taken].T, timed)
     channels = [
         Channel(

@@ -237,7 +237,7 @@ def test_one_array_without_clearances_or_vertical_motion():
     data = stand_in.project(arrays=[stand_in.array("A1", 2.0)], objects=[], clearances=[])
     whole = flat(" ".join(pages(made(data, level))))
     assert "The workbook lists no clearances" in whole
-    assert "0 of 3 have a vertical component" in whole
+    assert "0 of 3 a vertical component" in whole
 
 
 def test_twelve_arrays_and_many_motions_have_room():

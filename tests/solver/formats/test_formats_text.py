@@ -117,7 +117,10 @@ class TestUnits:
 
     def test_velocities_are_no_accelerations(self, file: Any) -> None:
         (problem,) = problems_of(file("time_s,vel_cm/s\n0,1\n1,2\n"))
-        assert problem.startswith("roof.csv: found no acceleration in this text file")
+        assert problem == (
+            "roof.csv: found no column of accelerations beside 'vel_cm/s'; give one a heading"
+            " such as acc_g"
+        )
 
 
 class TestStep:
@@ -251,3 +254,7 @@ class TestFaults:
     def test_countless_faults_are_not_counted_to_the_end(self, file: Any) -> None:
         problems = problems_of(file("0.1\n" + "x\n" * 12_000), dt_s=0.1)
         assert problems[10:] == ("... and more than 10000 more",)
+
+    def test_times_and_velocities_are_no_accelerations(self, file: Any) -> None:
+        (problem,) = problems_of(file("Time (sec)   Vel (m/s)\n0.0 0.0\n0.012 1.0\n0.02 2.0\n"))
+        assert problem.startswith("roof.csv: found no column of accelerations beside 'Vel (m/s)'")
