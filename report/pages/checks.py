@@ -106,7 +106,7 @@ def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
 def failed_limits(package: PackageData) -> Sequence[str]:
     """Return the limits that are not satisfied, in words."""
     return [
-        f"{place}: {check.title} is {check_value(check, check.found, package.fmt)}, limit "
+        f"{place}: {check.title} is {check_value(check, check.value, package.fmt)}, limit "
         f"{check_value(check, check.limit, package.fmt)} "
         f"({check.provision.clause}{dagger(check.provision)})."
         for place, check in all_checks(package)
@@ -155,7 +155,7 @@ def check_table(
                 cells=(
                     place,
                     check.title,
-                    check_value(check, check.found, package.fmt),
+                    check_value(check, check.value, package.fmt),
                     "≤" if check.at_most else "≥",
                     check_value(check, check.limit, package.fmt) + dagger(check.provision),
                     check.provision.clause + dagger(check.provision),

@@ -213,7 +213,7 @@ def _check(check: Check) -> dict[str, Any]:
     unit = {"deg": "_deg", "m": "_m", "count": "", "": ""}[check.measure]
     return {
         "title": check.title,
-        f"found{unit}": check.found,
+        f"found{unit}": check.value,
         f"limit{unit}": check.limit,
         "clause": check.provision.clause,
         "ok": check.ok,

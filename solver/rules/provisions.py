@@ -204,7 +204,7 @@ class Check:
     """A value of the project compared with a limit of a rule set; NaN is never satisfied."""
 
     title: str
-    found: float
+    value: float
     limit: float
     at_most: bool
     measure: Measure
@@ -214,7 +214,7 @@ class Check:
     @property
     def ok(self) -> bool:
         """Whether the limit is satisfied; a value equal to it within rounding is."""
-        return _at_least(*((self.limit, self.found) if self.at_most else (self.found, self.limit)))
+        return _at_least(*((self.limit, self.value) if self.at_most else (self.value, self.limit)))
 
 
 def _at_least(value: float, limit: float) -> bool:
@@ -300,7 +300,7 @@ def analysis_checks(rules: RuleSet, *, slope_rad: float, n_motions: int) -> tupl
 def _check(
     rules: RuleSet,
     title: str,
-    found: float,
+    value: float,
     key: str,
     *,
     limit: float | None = None,
@@ -309,7 +309,7 @@ def _check(
 ) -> Check:
     return Check(
         title=title,
-        found=found,
+        value=value,
         limit=rules[key] if limit is None else limit,
         at_most=at_most,
         measure=measure,

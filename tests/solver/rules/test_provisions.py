@@ -25,8 +25,8 @@ INCH = 0.0254
 
 
 def prescriptive_in(rules, s_ds, sdc="D", importance=1.0):
-    found = prescriptive_displacement(rules, s_ds_g=s_ds, sdc=sdc, importance=importance)
-    return found.value_m / INCH
+    displacement = prescriptive_displacement(rules, s_ds_g=s_ds, sdc=sdc, importance=importance)
+    return displacement.value_m / INCH
 
 
 def test_the_papers_example_gives_81_6_inches_and_2070_mm():
@@ -69,14 +69,14 @@ def test_a_permit_sheet_is_reproduced_with_full_precision_kept():
 def test_the_importance_factor_enters_once_in_each_rule_set():
     for rules in (PV1, A16):
         delta = prescriptive_displacement(rules, s_ds_g=1.4, sdc="D", importance=1.25).value_m
-        found = required_separation(rules, Neighbor.UNLIKE, design_m=delta, importance=1.25)
-        assert found == pytest.approx(1.25 * 60 * INCH, rel=1e-12)
+        separation_m = required_separation(rules, Neighbor.UNLIKE, design_m=delta, importance=1.25)
+        assert separation_m == pytest.approx(1.25 * 60 * INCH, rel=1e-12)
 
 
 def test_an_edge_without_parapet_needs_at_least_four_feet_in_asce_7():
     for rules, expected in ((PV1, 0.2), (A16, 4 * 0.3048)):
-        found = required_separation(rules, Neighbor.EDGE, design_m=0.1, importance=1.0)
-        assert found == pytest.approx(expected, rel=1e-12)
+        separation_m = required_separation(rules, Neighbor.EDGE, design_m=0.1, importance=1.0)
+        assert separation_m == pytest.approx(expected, rel=1e-12)
 
 
 def test_without_a_design_displacement_there_is_no_separation():
@@ -93,9 +93,9 @@ def test_without_a_design_displacement_there_is_no_separation():
     ],
 )
 def test_the_statistic_follows_the_number_of_motions(count, basis, expected):
-    found = analysis_value(PV1, [0.1 * k for k in range(1, count + 1)])
-    assert found.basis is basis
-    assert found.value_m == pytest.approx(expected, rel=1e-12)
+    statistic = analysis_value(PV1, [0.1 * k for k in range(1, count + 1)])
+    assert statistic.basis is basis
+    assert statistic.value_m == pytest.approx(expected, rel=1e-12)
 
 
 def test_two_motions_or_a_missing_peak_give_no_value():
@@ -147,11 +147,11 @@ def test_low_profile_is_the_lesser_of_36_inches_and_half_the_support():
 
 
 def test_a_parapet_must_clear_the_roof_and_the_centre_of_gravity():
-    found = [
+    verdicts = [
         parapet_qualifies(PV1, parapet_height_m=top * INCH, cg_height_m=cg * INCH)
         for top, cg in ((24, 18), (23.9, 10), (24, 18.1), (30, 20))
     ]
-    assert found == [True, False, False, True]
+    assert verdicts == [True, False, False, True]
 
 
 def test_an_override_replaces_one_number_and_keeps_its_reason():
@@ -173,8 +173,8 @@ def test_the_ac156_spectrum_is_straight_on_log_axes():
 
 
 def test_ac156_accelerations_at_the_roof_of_published_sites():
-    found = ac156_horizontal(A16, s_ds_g=1.26, z_over_h=1.0)
-    assert [round(v, 2) for v in found.sa_g[[1, 3]]] == [2.02, 1.51]
+    spectrum = ac156_horizontal(A16, s_ds_g=1.26, z_over_h=1.0)
+    assert [round(v, 2) for v in spectrum.sa_g[[1, 3]]] == [2.02, 1.51]
     edition_22 = ac156_horizontal(A22, s_ds_g=1.0, z_over_h=1.0)
     assert edition_22.sa_g[[1, 3]] == pytest.approx([1.6, 0.4 * 3.5 / 1.3], rel=1e-12)
     assert ac156_horizontal(A22, s_ds_g=1.0, z_over_h=0.0).sa_g[[1, 3]].tolist() == [1.0, 0.4]
