@@ -21,6 +21,7 @@ from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
 from solver.verification.identification import Identified, identify
+from solver.verification.study import unexplained
 
 SPECTRUM_S = np.geomspace(0.05, 8.0, 89)
 """Periods of the compared spectra, twelve or more per octave [s]."""
@@ -209,7 +210,7 @@ def _compared(
         alpha0=found.alpha0,
         n_modes=motion.n_modes,
         left_out_share=motion.left_out_share,
-        unexplained=float(((a - roof) ** 2).sum() / (roof**2).sum()),
+        unexplained=unexplained(a, roof),
         peak_mps2=float(np.abs(a).max()),
         sa_mps2=sa,
         band_ratios=ratios,

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from solver.building.beam import beam_modes, floor_stiffness, story_modes
+from solver.building.beam import Modes, beam_modes, floor_stiffness, story_modes
 from solver.building.roof import absolute_accelerations, building_of_periods, roof_motion
 from solver.model import Floats
 from solver.records.record import Record
@@ -168,20 +168,7 @@ def _limits() -> Iterator[CheckRow]:
             ),
         ):
             problem = f"Cantilever in {name}, mode {n}"
-            found = float(modes.factors[n - 1, 0])
-            if n > 1:
-                inverse = float(1.0 / modes.period_ratios[n - 1])
-                yield check(
-                    SECTION,
-                    problem,
-                    source,
-                    "Period ratio T1 / Tn",
-                    "1",
-                    ratio,
-                    inverse,
-                    tolerance,
-                )
-            yield check(SECTION, problem, source, "Roof factor", "1", factor, found, tolerance)
+            yield from _mode(problem, source, modes, n, ratio, factor, tolerance)
 
 
 def _coupled() -> Iterator[CheckRow]:
@@ -191,20 +178,26 @@ def _coupled() -> Iterator[CheckRow]:
         modes = beam_modes(alpha0, 3)
         for n in (1, 2, 3):
             problem = f"Cantilever, stiffness ratio {alpha0:g}, mode {n}"
-            if n > 1:
-                found = float(1.0 / modes.period_ratios[n - 1])
-                yield check(
-                    SECTION,
-                    problem,
-                    source,
-                    "Period ratio T1 / Tn",
-                    "1",
-                    ratios[n - 1],
-                    found,
-                    1e-5,
-                )
-            found = float(modes.factors[n - 1, 0])
-            yield check(SECTION, problem, source, "Roof factor", "1", factors[n - 1], found, 1e-5)
+            ratio, factor = ratios[n - 1], factors[n - 1]
+            yield from _mode(problem, source, modes, n, ratio, factor, 1e-5)
+
+
+def _mode(
+    problem: str,
+    source: str,
+    modes: Modes,
+    n: int,
+    ratio: float,
+    factor: float,
+    tolerance: float,
+) -> Iterator[CheckRow]:
+    """Yield the rows of a mode: period ratio, 1 by definition for the first, and factor."""
+    if n > 1:
+        inverse = float(1.0 / modes.period_ratios[n - 1])
+        quantity = "Period ratio T1 / Tn"
+        yield check(SECTION, problem, source, quantity, "1", ratio, inverse, tolerance)
+    computed = float(modes.factors[n - 1, 0])
+    yield check(SECTION, problem, source, "Roof factor", "1", factor, computed, tolerance)
 
 
 def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[float]]:

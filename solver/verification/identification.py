@@ -17,6 +17,7 @@ from solver.building.beam import MOST_ALPHA0, Modes, beam_modes
 from solver.building.roof import absolute_accelerations
 from solver.building.structure import MOST_DAMPING
 from solver.model import Floats
+from solver.verification.study import best_of, unexplained
 
 MODES = 12
 """Modes of the beam; further modes do not change the floor motions noticeably."""
@@ -59,7 +60,6 @@ def identify(
     periods_s : pair of float
         Least and greatest first period of the grid [s].
     """
-    every = float((floors_mps2**2).sum())
 
     def misfit(point: _Point) -> float:
         period_s, damping, alpha0 = (float(v) for v in _plain(point))
@@ -67,13 +67,11 @@ def identify(
         zeta = np.full(MODES, damping)
         found = absolute_accelerations(ground_mps2, dt_s, period_s * modes.period_ratios, zeta)
         rigid = 1.0 - modes.factors.sum(axis=0)
-        off = found @ modes.factors + ground_mps2[:, None] * rigid - floors_mps2
-        return float((off**2).sum()) / every
+        return unexplained(found @ modes.factors + ground_mps2[:, None] * rigid, floors_mps2)
 
     steps = int(np.log(periods_s[1] / periods_s[0]) / _PERIOD_STEP) + 2
     grid = product(np.log(np.geomspace(*periods_s, steps)), np.log(DAMPINGS), np.log1p(ALPHAS))
-    start = min(((misfit(point), point) for point in grid), key=lambda found: found[0])
-    least, best = _descend(misfit, *start)
+    least, best = _descend(misfit, *best_of(misfit, grid))
     return Identified(*_plain(best), least)
 
 
@@ -94,7 +92,7 @@ def _descend(misfit: Callable[[_Point], float], least: float, best: _Point) -> t
         around: list[_Point] = [
             tuple(best + sign * move) for move in np.diag(reach) for sign in (1.0, -1.0)
         ]
-        found, point = min(((misfit(p), p) for p in around), key=lambda pair: pair[0])
+        found, point = best_of(misfit, around)
         if found < least:
             least, best = found, point
         else:

@@ -6,15 +6,13 @@ Arrays on Angled Roofs due to Seismic Motion".
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
 
-from solver.model import Floats, SlideHistory
+from solver.model import Floats
 from solver.records.record import Record
 from solver.rivals.methods import METHODS
-from solver.sliding.checked import slide_history
 from solver.sliding.sweep import sweep
 from solver.verification.evidence import (
     Convergence,
@@ -23,15 +21,11 @@ from solver.verification.evidence import (
     percent_of,
     percent_off,
 )
-from solver.verification.scenes import Case, prepared, scale_to
-from solver.verification.workprecision import least_seconds, run, timed
+from solver.verification.scenes import prepared, scale_to
+from solver.verification.study import grid, history, least_seconds, run
+from solver.verification.workprecision import timed
 
-CONVERGENCE_CASES = tuple(
-    Case(*values)
-    for values in itertools.product(
-        (-7.0, -4.0, 0.0, 4.0, 7.0), (0.0, 0.1, 0.5), (0.0, 0.18, 1.0, 1.44)
-    )
-)
+CONVERGENCE_CASES = grid((-7.0, -4.0, 0.0, 4.0, 7.0), (0.0, 0.1, 0.5), (0.0, 0.18, 1.0, 1.44))
 """The 60 scenarios of Fig. 5."""
 
 SUBSTEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
@@ -59,12 +53,12 @@ def convergence(record: Record) -> Convergence:
     exact, prd = np.empty((2, len(CONVERGENCE_CASES)))
     seconds = np.empty_like(residual)
     for i, case in enumerate(CONVERGENCE_CASES):
-        found = run(record, case, "exact", {})
+        found = run(record, case)
         exact[i], prd[i] = found.residual_m, found.prd_m
         scene = prepared(record, case)
         for j, substeps in enumerate(SUBSTEPS):
             parameters = {"substeps": substeps}
-            residual[i, j] = run(record, case, "paper", parameters).residual_m
+            residual[i, j] = run(record, case, "paper", substeps=substeps).residual_m
             seconds[i, j] = timed(method, scene, parameters)
     off = percent_off(residual, exact[:, None])
     off_m = np.abs(residual - exact[:, None])
@@ -83,17 +77,17 @@ def convergence(record: Record) -> Convergence:
 def link_comparison(record: Record, slope_deg: float) -> LinkComparison:
     """Compare the exact method with the paper's link (Figs. 6 to 9)."""
     mus = np.array(LINK_MUS[slope_deg])
-    cases = [Case(slope_deg, float(mu), LINK_PPA_G) for mu in mus]
+    cases = grid([slope_deg], mus.tolist(), [LINK_PPA_G])
     substeps = math.ceil(record.dt_s / LINK_STEP_S - 1e-9)
     link = {"stiffness_per_m": LINK_PER_M, "substeps": substeps}
-    pairs = [(run(record, c, "exact", {}), run(record, c, "penalty-explicit", link)) for c in cases]
+    pairs = [(run(record, c), run(record, c, "penalty-explicit", **link)) for c in cases]
     prd = np.array([[found.prd_m for found in pair] for pair in pairs])
     rrd = np.array([[abs(found.residual_m) for found in pair] for pair in pairs])
     off = percent_off(rrd[:, 0], rrd[:, 1])
     followed = off[np.isfinite(off)]
     worst = int(np.nan_to_num(off, nan=-1.0).argmax())
-    exact = _history(record, cases[worst], "exact")
-    linked = _history(record, cases[worst], "penalty-explicit", **link)
+    exact = history(record, cases[worst], "exact")
+    linked = history(record, cases[worst], "penalty-explicit", **link)
     return LinkComparison(
         record=record.name,
         slope_deg=slope_deg,
@@ -109,18 +103,6 @@ def link_comparison(record: Record, slope_deg: float) -> LinkComparison:
         history_link_m=linked.u_m,
         worst_percent=float(followed.max()) if followed.size else math.nan,
         mean_percent=float(followed.mean()) if followed.size else math.nan,
-    )
-
-
-def _history(record: Record, case: Case, method: str, **parameters: float) -> SlideHistory:
-    return slide_history(
-        record.a_mps2,
-        record.dt_s,
-        slope_rad=case.slope_rad,
-        mu=case.mu,
-        scale=scale_to(record, case.ppa_g),
-        method=method,
-        **parameters,
     )
 
 

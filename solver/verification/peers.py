@@ -10,7 +10,6 @@ import importlib
 import importlib.metadata
 import importlib.util
 import math
-import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -25,6 +24,7 @@ from solver.verification import rungs
 from solver.verification.evidence import PeerPoint, percent_off
 from solver.verification.plane_scipy import samples_of
 from solver.verification.scenes import CASES, Case, scale_to
+from solver.verification.study import MODEL_CASES, clocked
 from solver.verification.triples import Triple
 
 SUBSTEPS = 10
@@ -96,7 +96,7 @@ def _record_scenes(records: Sequence[Record], quick: bool) -> Iterator[_Named]:
 def _motion_scenes(triples: Sequence[Triple], quick: bool, *, second: bool) -> Iterator[_Named]:
     for triple in triples:
         part = triple.cut(min(round(MOTION_S / triple.dt_s) + 1, triple.x_mps2.size))
-        for case in rungs.CASES[:1] if quick else rungs.CASES:
+        for case in MODEL_CASES[:1] if quick else MODEL_CASES:
             yield part.name, case, part.scene(case, coulomb(case.mu), second=second)
 
 
@@ -106,12 +106,9 @@ def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> Pee
     note, seconds = f"{model}; {peer.note}", math.nan
     try:
         importlib.import_module(peer.module)
-        start = time.perf_counter()
-        prd_m = peer.prd_m(scene)
-        if math.isfinite(prd_m):
-            seconds = time.perf_counter() - start
-        else:
-            note = f"{note}; did not converge"
+        prd_m, seconds = clocked(partial(peer.prd_m, scene))
+        if not math.isfinite(prd_m):
+            seconds, note = math.nan, f"{note}; did not converge"
     except Exception as error:  # another program may raise anything
         prd_m, note = math.nan, f"{model}; {type(error).__name__}: {error}"
     return PeerPoint(

@@ -7,7 +7,6 @@ then `stops`.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Iterator
 from functools import partial
 
@@ -17,16 +16,15 @@ from solver.sliding import two_axes
 from solver.verification import plane_scipy
 from solver.verification.plane_scipy import Solver, samples_of
 from solver.verification.rung_evidence import PlaneWork, StopPoint
-from solver.verification.rungs import TIGHT, stopped_scene
-from solver.verification.scenes import Case
+from solver.verification.rungs import stopped_scene
+from solver.verification.study import MODEL_CASES, TIGHT, clocked, least_seconds
 from solver.verification.triples import Triple
-from solver.verification.workprecision import least_seconds
 
 OURS = "Power series, event by event"
 HOLDING = "Fixed steps, stick at velocity reversal"
 CHATTERING = "Fixed steps, no stick"
 
-CASE = Case(2.0, 0.4, 1.0)
+CASE = MODEL_CASES[1]
 SAMPLES = (101, 151)
 """Samples of the part of a motion, quick and full: SciPy takes a second per run."""
 
@@ -92,9 +90,9 @@ def _scipy(scene: Scene, prd_m: float, quick: bool) -> Iterator[PlaneWork]:
         return
     for solver, velocity_mps, tolerances in SCIPY[:3] if quick else SCIPY:
         for tolerance in tolerances[:2] if quick else tolerances:
-            start = time.perf_counter()
-            found = plane_scipy.regularized(scene, solver, velocity_mps, tolerance)
-            seconds = time.perf_counter() - start
+            found, seconds = clocked(
+                partial(plane_scipy.regularized, scene, solver, velocity_mps, tolerance)
+            )
             yield PlaneWork(
                 method=f"SciPy {solver}, v0 = {1e3 * velocity_mps:g} mm/s",
                 setting=f"tol. {tolerance:g}",

@@ -17,6 +17,7 @@ from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, Status, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.two_axes import PlaneOutcome, follow
+from solver.verification.study import flat_scene
 from solver.verification.triples import readonly
 
 EPS = 2.0**-52
@@ -361,16 +362,7 @@ UNBOUNDED = ("velocity-weakening friction",)
 def warm_up() -> None:
     """Compile or load what pairs need: two axes with and without vertical, and both laws."""
     push = readonly(np.array([0.0, 5.0, -5.0, 0.0]))
-    one = Scene(
-        ax_mps2=push,
-        ay_mps2=push,
-        az_mps2=NO_RECORD,
-        dt_s=0.01,
-        slope_rad=0.0,
-        friction=coulomb(0.2),
-        scale=1.0,
-        g_mps2=G,
-    )
+    one = flat_scene(push, push, 0.01, coulomb(0.2))
     law = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=1.0, mu_static=0.2)
     for friction in (one.friction, law):
         for az in (NO_RECORD, push):

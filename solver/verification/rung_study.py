@@ -5,16 +5,15 @@ Read `rung_evidence`; the other functions compute its parts.
 
 from __future__ import annotations
 
-import itertools
 import math
 import statistics
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from solver.model import Friction, Heading, Scene, coulomb
+from solver.model import Floats, Friction, Heading, Scene, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
 from solver.sliding.row import BlockRow, RowResult, slide_row
@@ -38,10 +37,16 @@ from solver.verification.rung_evidence import (
     RungTime,
     StaticEvidence,
 )
-from solver.verification.scenes import Case
 from solver.verification.static_study import held, static_evidence
+from solver.verification.study import (
+    MODEL_CASES,
+    faded,
+    grid,
+    least_seconds,
+    plane_prds,
+    scenes_of,
+)
 from solver.verification.triples import Triple
-from solver.verification.workprecision import least_seconds
 
 SLOPES_DEG, MUS, PPAS_G = (0.0, 2.0, 5.0), (0.3, 0.4, 0.5, 0.6), (0.5, 1.0, 1.5)
 """All combinations are run; if quick, only the first and last values."""
@@ -58,24 +63,10 @@ STRETCHES_M = {STIFF: 1e-3, SOFT: 1e-2}
 ROW_DAMPING = 0.05
 """Damping ratio of one block on its link."""
 
-TIMED = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Runs:
-    """PRD of one motion, scene and heading by each model [m], and the error of two axes / PRD.
-
-    `higher_m` uses at every velocity the coefficient that others have at high velocity or at rest.
-    """
-
-    one_axis_m: float
-    vertical_m: float
-    two_axes_m: float
-    by_speed_m: float
-    held_one_axis_m: float
-    held_m: float
-    higher_m: float
-    error: float
+HEADINGS = tuple(
+    Heading(swapped=swapped, sign=sign) for swapped in (False, True) for sign in (1, -1)
+)
+"""Each horizontal component along the slope, in each sign."""
 
 
 def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
@@ -98,10 +89,13 @@ def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
 def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
     """Run every scene of every motion with every heading by every model."""
     slopes, mus, ppas = _axes(quick)
-    cases = _cases(quick)
-    by_scene = [list(_by_heading(triple, case)) for triple in triples for case in cases]
-    every = [run for runs in by_scene for run in runs]
-    kept = [run for run in every if run is not None]
+    row_ppa_g = ppas[len(ppas) // 2]
+    turned = [triple.turned(heading) for triple in triples for heading in HEADINGS]
+    scenes = scenes_of(turned, grid(slopes, mus, ppas))
+    results = [two_axes.run(scene) for scene in scenes]
+    answered = [result for result in results if not math.isnan(result.prd_m)]
+    errors = (result.error_m / result.prd_m if result.prd_m else 0.0 for result in answered)
+    changes = _changes(scenes, np.array([result.prd_m for result in results]), len(triples))
     return RungStudy(
         motions=tuple(triple.name for triple in triples),
         n_recorded=sum(triple.is_recorded for triple in triples),
@@ -110,51 +104,61 @@ def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
         ppas_g=tuple(ppas),
         slow_share=SLOW_SHARE,
         rate_s_per_m=RATE_S_PER_M,
-        n_runs=len(every),
-        n_uplift=len(every) - len(kept),
-        changes=(*_changes(kept, by_scene), *_rows(triples, cases, ppas[len(ppas) // 2])),
-        row_ppa_g=ppas[len(ppas) // 2],
+        n_runs=len(scenes),
+        n_uplift=len(scenes) - len(answered),
+        changes=(*changes, *_rows(scenes_of(triples, grid(slopes, mus, [row_ppa_g])))),
+        row_ppa_g=row_ppa_g,
         row_shares=ROW_SHARES,
-        largest_error=max((run.error for run in kept), default=math.nan),
+        largest_error=max(errors, default=math.nan),
     )
 
 
 def _axes(quick: bool) -> tuple[tuple[float, ...], ...]:
     """Return the slopes, friction coefficients and PPAs of the scenes."""
-    every = SLOPES_DEG, MUS, PPAS_G
-    return tuple((one[0], one[-1]) for one in every) if quick else every
-
-
-def _cases(quick: bool) -> list[Case]:
-    return [Case(*case) for case in itertools.product(*_axes(quick))]
+    axes = SLOPES_DEG, MUS, PPAS_G
+    return tuple((values[0], values[-1]) for values in axes) if quick else axes
 
 
 def static(triples: Sequence[Triple], *, quick: bool) -> StaticEvidence:
     """Run every scene of every motion with the first heading and static friction above kinetic."""
-    return static_evidence(_first_scenes(triples, _cases(quick)), 1.0 / SLOW_SHARE)
+    return static_evidence(scenes_of(triples, grid(*_axes(quick))), 1.0 / SLOW_SHARE)
 
 
-def _changes(
-    kept: Sequence[_Runs], by_scene: Sequence[Sequence[_Runs | None]]
-) -> Iterator[RungChange]:
-    yield _change(VERTICAL, [(r.one_axis_m, r.vertical_m) for r in kept])
-    yield _change(SECOND, [(r.vertical_m, r.two_axes_m) for r in kept])
-    worst = [[run for run in runs if run is not None] for runs in by_scene]
-    pairs = [
-        (max(run.vertical_m for run in runs), max(run.two_axes_m for run in runs))
-        for runs in worst
-        if runs
-    ]
-    yield _change(WORST, pairs)
-    yield _change(OVER_SLOW, [(r.two_axes_m, r.by_speed_m) for r in kept])
-    yield _change(OVER_FAST, [(r.higher_m, r.by_speed_m) for r in kept])
-    yield _change(HELD_ONE, [(r.vertical_m, r.held_one_axis_m) for r in kept])
-    yield _change(HELD, [(r.two_axes_m, r.held_m) for r in kept])
-    yield _change(OVER_STATIC, [(r.higher_m, r.held_m) for r in kept])
+def _changes(scenes: Sequence[Scene], plane_m: Floats, n_triples: int) -> Iterator[RungChange]:
+    """Compare the models; the simpler ones use the low-velocity friction, as `least_model` does.
+
+    `higher_m` uses at every velocity the coefficient that others have at high velocity or at rest.
+    """
+    alone_m = _axis_prds([replace(scene, az_mps2=NO_RECORD) for scene in scenes])
+    vertical_m = _axis_prds(scenes)
+    at_rest = partial(held, ratio=1.0 / SLOW_SHARE)
+    by_speed_m, held_m = plane_prds(scenes, by_speed), plane_prds(scenes, at_rest)
+    held_alone_m = plane_prds([faded(scene, 0.0) for scene in scenes], at_rest)
+    higher_m = plane_prds(scenes, lambda mu: coulomb(mu / SLOW_SHARE))
+    yield _change(VERTICAL, alone_m, vertical_m)
+    yield _change(SECOND, vertical_m, plane_m)
+    yield _change(WORST, *(_worst_heading(prd_m, n_triples) for prd_m in (vertical_m, plane_m)))
+    yield _change(OVER_SLOW, plane_m, by_speed_m)
+    yield _change(OVER_FAST, higher_m, by_speed_m)
+    yield _change(HELD_ONE, vertical_m, held_alone_m)
+    yield _change(HELD, plane_m, held_m)
+    yield _change(OVER_STATIC, higher_m, held_m)
 
 
-def _change(name: str, pairs: Sequence[tuple[float, float]]) -> RungChange:
-    lesser, fuller = np.array(pairs).reshape(-1, 2).T
+def _axis_prds(scenes: Sequence[Scene]) -> Floats:
+    return np.array([one_axis.run(scene).prd_m for scene in scenes])
+
+
+def _worst_heading(prd_m: Floats, n_triples: int) -> Floats:
+    """Return the largest PRD of the headings of each motion and case that give one."""
+    by_heading = prd_m.reshape(n_triples, len(HEADINGS), -1)
+    return np.asarray(np.fmax.reduce(by_heading, axis=1).ravel())
+
+
+def _change(name: str, lesser_m: Floats, fuller_m: Floats) -> RungChange:
+    """Compare the runs that both models answer."""
+    answered = ~np.isnan(lesser_m + fuller_m)
+    lesser, fuller = lesser_m[answered], fuller_m[answered]
     counted = np.minimum(lesser, fuller) >= LEAST_M
     return RungChange(
         name=name,
@@ -164,57 +168,16 @@ def _change(name: str, pairs: Sequence[tuple[float, float]]) -> RungChange:
     )
 
 
-def _by_heading(triple: Triple, case: Case) -> Iterator[_Runs | None]:
-    """Yield the runs with each horizontal component along the slope, in each sign."""
-    for swapped, sign in itertools.product((False, True), (1, -1)):
-        yield _runs(_scene(triple, case, Heading(swapped=swapped, sign=sign)), case.mu)
-
-
-def _scene(triple: Triple, case: Case, heading: Heading) -> Scene:
-    scene = triple.motion.scene(heading, slope_rad=case.slope_rad, friction=coulomb(case.mu))
-    return replace(scene, scale=triple.scale_to(case.ppa_g))
-
-
-def _runs(scene: Scene, mu: float) -> _Runs | None:
-    """Run a scene by every model; None where the normal force vanishes.
-
-    The simpler models use the low-velocity friction, as `solver.sliding.least_model` does.
-    """
-    vertical = one_axis.run(scene)
-    if math.isnan(vertical.prd_m):
-        return None
-    both = two_axes.run(scene)
-    more_at_rest = replace(scene, friction=held(mu, 1.0 / SLOW_SHARE))
-    return _Runs(
-        one_axis_m=one_axis.run(replace(scene, az_mps2=NO_RECORD)).prd_m,
-        vertical_m=vertical.prd_m,
-        two_axes_m=both.prd_m,
-        by_speed_m=_plane_prd(replace(scene, friction=by_speed(mu))),
-        held_one_axis_m=_plane_prd(replace(more_at_rest, ay_mps2=NO_RECORD)),
-        held_m=_plane_prd(more_at_rest),
-        higher_m=_plane_prd(replace(scene, friction=coulomb(mu / SLOW_SHARE))),
-        error=both.error_m / both.prd_m if both.prd_m > 0.0 else 0.0,
-    )
-
-
-def _plane_prd(scene: Scene) -> float:
-    return two_axes.run(scene).prd_m
-
-
-def _rows(triples: Sequence[Triple], cases: Sequence[Case], ppa_g: float) -> Iterator[RungChange]:
+def _rows(scenes: Sequence[Scene]) -> Iterator[RungChange]:
     """Compare the largest PRD of the blocks of a row with the row as one rigid array."""
-    scenes = _first_scenes(triples, [case for case in cases if case.ppa_g == ppa_g])
     for name, stretch_m in STRETCHES_M.items():
-        rows = [row_of(one.friction.mu_slow, stretch_m, one.g_mps2) for one in scenes]
-        found = [slide_row(one, row) for one, row in zip(scenes, rows, strict=True)]
-        pairs = [(one.rigid.prd_m, max(one.prd_m)) for one in found]
-        yield _change(name, [pair for pair in pairs if not math.isnan(sum(pair))])
+        results = [_slide_row(scene, stretch_m) for scene in scenes]
+        rigid_m = np.array([result.rigid.prd_m for result in results])
+        yield _change(name, rigid_m, np.array([max(result.prd_m) for result in results]))
 
 
-def _first_scenes(triples: Sequence[Triple], cases: Sequence[Case]) -> list[Scene]:
-    """Return every case of every motion in the first of its headings."""
-    first = Heading(swapped=False, sign=1)
-    return [_scene(triple, case, first) for triple in triples for case in cases]
+def _slide_row(scene: Scene, stretch_m: float = STRETCHES_M[STIFF]) -> RowResult:
+    return slide_row(scene, row_of(scene.friction.mu_slow, stretch_m, scene.g_mps2))
 
 
 def row_of(mu: float, stretch_m: float, g_mps2: float) -> BlockRow:
@@ -238,11 +201,12 @@ def by_speed(mu_slow: float) -> Friction:
 
 
 def times(triple: Triple) -> tuple[RungTime, ...]:
-    """Time every model on the scenes `TIMED`; the first two share one solver."""
+    """Time every model on the scenes `MODEL_CASES`; the first two share one solver."""
     medians = []
     for title, run, law, second, vertical in _RUNGS:
         scenes = [
-            triple.scene(case, law(case.mu), second=second, vertical=vertical) for case in TIMED
+            triple.scene(case, law(case.mu), second=second, vertical=vertical)
+            for case in MODEL_CASES
         ]
         each = [least_seconds(partial(run, scene)) for scene in scenes]
         medians.append((title, statistics.median(each)))
@@ -252,15 +216,11 @@ def times(triple: Triple) -> tuple[RungTime, ...]:
     )
 
 
-def _row(scene: Scene) -> RowResult:
-    return slide_row(scene, row_of(scene.friction.mu_slow, STRETCHES_M[STIFF], scene.g_mps2))
-
-
 _RUNGS: tuple[tuple[str, Callable[[Scene], object], Callable[[float], Friction], bool, bool], ...]
 _RUNGS = (
     ("One axis", one_axis.run, coulomb, False, False),
     ("One axis with vertical", one_axis.run, coulomb, False, True),
     ("Two axes with vertical", two_axes.run, coulomb, True, True),
     ("Two axes, velocity-dependent friction", two_axes.run, by_speed, True, True),
-    ("Row of five blocks, links of 1 mm", _row, coulomb, False, True),
+    ("Row of five blocks, links of 1 mm", _slide_row, coulomb, False, True),
 )

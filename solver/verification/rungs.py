@@ -13,21 +13,17 @@ import numpy as np
 
 from solver.forces import forces
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
-from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Rung, Settings
 from solver.sliding.row import BlockRow, slide_row
 from solver.verification import plane_scipy
 from solver.verification.bound_study import bound_ratios
-from solver.verification.checks import check
+from solver.verification.checks import check, slip_checks
 from solver.verification.evidence import CheckRow
-from solver.verification.scenes import Case
+from solver.verification.study import MODEL_CASES, TIGHT, faded, flat_scene, scenes_of
 from solver.verification.triples import Triple, readonly
 
 SECTION = "Two axes and the choice of model"
-
-TIGHT = 1e-10
-"""Tightest tolerance of two axes."""
 
 AGREES = 1e-9
 """Tolerance where two computations agree to rounding error and the tightest tolerance."""
@@ -35,13 +31,11 @@ AGREES = 1e-9
 REFERENCE_SAMPLES = (61, 101)
 """Samples of the part of a motion that the SciPy reference integrates, quick and full."""
 
-CASES = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
-
 
 def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]:
     """Run the checks; the first motion, a generated one, is used where one motion is enough.
 
-    Motions whose vertical component lifts the block off the roof in one of `CASES` are excluded.
+    Motions whose vertical component lifts the block in one of `MODEL_CASES` are excluded.
     """
     kept = [triple for triple in triples if stays(triple)]
     for triple in kept:
@@ -62,34 +56,22 @@ def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]
 
 
 def stays(triple: Triple) -> bool:
-    """Whether the motion's vertical component lifts the block in none of `CASES`."""
-    runs = (one_axis.run(triple.scene(case, coulomb(case.mu))) for case in CASES)
+    """Whether the motion's vertical component lifts the block in none of `MODEL_CASES`."""
+    runs = (one_axis.run(scene) for scene in scenes_of([triple], MODEL_CASES))
     return all(run.status is not Status.UPLIFT for run in runs)
 
 
 def _one_axis(triple: Triple) -> Iterator[CheckRow]:
-    for case in CASES:
+    for case in MODEL_CASES:
         one = triple.scene(case, coulomb(case.mu), second=False)
-        exact, found = one_axis.run(one), two_axes.run(one, TIGHT)
-        for quantity, known, value in (
-            ("PRD", exact.prd_m, found.prd_m),
-            ("Residual (error relative to the PRD)", exact.residual_m, found.residual_m),
-        ):
-            yield check(
-                SECTION,
-                f"No cross-slope component: {triple.name}, {case}",
-                "Exact method, one axis with vertical",
-                quantity,
-                "m",
-                known,
-                value,
-                AGREES,
-                of=exact.prd_m,
-            )
+        name = f"No cross-slope component: {triple.name}, {case}"
+        exact, plane = one_axis.run(one), two_axes.run(one, TIGHT)
+        source = "Exact method, one axis with vertical"
+        yield from slip_checks(SECTION, name, source, exact, plane, AGREES)
 
 
 def _turned(triple: Triple) -> Iterator[CheckRow]:
-    case = CASES[0]
+    case = MODEL_CASES[0]
     flat = triple.scene(case, coulomb(case.mu))
     one = two_axes.run(flat, TIGHT)
     for degrees in (30.0, 137.0):
@@ -112,7 +94,7 @@ def _turned(triple: Triple) -> Iterator[CheckRow]:
 
 
 def _in_proportion(triple: Triple) -> CheckRow:
-    case = CASES[0]
+    case = MODEL_CASES[0]
     one = triple.scene(case, coulomb(case.mu), second=False)
     line = two_axes.run(_turned_by(one, 53.0), TIGHT)
     return check(
@@ -144,16 +126,7 @@ def _circle() -> Iterator[CheckRow]:
     dt = 1.0 / count
     t = np.arange(turns * count + 1) * dt
     history = two_axes.run_history(
-        Scene(
-            ax_mps2=readonly(a * np.cos(omega * t)),
-            ay_mps2=readonly(a * np.sin(omega * t)),
-            az_mps2=NO_RECORD,
-            dt_s=dt,
-            slope_rad=0.0,
-            friction=coulomb(mu),
-            scale=1.0,
-            g_mps2=STANDARD_GRAVITY_MPS2,
-        ),
+        flat_scene(a * np.cos(omega * t), a * np.sin(omega * t), dt, coulomb(mu)),
         TIGHT,
     )
     # Linear interpolation between samples reduces the amplitude of a sine by this factor.
@@ -176,16 +149,7 @@ def stopped_scene() -> Scene:
     """Return a block set sliding downslope that stops under a constant cross-slope acceleration."""
     ax, ay = np.zeros(201), np.full(201, -2.0)
     ax[1:6] = -9.0
-    return Scene(
-        ax_mps2=readonly(ax),
-        ay_mps2=readonly(ay),
-        az_mps2=NO_RECORD,
-        dt_s=0.01,
-        slope_rad=0.0,
-        friction=coulomb(0.4),
-        scale=1.0,
-        g_mps2=STANDARD_GRAVITY_MPS2,
-    )
+    return flat_scene(ax, ay, 0.01, coulomb(0.4))
 
 
 def _stop() -> Iterator[CheckRow]:
@@ -222,7 +186,7 @@ def _stop() -> Iterator[CheckRow]:
 
 
 def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
-    case = CASES[1]
+    case = MODEL_CASES[1]
     plain = two_axes.run(triple.scene(case, coulomb(case.mu)), TIGHT)
     for drop in (1e-4, 1e-5, 1e-6):
         law = Friction(
@@ -246,7 +210,7 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
 
 def _static_friction(triple: Triple) -> Iterator[CheckRow]:
     """A delay of the onset of slip changes the velocity by its square."""
-    case = CASES[1]
+    case = MODEL_CASES[1]
     both = triple.scene(case, coulomb(case.mu))
     alone = triple.scene(case, coulomb(case.mu), second=False)
     for excess in (1e-2, 1e-3, 1e-4):
@@ -270,7 +234,7 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
 
 def _one_block(triple: Triple) -> Iterator[CheckRow]:
     """Rows that move as one block: one block, and three identical ones with unloaded links."""
-    case = CASES[1]
+    case = MODEL_CASES[1]
     scene = triple.scene(case, coulomb(case.mu), second=False)
     exact = one_axis.run(scene)
     for count in (1, 3):
@@ -291,9 +255,9 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
     """Count scenes in which the neglected component matters more than the stated estimate."""
     over = count = 0
     for share in (0.3, 0.1, 0.03, 0.01, 0.003):
-        for case in CASES[:2] if quick else CASES:
+        for case in MODEL_CASES[:2] if quick else MODEL_CASES:
             full = triple.scene(case, coulomb(case.mu))
-            scene = replace(full, ay_mps2=readonly(share * full.ay_mps2))
+            scene = faded(full, share)
             found = least_model.solve(scene)
             change = abs(two_axes.run(scene, TIGHT).prd_m - found.result.prd_m)
             said = 0.0 if found.rung is Rung.TWO_AXES else found.next_effect_m
@@ -328,11 +292,11 @@ def _random_pairs(*, quick: bool) -> Iterator[CheckRow]:
 
 
 def _choices(triple: Triple) -> Iterator[CheckRow]:
-    case = CASES[1]
+    case = MODEL_CASES[1]
     full = triple.scene(case, coulomb(case.mu))
     peak = forces(full).friction_demand
     law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
-    faint = replace(full, ay_mps2=readonly(1e-4 * full.ay_mps2))
+    faint = faded(full, 1e-4)
     level = replace(faint, az_mps2=readonly(1e-5 * full.az_mps2))
     for what, scene, rung in (
         ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Rung.NO_SLIP),
@@ -354,7 +318,7 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
 
 
 def _against_scipy(triple: Triple, samples: int) -> Iterator[CheckRow]:
-    case = CASES[1]
+    case = MODEL_CASES[1]
     scene = triple.cut(samples).scene(case, coulomb(case.mu))
     x, y = plane_scipy.reference(scene)
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):

@@ -18,7 +18,7 @@ from solver.rivals.methods import METHODS, link_frequency
 from solver.sliding.sweep import sweep
 from solver.verification.evidence import Conditioning, StabilityMap, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable, scale_to, shortened
-from solver.verification.workprecision import run
+from solver.verification.study import run
 
 SLOPE_DEG = 4.0
 CRITICAL_MU = math.tan(math.radians(SLOPE_DEG))
@@ -176,8 +176,8 @@ def _map(
 
 
 def _largest_error(record: Record, name: str, runs: list[_Run]) -> float:
-    found = [run(record, case, name, parameters).prd_m for case, parameters in runs]
-    exact = [run(record, case, "exact", {}).prd_m for case, _ in runs]
+    found = [run(record, case, name, **parameters).prd_m for case, parameters in runs]
+    exact = [run(record, case).prd_m for case, _ in runs]
     return float(percent_off(np.array(found), np.array(exact)).max())
 
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene
-from solver.rivals.methods import NO_RECORD
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.verification.rung_evidence import (
     LEAST_M,
@@ -21,8 +21,7 @@ from solver.verification.rung_evidence import (
     StaticDifference,
     StaticEvidence,
 )
-from solver.verification.rungs import TIGHT
-from solver.verification.triples import readonly
+from solver.verification.study import TIGHT, faded, flat_scene, plane_prds
 
 EXCESSES = (0.3, 0.1, 1e-2, 1e-3, 1e-4)
 """Static over kinetic friction, less 1."""
@@ -63,72 +62,50 @@ def static_evidence(scenes: Sequence[Scene], ratio: float) -> StaticEvidence:
         Static over kinetic friction where the second component decreases.
     """
     alone = [(scene, one_axis.run(scene).prd_m) for scene in scenes]
-    slid = [(scene, prd_m) for scene, prd_m in alone if prd_m >= LEAST_M]
+    slid = [scene for scene, prd_m in alone if prd_m >= LEAST_M]
+    exact_m = np.array([prd_m for _, prd_m in alone if prd_m >= LEAST_M])
     return StaticEvidence(
         n_scenes=len(slid),
         ratio=ratio,
-        differences=tuple(_differences(slid)),
-        fading=tuple(_fading(slid, ratio)),
+        differences=tuple(_differences(slid, exact_m)),
+        fading=tuple(_fading(slid, exact_m, ratio)),
         pushed=tuple(_pushed()),
     )
 
 
-def _differences(slid: Sequence[tuple[Scene, float]]) -> Iterator[StaticDifference]:
-    plain = [_prd(scene) for scene, _ in slid]
+def _differences(slid: Sequence[Scene], exact_m: Floats) -> Iterator[StaticDifference]:
+    alone = [faded(scene, 0.0) for scene in slid]
+    plain_m = plane_prds(slid, coulomb, TIGHT)
     for excess in EXCESSES:
-        laws = [held(scene.friction.mu_slow, 1.0 + excess) for scene, _ in slid]
-        pairs = list(zip(slid, laws, strict=True))
-        one = [_prd(_faded(scene, 0.0), law) / prd_m for (scene, prd_m), law in pairs]
-        two = [_prd(scene, law) for (scene, _), law in pairs]
+        law = partial(held, ratio=1.0 + excess)
         yield StaticDifference(
             excess=excess,
-            one_axis=_changes(one),
-            two_axes=_changes([fuller / prd_m for fuller, prd_m in zip(two, plain, strict=True)]),
+            one_axis=_changes(plane_prds(alone, law, TIGHT), exact_m),
+            two_axes=_changes(plane_prds(slid, law, TIGHT), plain_m),
         )
 
 
-def _fading(slid: Sequence[tuple[Scene, float]], ratio: float) -> Iterator[FadingAxis]:
-    laws = [held(scene.friction.mu_slow, ratio) for scene, _ in slid]
-    bases = [_prd(_faded(scene, 0.0), law) for (scene, _), law in zip(slid, laws, strict=True)]
+def _fading(slid: Sequence[Scene], exact_m: Floats, ratio: float) -> Iterator[FadingAxis]:
+    law = partial(held, ratio=ratio)
+    base_m = plane_prds([faded(scene, 0.0) for scene in slid], law, TIGHT)
     for share in FADING:
-        faded = [_faded(scene, share) for scene, _ in slid]
-        plain = [_prd(scene) / prd_m for scene, (_, prd_m) in zip(faded, slid, strict=True)]
-        runs = zip(faded, laws, bases, strict=True)
+        part = [faded(scene, share) for scene in slid]
         yield FadingAxis(
             share=share,
-            one_coefficient=_changes(plain),
-            static_above=_changes([_prd(scene, law) / base for scene, law, base in runs]),
+            one_coefficient=_changes(plane_prds(part, coulomb, TIGHT), exact_m),
+            static_above=_changes(plane_prds(part, law, TIGHT), base_m),
         )
 
 
-def _prd(scene: Scene, law: Friction | None = None) -> float:
-    run = scene if law is None else replace(scene, friction=law)
-    return two_axes.run(run, TIGHT).prd_m
-
-
-def _faded(scene: Scene, share: float) -> Scene:
-    across = readonly(share * scene.ay_mps2) if share else NO_RECORD
-    return replace(scene, ay_mps2=across)
-
-
-def _changes(ratios: Sequence[float]) -> Floats:
-    return np.sort(np.abs(np.array(ratios) - 1.0))
+def _changes(prd_m: Floats, base_m: Floats) -> Floats:
+    return np.sort(np.abs(prd_m / base_m - 1.0))
 
 
 def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
     """Return a sliding block driven back by `PUSHED_BACK_G`, with a transverse acceleration."""
     back = np.full(201, PUSHED_BACK_G * STANDARD_GRAVITY_MPS2)
     back[0], back[1:6] = 0.0, -9.0
-    return Scene(
-        ax_mps2=readonly(back),
-        ay_mps2=readonly(np.full(201, -across_mps2)),
-        az_mps2=NO_RECORD,
-        dt_s=0.01,
-        slope_rad=0.0,
-        friction=friction,
-        scale=1.0,
-        g_mps2=STANDARD_GRAVITY_MPS2,
-    )
+    return flat_scene(back, np.full(201, -across_mps2), 0.01, friction)
 
 
 def _pushed() -> Iterator[PushedPoint]:

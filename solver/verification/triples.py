@@ -5,13 +5,13 @@ Runs nothing. Read `own_triples`, then `Triple.scene`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from solver.formats import read_motion_file
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, InputError, Motion, Scene
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Heading, InputError, Scene
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
 from solver.verification.scenes import Case, own_suite
@@ -41,19 +41,10 @@ class Triple:
     y_mps2: Floats
     z_mps2: Floats
 
-    @property
-    def motion(self) -> Motion:
-        """The motion with both signs of both horizontal components, unscaled."""
-        return Motion(
-            id=self.name,
-            source="",
-            dt_s=self.dt_s,
-            ax_mps2=self.x_mps2,
-            ay_mps2=self.y_mps2,
-            az_mps2=self.z_mps2,
-            scale=1.0,
-            signs=(1, -1),
-        )
+    def turned(self, heading: Heading) -> Triple:
+        """Return the motion at a heading: components along and across the slope."""
+        x, y = (self.y_mps2, self.x_mps2) if heading.swapped else (self.x_mps2, self.y_mps2)
+        return replace(self, x_mps2=readonly(heading.sign * x), y_mps2=y)
 
     def scale_to(self, ppa_g: float) -> float:
         """Return the factor that scales the larger horizontal peak to `ppa_g` [g]."""
@@ -82,14 +73,8 @@ class Triple:
         x, y, z = (
             readonly(a[first : first + samples]) for a in (self.x_mps2, self.y_mps2, self.z_mps2)
         )
-        return Triple(
-            name=f"{self.name}, strongest {(samples - 1) * self.dt_s:g} s",
-            is_recorded=self.is_recorded,
-            dt_s=self.dt_s,
-            x_mps2=x,
-            y_mps2=y,
-            z_mps2=z,
-        )
+        name = f"{self.name}, strongest {(samples - 1) * self.dt_s:g} s"
+        return replace(self, name=name, x_mps2=x, y_mps2=y, z_mps2=z)
 
 
 def readonly(values: Floats) -> Floats:

@@ -7,21 +7,17 @@ input checked. See `solver.rivals.methods` for the methods and their settings.
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 
 import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2, SlideResult, Status
 from solver.records.record import Record
 from solver.rivals.methods import METHODS, AxisScene, Method
-from solver.sliding.checked import slide
 from solver.verification.evidence import WorkPoint, percent_off
-from solver.verification.scenes import CASES, Case, is_runnable, prepared, scale_to
-
-REPEATS = 5
-ENOUGH_S = 0.02
-"""Repeats end after this number, or after this time [s]."""
+from solver.verification.scenes import CASES, Case, is_runnable, prepared
+from solver.verification.study import clocked, least_seconds, run
 
 SLOW_RECORDS, SLOW_CASES = 6, 2
 """Number of records, and of cases of each, for a method that takes a second per run."""
@@ -38,7 +34,7 @@ def work_points(records: Sequence[Record], *, quick: bool) -> Iterator[WorkPoint
     methods = [method for method in METHODS.values() if is_runnable(method.name)]
     for i, record in enumerate(records):
         for k, case in enumerate(cases):
-            exact = run(record, case, "exact", {})
+            exact = run(record, case)
             for method in methods:
                 within = i < SLOW_RECORDS and k < SLOW_CASES and _is_short(record)
                 if is_slow(method) and not within:
@@ -66,32 +62,6 @@ def settings(
         yield value, method.settings(value, record.dt_s, STANDARD_GRAVITY_MPS2)
 
 
-def run(record: Record, case: Case, name: str, parameters: Mapping[str, float]) -> SlideResult:
-    """Run one case of a record by a method."""
-    return slide(
-        record.a_mps2,
-        record.dt_s,
-        slope_rad=case.slope_rad,
-        mu=case.mu,
-        scale=scale_to(record, case.ppa_g),
-        method=name,
-        **parameters,
-    )
-
-
-def least_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> float:
-    """Return the least time of several repeats, fewer if they take long [s]."""
-    begun, least = time.perf_counter(), math.inf
-    for _ in range(REPEATS):
-        start = time.perf_counter()
-        work()
-        now = time.perf_counter()
-        least = min(least, now - start)
-        if now - begun > enough_s:
-            break
-    return least
-
-
 def timed(method: Method, scene: AxisScene, parameters: Mapping[str, float]) -> float:
     """Return the least time of a run by a method on a prepared scene [s]."""
     return least_seconds(lambda: method.follow(scene, parameters, NO_SAMPLES))
@@ -109,9 +79,7 @@ def _point(
     parameters: Mapping[str, float],
     exact: SlideResult,
 ) -> WorkPoint:
-    start = time.perf_counter()
-    found = run(record, case, method.name, parameters)
-    seconds = time.perf_counter() - start
+    found, seconds = clocked(partial(run, record, case, method.name, **parameters))
     if found.status in (Status.DIVERGED, Status.UPLIFT):
         seconds = math.nan
     elif not is_slow(method):

@@ -9,6 +9,7 @@ import pytest
 from solver.model import STANDARD_GRAVITY_MPS2, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.verification import rung_study, static_study
+from solver.verification.study import MODEL_CASES
 from solver.verification.triples import own_triples
 
 pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
@@ -71,7 +72,7 @@ def test_the_block_that_is_pushed_back_slides_off_without_more_friction_at_rest(
 
 def test_where_nothing_slides_there_is_nothing_to_compare():
     (triple,) = own_triples(True)
-    still = triple.scene(rung_study.TIMED[0], coulomb(9.0))
+    still = triple.scene(MODEL_CASES[0], coulomb(9.0))
     none = static_study.static_evidence([still], 1.25)
     assert none.n_scenes == 0
     assert all(np.size(one.one_axis) == 0 for one in none.differences)

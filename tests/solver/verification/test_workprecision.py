@@ -99,11 +99,3 @@ def test_results_are_the_same_every_time_but_for_the_seconds(record, points):
         assert one.prd_error_m == other.prd_error_m
         assert one.residual_error_percent == other.residual_error_percent
         assert one.parameters == other.parameters
-
-
-def test_repeats_end_early_where_they_take_long():
-    calls = []
-    workprecision.least_seconds(lambda: calls.append(0), enough_s=0.0)
-    assert len(calls) == 1
-    workprecision.least_seconds(lambda: calls.append(0), enough_s=60.0)
-    assert len(calls) == 1 + workprecision.REPEATS

@@ -1,0 +1,134 @@
+"""What the studies share: cases, scenes and their variants, runs of a record, times and misfits.
+
+A study chooses its variants and counts the results. Read `grid`, `scenes_of`, then `least_seconds`.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TypeVar
+
+import numpy as np
+
+from solver.model import (
+    STANDARD_GRAVITY_MPS2,
+    Floats,
+    Friction,
+    Scene,
+    SlideHistory,
+    SlideResult,
+    coulomb,
+)
+from solver.records.record import Record
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import two_axes
+from solver.sliding.checked import slide, slide_history
+from solver.verification.scenes import Case, scale_to
+from solver.verification.triples import Triple, readonly
+
+T = TypeVar("T")
+
+TIGHT = 1e-10
+"""Tightest tolerance of two axes."""
+
+MODEL_CASES = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
+"""Cases on which the models are checked and timed."""
+
+REPEATS = 5
+ENOUGH_S = 0.02
+"""Repeats end after this number, or after this time [s]."""
+
+
+def grid(
+    slopes_deg: Iterable[float], mus: Iterable[float], ppas_g: Iterable[float]
+) -> tuple[Case, ...]:
+    """Return all combinations, the PPA varying fastest."""
+    return tuple(itertools.starmap(Case, itertools.product(slopes_deg, mus, ppas_g)))
+
+
+def scenes_of(triples: Iterable[Triple], cases: Sequence[Case]) -> list[Scene]:
+    """Return every case of every motion, with all components and one friction coefficient."""
+    return [triple.scene(case, coulomb(case.mu)) for triple in triples for case in cases]
+
+
+def flat_scene(ax_mps2: Floats, ay_mps2: Floats, dt_s: float, friction: Friction) -> Scene:
+    """Return a block on a flat roof under given horizontal accelerations of n samples each."""
+    return Scene(
+        ax_mps2=readonly(ax_mps2),
+        ay_mps2=readonly(ay_mps2),
+        az_mps2=NO_RECORD,
+        dt_s=dt_s,
+        slope_rad=0.0,
+        friction=friction,
+        scale=1.0,
+        g_mps2=STANDARD_GRAVITY_MPS2,
+    )
+
+
+def faded(scene: Scene, share: float) -> Scene:
+    """Return the scene with its second component multiplied by `share`; 0 removes it."""
+    across = readonly(share * scene.ay_mps2) if share else NO_RECORD
+    return replace(scene, ay_mps2=across)
+
+
+def plane_prds(
+    scenes: Iterable[Scene],
+    law: Callable[[float], Friction],
+    tolerance: float = two_axes.DEFAULT_TOLERANCE,
+) -> Floats:
+    """Return the PRD of every scene in two axes, with the law of its own low-velocity friction [m].
+
+    NaN where the normal force vanishes.
+    """
+    laws = ((scene, law(scene.friction.mu_slow)) for scene in scenes)
+    runs = (two_axes.run(replace(scene, friction=friction), tolerance) for scene, friction in laws)
+    return np.array([run.prd_m for run in runs])
+
+
+def run(record: Record, case: Case, method: str = "exact", **parameters: float) -> SlideResult:
+    """Run one case of a record by a method."""
+    return _posed(slide, record, case)(method=method, **parameters)
+
+
+def history(record: Record, case: Case, method: str, **parameters: float) -> SlideHistory:
+    """Return the motion of that run at the samples."""
+    return _posed(slide_history, record, case)(method=method, **parameters)
+
+
+def _posed(solve: Callable[..., T], record: Record, case: Case) -> partial[T]:
+    scale = scale_to(record, case.ppa_g)
+    place = {"slope_rad": case.slope_rad, "mu": case.mu, "scale": scale}
+    return partial(solve, record.a_mps2, record.dt_s, **place)
+
+
+def clocked(work: Callable[[], T]) -> tuple[T, float]:
+    """Return the result and the time it took [s]."""
+    start = time.perf_counter()
+    result = work()
+    return result, time.perf_counter() - start
+
+
+def least_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> float:
+    """Return the least time of several repeats, fewer if they take long [s]."""
+    total, least = 0.0, math.inf
+    for _ in range(REPEATS):
+        _, seconds = clocked(work)
+        total, least = total + seconds, min(least, seconds)
+        if total > enough_s:
+            break
+    return least
+
+
+def unexplained(computed: Floats, recorded: Floats) -> float:
+    """Return the sum of squares of the difference over that of the recorded motions."""
+    return float(((computed - recorded) ** 2).sum() / (recorded**2).sum())
+
+
+def best_of(misfit: Callable[[T], float], points: Iterable[T]) -> tuple[float, T]:
+    """Return the least misfit and its point, the first of equal ones."""
+    return min(((misfit(point), point) for point in points), key=lambda pair: pair[0])
