@@ -69,6 +69,11 @@ class ArrayAssessment:
     interconnection_n: float
 
     @property
+    def id(self) -> str:
+        """Name of the array in the workbook."""
+        return self.array.id
+
+    @property
     def governs(self) -> DesignBasis:
         """Source of the design displacement."""
         if math.isnan(self.design_m):
@@ -119,7 +124,7 @@ class ArrayAssessment:
 
 def by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
     """Return the array with an id."""
-    return next(item for item in arrays if item.array.id == wanted)
+    return next(array for array in arrays if array.id == wanted)
 
 
 def assess_array(

@@ -39,7 +39,9 @@ def support(assessment: Assessment) -> Evidence:
     """Compute the results that support an assessment."""
     return Evidence(
         spectra=spectra(assessment),
-        histories=tuple(tuple(run.history() for run in one.motions) for one in assessment.arrays),
+        histories=tuple(
+            tuple(run.history() for run in array.motions) for array in assessment.arrays
+        ),
         accuracy=accuracy(assessment),
         highpass=beyond_corners(assessment),
     )

@@ -46,6 +46,6 @@ def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
     )
 
 
-def _prd_m(found: ArrayAssessment, motion_id: str) -> float:
-    run = next(run for run in found.motions if run.motion.id == motion_id)
+def _prd_m(array: ArrayAssessment, motion_id: str) -> float:
+    run = next(run for run in array.motions if run.motion.id == motion_id)
     return run.governing.result.prd_m

@@ -79,7 +79,7 @@ class LinkedArray:
     ----------
     links : Links
         As entered in the workbook.
-    found : ArrayAssessment
+    design : ArrayAssessment
         The array as designed.
     row : BlockRow
     motions : tuple of LinkedMotion
@@ -89,7 +89,7 @@ class LinkedArray:
     """
 
     links: Links
-    found: ArrayAssessment
+    design: ArrayAssessment
     row: BlockRow
     motions: tuple[LinkedMotion, ...]
     rigid: AnalysisValue
@@ -114,7 +114,7 @@ class LinkedArray:
         Where a model is requested and the adequate one gives more, the latter: the floor may cover
         what the requested model neglects, but not necessarily together with links.
         """
-        return max(self.found.analysis.value_m, self.found.chosen[Direction.ANY].value_m)
+        return max(self.design.analysis.value_m, self.design.chosen[Direction.ANY].value_m)
 
     @property
     def estimated_m(self) -> float:
@@ -122,7 +122,7 @@ class LinkedArray:
 
         The value from analysis times the ratio, if above 1; not less than the floor.
         """
-        ratio, design = self.ratio, self.found
+        ratio, design = self.ratio, self.design
         if math.isnan(ratio) or math.isnan(design.design_m):
             return math.nan
         if math.isinf(ratio):  # also where the design uses 0
@@ -137,7 +137,7 @@ class LinkedArray:
     @property
     def is_within(self) -> bool:
         """Whether the estimate exceeds the design by no more than the model tolerance."""
-        design = self.found.design_m
+        design = self.design.design_m
         return self.estimated_m <= design + least_model.DEFAULT.bound_m(design)
 
     @property
@@ -159,7 +159,7 @@ class LinkedArray:
     @property
     def block_n(self) -> float:
         """Weight of a block [N]."""
-        return self.found.array.weight_n / len(self.row.mus)
+        return self.design.array.weight_n / len(self.row.mus)
 
     @property
     def link_force_n(self) -> float:
@@ -169,21 +169,21 @@ class LinkedArray:
 
 
 def assess_linked(
-    pool: Executor, rules: RuleSet, links: Links, found: ArrayAssessment
+    pool: Executor, rules: RuleSet, links: Links, design: ArrayAssessment
 ) -> LinkedArray:
     """Run an array under all its motions as a row of linked blocks and as one rigid block."""
-    row = links.row(found.array.weight_n)
+    row = links.row(design.array.weight_n)
     motions = tuple(
-        pool.map(partial(_run_motion, found.array, row), [run.motion for run in found.motions])
+        pool.map(partial(_run_motion, design.array, row), [run.motion for run in design.motions])
     )
-    basis = found.analysis.basis
+    basis = design.analysis.basis
     return LinkedArray(
         links=links,
-        found=found,
+        design=design,
         row=row,
         motions=motions,
-        rigid=provisions.analysis_value(rules, [one.rigid_m for one in motions], basis),
-        linked=provisions.analysis_value(rules, [one.linked_m for one in motions], basis),
+        rigid=provisions.analysis_value(rules, [motion.rigid_m for motion in motions], basis),
+        linked=provisions.analysis_value(rules, [motion.linked_m for motion in motions], basis),
     )
 
 

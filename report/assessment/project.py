@@ -64,7 +64,7 @@ class Assessment:
     @property
     def governing(self) -> ArrayAssessment:
         """The array with the largest design displacement, or one without a value."""
-        return max(self.arrays, key=lambda found: nan_is_worst(found.design_m))
+        return max(self.arrays, key=lambda array: nan_is_worst(array.design_m))
 
     @property
     def ok(self) -> bool:
@@ -73,21 +73,21 @@ class Assessment:
         arrays_ok = all(map(self.array_ok, self.arrays))
         return building_ok and arrays_ok and all(gap.ok for gap in self.clearances)
 
-    def array_ok(self, found: ArrayAssessment) -> bool:
+    def array_ok(self, array: ArrayAssessment) -> bool:
         """Whether an array has final values and satisfies its limits and clearances."""
         return (
-            not math.isnan(found.design_m)
-            and found.is_model_enough
-            and found.tipping.is_ok
-            and all(one.is_rigid_enough for one in self.linked_of(found))
-            and all(check.ok for check in found.checks)
-            and all(gap.ok for gap in self.gaps_of(found.array.id))
-            and all(run.result.status is Status.OK for m in found.motions for run in m.runs)
+            not math.isnan(array.design_m)
+            and array.is_model_enough
+            and array.tipping.is_ok
+            and all(linked.is_rigid_enough for linked in self.linked_of(array))
+            and all(check.ok for check in array.checks)
+            and all(gap.ok for gap in self.gaps_of(array.id))
+            and all(run.result.status is Status.OK for m in array.motions for run in m.runs)
         )
 
-    def linked_of(self, found: ArrayAssessment) -> Sequence[LinkedArray]:
+    def linked_of(self, array: ArrayAssessment) -> Sequence[LinkedArray]:
         """Return an array as a row of linked blocks, where the workbook requests it."""
-        return [one for one in self.linked if one.found.array.id == found.array.id]
+        return [linked for linked in self.linked if linked.design.id == array.id]
 
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
         """Return the clearances that involve an array, on either side."""
@@ -100,7 +100,7 @@ class Assessment:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Runs whose displacement is missing or not final, in words."""
-        return tuple(text for found in self.arrays for text in run_warnings(found))
+        return tuple(text for array in self.arrays for text in run_warnings(array))
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
         """Return the clearance of an array, from either side, with the largest D/C, if any."""
@@ -108,13 +108,13 @@ class Assessment:
         return max(of_array, key=lambda c: nan_is_worst(c.demand_capacity), default=None)
 
 
-def run_warnings(found: ArrayAssessment) -> tuple[str, ...]:
+def run_warnings(array: ArrayAssessment) -> tuple[str, ...]:
     """Return in words the runs of an array whose displacement is missing or not final."""
     return tuple(
-        f"Array {found.array.id}, motion {motion.motion.id}, "
+        f"Array {array.id}, motion {motion.motion.id}, "
         f"{', '.join(run.heading.name for run in runs)}: "
         f"{_trouble([run.result for run in runs])}."
-        for motion in found.motions
+        for motion in array.motions
         for status in Status
         if status is not Status.OK
         and (runs := [run for run in motion.runs if run.result.status is status])
@@ -169,11 +169,11 @@ def _assess(
         runs = [_runs(pool, array, shaking.motions, check_models) for array in data.arrays]
         seconds = time.perf_counter() - started
         arrays = tuple(
-            assess_array(data, rules, array, *found)
-            for array, found in zip(data.arrays, runs, strict=True)
+            assess_array(data, rules, array, *pair)
+            for array, pair in zip(data.arrays, runs, strict=True)
         )
         links = data.links if check_models else ()
-        linked = tuple(assess_linked(pool, rules, one, by_id(arrays, one.array)) for one in links)
+        linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
     return Assessment(
         sheet=sheet,
         shaking=shaking,

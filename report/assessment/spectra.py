@@ -67,7 +67,11 @@ class Spectra:
 def spectra(assessment: Assessment) -> tuple[Spectra, ...]:
     """Return the spectra of each component that occurs: at the roof, then on the ground."""
     goals, motions = assessment.targets, assessment.shaking.motions
-    ground = [one for one in assessment.shaking.prepared if one.recorded_at is RecordedAt.GROUND]
+    ground = [
+        prepared
+        for prepared in assessment.shaking.prepared
+        if prepared.recorded_at is RecordedAt.GROUND
+    ]
     at_roof = (
         ("Horizontal", goals.roof, [_scaled(m, m.ax_mps2) for m in motions]),
         ("Transverse", goals.roof, [_scaled(m, m.ay_mps2) for m in motions if m.has_transverse]),

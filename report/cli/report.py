@@ -125,7 +125,7 @@ def _print_summary(assessment: Assessment) -> None:
     for item in assessment.arrays:
         if not item.tipping.is_ok:
             click.echo(f"warning: array {item.array.id} starts to tip; see part 11 of the package")
-    for name in (row.found.array.id for row in assessment.linked if not row.is_rigid_enough):
+    for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
         text = f"one rigid block has not been shown to be adequate for array {name}"
         click.echo(f"warning: {text}; see part 11 of the package")
     checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]

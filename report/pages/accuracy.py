@@ -17,47 +17,47 @@ from solver.sliding.least_model import Rung
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
 
 
-def page(package: PackageData, found: Accuracy) -> Mapping[str, object]:
+def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
     """Return the page without its chart."""
     return {
         "shift": _PERCENT,
-        "run": _run(package, found.rivals),
-        "plane": _plane(package, found.rivals),
-        "method": _method(found.rivals),
-        "methods": _methods(package, found.rivals) if found.rivals.runs else None,
-        "friction": _friction_table(package, found),
-        "sentences": [*_sentences(package, found), *_clearances(found)],
+        "run": _run(package, accuracy.rivals),
+        "plane": _plane(package, accuracy.rivals),
+        "method": _method(accuracy.rivals),
+        "methods": _methods(package, accuracy.rivals) if accuracy.rivals.runs else None,
+        "friction": _friction_table(package, accuracy),
+        "sentences": [*_sentences(package, accuracy), *_clearances(accuracy)],
     }
 
 
-def picture(found: Rivals, us_first: bool) -> Picture:
+def picture(rivals: Rivals, us_first: bool) -> Picture:
     """Return the chart of the page."""
     from report.figures.accuracy import work_precision
 
-    failed = sum(run.failed for run in found.runs)
+    failed = sum(run.failed for run in rivals.runs)
     lost = f" {failed} failed run{'s are' if failed > 1 else ' is'} not drawn." if failed else ""
     return Picture(
-        svg=work_precision(found, us_first),
+        svg=work_precision(rivals, us_first),
         caption="Error in PRD for the governing run along the slope alone, each method from coarse "
         f"to fine. Links stiffen to the right, with the steps required.{lost}",
         alt="Chart of the error in PRD against the steps of each method",
     )
 
 
-def _run(package: PackageData, found: Rivals) -> str:
-    run, array = found.motion.governing, found.array.array
-    vertical = "with" if found.motion.motion.has_vertical else "without"
+def _run(package: PackageData, rivals: Rivals) -> str:
+    run, array = rivals.motion.governing, rivals.array.array
+    vertical = "with" if rivals.motion.motion.has_vertical else "without"
     return (
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
-        f"μ = {number(array.mu, 3)}) under motion {found.motion.motion.id}, {run.heading.name}, "
+        f"μ = {number(array.mu, 3)}) under motion {rivals.motion.motion.id}, {run.heading.name}, "
         f"{vertical} vertical shaking. PRD {package.fmt.both(run.result.prd_m)}, model "
         f"{int(run.solution.rung)} of {package.part('model')}, {run.solution.rung.title}."
     )
 
 
-def _plane(package: PackageData, found: Rivals) -> str:
+def _plane(package: PackageData, rivals: Rivals) -> str:
     """Return the error of a run in two axes and the scope of the comparison; or nothing."""
-    run = found.motion.governing
+    run = rivals.motion.governing
     if run.solution.rung < Rung.TWO_AXES or math.isnan(run.result.prd_m):
         return ""
     kind = "a bound" if run.scene.friction.is_monotone else "from two tolerances"
@@ -66,7 +66,7 @@ def _plane(package: PackageData, found: Rivals) -> str:
         "Motion in two axes is computed to a tolerance: the error of this PRD is below "
         f"{below_mm(run.result.error_m)} ({kind}). The other methods apply to one axis only and "
         "are compared on this run along the slope alone, without the cross-slope component"
-        f"{slow}. That displacement, {package.fmt.both(found.exact.prd_m)}, is not a result of "
+        f"{slow}. That displacement, {package.fmt.both(rivals.exact.prd_m)}, is not a result of "
         "this package."
     )
 
@@ -78,19 +78,19 @@ def below_mm(error_m: float) -> str:
     return f"{power_of_ten(math.floor(math.log10(1e3 * error_m)) + 1)} mm"
 
 
-def _method(found: Rivals) -> str:
+def _method(rivals: Rivals) -> str:
     """Return the error of the exact method on this run."""
-    result = found.motion.governing.result
+    result = rivals.motion.governing.result
     if result.status is Status.UPLIFT:
         return "The block lifts off the roof: the run gives no displacement and no error."
     if math.isnan(result.prd_m):
         return f"The run gives no displacement and no error: {result.status.sentence}."
-    if not found.runs:
+    if not rivals.runs:
         return "No sliding along the slope in this run: all methods that model sticking agree."
     return (
         "Along the slope the solution is exact, event by event, with at most one step per sampling "
         "interval. With a sample added midway between samples (the same motion), the PRD "
-        f"{_doubled(found.doubled)}. A run took less than {_decade_ms(found.seconds)} ms. The "
+        f"{_doubled(rivals.doubled)}. A run took less than {_decade_ms(rivals.seconds)} ms. The "
         "verification manual of this version (roofslip verify) compares the method with closed "
         "forms and times each method."
     )
@@ -108,8 +108,8 @@ def _doubled(change: float) -> str:
     return f"changes by less than {power_of_ten(math.floor(math.log10(change)) + 1)} of its value"
 
 
-def _methods(package: PackageData, found: Rivals) -> Table:
-    fmt, exact = package.fmt, found.exact
+def _methods(package: PackageData, rivals: Rivals) -> Table:
+    fmt, exact = package.fmt, rivals.exact
     top = TableRow(
         cells=(
             "Exact, event by event",
@@ -119,7 +119,7 @@ def _methods(package: PackageData, found: Rivals) -> Table:
         ),
         kind="total",
     )
-    rows = (_method_row(package, run) for run in found.runs if run.is_default)
+    rows = (_method_row(package, run) for run in rivals.runs if run.is_default)
     return Table(
         caption="The governing run along the slope alone, by every method with default settings",
         columns=(
@@ -156,12 +156,12 @@ def parameters(values: Mapping[str, float]) -> str:
 
 
 def _by_array(
-    found: Accuracy,
+    accuracy: Accuracy,
 ) -> Iterator[tuple[ArrayAssessment, ArrayAssessment, ArrayAssessment]]:
-    yield from zip(found.given.arrays, found.less.arrays, found.more.arrays, strict=True)
+    yield from zip(accuracy.given.arrays, accuracy.less.arrays, accuracy.more.arrays, strict=True)
 
 
-def _friction_table(package: PackageData, found: Accuracy) -> Table:
+def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
     fmt = package.fmt
     return Table(
         caption="Design displacement with changed friction, all motions rerun",
@@ -186,18 +186,18 @@ def _friction_table(package: PackageData, found: Accuracy) -> Table:
                     _change(more.design_m, given.design_m),
                 )
             )
-            for given, less, more in _by_array(found)
+            for given, less, more in _by_array(accuracy)
         ),
         kind="compact",
     )
 
 
-def _design_cells(package: PackageData, found: ArrayAssessment) -> tuple[str, str]:
-    return package.fmt.cells(found.design_m, mark=package.design_mark(found))
+def _design_cells(package: PackageData, array: ArrayAssessment) -> tuple[str, str]:
+    return package.fmt.cells(array.design_m, mark=package.design_mark(array))
 
 
-def _design(package: PackageData, found: ArrayAssessment) -> str:
-    return package.fmt.both(found.design_m) + package.design_mark(found)
+def _design(package: PackageData, array: ArrayAssessment) -> str:
+    return package.fmt.both(array.design_m) + package.design_mark(array)
 
 
 def _change(value: float, given: float) -> str:
@@ -207,11 +207,11 @@ def _change(value: float, given: float) -> str:
     return f"{'+' if share > 0.05 else ''}{number(share, 1)} %"
 
 
-def _sentences(package: PackageData, found: Accuracy) -> Iterator[str]:
+def _sentences(package: PackageData, accuracy: Accuracy) -> Iterator[str]:
     """Yield a sentence for each array; arrays always governed by the floor share one."""
-    three = tuple(_by_array(found))
+    three = tuple(_by_array(accuracy))
     floored = [given for given, *others in three if _on_floor(given, *others)]
-    yield from (_sentence(package, *one) for one in three if not _on_floor(*one))
+    yield from (_sentence(package, *arrays) for arrays in three if not _on_floor(*arrays))
     if floored:
         names = ", ".join(given.array.id for given in floored)
         yield (
@@ -221,15 +221,15 @@ def _sentences(package: PackageData, found: Accuracy) -> Iterator[str]:
         )
 
 
-def _on_floor(*found: ArrayAssessment) -> bool:
-    return all(one.governs is DesignBasis.FLOOR for one in found)
+def _on_floor(*arrays: ArrayAssessment) -> bool:
+    return all(array.governs is DesignBasis.FLOOR for array in arrays)
 
 
 def _sentence(
     package: PackageData, given: ArrayAssessment, less: ArrayAssessment, more: ArrayAssessment
 ) -> str:
     start = f"Array {given.array.id}: "
-    if any(math.isnan(one.design_m) for one in (given, less, more)):
+    if any(math.isnan(array.design_m) for array in (given, less, more)):
         return f"{start}no design displacement, so no sensitivity to friction is given."
     ways = (
         f"with {_PERCENT} {word} friction the design displacement of "
@@ -254,12 +254,12 @@ def _becomes(
     return words if short else words.removeprefix("it ")
 
 
-def _clearances(found: Accuracy) -> Sequence[str]:
+def _clearances(accuracy: Accuracy) -> Sequence[str]:
     """Return the effect of less friction on clearances and on the outcome of runs."""
     texts = []
-    if found.given.clearances:
-        texts.append(_short_of(found))
-    unfinished = _unfinished(found.less) - _unfinished(found.given)
+    if accuracy.given.clearances:
+        texts.append(_short_of(accuracy))
+    unfinished = _unfinished(accuracy.less) - _unfinished(accuracy.given)
     if unfinished > 0:
         texts.append(
             f"With {_PERCENT} less friction {unfinished} more of the runs are still sliding at the "
@@ -268,15 +268,15 @@ def _clearances(found: Accuracy) -> Sequence[str]:
     return texts
 
 
-def _short_of(found: Accuracy) -> str:
-    if not found.newly_short:
+def _short_of(accuracy: Accuracy) -> str:
+    if not accuracy.newly_short:
         return f"With {_PERCENT} less friction all clearances that are satisfied remain satisfied."
-    short = found.newly_short
+    short = accuracy.newly_short
     names = ", ".join(f"{gap.clearance.array} to {gap.clearance.object}" for gap in short)
     count = f"{len(short)} clearance{'s' if len(short) > 1 else ''}"
     return f"With {_PERCENT} less friction {count} would no longer be satisfied: {names}."
 
 
-def _unfinished(found: Assessment) -> int:
-    runs = (run for a in found.arrays for motion in a.motions for run in motion.runs)
+def _unfinished(assessment: Assessment) -> int:
+    runs = (run for a in assessment.arrays for motion in a.motions for run in motion.runs)
     return sum(run.result.status is Status.SLIDING_AT_END for run in runs)

@@ -43,15 +43,15 @@ def echo_page(package: PackageData) -> Mapping[str, object]:
 
 def records_page(package: PackageData) -> Mapping[str, object]:
     """Return the records and the software versions."""
-    found = records(package.assessment.shaking.records)
-    return {"files": found, "method": METHOD, "software": software()}
+    files = records(package.assessment.shaking.records)
+    return {"files": files, "method": METHOD, "software": software()}
 
 
 def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, str], ...]:
     """Return the name of each sheet and its cells as lines of aligned columns."""
     return tuple(
-        (sheet, "\n".join(_lines(tuple(found))))
-        for sheet, found in groupby(rows, key=lambda row: row.sheet)
+        (sheet, "\n".join(_lines(tuple(group))))
+        for sheet, group in groupby(rows, key=lambda row: row.sheet)
     )
 
 
@@ -86,9 +86,9 @@ def _is_blank(row: EchoRow) -> bool:
     return not row.typed and (row.value == "—" or row.value.endswith("(default)"))
 
 
-def _beside(one: EchoRow, other: EchoRow) -> bool:
+def _beside(row: EchoRow, other: EchoRow) -> bool:
     """Whether two cells share a row or a column."""
-    return any(a == b for a, b in zip(_split(one.cell), _split(other.cell), strict=True))
+    return any(a == b for a, b in zip(_split(row.cell), _split(other.cell), strict=True))
 
 
 def _split(cell: str) -> tuple[str, str]:

@@ -23,24 +23,24 @@ def building_part(
     package: PackageData, motions: Sequence[Motion], preparations: Sequence[PreparedMotion]
 ) -> Mapping[str, object]:
     """Return the texts and tables on the motion from ground to roof."""
-    found = [
+    components = [
         (motion, NAMES[name], roof)
         for motion, prepared in zip(motions, preparations, strict=True)
         for name, roof in prepared.roof.items()
     ]
     return {
-        "texts": tuple(_texts(package, found)),
-        "tables": (_modes(found), _peaks(found)),
+        "texts": tuple(_texts(package, components)),
+        "tables": (_modes(components), _peaks(components)),
     }
 
 
 _Carried = tuple[Motion, str, RoofMotion]
 
 
-def _texts(package: PackageData, found: Sequence[_Carried]) -> Iterator[str]:
+def _texts(package: PackageData, components: Sequence[_Carried]) -> Iterator[str]:
     yield Markup("{} {}").format(
         "Motions recorded on the ground are transferred to the roof through an elastic building "
-        f"model, each horizontal component independently: {_words(found)}.",
+        f"model, each horizontal component independently: {_words(components)}.",
         _period_words(package),
     )
     share = package.data.building.left_out_percent
@@ -62,9 +62,9 @@ def _texts(package: PackageData, found: Sequence[_Carried]) -> Iterator[str]:
     )
 
 
-def _words(found: Sequence[_Carried]) -> str:
+def _words(components: Sequence[_Carried]) -> str:
     names: dict[str, list[str]] = {}
-    for _, name, roof in found:
+    for _, name, roof in components:
         same = names.setdefault(roof.building.words, [])
         same += [name] if name not in same else []
     if len(names) == 1:
@@ -92,11 +92,11 @@ def _period_words(package: PackageData) -> Markup:
     )
 
 
-def _modes(found: Sequence[_Carried]) -> Table:
+def _modes(components: Sequence[_Carried]) -> Table:
     """Return the slowest modes of the building in each direction."""
     buildings: dict[str, Building] = {}
     included: dict[str, int] = {}
-    for _, name, roof in found:
+    for _, name, roof in components:
         buildings[name] = roof.building
         included[name] = max(included.get(name, 0), roof.n_modes)
     return Table(
@@ -127,7 +127,7 @@ def _modes(found: Sequence[_Carried]) -> Table:
     )
 
 
-def _peaks(found: Sequence[_Carried]) -> Table:
+def _peaks(components: Sequence[_Carried]) -> Table:
     """Return the peaks of each component on the ground and at the roof."""
     return Table(
         caption="Peak acceleration on the ground and at the roof, after scaling, and modes",
@@ -142,7 +142,7 @@ def _peaks(found: Sequence[_Carried]) -> Table:
             TableColumn(head="All omitted", unit="% of roof peak", share=1.2),
             TableColumn(head="Extended by", unit="s", share=0.9),
         ),
-        rows=tuple(_peak_row(*one) for one in found),
+        rows=tuple(_peak_row(*component) for component in components),
         kind="compact",
     )
 

@@ -96,9 +96,9 @@ def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
     """Return every limit with the item that it applies to."""
     building = [("Building", check) for check in package.assessment.building_checks]
     arrays = [
-        (f"Array {found.array.id}", check)
-        for found in package.assessment.arrays
-        for check in found.checks
+        (f"Array {array.id}", check)
+        for array in package.assessment.arrays
+        for check in array.checks
     ]
     return [*building, *arrays]
 
@@ -117,10 +117,10 @@ def failed_limits(package: PackageData) -> Sequence[str]:
 def troubles(package: PackageData) -> Sequence[str]:
     """Return everything that prevents an OK, except clearances, in words."""
     few = [
-        f"Array {found.array.id}: too few motions ({found.analysis.n_motions}) for the requested "
+        f"Array {array.id}: too few motions ({array.analysis.n_motions}) for the requested "
         f"statistic ({package.data.options.statistic.value}); no design value."
-        for found in package.assessment.arrays
-        if found.analysis.basis is Basis.TOO_FEW
+        for array in package.assessment.arrays
+        if array.analysis.basis is Basis.TOO_FEW
     ]
     return [
         *package.assessment.warnings,
@@ -219,18 +219,18 @@ def _interconnection(package: PackageData) -> Table:
         rows=tuple(
             TableRow(
                 cells=(
-                    found.array.id,
-                    *fmt.cells(found.array.weight_n, Quantity.WEIGHT),
-                    *fmt.cells(found.array.weight_n / 2.0, Quantity.WEIGHT),
+                    array.id,
+                    *fmt.cells(array.array.weight_n, Quantity.WEIGHT),
+                    *fmt.cells(array.array.weight_n / 2.0, Quantity.WEIGHT),
                     *fmt.cells(
-                        found.interconnection_n,
+                        array.interconnection_n,
                         Quantity.WEIGHT,
                         mark=package.mark("interconnection_sds"),
                     ),
                     package.clause("interconnection_sds"),
                 )
             )
-            for found in package.assessment.arrays
+            for array in package.assessment.arrays
         ),
         notes=("The lighter part on either side of a section is at most half of the array.",),
     )

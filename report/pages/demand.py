@@ -38,7 +38,7 @@ def _s_ds(package: PackageData) -> Iterator[Line]:
 def _ac156(package: PackageData) -> Iterator[Line]:
     """Yield the corners at the roof, of components without a project-specific spectrum."""
     site, goals = package.data.site, package.assessment.targets
-    found, vertical = package.assessment.horizontal_target, package.assessment.vertical_target
+    horizontal, vertical = package.assessment.horizontal_target, package.assessment.vertical_target
     s_ds, height = number(site.s_ds, 3), number(site.roof_height_m / site.structure_height_m, 3)
     amplification = package.assessment.rules.amplification
     is_above_grade = site.roof_height_m > 0.0  # at grade there is no reduction
@@ -59,14 +59,14 @@ def _ac156(package: PackageData) -> Iterator[Line]:
             steps=(
                 (
                     f"min({s_ds} g × {amplified}, 1.6 × {s_ds} g)",
-                    f"{number(float(found.sa_g[1]), 3)} g",
+                    f"{number(float(horizontal.sa_g[1]), 3)} g",
                 ),
             ),
         )
         yield Line(
             latex=rigid,
             reference="AC156",
-            steps=((f"0.4 × {s_ds} g × {amplified}", f"{number(float(found.sa_g[3]), 3)} g"),),
+            steps=((f"0.4 × {s_ds} g × {amplified}", f"{number(float(horizontal.sa_g[3]), 3)} g"),),
         )
     if goals.vertical.name != OWN:
         yield Line(

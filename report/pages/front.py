@@ -89,7 +89,7 @@ def _sentence(package: PackageData) -> str:
     if package.assessment.ok:
         return "All limits and clearances are satisfied; every run reached a final value."
     counts = (
-        ("array", [package.assessment.array_ok(found) for found in package.assessment.arrays]),
+        ("array", [package.assessment.array_ok(array) for array in package.assessment.arrays]),
         ("clearance", [gap.ok for gap in package.assessment.clearances]),
         ("limit", [check.ok for _, check in all_checks(package)]),
     )
@@ -102,9 +102,9 @@ def _sentence(package: PackageData) -> str:
 
 
 def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
-    site, rules, found = package.data.site, package.assessment.rules, package.governing
-    key = package.prescriptive_key(found)
-    motions = f"{found.analysis.n_motions} motion{'s' if found.analysis.n_motions != 1 else ''}"
+    site, rules, array = package.data.site, package.assessment.rules, package.governing
+    key = package.prescriptive_key(array)
+    motions = f"{array.analysis.n_motions} motion{'s' if array.analysis.n_motions != 1 else ''}"
     return (
         (
             "Seismic demand",
@@ -120,18 +120,18 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
         ),
         (
             "Prescriptive displacement",
-            package.fmt.both(found.prescriptive.value_m) + package.mark(key),
+            package.fmt.both(array.prescriptive.value_m) + package.mark(key),
             rules.values[key].clause,
         ),
         (
             "Basis of the analysis value",
-            f"{statistic(found.analysis.basis)} of {motions}{package.mark('analysis_factor')}",
+            f"{statistic(array.analysis.basis)} of {motions}{package.mark('analysis_factor')}",
             rules.values["analysis_factor"].clause,
         ),
         (
-            f"Largest design displacement (array {found.array.id})",
-            package.fmt.both(found.design_m) + package.design_mark(found),
-            f"governed by: {found.governs}",
+            f"Largest design displacement (array {array.id})",
+            package.fmt.both(array.design_m) + package.design_mark(array),
+            f"governed by: {array.governs}",
         ),
     )
 
@@ -152,7 +152,7 @@ def _array_table(package: PackageData) -> Table:
             TableColumn(head="D/C", share=0.9),
             TableColumn(head="Verdict", align="center", share=1.1),
         ),
-        rows=tuple(_array_row(package, found) for found in package.assessment.arrays),
+        rows=tuple(_array_row(package, array) for array in package.assessment.arrays),
         notes=(
             "D/C: required / provided separation, rounded up; the largest of the clearances that "
             "involve the array.",
@@ -160,22 +160,22 @@ def _array_table(package: PackageData) -> Table:
     )
 
 
-def _array_row(package: PackageData, found: ArrayAssessment) -> TableRow:
-    prescriptive = package.mark(package.prescriptive_key(found))
-    demands = [gap.demand_capacity for gap in package.assessment.gaps_of(found.array.id)]
+def _array_row(package: PackageData, array: ArrayAssessment) -> TableRow:
+    prescriptive = package.mark(package.prescriptive_key(array))
+    demands = [gap.demand_capacity for gap in package.assessment.gaps_of(array.id)]
     largest = math.nan if any(map(math.isnan, demands)) else max(demands, default=math.nan)
     return TableRow(
         cells=(
-            found.array.id,
-            number(math.degrees(found.array.slope_rad), 2),
-            number(found.array.mu, 2),
-            *package.fmt.cells(found.analysis.value_m),
-            *package.fmt.cells(found.prescriptive.value_m, mark=prescriptive),
-            *package.fmt.cells(found.design_m, mark=package.design_mark(found)),
-            found.governs,
-            verdict(all(check.ok for check in found.checks)),
+            array.id,
+            number(math.degrees(array.array.slope_rad), 2),
+            number(array.array.mu, 2),
+            *package.fmt.cells(array.analysis.value_m),
+            *package.fmt.cells(array.prescriptive.value_m, mark=prescriptive),
+            *package.fmt.cells(array.design_m, mark=package.design_mark(array)),
+            array.governs,
+            verdict(all(check.ok for check in array.checks)),
             ratio(largest) if demands else "none given",
-            verdict(package.assessment.array_ok(found)),
+            verdict(package.assessment.array_ok(array)),
         )
     )
 
@@ -234,12 +234,14 @@ def _runs(motions: Sequence[Motion]) -> str:
 def _requested(package: PackageData) -> str:
     """Return which arrays use a model that the workbook requests."""
     arrays = [item.array for item in package.assessment.arrays if item.is_model_asked_for]
-    return "".join(f"; {one.id} uses the requested model, {one.model.value}" for one in arrays)
+    return "".join(
+        f"; {array.id} uses the requested model, {array.model.value}" for array in arrays
+    )
 
 
 def _linked(package: PackageData) -> str:
     """Return which arrays are compared with a row of linked blocks."""
-    names = ", ".join(found.found.array.id for found in package.assessment.linked)
+    names = ", ".join(linked.design.id for linked in package.assessment.linked)
     return (
         f" ({package.part('model')} compares {names} with a row of linked blocks)" if names else ""
     )
@@ -249,7 +251,7 @@ def _friction(package: PackageData) -> str:
     single = (
         "a single coefficient μ for each array, at rest and while sliding, independent of velocity"
     )
-    tested = [one.id for one in package.data.arrays if not one.friction.is_constant]
+    tested = [array.id for array in package.data.arrays if not array.friction.is_constant]
     if not tested:
         return single
     names = ", ".join(tested)

@@ -238,14 +238,14 @@ def _links(package: PackageData) -> Table:
         rows=tuple(
             TableRow(
                 cells=(
-                    one.array,
-                    str(len(one.mus)),
-                    ", ".join(number(mu, 3) for mu in one.mus),
-                    *fmt.cells(one.stiffness_n_per_m, Quantity.STIFFNESS),
-                    number(one.damping_ratio, 3),
+                    row.array,
+                    str(len(row.mus)),
+                    ", ".join(number(mu, 3) for mu in row.mus),
+                    *fmt.cells(row.stiffness_n_per_m, Quantity.STIFFNESS),
+                    number(row.damping_ratio, 3),
                 )
             )
-            for one in package.data.links
+            for row in package.data.links
         ),
         notes=(f"Blocks of equal weight, in a row along the slope ({package.part('model')}).",),
     )

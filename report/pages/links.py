@@ -43,43 +43,43 @@ def part(package: PackageData, matters: str) -> Mapping[str, object]:
 
 def link_troubles(package: PackageData) -> Iterator[str]:
     """Yield in words for which arrays one rigid block is not adequate, and the remedy."""
-    for found in package.assessment.linked:
-        yield from _unfinished(found)
-        if not found.is_within and not math.isnan(found.estimated_m):
-            yield f"{_too_far(package, found)} {_remedy(found)}"
+    for linked in package.assessment.linked:
+        yield from _unfinished(linked)
+        if not linked.is_within and not math.isnan(linked.estimated_m):
+            yield f"{_too_far(package, linked)} {_remedy(linked)}"
 
 
-def _unfinished(found: LinkedArray) -> Iterator[str]:
+def _unfinished(linked: LinkedArray) -> Iterator[str]:
     """Yield the outcomes of rows without a final displacement, each with its runs."""
     for status in Status:
         runs = [
             f"{motion.motion.id} {run.heading.name}"
-            for motion in found.motions
+            for motion in linked.motions
             for run in motion.runs
             if run.row.status is status
         ]
         if runs and status is not Status.OK:
-            name = found.found.array.id
+            name = linked.design.id
             yield f"Array {name} as a row of linked blocks, {', '.join(runs)}: {status.sentence}."
 
 
-def _too_far(package: PackageData, found: LinkedArray) -> str:
-    name, fmt, used = found.found.array.id, package.fmt, found.found.design_m
-    if math.isinf(found.estimated_m):
+def _too_far(package: PackageData, linked: LinkedArray) -> str:
+    name, fmt, used = linked.design.id, package.fmt, linked.design.design_m
+    if math.isinf(linked.estimated_m):
         return (
             f"Array {name}: in one axis, one rigid block does not slide; a row of linked blocks "
-            f"slides {fmt.both(found.linked.value_m)}."
+            f"slides {fmt.both(linked.linked.value_m)}."
         )
     return (
-        f"Array {name}: a row of linked blocks slides {_ratio(found.ratio)} times as far as one "
-        f"rigid block; the estimated design displacement is {fmt.both(found.estimated_m)}, the "
+        f"Array {name}: a row of linked blocks slides {_ratio(linked.ratio)} times as far as one "
+        f"rigid block; the estimated design displacement is {fmt.both(linked.estimated_m)}, the "
         f"value used is {fmt.both(used)}."
     )
 
 
-def _remedy(found: LinkedArray) -> str:
-    least = min(found.row.mus)
-    if found.found.array.mu > least:
+def _remedy(linked: LinkedArray) -> str:
+    least = min(linked.row.mus)
+    if linked.design.array.mu > least:
         return (
             f"Enter {number(least, 3)}, the smallest value of its blocks, as its friction "
             "coefficient, or provide stiffer links."
@@ -95,7 +95,7 @@ def _ratio(value: float) -> str:
 
 
 def _text(package: PackageData) -> str:
-    names = [found.found.array.id for found in package.assessment.linked]
+    names = [linked.design.id for linked in package.assessment.linked]
     arrays = "array" if len(names) == 1 else "arrays"
     return (
         f"The workbook requests this check for {arrays} {', '.join(names)}. Each array is also run "
@@ -125,26 +125,26 @@ def _lines(package: PackageData) -> Sequence[Line]:
                 r"\quad r=\Delta_{row}/\Delta_{rigid}"
             ),
             reference="estimated with links",
-            steps=tuple(_step(package, found) for found in package.assessment.linked),
+            steps=tuple(_step(package, linked) for linked in package.assessment.linked),
             note="Where a model is requested, the value from analysis is the larger of its value "
             "and that of the adequate model."
-            if any(found.found.is_model_asked_for for found in package.assessment.linked)
+            if any(linked.design.is_model_asked_for for linked in package.assessment.linked)
             else "",
         ),
     )
 
 
-def _step(package: PackageData, found: LinkedArray) -> tuple[str, str]:
-    fmt, design = package.fmt, found.found
+def _step(package: PackageData, linked: LinkedArray) -> tuple[str, str]:
+    fmt, design = package.fmt, linked.design
     return (
-        f"{design.array.id}: max(max(1, {_ratio(found.ratio)}) × "
-        f"{fmt.both(found.value_m)}, {fmt.both(design.floor_m)})",
-        _estimated(package, found),
+        f"{design.id}: max(max(1, {_ratio(linked.ratio)}) × "
+        f"{fmt.both(linked.value_m)}, {fmt.both(design.floor_m)})",
+        _estimated(package, linked),
     )
 
 
-def _estimated(package: PackageData, found: LinkedArray) -> str:
-    return "no limit" if math.isinf(found.estimated_m) else package.fmt.both(found.estimated_m)
+def _estimated(package: PackageData, linked: LinkedArray) -> str:
+    return "no limit" if math.isinf(linked.estimated_m) else package.fmt.both(linked.estimated_m)
 
 
 def _row_table(package: PackageData) -> Table:
@@ -162,7 +162,7 @@ def _row_table(package: PackageData) -> Table:
             TableColumn(head="Block", share=0.8),
             *fmt.columns("Link force", Quantity.WEIGHT, share=0.9),
         ),
-        rows=tuple(TableRow(cells=_row(package, found)) for found in package.assessment.linked),
+        rows=tuple(TableRow(cells=_row(package, linked)) for linked in package.assessment.linked),
         notes=(
             "Block: the one with the largest PRD, numbered from the upslope end. Link force: the "
             f"largest in any link; compare with the strength required in {package.part('limits')}.",
@@ -171,25 +171,25 @@ def _row_table(package: PackageData) -> Table:
     )
 
 
-def _row(package: PackageData, found: LinkedArray) -> tuple[str, ...]:
-    fmt, mus, farthest = package.fmt, found.row.mus, found.farthest
+def _row(package: PackageData, linked: LinkedArray) -> tuple[str, ...]:
+    fmt, mus, farthest = package.fmt, linked.row.mus, linked.farthest
     return (
-        found.found.array.id,
+        linked.design.id,
         str(len(mus)),
         " to ".join(number(mu, 3) for mu in sorted({min(mus), max(mus)})),
-        *fmt.cells(found.links.stiffness_n_per_m, Quantity.STIFFNESS),
-        number(found.links.damping_ratio, 3),
-        *fmt.cells(found.rigid_prd_m),
+        *fmt.cells(linked.links.stiffness_n_per_m, Quantity.STIFFNESS),
+        number(linked.links.damping_ratio, 3),
+        *fmt.cells(linked.rigid_prd_m),
         *fmt.cells(farthest.prd_m),
         NO_VALUE if math.isnan(farthest.prd_m) else str(farthest.block),
-        *fmt.cells(found.link_force_n, Quantity.WEIGHT),
+        *fmt.cells(linked.link_force_n, Quantity.WEIGHT),
     )
 
 
 def _design_table(package: PackageData, matters: str) -> Table:
     fmt = package.fmt
     linked = package.assessment.linked
-    ways = sorted({statistic(found.found.analysis.basis) for found in linked})
+    ways = sorted({statistic(array.design.analysis.basis) for array in linked})
     return Table(
         caption="Adequacy of one rigid block",
         columns=(
@@ -201,7 +201,7 @@ def _design_table(package: PackageData, matters: str) -> Table:
             *fmt.columns("Design, with links"),
             TableColumn(head="Verdict", align="center", share=1.0),
         ),
-        rows=tuple(TableRow(cells=_design(package, found)) for found in linked),
+        rows=tuple(TableRow(cells=_design(package, array)) for array in linked),
         notes=(
             f"Rigid and row: {', '.join(ways)} of the motions' PRDs; for the row, of the block "
             "with the largest PRD. OK where the design value with links exceeds the value used by "
@@ -211,14 +211,14 @@ def _design_table(package: PackageData, matters: str) -> Table:
     )
 
 
-def _design(package: PackageData, found: LinkedArray) -> tuple[str, ...]:
-    fmt, estimated = package.fmt, found.estimated_m
+def _design(package: PackageData, linked: LinkedArray) -> tuple[str, ...]:
+    fmt, estimated = package.fmt, linked.estimated_m
     return (
-        found.found.array.id,
-        *fmt.cells(found.rigid.value_m),
-        *fmt.cells(found.linked.value_m),
-        _ratio(found.ratio),
-        *fmt.cells(found.found.design_towards_m(Direction.ANY)),
+        linked.design.id,
+        *fmt.cells(linked.rigid.value_m),
+        *fmt.cells(linked.linked.value_m),
+        _ratio(linked.ratio),
+        *fmt.cells(linked.design.design_towards_m(Direction.ANY)),
         *(("∞", "∞") if math.isinf(estimated) else fmt.cells(estimated)),
-        verdict(found.is_rigid_enough),
+        verdict(linked.is_rigid_enough),
     )

@@ -41,14 +41,14 @@ def page(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def motion_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]:
+def motion_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]:
     """Return the equations of motion and the yield accelerations of an array."""
-    theta, mu = found.array.slope_rad, found.array.friction.mu_static
+    theta, mu = array.array.slope_rad, array.array.friction.mu_static
     phi = math.atan(mu)
     degrees, friction = number(math.degrees(theta), 3), number(math.degrees(phi), 3)
     down, up = math.tan(phi - theta), math.tan(phi + theta)
     return (
-        *_friction_lines(found),
+        *_friction_lines(array),
         Line(
             latex=r"N=m\left[(g+a_v)\cos\theta+a_h\sin\theta\right]",
             reference=Markup("Eq. 6, with {} added").format(symbol("a_v")),
@@ -113,9 +113,9 @@ def motion_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
     )
 
 
-def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
+def _friction_lines(array: ArrayAssessment) -> Sequence[Line]:
     """Return the friction coefficient as a function of velocity, where a test gave it."""
-    law = found.array.friction
+    law = array.array.friction
     if law.mu_fast == law.mu_slow or law.rate_s_per_m == 0.0:
         return ()
     slow, fast, rate = law.mu_slow, law.mu_fast, law.rate_s_per_m
@@ -137,12 +137,12 @@ def _friction_lines(found: ArrayAssessment) -> Sequence[Line]:
     )
 
 
-def prescriptive_line(package: PackageData, found: ArrayAssessment) -> Line:
+def prescriptive_line(package: PackageData, array: ArrayAssessment) -> Line:
     """Return the prescriptive displacement."""
     site, rules, fmt = package.data.site, package.assessment.rules, package.fmt
-    key = package.prescriptive_key(found)
-    value, minimum = found.prescriptive.value_m, found.prescriptive.minimum_m
-    if found.prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY:
+    key = package.prescriptive_key(array)
+    value, minimum = array.prescriptive.value_m, array.prescriptive.minimum_m
+    if array.prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY:
         return Line(
             latex=r"\Delta_{MPV}=\Delta_{A,B,C}",
             reference=package.clause(key),
@@ -166,15 +166,15 @@ def prescriptive_line(package: PackageData, found: ArrayAssessment) -> Line:
                 fmt.both(value) + package.mark(key),
             ),
         ),
-        note=f"The {found.prescriptive.governs} governs. The value is the same for every array.",
+        note=f"The {array.prescriptive.governs} governs. The value is the same for every array.",
     )
 
 
-def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]:
+def design_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]:
     """Return the steps from the peaks of an array to its design displacement."""
-    fmt, analysis, rules = package.fmt, found.analysis, package.assessment.rules
+    fmt, analysis, rules = package.fmt, array.analysis, package.assessment.rules
     unit = fmt.units()[0]
-    peaks = [run.governing.result.prd_m for run in found.motions]
+    peaks = [run.governing.result.prd_m for run in array.motions]
     shown = " + ".join(fmt.cells(peak)[0] for peak in peaks[:12]) + (
         " + …" if len(peaks) > 12 else ""
     )
@@ -196,7 +196,7 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
         ),
         Line(
             latex=r"\Delta_{max}=\mathrm{max}_i\,\mathrm{PRD}_i",
-            reference=f"motion {found.worst.motion.id}",
+            reference=f"motion {array.worst.motion.id}",
             steps=(("largest of the motions", fmt.both(analysis.largest_m)),),
         ),
         Line(
@@ -214,8 +214,8 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
                 (
                     "peer reviewed: no floor"
                     if package.data.options.peer_reviewed
-                    else f"{floor} × {fmt.both(found.prescriptive.value_m)}",
-                    fmt.both(found.floor_m) + package.mark("analysis_floor"),
+                    else f"{floor} × {fmt.both(array.prescriptive.value_m)}",
+                    fmt.both(array.floor_m) + package.mark("analysis_floor"),
                 ),
             ),
         ),
@@ -224,20 +224,20 @@ def design_lines(package: PackageData, found: ArrayAssessment) -> Sequence[Line]
             reference="design displacement",
             steps=(
                 (
-                    f"max({fmt.both(analysis.value_m)}, {fmt.both(found.floor_m)})",
-                    fmt.both(found.design_m) + package.design_mark(found),
+                    f"max({fmt.both(analysis.value_m)}, {fmt.both(array.floor_m)})",
+                    fmt.both(array.design_m) + package.design_mark(array),
                 ),
             ),
-            note=f"Governed by: {found.governs}.",
+            note=f"Governed by: {array.governs}.",
         ),
-        _directions_line(package, found),
+        _directions_line(package, array),
     ]
 
 
-def _directions_line(package: PackageData, found: ArrayAssessment) -> Line:
+def _directions_line(package: PackageData, array: ArrayAssessment) -> Line:
     """Return the design displacements downslope, upslope and cross-slope."""
-    fmt, factor = package.fmt, number(found.analysis.factor, 2) + package.mark("analysis_factor")
-    largest = found.analysis.basis is Basis.LARGEST_FACTORED
+    fmt, factor = package.fmt, number(array.analysis.factor, 2) + package.mark("analysis_factor")
+    largest = array.analysis.basis is Basis.LARGEST_FACTORED
     ways = (Direction.DOWN, Direction.UP, Direction.ACROSS)
     return Line(
         latex=(
@@ -249,11 +249,12 @@ def _directions_line(package: PackageData, found: ArrayAssessment) -> Line:
         steps=tuple(
             (
                 f"{way.value.capitalize()}: max({factor} × "
-                f"{fmt.both(one.largest_m if largest else one.mean_m)}, {fmt.both(found.floor_m)})",
-                fmt.both(found.design_towards_m(way)) + package.towards_mark(found, way),
+                f"{fmt.both(analysis.largest_m if largest else analysis.mean_m)}, "
+                f"{fmt.both(array.floor_m)})",
+                fmt.both(array.design_towards_m(way)) + package.towards_mark(array, way),
             )
             for way in ways
-            for one in (found.directions[way],)
+            for analysis in (array.directions[way],)
         ),
         note="Based on the largest displacement of all runs of each motion in that direction "
         f"({package.part('results')}), with the same statistic. A clearance uses the displacement "
@@ -299,7 +300,7 @@ def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
     )
 
 
-def interconnection_line(package: PackageData, found: ArrayAssessment) -> Line:
+def interconnection_line(package: PackageData, array: ArrayAssessment) -> Line:
     """Return the interconnection strength."""
     rules, fmt = package.assessment.rules, package.fmt
     first = f"{rules['interconnection_sds']:g}{package.mark('interconnection_sds')}"
@@ -310,8 +311,8 @@ def interconnection_line(package: PackageData, found: ArrayAssessment) -> Line:
         steps=(
             (
                 f"max({first} × {number(package.data.site.s_ds, 3)}, {second}) × "
-                f"{fmt.both(found.array.weight_n / 2.0, Quantity.WEIGHT)}",
-                fmt.both(found.interconnection_n, Quantity.WEIGHT),
+                f"{fmt.both(array.array.weight_n / 2.0, Quantity.WEIGHT)}",
+                fmt.both(array.interconnection_n, Quantity.WEIGHT),
             ),
         ),
     )

@@ -49,7 +49,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "table": _table(package),
         "neglected": _neglected_table(package),
         "stability": _stability_table(package),
-        "sentences": [text for found in arrays for text in _sentences(package, found)],
+        "sentences": [text for array in arrays for text in _sentences(package, array)],
         "troubles": tuple(model_troubles(package)),
         "links": links.part(package, matters),
     }
@@ -57,24 +57,24 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 def model_troubles(package: PackageData) -> Iterator[str]:
     """Yield in words which requested models are not adequate."""
-    for found in package.assessment.arrays:
-        if found.is_model_enough:
+    for array in package.assessment.arrays:
+        if array.is_model_enough:
             continue
-        worst = max(Direction, key=lambda d: found.chosen_towards_m(d) - found.design_towards_m(d))
+        worst = max(Direction, key=lambda d: array.chosen_towards_m(d) - array.design_towards_m(d))
         yield (
-            f"Array {found.array.id}: the requested model, {found.array.model.value}, gives "
-            f"{package.fmt.both(found.design_towards_m(worst))} ({worst.value}); the adequate "
-            f"model gives {package.fmt.both(found.chosen_towards_m(worst))}."
+            f"Array {array.id}: the requested model, {array.array.model.value}, gives "
+            f"{package.fmt.both(array.design_towards_m(worst))} ({worst.value}); the adequate "
+            f"model gives {package.fmt.both(array.chosen_towards_m(worst))}."
         )
 
 
 def tipping_troubles(package: PackageData) -> Iterator[str]:
     """Yield in words which arrays begin to tip about an edge of their supports."""
-    for found in package.assessment.arrays:
-        if not found.tipping.is_ok:
+    for array in package.assessment.arrays:
+        if not array.tipping.is_ok:
             yield (
-                f"Array {found.array.id} begins to tip ({found.tipping.governs}): the ratio of "
-                f"demand to b/(2h) is {ratio(found.tipping.ratio)}."
+                f"Array {array.id} begins to tip ({array.tipping.governs}): the ratio of "
+                f"demand to b/(2h) is {ratio(array.tipping.ratio)}."
             )
 
 
@@ -92,7 +92,7 @@ def _stability_table(package: PackageData) -> Table:
             TableColumn(head="Ratio, sliding", share=1.2),
             TableColumn(head="Verdict", align="center", share=1.0),
         ),
-        rows=tuple(TableRow(cells=_stability(found)) for found in package.assessment.arrays),
+        rows=tuple(TableRow(cells=_stability(array)) for array in package.assessment.arrays),
         notes=(
             "The worst run of each array. Tipping: an array begins to tip about an edge of its "
             "supports where the transmitted shear, which is limited by friction, exceeds b/(2h) "
@@ -103,10 +103,10 @@ def _stability_table(package: PackageData) -> Table:
     )
 
 
-def _stability(found: ArrayAssessment) -> tuple[str, ...]:
-    tips, lifts = found.tipping, found.uplift
+def _stability(array: ArrayAssessment) -> tuple[str, ...]:
+    tips, lifts = array.tipping, array.uplift
     return (
-        found.array.id,
+        array.id,
         number(lifts.n_min_g, 2),
         number(lifts.duration_s, 3) if lifts.lifts else "none",
         number(tips.demand, 2) if math.isfinite(tips.demand) else "no limit",
@@ -117,12 +117,12 @@ def _stability(found: ArrayAssessment) -> tuple[str, ...]:
     )
 
 
-def _runs(found: ArrayAssessment) -> Sequence[HeadingRun]:
-    return [run for motion in found.motions for run in motion.runs]
+def _runs(array: ArrayAssessment) -> Sequence[HeadingRun]:
+    return [run for motion in array.motions for run in motion.runs]
 
 
-def _by_rung(found: ArrayAssessment) -> Iterator[tuple[Rung, Sequence[HeadingRun]]]:
-    ordered = sorted(_runs(found), key=lambda run: run.solution.rung)
+def _by_rung(array: ArrayAssessment) -> Iterator[tuple[Rung, Sequence[HeadingRun]]]:
+    ordered = sorted(_runs(array), key=lambda run: run.solution.rung)
     for rung, group in groupby(ordered, key=lambda run: run.solution.rung):
         yield rung, list(group)
 
@@ -162,8 +162,8 @@ def _table(package: PackageData) -> Table:
         ),
         rows=tuple(
             TableRow(cells=cells)
-            for found in package.assessment.arrays
-            for cells in _model_rows(found)
+            for array in package.assessment.arrays
+            for cells in _model_rows(array)
         ),
         notes=(
             "Demand: the largest ratio of shear to normal force with no slip; the array slips "
@@ -174,25 +174,25 @@ def _table(package: PackageData) -> Table:
     )
 
 
-def _model_rows(found: ArrayAssessment) -> Iterator[tuple[str, ...]]:
-    total = len(_runs(found))
-    for rung, runs in _by_rung(found):
+def _model_rows(array: ArrayAssessment) -> Iterator[tuple[str, ...]]:
+    total = len(_runs(array))
+    for rung, runs in _by_rung(array):
         worst = max(runs, key=lambda run: nan_is_worst(run.result.prd_m))
         demand = max(run.solution.friction_demand for run in runs)
         yield (
-            found.array.id,
+            array.id,
             f"{int(rung)}, {rung.title}",
             f"{len(runs)} of {total}",
-            number(found.array.friction.mu_static, 2),
+            number(array.array.friction.mu_static, 2),
             number(demand, 2) if math.isfinite(demand) else "no limit",
-            _reason(found, worst),
+            _reason(array, worst),
             _error(runs),
         )
 
 
-def _reason(found: ArrayAssessment, run: HeadingRun) -> str:
+def _reason(array: ArrayAssessment, run: HeadingRun) -> str:
     reason = run.solution.reason
-    return "requested in the workbook" if found.is_model_asked_for else reason
+    return "requested in the workbook" if array.is_model_asked_for else reason
 
 
 def _error(runs: Sequence[HeadingRun]) -> str:
@@ -217,8 +217,8 @@ def _neglected_table(package: PackageData) -> Table:
         ),
         rows=tuple(
             TableRow(cells=cells)
-            for found in package.assessment.arrays
-            for cells in _neglected_rows(package, found)
+            for array in package.assessment.arrays
+            for cells in _neglected_rows(package, array)
         ),
         notes=(
             "No model includes rotation in plan, rocking, or the flexibility of the array "
@@ -229,62 +229,64 @@ def _neglected_table(package: PackageData) -> Table:
 
 
 def _neglected_rows(
-    package: PackageData, found: ArrayAssessment
+    package: PackageData, array: ArrayAssessment
 ) -> Iterator[tuple[str | Wide, ...]]:
-    if found.is_model_asked_for:
-        yield _requested_row(package, found)
+    if array.is_model_asked_for:
+        yield _requested_row(package, array)
         return
-    solutions = [run.solution for run in _runs(found)]
-    neglected = sorted({one.next_rung for one in solutions if one.next_rung > one.rung})
+    solutions = [run.solution for run in _runs(array)]
+    neglected = sorted(
+        {solution.next_rung for solution in solutions if solution.next_rung > solution.rung}
+    )
     for rung in neglected:
         # A run that already has this model has nothing to tell of it.
-        without = [one for one in solutions if one.next_rung is rung > one.rung]
-        yield _effect_row(package, found, rung, without)
+        without = [solution for solution in solutions if solution.next_rung is rung > solution.rung]
+        yield _effect_row(package, array, rung, without)
     if neglected:
         return
     blank = ("—",) * 4
-    if all(one.rung is Rung.NO_SLIP for one in solutions):
-        yield found.array.id, "None: no slip", *blank, "exact"
-    elif found.array.friction.is_constant:
+    if all(solution.rung is Rung.NO_SLIP for solution in solutions):
+        yield array.id, "None: no slip", *blank, "exact"
+    elif array.array.friction.is_constant:
         basis = "the workbook gives one coefficient"
-        yield found.array.id, _NEGLECTED[Rung.SPEED_FRICTION], Wide("not known", 4), basis
+        yield array.id, _NEGLECTED[Rung.SPEED_FRICTION], Wide("not known", 4), basis
     else:
-        yield found.array.id, "None of the given inputs", *blank, "the most complete model is used"
+        yield array.id, "None of the given inputs", *blank, "the most complete model is used"
 
 
 def _effect_row(
-    package: PackageData, found: ArrayAssessment, rung: Rung, group: Sequence[Solution]
+    package: PackageData, array: ArrayAssessment, rung: Rung, group: Sequence[Solution]
 ) -> tuple[str | Wide, ...]:
-    effect = max((one.next_effect_m for one in group), key=nan_is_worst)
+    effect = max((solution.next_effect_m for solution in group), key=nan_is_worst)
     basis = "both models run; error included" if rung is Rung.TWO_AXES else "exact: both models run"
     if not math.isfinite(effect):
         no_result = "no result with the more complete model"
-        return found.array.id, _NEGLECTED[rung], Wide("not known", 4), no_result
-    raised = max(found.analysis.value_m + found.analysis.factor * effect, found.floor_m)
+        return array.id, _NEGLECTED[rung], Wide("not known", 4), no_result
+    raised = max(array.analysis.value_m + array.analysis.factor * effect, array.floor_m)
     return (
-        found.array.id,
+        array.id,
         _NEGLECTED[rung],
         *package.fmt.cells(effect),
-        *package.fmt.cells(raised - found.design_m),
+        *package.fmt.cells(raised - array.design_m),
         basis,
     )
 
 
-def _requested_row(package: PackageData, found: ArrayAssessment) -> tuple[str | Wide, ...]:
+def _requested_row(package: PackageData, array: ArrayAssessment) -> tuple[str | Wide, ...]:
     """Return the change that the adequate models make to the requested one."""
-    fmt, other = package.fmt, found.chosen[Direction.ANY]
-    rung = max(run.solution.rung for motion in found.needed for run in motion.runs)
-    name = f"Effects of {rung.title}" if rung > RUNGS[found.array.model] else "None"
-    if math.isnan(found.design_m) or math.isnan(other.value_m):
-        return found.array.id, name, Wide(NO_VALUE, 4), "no value from analysis"
+    fmt, other = package.fmt, array.chosen[Direction.ANY]
+    rung = max(run.solution.rung for motion in array.needed for run in motion.runs)
+    name = f"Effects of {rung.title}" if rung > RUNGS[array.array.model] else "None"
+    if math.isnan(array.design_m) or math.isnan(other.value_m):
+        return array.id, name, Wide(NO_VALUE, 4), "no value from analysis"
     effect = max(
         abs(more.governing.result.prd_m - run.governing.result.prd_m)
-        for run, more in zip(found.motions, found.needed, strict=True)
+        for run, more in zip(array.motions, array.needed, strict=True)
     )
-    change = found.chosen_towards_m(Direction.ANY) - found.design_m
-    floor = found.floor_m >= max(other.value_m, found.analysis.value_m)
+    change = array.chosen_towards_m(Direction.ANY) - array.design_m
+    floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
     return (
-        found.array.id,
+        array.id,
         name,
         *fmt.cells(effect),
         *fmt.cells(abs(change)),
@@ -292,16 +294,16 @@ def _requested_row(package: PackageData, found: ArrayAssessment) -> tuple[str | 
     )
 
 
-def _sentences(package: PackageData, found: ArrayAssessment) -> Iterator[str]:
-    name, worst = found.array.id, found.worst
-    least = found.uplift.n_min_g  # of the whole motion, also where the vertical is neglected
+def _sentences(package: PackageData, array: ArrayAssessment) -> Iterator[str]:
+    name, worst = array.id, array.worst
+    least = array.uplift.n_min_g  # of the whole motion, also where the vertical is neglected
     lifted = "uplift occurs" if least < 0.0 else "no uplift"
     yield (
         f"Array {name}: the governing run is {worst.motion.id}, {worst.governing.heading.name}, "
         f"with PRD {package.fmt.both(worst.governing.result.prd_m)}. Minimum normal force "
-        f"{number(least, 2)} m g: {lifted}.{friction(found.array)}"
+        f"{number(least, 2)} m g: {lifted}.{friction(array.array)}"
     )
-    is_bounded = found.array.friction.is_monotone
+    is_bounded = array.array.friction.is_monotone
     if worst.governing.solution.rung is Rung.SPEED_FRICTION and not is_bounded:
         yield (
             f"Array {name}: the friction decreases at the onset of sliding or with velocity. A "

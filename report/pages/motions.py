@@ -127,9 +127,9 @@ def drift_sentence(package: PackageData, preparations: Sequence[PreparedMotion])
     if any(drifts(prepared) or prepared.done != AS_RECORDED for prepared in preparations):
         return ""
     unit = package.fmt.units()[0]
-    found = [m for prepared in preparations for m in prepared.measures.values()]
-    speed = max(abs(m.final_velocity_mps) for m in found) / unit.si
-    place = max(abs(m.final_displacement_m) for m in found) / unit.si
+    measures = [m for prepared in preparations for m in prepared.measures.values()]
+    speed = max(abs(m.final_velocity_mps) for m in measures) / unit.si
+    place = max(abs(m.final_displacement_m) for m in measures) / unit.si
     return (
         "All motions are run as recorded, without trimming, filtering or baseline correction. The "
         f"final velocity of every component is at most {number(speed, 2)} {unit.symbol}/s and its "
@@ -140,9 +140,9 @@ def drift_sentence(package: PackageData, preparations: Sequence[PreparedMotion])
 
 
 def _drift_row(prepared: PreparedMotion, names: Sequence[str], si: float) -> TableRow:
-    found = [prepared.measures.get(name) for name in names]
-    speeds = ("none" if m is None else number(m.final_velocity_mps / si, 2) for m in found)
-    places = ("none" if m is None else number(m.final_displacement_m / si, 2) for m in found)
+    measures = [prepared.measures.get(name) for name in names]
+    speeds = ("none" if m is None else number(m.final_velocity_mps / si, 2) for m in measures)
+    places = ("none" if m is None else number(m.final_displacement_m / si, 2) for m in measures)
     return TableRow(
         cells=(
             prepared.motion_id,
@@ -159,7 +159,7 @@ def drifts(prepared: PreparedMotion) -> bool:
     return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
 
 
-def beyond_table(package: PackageData, found: Sequence[Beyond]) -> Table:
+def beyond_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
     """Return the part of the slip caused by periods that a high-pass filter removes."""
     fmt = package.fmt
     return Table(
@@ -175,15 +175,15 @@ def beyond_table(package: PackageData, found: Sequence[Beyond]) -> Table:
         rows=tuple(
             TableRow(
                 cells=(
-                    one.motion_id,
-                    f"{one.corner_hz:g}",
-                    f"{1.0 / one.corner_hz:.3g}",
-                    *fmt.cells(one.filtered_m),
-                    *fmt.cells(one.unfiltered_m),
-                    "—" if math.isnan(one.share) else number(100.0 * one.share, 0),
+                    run.motion_id,
+                    f"{run.corner_hz:g}",
+                    f"{1.0 / run.corner_hz:.3g}",
+                    *fmt.cells(run.filtered_m),
+                    *fmt.cells(run.unfiltered_m),
+                    "—" if math.isnan(run.share) else number(100.0 * run.share, 0),
                 )
             )
-            for one in found
+            for run in beyond
         ),
         notes=(
             "The same motion at the same scale, with and without the high-pass filter: the largest "
@@ -227,7 +227,7 @@ def _ordinates(name: str, values: Floats, *, kind: str = "", decimals: int = 3) 
     return TableRow(cells=(name, *(number(float(value), decimals) for value in values)), kind=kind)
 
 
-def achieved_table(found: Sequence[Spectra]) -> Table:
+def achieved_table(spectra: Sequence[Spectra]) -> Table:
     """Return the ratios of the motions to the target over the band, a row per component."""
     return Table(
         caption="Achieved / target, 0.3 to 33 Hz in 1/12 octaves",
@@ -243,7 +243,7 @@ def achieved_table(found: Sequence[Spectra]) -> Table:
             TableColumn(head="Single motion", unit="max.", share=0.7),
             TableColumn(head="Single motion", unit="motion, T", align="left", share=1.6),
         ),
-        rows=tuple(_achieved(part) for part in found if part.in_band.any()),
+        rows=tuple(_achieved(part) for part in spectra if part.in_band.any()),
         kind="compact",
     )
 
@@ -311,7 +311,7 @@ def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
-    shaking, found = package.assessment.shaking, evidence.spectra
+    shaking, spectra = package.assessment.shaking, evidence.spectra
     motions, preparations, beyond = shaking.motions, shaking.prepared, evidence.highpass
     return {
         "table": motion_table(motions, preparations),
@@ -321,6 +321,6 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "beyond": [beyond_table(package, beyond)] if beyond else [],
         "building": building_part(package, motions, preparations) if has_ground(package) else None,
         "target": target_words(package),
-        "achieved": achieved_table(found),
-        "spectra": tuple(spectrum_table(part) for part in found),
+        "achieved": achieved_table(spectra),
+        "spectra": tuple(spectrum_table(part) for part in spectra),
     }

@@ -281,23 +281,23 @@ class PackageData:
         """The array with the largest design displacement."""
         return self.assessment.governing
 
-    def prescriptive_key(self, found: ArrayAssessment) -> str:
+    def prescriptive_key(self, array: ArrayAssessment) -> str:
         """Return which provision the prescriptive displacement comes from."""
         return {
             PrescriptiveBasis.FORMULA: "prescriptive_factor_in",
             PrescriptiveBasis.MINIMUM: "prescriptive_minimum_in",
             PrescriptiveBasis.LOW_CATEGORY: "prescriptive_low_sdc_in",
-        }[found.prescriptive.governs]
+        }[array.prescriptive.governs]
 
-    def design_mark(self, found: ArrayAssessment) -> str:
+    def design_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of a design displacement."""
-        key = "analysis_floor" if found.governs is DesignBasis.FLOOR else "analysis_factor"
-        return "" if math.isnan(found.design_m) else self.mark(key)
+        key = "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
+        return "" if math.isnan(array.design_m) else self.mark(key)
 
-    def towards_mark(self, found: ArrayAssessment, direction: Direction) -> str:
+    def towards_mark(self, array: ArrayAssessment, direction: Direction) -> str:
         """Return the marks of a design displacement in a direction."""
-        value = found.directions[direction].value_m
-        key = "analysis_floor" if found.floor_m > value else "analysis_factor"
+        value = array.directions[direction].value_m
+        key = "analysis_floor" if array.floor_m > value else "analysis_factor"
         return "" if math.isnan(value) else self.mark(key)
 
     def separation_mark(self, gap: ClearanceCheck) -> str:

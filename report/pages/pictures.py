@@ -63,7 +63,7 @@ def draw_assessment(package: PackageData) -> Pictures:
     }
 
 
-def draw_evidence(package: PackageData, found: Evidence) -> Pictures:
+def draw_evidence(package: PackageData, evidence: Evidence) -> Pictures:
     """Return the other pictures, by the id of their part."""
     from report.figures import charts as figures
 
@@ -75,44 +75,44 @@ def draw_evidence(package: PackageData, found: Evidence) -> Pictures:
                 caption=f"Response spectra of the motions {where}, 5 % damping, and target.",
                 alt="Response spectra of all motions, their mean and the target",
             )
-            for where, parts in _by_place(found.spectra)
+            for where, parts in _by_place(evidence.spectra)
         ],
         "accuracy": (
-            [accuracy.picture(found.accuracy.rivals, us_first)]
-            if found.accuracy.rivals.runs
+            [accuracy.picture(evidence.accuracy.rivals, us_first)]
+            if evidence.accuracy.rivals.runs
             else []
         ),
     }
-    runs = zip(package.assessment.arrays, found.histories, strict=True)
-    for count, (one, followed) in enumerate(runs, start=1):
-        pictures[f"results-{count}"] = list(_histories(one, followed, us_first))
+    runs = zip(package.assessment.arrays, evidence.histories, strict=True)
+    for count, (array, followed) in enumerate(runs, start=1):
+        pictures[f"results-{count}"] = list(_histories(array, followed, us_first))
     return pictures
 
 
-def _by_place(found: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectra]]]:
+def _by_place(spectra: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectra]]]:
     """Yield the spectra at the roof, and those on the ground where there are any."""
-    below = [part for part in found if part.is_ground]
-    yield "as run", [part for part in found if not part.is_ground]
+    below = [part for part in spectra if part.is_ground]
+    yield "as run", [part for part in spectra if not part.is_ground]
     if below:
         yield "on the ground, scaled", below
 
 
 def _histories(
-    found: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
+    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[Picture]:
     from report.figures.charts import histories
 
-    two = any(m.governing.has_across for m in found.motions)
+    two = any(m.governing.has_across for m in array.motions)
     lines = (
         ": downslope (blue) and cross-slope, positive to the left (orange)"
         if two
         else ", downslope"
     )
-    for start in range(0, len(found.motions), PANELS):
+    for start in range(0, len(array.motions), PANELS):
         here = slice(start, start + PANELS)
         yield Picture(
-            svg=histories(found.motions[here], followed[here], us_first),
-            caption=f"Array {found.array.id}: displacement relative to the roof in the "
+            svg=histories(array.motions[here], followed[here], us_first),
+            caption=f"Array {array.id}: displacement relative to the roof in the "
             f"governing run{lines}. Dot: time of the PRD, the largest distance in plan.",
-            alt=f"Relative displacement histories of array {found.array.id}",
+            alt=f"Relative displacement histories of array {array.id}",
         )

@@ -29,25 +29,25 @@ _SHORT = {
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
     arrays = enumerate(package.assessment.arrays, start=1)
-    return tuple((f"results-{count}", f"Array {found.array.id}") for count, found in arrays)
+    return tuple((f"results-{count}", f"Array {array.id}") for count, array in arrays)
 
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the results of every array, without the charts."""
-    return {"arrays": [array_results(package, found) for found in package.assessment.arrays]}
+    return {"arrays": [array_results(package, array) for array in package.assessment.arrays]}
 
 
-def array_results(package: PackageData, found: ArrayAssessment) -> Mapping[str, object]:
+def array_results(package: PackageData, array: ArrayAssessment) -> Mapping[str, object]:
     """Return the table of one array and the texts above and below it."""
     return {
-        "table": _peaks(package, found),
-        "facts": f"{_facts(found)} {_spread(found)}".rstrip(),
-        "troubles": run_warnings(found),
+        "table": _peaks(package, array),
+        "facts": f"{_facts(array)} {_spread(array)}".rstrip(),
+        "troubles": run_warnings(array),
     }
 
 
-def _facts(found: ArrayAssessment) -> str:
-    array = found.array
+def _facts(assessed: ArrayAssessment) -> str:
+    array = assessed.array
     return (
         f"Slope {number(math.degrees(array.slope_rad), 2)}° "
         f"({number(100.0 * math.tan(array.slope_rad), 1)} %), μ = {number(array.mu, 3)}, "
@@ -55,29 +55,29 @@ def _facts(found: ArrayAssessment) -> str:
     )
 
 
-def _spread(found: ArrayAssessment) -> str:
+def _spread(array: ArrayAssessment) -> str:
     """Return the motions farthest from the mean; nothing where there is no mean."""
-    if not found.analysis.mean_m > 0.0:
+    if not array.analysis.mean_m > 0.0:
         return ""
-    ordered = sorted(found.motions, key=lambda run: run.governing.result.prd_m)
+    ordered = sorted(array.motions, key=lambda run: run.governing.result.prd_m)
     least, most = ordered[0], ordered[-1]
     return (
         f"Motion {most.motion.id} ({most.governing.heading.name}) governs with "
-        f"{_over_mean(found, most)} times the mean PRD; the smallest is {least.motion.id} with "
-        f"{_over_mean(found, least)} times. Coefficient of variation {number(found.variation, 2)}."
+        f"{_over_mean(array, most)} times the mean PRD; the smallest is {least.motion.id} with "
+        f"{_over_mean(array, least)} times. Coefficient of variation {number(array.variation, 2)}."
     )
 
 
-def _over_mean(found: ArrayAssessment, run: MotionRun) -> str:
-    mean = found.analysis.mean_m
+def _over_mean(array: ArrayAssessment, run: MotionRun) -> str:
+    mean = array.analysis.mean_m
     return number(run.governing.result.prd_m / mean, 2) if mean > 0.0 else "—"
 
 
-def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
-    fmt, headings = package.fmt, _headings(found)
+def _peaks(package: PackageData, array: ArrayAssessment) -> Table:
+    fmt, headings = package.fmt, _headings(array)
     first = fmt.units()[0].symbol
     return Table(
-        caption=f"Array {found.array.id}: PRD of every motion in every run",
+        caption=f"Array {array.id}: PRD of every motion in every run",
         columns=(
             TableColumn(head="Motion", align="left", share=1.1),
             *(
@@ -92,8 +92,8 @@ def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
             TableColumn(head="Status", align="left", share=1.05),
         ),
         rows=(
-            *(_motion_row(package, found, run, headings) for run in found.motions),
-            *_statistics(package, found, len(headings)),
+            *(_motion_row(package, array, run, headings) for run in array.motions),
+            *_statistics(package, array, len(headings)),
         ),
         notes=(
             f"{_meaning(headings)}; bold: the governing run. PRD is the largest distance in plan "
@@ -101,24 +101,24 @@ def _peaks(package: PackageData, found: ArrayAssessment) -> Table:
             "upslope and cross-slope; clearances are based on these. The columns to the right "
             "belong to the governing run; N/(m g) is its minimum. The file results.xlsx has every "
             "run in both systems of units.",
-            *_stand_in(package, found),
+            *_stand_in(package, array),
         ),
         kind="compact",
     )
 
 
-def _stand_in(package: PackageData, found: ArrayAssessment) -> Sequence[str]:
+def _stand_in(package: PackageData, array: ArrayAssessment) -> Sequence[str]:
     """Return that the PRD is used as the cross-slope displacement, where it is."""
-    runs = [run for motion in found.motions for run in motion.runs]
+    runs = [run for motion in array.motions for run in motion.runs]
     if all(run.has_across for run in runs):
         return ()
     part = package.part("model")
     return (f"For a run in one axis ({part}), its PRD is used as the cross-slope displacement.",)
 
 
-def _headings(found: ArrayAssessment) -> tuple[Heading, ...]:
+def _headings(array: ArrayAssessment) -> tuple[Heading, ...]:
     """Return every run that any motion has, in order."""
-    seen = {run.heading: None for motion in found.motions for run in motion.runs}
+    seen = {run.heading: None for motion in array.motions for run in motion.runs}
     return tuple(sorted(seen, key=lambda heading: (heading.swapped, -heading.sign)))
 
 
@@ -133,7 +133,7 @@ def _meaning(headings: Sequence[Heading]) -> str:
 
 
 def _motion_row(
-    package: PackageData, found: ArrayAssessment, run: MotionRun, headings: Sequence[Heading]
+    package: PackageData, array: ArrayAssessment, run: MotionRun, headings: Sequence[Heading]
 ) -> TableRow:
     fmt, result = package.fmt, run.governing.result
     return TableRow(
@@ -152,19 +152,19 @@ def _motion_row(
 
 def _peak(package: PackageData, run: MotionRun, heading: Heading) -> str:
     """Return the PRD of one run in the first unit; blank where the motion has no such run."""
-    for one in run.runs:
-        if one.heading == heading:
-            text = package.fmt.cells(one.result.prd_m)[0]
-            return Markup("<b>{}</b>").format(text) if one is run.governing else text
+    for heading_run in run.runs:
+        if heading_run.heading == heading:
+            text = package.fmt.cells(heading_run.result.prd_m)[0]
+            return Markup("<b>{}</b>").format(text) if heading_run is run.governing else text
     return ""
 
 
-def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequence[TableRow]:
-    analysis, rules = found.analysis, package.assessment.rules
+def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequence[TableRow]:
+    analysis, rules = array.analysis, package.assessment.rules
     factor = rules.values["analysis_factor"].clause + package.mark("analysis_factor")
     floor = rules.values["analysis_floor"].clause + package.mark("analysis_floor")
-    ways = [found.directions[direction] for direction in _WAYS]
-    toward = [found.design_towards_m(direction) for direction in _WAYS]
+    ways = [array.directions[direction] for direction in _WAYS]
+    toward = [array.design_towards_m(direction) for direction in _WAYS]
     lines: tuple[tuple[str, float, str, str, list[float]], ...] = (
         ("Mean", analysis.mean_m, "", "of the motions", [way.mean_m for way in ways]),
         ("Largest", analysis.largest_m, "", "of the motions", [way.largest_m for way in ways]),
@@ -177,16 +177,16 @@ def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequ
         ),
         (
             f"Floor: {_floor_words(package, floor)}",
-            found.floor_m,
+            array.floor_m,
             package.mark("analysis_floor"),
             "",
-            [found.floor_m] * len(ways),
+            [array.floor_m] * len(ways),
         ),
         (
             "Design",
-            found.design_m,
-            package.design_mark(found),
-            f"governed by: {found.governs}",
+            array.design_m,
+            package.design_mark(array),
+            f"governed by: {array.governs}",
             toward,
         ),
     )
@@ -195,7 +195,7 @@ def _statistics(package: PackageData, found: ArrayAssessment, runs: int) -> Sequ
             cells=(
                 Wide(label, 1 + runs),
                 *package.fmt.cells(value, mark=mark),
-                *(package.fmt.cells(one)[0] for one in excursions),
+                *(package.fmt.cells(excursion)[0] for excursion in excursions),
                 Wide(words, 5),
             ),
             kind="total",
@@ -214,16 +214,16 @@ def _floor_words(package: PackageData, clause: str) -> str:
 def comparison(package: PackageData) -> Mapping[str, object]:
     """Return the comparison with the prescriptive displacement, without its chart."""
     checks = [
-        (f"Array {found.array.id}", check)
-        for found in package.assessment.arrays
-        for check in found.prescriptive_checks
+        (f"Array {array.id}", check)
+        for array in package.assessment.arrays
+        for check in array.prescriptive_checks
     ]
     return {
         "table": _ratios(package),
         "routes": check_table(
             "Limits of the prescriptive route", package, checks, ("satisfied", "not satisfied")
         ),
-        "sentences": tuple(_sentence(package, found) for found in package.assessment.arrays),
+        "sentences": tuple(_sentence(package, array) for array in package.assessment.arrays),
     }
 
 
@@ -242,39 +242,39 @@ def _ratios(package: PackageData) -> Table:
             TableColumn(head="Design / prescr.", share=1.2),
             TableColumn(head="Governs", align="left", share=1.4),
         ),
-        rows=tuple(_ratio_row(package, found) for found in package.assessment.arrays),
+        rows=tuple(_ratio_row(package, array) for array in package.assessment.arrays),
         kind="compact",
     )
 
 
-def _ratio_row(package: PackageData, found: ArrayAssessment) -> TableRow:
+def _ratio_row(package: PackageData, array: ArrayAssessment) -> TableRow:
     fmt = package.fmt
-    shares = (found.analysis.value_m / found.prescriptive.value_m, found.ratio)
+    shares = (array.analysis.value_m / array.prescriptive.value_m, array.ratio)
     return TableRow(
         cells=(
-            found.array.id,
+            array.id,
             *fmt.cells(
-                found.prescriptive.value_m, mark=package.mark(package.prescriptive_key(found))
+                array.prescriptive.value_m, mark=package.mark(package.prescriptive_key(array))
             ),
-            *fmt.cells(found.analysis.mean_m),
-            *fmt.cells(found.analysis.value_m),
-            *fmt.cells(found.floor_m, mark=package.mark("analysis_floor")),
-            *fmt.cells(found.design_m, mark=package.design_mark(found)),
+            *fmt.cells(array.analysis.mean_m),
+            *fmt.cells(array.analysis.value_m),
+            *fmt.cells(array.floor_m, mark=package.mark("analysis_floor")),
+            *fmt.cells(array.design_m, mark=package.design_mark(array)),
             *(NO_VALUE if math.isnan(share) else number(share, 2) for share in shares),
-            found.governs,
+            array.governs,
         )
     )
 
 
-def _sentence(package: PackageData, found: ArrayAssessment) -> str:
-    failed = [check.title for check in found.prescriptive_checks if not check.ok]
+def _sentence(package: PackageData, array: ArrayAssessment) -> str:
+    failed = [check.title for check in array.prescriptive_checks if not check.ok]
     route = (
         f"the prescriptive route is not permitted ({'; '.join(failed)})"
         if failed
         else "the prescriptive route is also permitted"
     )
-    if math.isnan(found.design_m):
-        return f"Array {found.array.id}: no value from analysis; {route}."
+    if math.isnan(array.design_m):
+        return f"Array {array.id}: no value from analysis; {route}."
     if package.data.options.peer_reviewed:
         floor = "no floor applies because the analysis is peer reviewed"
     else:
@@ -282,16 +282,16 @@ def _sentence(package: PackageData, found: ArrayAssessment) -> str:
         floor = (
             f"the floor of {share} % of the prescriptive value"
             f"{package.mark('analysis_floor')} "
-            f"{'governs' if found.governs is DesignBasis.FLOOR else 'does not govern'}"
+            f"{'governs' if array.governs is DesignBasis.FLOOR else 'does not govern'}"
         )
-    return f"Array {found.array.id}: {_exceeds(package, found)}{floor}; {route}."
+    return f"Array {array.id}: {_exceeds(package, array)}{floor}; {route}."
 
 
-def _exceeds(package: PackageData, found: ArrayAssessment) -> str:
+def _exceeds(package: PackageData, array: ArrayAssessment) -> str:
     """Return where the analysis exceeds the prescriptive value; it still governs."""
-    over = found.analysis.value_m / found.prescriptive.value_m
-    peaks = sum(m.governing.result.prd_m > found.prescriptive.value_m for m in found.motions)
-    count = f"{peaks} of {len(found.motions)} PRDs"
+    over = array.analysis.value_m / array.prescriptive.value_m
+    peaks = sum(m.governing.result.prd_m > array.prescriptive.value_m for m in array.motions)
+    count = f"{peaks} of {len(array.motions)} PRDs"
     if over > 1.0:
         return (
             f"the displacement by analysis is {number(over, 2)} times the prescriptive "

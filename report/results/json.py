@@ -177,14 +177,14 @@ def _clearance(item: ClearanceCheck) -> dict[str, Any]:
 
 def _linked(item: LinkedArray) -> dict[str, Any]:
     return {
-        "array": item.found.array.id,
+        "array": item.design.id,
         "mus": item.row.mus,
         "stiffness_n_per_m": item.links.stiffness_n_per_m,
         "damping_ratio": item.links.damping_ratio,
         "rigid_one_axis_m": item.rigid.value_m,
         "linked_one_axis_m": item.linked.value_m,
         "ratio": item.ratio,
-        "design_m": item.found.design_m,
+        "design_m": item.design.design_m,
         "estimated_m": item.estimated_m,
         "link_force_n": item.link_force_n,
         "rigid_is_enough": item.is_rigid_enough,

@@ -34,7 +34,7 @@ def link_runs_table(assessment: Assessment) -> pd.DataFrame:
     """One row for each run of an array that is compared with a row of linked blocks."""
     return pd.DataFrame(
         {
-            "Array": found.found.array.id,
+            "Array": found.design.id,
             "Motion": motion.motion.id,
             "Component along slope": run.heading.component,
             "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
@@ -78,7 +78,7 @@ def write_links(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> Non
     ranges = _write_peaks(pages, sheet, top, assessment, runs)
     ids = [item.array.id for item in assessment.arrays]
     for row, (found, peaks) in enumerate(zip(assessment.linked, ranges, strict=True), start=4):
-        _write_row(pages, sheet, row, found, peaks, 5 + ids.index(found.found.array.id))
+        _write_row(pages, sheet, row, found, peaks, 5 + ids.index(found.design.id))
 
 
 def _write_peaks(
@@ -90,7 +90,7 @@ def _write_peaks(
         top = row
         for motion in found.motions:
             last = first + len(motion.runs) - 1
-            sheet.write_string(row, 0, found.found.array.id)
+            sheet.write_string(row, 0, found.design.id)
             sheet.write_string(row, 1, motion.motion.id)
             for to, column, value in zip(
                 (2, 3), columns, (motion.rigid_m, motion.linked_m), strict=True
@@ -114,8 +114,8 @@ def _write_row(
     design_row: int,
 ) -> None:
     inch, r, d = INCH_M, row + 1, design_row
-    rigid, linked, design, estimated = found.rigid, found.linked, found.found, found.estimated_m
-    sheet.write_string(row, 0, design.array.id)
+    rigid, linked, design, estimated = found.rigid, found.linked, found.design, found.estimated_m
+    sheet.write_string(row, 0, design.id)
     if not math.isfinite(estimated):
         sheet.write_string(row, 11, "no value")
         sheet.write_string(row, 14, "NG")
@@ -150,7 +150,7 @@ def _write_row(
 
 def _computed(found: LinkedArray, design_row: int) -> str:
     """Return the value from analysis, as a number if it differs from the value for design."""
-    is_used = found.value_m == found.found.analysis.value_m
+    is_used = found.value_m == found.design.analysis.value_m
     return f"=Design!K{design_row}" if is_used else f"={found.value_m / INCH_M!r}"
 
 

@@ -87,12 +87,12 @@ def plain(value: object) -> str:
             return str(value)
 
 
-def read_cell(found: Found, entry: Entry, model: type[Frozen], unit: str, si: float) -> Any:
+def read_cell(cell: Found, entry: Entry, model: type[Frozen], unit: str, si: float) -> Any:
     """Return a field's value in SI from a cell that is not blank.
 
     Parameters
     ----------
-    found : Found
+    cell : Found
     entry, model : Entry, type
         The field and the model that holds it.
     unit : str
@@ -104,25 +104,25 @@ def read_cell(found: Found, entry: Entry, model: type[Frozen], unit: str, si: fl
     ------
     CellError
     """
-    check_saved(found)
+    check_saved(cell)
     wanted = wish(entry, unit, si)
-    value = _converted(found, entry, wanted)
+    value = _converted(cell, entry, wanted)
     if isinstance(value, float):
         value *= si
     try:
         return adapter(model, entry.name).validate_python(value)
     except ValidationError as error:
-        raise CellError(f"{_is(found, entry)}; {wanted}") from error
+        raise CellError(f"{_is(cell, entry)}; {wanted}") from error
 
 
-def check_saved(found: Found) -> None:
+def check_saved(cell: Found) -> None:
     """Raise if a cell contains an Excel error, or a formula that was never computed."""
-    if found.is_error:
-        cause = f" (from {_cut(found.formula)})" if found.formula else ""
-        raise CellError(f"is {found.value}{cause}; correct it")
-    if found.formula and found.value is None:
+    if cell.is_error:
+        cause = f" (from {_cut(cell.formula)})" if cell.formula else ""
+        raise CellError(f"is {cell.value}{cause}; correct it")
+    if cell.formula and cell.value is None:
         raise CellError(
-            f"is a formula with no saved value ({_cut(found.formula)}); open the workbook in Excel"
+            f"is a formula with no saved value ({_cut(cell.formula)}); open the workbook in Excel"
             " or LibreOffice and save it"
         )
 
@@ -152,10 +152,10 @@ def _either(choices: tuple[str, ...]) -> str:
     return f"{', '.join(choices[:-1])} or {choices[-1]}"
 
 
-def _is(found: Found, entry: Entry) -> str:
-    if isinstance(found.value, str) and len(found.value) > SHOWN and entry.kind is str:
-        return f"is {len(found.value)} characters long"
-    return f"is {_quoted(found.value)}"
+def _is(cell: Found, entry: Entry) -> str:
+    if isinstance(cell.value, str) and len(cell.value) > SHOWN and entry.kind is str:
+        return f"is {len(cell.value)} characters long"
+    return f"is {_quoted(cell.value)}"
 
 
 def _quoted(value: object) -> str:
@@ -168,32 +168,32 @@ def _cut(text: str) -> str:
     return text if len(text) <= SHOWN else f"{text[: SHOWN - 1]}…"
 
 
-def _converted(found: Found, entry: Entry, wanted: str) -> Any:
+def _converted(cell: Found, entry: Entry, wanted: str) -> Any:
     if entry.kind in (int, float):
-        value = number(found, wanted)
+        value = number(cell, wanted)
         return int(value) if entry.kind is int and value.is_integer() else value
     if entry.kind is date:
-        return _date(found, wanted)
+        return _date(cell, wanted)
     if entry.choices:
-        return _choice(found, entry, wanted)
-    return _text(found)
+        return _choice(cell, entry, wanted)
+    return _text(cell)
 
 
-def number(found: Found, wanted: str = "give a number") -> float:
+def number(cell: Found, wanted: str = "give a number") -> float:
     """Return the number in a cell, in the cell's unit; numeric text is accepted.
 
     Raises
     ------
     CellError
     """
-    value = found.value
+    value = cell.value
     if isinstance(value, str):
         return _number_in_text(value.strip(), wanted)
     if isinstance(value, bool):
         raise CellError(f"is {plain(value)}, a logical value; {wanted}")
     if isinstance(value, date | time | timedelta):
         raise CellError(f"is a date or time ({plain(value)}); {wanted}, formatted as a number")
-    if "%" in _QUOTED.sub("", found.number_format):
+    if "%" in _QUOTED.sub("", cell.number_format):
         raise CellError(
             f"is a percentage ({100 * value:g}%, which Excel holds as {value:g}); {wanted},"
             " formatted as a number"
@@ -214,8 +214,8 @@ def _number_in_text(text: str, wanted: str) -> float:
     raise CellError(f"is '{_cut(text)}'; {wanted}")
 
 
-def _date(found: Found, wanted: str) -> date:
-    value = found.value
+def _date(cell: Found, wanted: str) -> date:
+    value = cell.value
     if isinstance(value, datetime):
         return value.date()
     if isinstance(value, date):
@@ -226,24 +226,24 @@ def _date(found: Found, wanted: str) -> date:
         raise CellError(f"is {_quoted(value)}; {wanted}") from error
 
 
-def _choice(found: Found, entry: Entry, wanted: str) -> StrEnum | bool:
-    said = " ".join(str(plain(found.value)).split()).casefold()
+def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
+    said = " ".join(str(plain(cell.value)).split()).casefold()
     if entry.kind is bool:
         said = {"true": "yes", "false": "no"}.get(said, said)
     said = formerly.CHOICES.get(said, said)
     for choice in entry.choices:
         if choice.casefold() == said:
             return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
-    raise CellError(f"is {_quoted(found.value)}; {wanted}")
+    raise CellError(f"is {_quoted(cell.value)}; {wanted}")
 
 
-def _text(found: Found) -> str:
-    if isinstance(found.value, date | time | timedelta | bool):
+def _text(cell: Found) -> str:
+    if isinstance(cell.value, date | time | timedelta | bool):
         raise CellError(
-            f"is {plain(found.value)}, which is not text; format the cell as text and retype it"
+            f"is {plain(cell.value)}, which is not text; format the cell as text and retype it"
         )
     # Excel writes characters that XML does not allow, and a pasted CR, as _x000D_.
-    text = unescape(plain(found.value)).replace("\r\n", "\n").replace("\r", "\n").strip()
+    text = unescape(plain(cell.value)).replace("\r\n", "\n").replace("\r", "\n").strip()
     if _CONTROL.search(text):
         raise CellError(f"is '{_cut(text)}', with control characters; retype it")
     return text

@@ -215,8 +215,8 @@ def _friction(index: int, row: DraftRow) -> Iterator[Fault]:
 
 def _by_speed(array: DraftRow) -> list[str]:
     """Return the fields that give an array more than one friction coefficient."""
-    one = (None, array["mu"])
-    return [name for name in ("mu_fast", "mu_static") if array.get(name) not in one]
+    same = (None, array["mu"])
+    return [name for name in ("mu_fast", "mu_static") if array.get(name) not in same]
 
 
 def _sides(section: str, index: int, row: DraftRow, us_first: bool) -> Iterator[Fault]:
@@ -224,8 +224,8 @@ def _sides(section: str, index: int, row: DraftRow, us_first: bool) -> Iterator[
         low, high = row.get(f"{axis}_from_m"), row.get(f"{axis}_to_m")
         if low is None or high is None or low < high:
             continue
-        found, least = (pair(value, Quantity.PLAN, us_first) for value in (high, low))
-        text = f"{axis} to is {found}; give more than {axis} from, {least}"
+        given, least = (pair(value, Quantity.PLAN, us_first) for value in (high, low))
+        text = f"{axis} to is {given}; give more than {axis} from, {least}"
         yield Fault(Place(section, index, f"{axis}_to_m"), text)
 
 
@@ -301,13 +301,13 @@ def _room(
     if a is None or b is None or provided is None:
         return
     gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
-    found = pair(provided, Quantity.SIZE, us_first)
+    given = pair(provided, Quantity.SIZE, us_first)
     if gap < -1e-9:
-        text = f"provided clearance is {found}, but {array} and {other} overlap in plan; correct"
+        text = f"provided clearance is {given}, but {array} and {other} overlap in plan; correct"
         yield Fault(place, f"{text} their rectangles")
     elif provided > gap + max(GAP_TOLERANCE * gap, GAP_TOLERANCE_M):
         most = pair(max(gap, 0.0), Quantity.SIZE, us_first)
-        text = f"provided clearance is {found}, but {array} and {other} are {most} apart in plan"
+        text = f"provided clearance is {given}, but {array} and {other} are {most} apart in plan"
         yield Fault(place, f"{text}; reduce it, or correct the rectangles")
 
 
@@ -343,9 +343,9 @@ def _blocks(
         return
     mu = draft["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
-        found = f"block friction is '{text}', all {'above' if mu < min(mus) else 'below'} the"
+        start = f"block friction is '{text}', all {'above' if mu < min(mus) else 'below'} the"
         at = where(home._replace(field="mu"))
-        yield Fault(place, f"{found} {mu:g} at {at}; give a range that includes it, or change it")
+        yield Fault(place, f"{start} {mu:g} at {at}; give a range that includes it, or change it")
 
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:

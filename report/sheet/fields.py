@@ -224,14 +224,14 @@ def _taken_apart(info: FieldInfo) -> tuple[type[Any], list[Any]]:
 
 
 def _bounds(constraints: list[Any]) -> Bounds:
-    found: dict[str, Any] = {}
+    bounds: dict[str, Any] = {}
     for constraint in constraints:
         match constraint:
             case Ge(ge=low) | Gt(gt=low):
-                found |= {"low": low, "excludes_low": isinstance(constraint, Gt)}
+                bounds |= {"low": low, "excludes_low": isinstance(constraint, Gt)}
             case Le(le=high) | Lt(lt=high):
-                found |= {"high": high, "excludes_high": isinstance(constraint, Lt)}
-    return Bounds(**found)
+                bounds |= {"high": high, "excludes_high": isinstance(constraint, Lt)}
+    return Bounds(**bounds)
 
 
 @cache

@@ -127,8 +127,8 @@ def find_unit_cell(
 ) -> CellPosition:
     """Return the cell that holds the unit of a single field, by name, or else next to the value."""
     names = _fields(section, entry)
-    found = (_named(book, section.unit_name(name)) for name in names)
-    position = next((spot for spot in found if spot is not None), None)
+    spots = (_named(book, section.unit_name(name)) for name in names)
+    position = next((spot for spot in spots if spot is not None), None)
     return position or CellPosition(value.sheet, value.row, value.column + 1)
 
 
@@ -164,8 +164,8 @@ def _labels(section: Section, entry: Entry) -> set[str]:
 
 
 def _field_named(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:
-    found = (_named(book, section.cell_name(name)) for name in _fields(section, entry))
-    return next((spot for spot in found if spot is not None), None)
+    spots = (_named(book, section.cell_name(name)) for name in _fields(section, entry))
+    return next((spot for spot in spots if spot is not None), None)
 
 
 def _named(book: OpenBook, name: str) -> CellPosition | None:
@@ -367,9 +367,9 @@ def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
     for symbol, si in accepted.items():
         if symbol.casefold() == unit.casefold():
             return symbol, si
-    found = f"is '{unit}'" if unit else "is missing"
+    problem = f"is '{unit}'" if unit else "is missing"
     wanted = ", ".join(symbol for symbol in accepted if symbol) or "none"
-    raise InputError(f"unit of {entry.spoken} {found}; write one of {wanted}")
+    raise InputError(f"unit of {entry.spoken} {problem}; write one of {wanted}")
 
 
 def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:

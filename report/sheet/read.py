@@ -115,9 +115,9 @@ class Sheet:
         InputError
             In the order of the template.
         """
-        found = [*self.problems, *_lines(faults, self.addresses, self.unfound)]
-        if found:
-            raise InputError(_ordered(found))
+        problems = [*self.problems, *_lines(faults, self.addresses, self.unfound)]
+        if problems:
+            raise InputError(_ordered(problems))
 
 
 def read(path: Path) -> Sheet:
@@ -196,9 +196,9 @@ class _Gathered:
         """Add finished lines."""
         self.problems += [(place, line) for line in lines]
 
-    def take(self, found: Iterable[Fault]) -> None:
+    def take(self, faults: Iterable[Fault]) -> None:
         """Add faults."""
-        self.problems += _lines(found, self.addresses, self.unfound)
+        self.problems += _lines(faults, self.addresses, self.unfound)
 
 
 def _read_section(book: OpenBook, section: Section, gathered: _Gathered) -> None:
@@ -270,45 +270,45 @@ def _read_row(
         if entry.name in table.absent:
             row[entry.name] = entry.default
         elif entry.name in cells:
-            place, found = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
-            gathered.addresses[place] = found.address
-            _read_field(section, entry, place, found, table.columns[entry.name], row, gathered)
+            place, cell = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
+            gathered.addresses[place] = cell.address
+            _read_field(section, entry, place, cell, table.columns[entry.name], row, gathered)
 
 
 def _read_field(
     section: Section,
     entry: Entry,
     place: Place,
-    found: Found,
+    cell: Found,
     column: FieldColumn,
     row: dict[str, Any],
     gathered: _Gathered,
 ) -> None:
     try:
-        row[entry.name] = _value(section, entry, found, column)
+        row[entry.name] = _value(section, entry, cell, column)
     except CellError as error:
-        gathered.add(place, [f"{found.address}: {entry.spoken} {error.problems[0]}"])
+        gathered.add(place, [f"{cell.address}: {entry.spoken} {error.problems[0]}"])
         return
-    gathered.echo.append(_echoed(entry, found, column, row[entry.name]))
+    gathered.echo.append(_echoed(entry, cell, column, row[entry.name]))
 
 
-def _value(section: Section, entry: Entry, found: Found, column: FieldColumn) -> Any:
-    if not found.is_blank:
-        return read_cell(found, entry, section.model, column.unit, column.si)
+def _value(section: Section, entry: Entry, cell: Found, column: FieldColumn) -> Any:
+    if not cell.is_blank:
+        return read_cell(cell, entry, section.model, column.unit, column.si)
     if entry.is_required:
         raise CellError(f"is missing; {wish(entry, column.unit, column.si)}")
     return entry.default
 
 
-def _echoed(entry: Entry, found: Found, column: FieldColumn, value: Any) -> EchoRow:
+def _echoed(entry: Entry, cell: Found, column: FieldColumn, value: Any) -> EchoRow:
     shown = _shown(value, SI_SYMBOLS[entry.quantity] if entry.quantity else column.unit)
-    if found.is_blank and shown:
+    if cell.is_blank and shown:
         shown += " (default)"
     return EchoRow(
-        sheet=found.sheet,
-        cell=found.cell,
+        sheet=cell.sheet,
+        cell=cell.cell,
         label=entry.cell.label,
-        typed=found.text,
+        typed=cell.text,
         unit=column.unit,
         value=shown or "—",
     )

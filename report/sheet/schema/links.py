@@ -31,8 +31,8 @@ def coefficients(text: str) -> tuple[float, ...]:
     parts = [part.strip() for part in text.split(",")]
     if not all(map(_COEFFICIENT.fullmatch, parts)):
         return ()
-    found = tuple(map(float, parts))
-    return found if BLOCKS[0] <= len(found) <= BLOCKS[1] and max(found) <= MOST_MU else ()
+    mus = tuple(map(float, parts))
+    return mus if BLOCKS[0] <= len(mus) <= BLOCKS[1] and max(mus) <= MOST_MU else ()
 
 
 class Links(Frozen):

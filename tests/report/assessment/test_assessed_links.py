@@ -86,7 +86,7 @@ def test_the_design_grows_by_what_links_change_in_one_axis():
     done, item = assessed("0.40, 0.45, 0.50", 50)
     assert item.ratio == pytest.approx(item.linked.value_m / item.rigid.value_m)
     assert item.ratio > 1.1
-    assert item.estimated_m == pytest.approx(item.ratio * item.found.analysis.value_m)
+    assert item.estimated_m == pytest.approx(item.ratio * item.design.analysis.value_m)
     assert not item.is_rigid_enough
     assert item.is_final
     assert not done.ok
@@ -97,7 +97,7 @@ def test_blocks_with_equal_friction_move_as_one_whatever_links_them(lb_per_in):
     done, item = assessed("0.45, 0.45, 0.45", lb_per_in)
     assert item.ratio == pytest.approx(1.0, rel=1e-9)
     assert item.link_force_n == pytest.approx(0.0, abs=1e-6)
-    assert item.estimated_m == pytest.approx(item.found.design_m, rel=1e-9)
+    assert item.estimated_m == pytest.approx(item.design.design_m, rel=1e-9)
     assert done.ok
 
 
@@ -123,7 +123,7 @@ def test_the_least_coefficient_entered_as_that_of_the_array_does(friction, lb_pe
 def test_where_the_floor_governs_links_may_change_what_stays_below_it():
     done, item = assessed("0.40, 0.45, 0.50", 50, peer_reviewed=False)
     assert item.ratio > 1.1
-    assert item.estimated_m == item.found.floor_m == item.found.design_m
+    assert item.estimated_m == item.design.floor_m == item.design.design_m
     assert done.ok
 
 
@@ -136,14 +136,14 @@ def test_links_raise_the_value_of_the_model_that_the_motions_need():
         options={"peer_reviewed": True},
     )
     (item,) = stand_in.assess_input(data, MOTIONS).linked
-    fuller = item.found.chosen["any"].value_m
-    assert fuller > item.found.analysis.value_m
+    fuller = item.design.chosen["any"].value_m
+    assert fuller > item.design.analysis.value_m
     assert item.estimated_m == pytest.approx(item.ratio * fuller)
 
 
 def test_a_difference_below_the_model_tolerance_is_allowed():
     _, item = assessed("0.40, 0.45, 0.50", 50)
-    design = item.found.design_m
+    design = item.design.design_m
     for extra, enough in ((0.99, True), (1.01, False)):
         ratio = 1.0 + extra * DEFAULT.bound_m(design) / design
         grown = replace(item.linked, value_m=ratio * item.rigid.value_m)
@@ -180,7 +180,7 @@ def test_a_row_that_cannot_be_followed_is_never_enough(monkeypatch):
     done, item = assessed("0.45, 0.45", 50)
     assert item.farthest.row.status is Status.DIVERGED
     assert math.isnan(item.ratio)
-    assert item.found.is_model_enough
+    assert item.design.is_model_enough
     assert not done.ok
 
 
@@ -188,7 +188,7 @@ def test_a_row_that_still_slides_at_the_end_is_not_final():
     ax = np.concatenate([np.zeros(100), np.full(60, -4.0)])
     cut = (stand_in.motion("CUT", ax, signs=(1,)),) * 3
     done, item = assessed("0.30, 0.60", 0.01, mu=0.6, found=cut)
-    assert item.found.motions[0].governing.result.status is Status.OK
+    assert item.design.motions[0].governing.result.status is Status.OK
     assert item.farthest.row.status is Status.SLIDING_AT_END
     assert not item.is_final
     assert not item.is_rigid_enough

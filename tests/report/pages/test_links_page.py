@@ -49,7 +49,7 @@ def test_each_array_has_its_row_and_its_effect_on_the_design(both):
         (first, second), page["rows"].rows, page["design"].rows, strict=True
     ):
         shown, held = texts(row), texts(design)
-        assert shown[:6] == [found.found.array.id, "3", "0.400 to 0.500", "50", "8.8", "0.050"]
+        assert shown[:6] == [found.design.id, "3", "0.400 to 0.500", "50", "8.8", "0.050"]
         assert shown[6] == f"{found.rigid_prd_m / 0.0254:.1f}"
         assert shown[8] == f"{found.farthest.prd_m / 0.0254:.1f}"
         assert shown[10] == "1"
@@ -57,7 +57,7 @@ def test_each_array_has_its_row_and_its_effect_on_the_design(both):
         assert held[1] == f"{found.rigid.value_m / 0.0254:.1f}"
         assert held[3] == f"{found.linked.value_m / 0.0254:.1f}"
         assert float(held[5]) == pytest.approx(found.ratio, abs=1e-3)
-        assert held[6] == f"{found.found.design_m / 0.0254:.1f}"
+        assert held[6] == f"{found.design.design_m / 0.0254:.1f}"
         assert held[8] == f"{found.estimated_m / 0.0254:.1f}"
     assert [texts(row)[-1] for row in page["design"].rows] == ["NG", "OK"]
     assert "1.1 × largest of the motions' PRDs" in page["design"].notes[0]

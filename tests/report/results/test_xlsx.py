@@ -102,7 +102,7 @@ def test_the_effect_of_links_follows_from_their_runs():
     assert [sheet[f"{c}6"].value for c in "AO"] == ["A3", "OK"]
     assert formulas["Links"]["I6"].value == "=H6/G6"
     assert formulas["Links"]["M6"].value == "=Design!N7"
-    assert sheet["L6"].value == pytest.approx(second.found.design_m / 0.0254)
+    assert sheet["L6"].value == pytest.approx(second.design.design_m / 0.0254)
 
 
 def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets():
