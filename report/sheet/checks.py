@@ -58,6 +58,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
         _tables,
         _ids,
         _site,
+        _roof,
         _arrays,
         _objects,
         _clearances,
@@ -175,6 +176,29 @@ def _sdc(row: DraftRow) -> Iterator[Fault]:
     )
 
 
+def _roof(draft: Draft, where: Where) -> Iterator[Fault]:
+    for row in draft["roof"]:
+        yield from _sides("roof", 0, row, _us_first(draft))
+        yield from _whole_rectangle("roof", 0, row)
+        outline = rectangle(row)
+        if outline is not None:
+            yield from _within(outline, draft, where)
+
+
+def _within(outline: Rectangle, draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield the sides of arrays that are outside the roof."""
+    for index, array in enumerate(draft["arrays"]):
+        for side in SIDES:
+            value, edge, is_low = array.get(side), getattr(outline, side), "from" in side
+            if value is None or (value >= edge if is_low else value <= edge):
+                continue
+            found, limit = (pair(at, Quantity.PLAN, _us_first(draft)) for at in (value, edge))
+            label = side.removesuffix("_m").replace("_", " ")
+            wanted = f"give {limit} or {'more' if is_low else 'less'}"
+            text = f"{label} is {found}, outside the roof; {wanted}, or correct the outline at"
+            yield Fault(Place("arrays", index, side), f"{text} {where(Place('roof', 0, side))}")
+
+
 def _arrays(draft: Draft, where: Where) -> Iterator[Fault]:
     for index, row in enumerate(draft["arrays"]):
         yield from _slope(index, row)
@@ -232,20 +256,20 @@ def _sides(section: str, index: int, row: DraftRow, us_first: bool) -> Iterator[
 def _objects(draft: Draft, where: Where) -> Iterator[Fault]:
     for index, row in enumerate(draft["objects"]):
         yield from _sides("objects", index, row, _us_first(draft))
-        yield from _whole_rectangle(index, row)
+        yield from _whole_rectangle("objects", index, row)
         if row.get("kind") is ObjectKind.EDGE_WITH_PARAPET and row.get("height_m", 1.0) is None:
             text = "height is missing; give the parapet's height above the roof"
             yield Fault(Place("objects", index, "height_m"), text)
 
 
-def _whole_rectangle(index: int, row: DraftRow) -> Iterator[Fault]:
+def _whole_rectangle(section: str, index: int, row: DraftRow) -> Iterator[Fault]:
     blank = [side for side in SIDES if side in row and row[side] is None]
     if not 0 < len(blank) < len(SIDES):
         return
     for side in blank:
         label = side.removesuffix("_m").replace("_", " ")
         text = f"{label} is missing; give all four sides of the rectangle, or none"
-        yield Fault(Place("objects", index, side), text)
+        yield Fault(Place(section, index, side), text)
 
 
 def _clearances(draft: Draft, where: Where) -> Iterator[Fault]:

@@ -37,6 +37,7 @@ from report.sheet.schema.choices import (
 from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Revision, Site, s_ds
+from report.sheet.schema.roof import Roof
 from report.sheet.schema.scene import Array, Clearance, Rectangle, RoofObject, slope_rad
 from solver.rules.provisions import OVERRIDABLE
 
@@ -63,6 +64,7 @@ __all__ = [
     "Rectangle",
     "Revision",
     "RiskCategory",
+    "Roof",
     "RoofObject",
     "RuleSetName",
     "Scaling",
@@ -125,6 +127,7 @@ class ProjectInput(Frozen):
     project: Project
     revisions: tuple[Revision, ...] = ()
     site: Site
+    roof: Roof = Roof()
     arrays: tuple[Array, ...]
     objects: tuple[RoofObject, ...] = ()
     clearances: tuple[Clearance, ...] = ()
@@ -180,6 +183,15 @@ SECTIONS = (
     _block("project", "Project", "Project", "Printed on the cover and on every page.", Project),
     _table("revisions", "Project", "Revisions", "One row for each issue.", Revision),
     _block("site", "Site", "Site and building", "Give S_DS, or S_S and F_a.", Site),
+    _block(
+        "roof",
+        "Site",
+        "Roof outline and north",
+        "Optional. The plan draws the outline, and every roof edge near an array must then be an"
+        " object.",
+        Roof,
+        may_be_absent=True,
+    ),
     _table(
         "arrays",
         "Arrays",
