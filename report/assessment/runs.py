@@ -7,7 +7,7 @@ Integrates nothing itself (`solver.sliding.least_model` does) and knows no code 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from report.sheet.schema import Array, Direction, Model
@@ -91,13 +91,20 @@ def run_motion(array: Array, motion: Motion, model: Model | None = None) -> Moti
     model : Model, optional
         Replaces the model of the array.
     """
-    settings = Settings(forced=RUNGS.get(array.model if model is None else model))
-    runs = tuple(_run(array, motion, heading, settings) for heading in motion.headings)
+    return motion_run(motion, [run_heading(array, motion, h, model) for h in motion.headings])
+
+
+def motion_run(motion: Motion, runs: Sequence[HeadingRun]) -> MotionRun:
+    """Return the runs of a motion with the governing one."""
     worst = max(runs, key=lambda run: nan_is_worst(run.result.prd_m))
-    return MotionRun(motion=motion, runs=runs, governing=worst)
+    return MotionRun(motion=motion, runs=tuple(runs), governing=worst)
 
 
-def _run(array: Array, motion: Motion, heading: Heading, settings: Settings) -> HeadingRun:
+def run_heading(
+    array: Array, motion: Motion, heading: Heading, model: Model | None = None
+) -> HeadingRun:
+    """Run one array under one motion at one heading; `model` as in `run_motion`."""
+    settings = Settings(forced=RUNGS.get(array.model if model is None else model))
     scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
     return HeadingRun(heading=heading, scene=scene, solution=least_model.solve(scene, settings))
 

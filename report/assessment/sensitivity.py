@@ -18,6 +18,7 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment, reassess
 from report.assessment.runs import MotionRun
+from report.assessment.trials import with_friction
 from report.sheet.schema import ProjectInput
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, SlideResult, Status
 from solver.rivals.methods import METHODS, Method
@@ -153,13 +154,7 @@ def _seconds(scene: dict[str, Any]) -> float:
 
 
 def _with_friction(data: ProjectInput, factor: float) -> ProjectInput:
-    names = ("mu", "mu_fast", "mu_static")
-    changed = [
-        array.model_copy(
-            update={name: mu * factor for name in names if (mu := getattr(array, name)) is not None}
-        )
-        for array in data.arrays
-    ]
+    changed = [with_friction(array, factor) for array in data.arrays]
     return data.model_copy(update={"arrays": type(data.arrays)(changed)})
 
 

@@ -1,0 +1,201 @@
+"""What would satisfy a clearance or an array marked NG: friction, separation, S_DS.
+
+Searches with the runs of `report.assessment.trials`; `report.pages.remedies` prints the results.
+Read `remedies`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass
+from enum import StrEnum
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.project import THREADS, Assessment
+from report.assessment.trials import (
+    HUNDREDTH,
+    Trials,
+    above,
+    alone,
+    below,
+    displaced,
+    hundredths,
+    involved,
+    is_final,
+    reach,
+)
+from report.sheet.schema import Clearance
+from solver.rules.provisions import Basis
+
+MOST_MU = 1.5
+"""Largest friction coefficient tried: the largest that the workbook accepts."""
+
+LEAST_S_DS_G = 0.05
+"""Smallest S_DS tried [g]."""
+
+
+class RemedyKind(StrEnum):
+    """Quantity that would have to change."""
+
+    FRICTION = "friction coefficient"
+    SEPARATION = "provided separation"
+    S_DS = "S_DS"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Remedy:
+    """One quantity that would satisfy a clearance, or give an array final values, by itself.
+
+    Attributes
+    ----------
+    clearance : int
+        Number of the clearance in the workbook, from 1; 0 for the runs of an array.
+    array : str
+        Array whose friction or displacement it is.
+    given, value : float
+        Value in the workbook, and the one that would do: the least friction coefficient, the least
+        separation [m] or the largest S_DS [g]. NaN if none within the search would do.
+    resolution : float
+        Step of the search; 0 for a value that follows from the runs of the package.
+    verified : tuple of float
+        Smallest and largest of the values at which all runs satisfied, without failure between.
+    n_values : int
+        Number of values tried from one to the other.
+    basis : str
+        What was varied and what with it; or why no value would do. A clause.
+    """
+
+    kind: RemedyKind
+    clearance: int
+    array: str
+    given: float
+    value: float
+    resolution: float
+    verified: tuple[float, float]
+    n_values: int
+    basis: str
+
+    @property
+    def exists(self) -> bool:
+        """Whether a value would do."""
+        return not math.isnan(self.value)
+
+
+def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
+    """Return what would satisfy each clearance marked NG, and each array without final values."""
+    with ThreadPoolExecutor(THREADS) as pool:
+        return tuple(_all(assessment, pool))
+
+
+def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
+    trials = {found.array.id: Trials(given, found, pool) for found in given.arrays}
+    for number, gap in enumerate(given.clearances, start=1):
+        if gap.ok:
+            continue
+        here = [trials[found.array.id] for found in involved(given, gap.clearance)]
+        short = [one for one in here if not _holds(one.found, given, gap.clearance)]
+        yield from (_friction(one, number, gap.clearance) for one in short)
+        yield _separation(given, number, gap)
+        if short:
+            yield _s_ds(short, number, gap.clearance)
+    for found in given.arrays:
+        if not is_final(found):
+            yield _friction(trials[found.array.id], 0, None)
+            yield _s_ds([trials[found.array.id]], 0, None)
+
+
+def _holds(found: ArrayAssessment, given: Assessment, row: Clearance) -> bool:
+    return is_final(found) and alone(given, given.project, found, row).ok
+
+
+def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
+    """Return the least friction coefficient with which an array satisfies."""
+    array = trials.found.array
+    start, end = hundredths(MOST_MU), above(array.mu)
+    reason = _in_vain(trials, row)
+    held: tuple[int, ...] = ()
+    if not reason and end <= start:
+        held = reach(lambda mu: trials.holds(row, mu=mu), start, end)
+    law = (
+        "one coefficient at every velocity"
+        if array.friction.is_constant
+        else "the friction law scaled as a whole, the coefficient given being that at low velocity"
+    )
+    least = held[-1] / 100 if held else math.nan
+    return Remedy(
+        kind=RemedyKind.FRICTION,
+        clearance=number,
+        array=array.id,
+        given=array.mu,
+        value=least,
+        resolution=HUNDREDTH,
+        verified=(least, MOST_MU if held else math.nan),
+        n_values=len(held),
+        basis=law if held else reason or f"no coefficient up to {MOST_MU} is sufficient",
+    )
+
+
+def _in_vain(trials: Trials, row: Clearance | None) -> str:
+    """Return why no friction can satisfy, if so: found without a run."""
+    given, found = trials.given, trials.found
+    if few := _too_few(found):
+        return few
+    if row is None or alone(given, given.project, displaced(found, 0.0, found.floor_m), row).ok:
+        return ""
+    if alone(given, given.project, displaced(found, 0.0, 0.0), row).ok:
+        return "the floor alone requires more than is provided"
+    return "the minimum separation of the rule set is more than is provided"
+
+
+def _too_few(found: ArrayAssessment) -> str:
+    few = found.analysis.basis is Basis.TOO_FEW
+    return "there are too few motions for the requested statistic" if few else ""
+
+
+def _separation(given: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
+    """Return the required separation, which the runs of the package give."""
+    required = gap.required_m
+    return Remedy(
+        kind=RemedyKind.SEPARATION,
+        clearance=number,
+        array=gap.governing_array,
+        given=gap.clearance.provided_m,
+        value=required,
+        resolution=0.0,
+        verified=(required, required),
+        n_values=0 if math.isnan(required) else 1,
+        basis="there is no design displacement"
+        if math.isnan(required)
+        else "the required separation at the design displacement of this package",
+    )
+
+
+def _s_ds(trials: Sequence[Trials], number: int, row: Clearance | None) -> Remedy:
+    """Return the largest S_DS with which all arrays of a clearance satisfy."""
+    found, given = trials[0].found, trials[0].given
+    site, start = given.project.site, hundredths(LEAST_S_DS_G)
+    end = below(site.s_ds)
+    held: tuple[int, ...] = ()
+    if found.analysis.basis is not Basis.TOO_FEW and end >= start:
+        held = reach(lambda s_ds: all(one.holds(row, s_ds=s_ds) for one in trials), start, end)
+    most = held[-1] / 100 if held else math.nan
+    floor = "" if given.project.options.peer_reviewed else " and the floor"
+    scaled = (
+        f"all motions scaled in proportion to S_DS, the prescriptive displacement{floor} by "
+        f"formula, seismic design category {site.sdc.value}"
+    )
+    none = f"no S_DS from {LEAST_S_DS_G} g is low enough"
+    return Remedy(
+        kind=RemedyKind.S_DS,
+        clearance=number,
+        array=found.array.id,
+        given=site.s_ds,
+        value=most,
+        resolution=HUNDREDTH,
+        verified=(LEAST_S_DS_G if held else math.nan, most),
+        n_values=len(held),
+        basis=scaled if held else _too_few(found) or none,
+    )

@@ -1,0 +1,207 @@
+"""One array rerun with other friction or with weaker motions, through the checks of a project.
+
+Runs nothing by itself: `report.assessment.remedies` and `report.assessment.certainty` search with
+it. Read `Trials`, then `reach`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import replace
+from functools import partial
+
+from report.assessment.arrays import ArrayAssessment, assess_array
+from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.project import Assessment
+from report.assessment.runs import MotionRun, motion_run, run_heading
+from report.sheet.schema import Array, Clearance, ProjectInput
+from solver.model import Status
+
+HUNDREDTH = 0.01
+"""Resolution of the searches, in friction coefficient and in S_DS [g]."""
+
+STRIDE = 5
+"""Hundredths between the values of the first pass of a search."""
+
+
+def hundredths(value: float) -> int:
+    """Return a value in hundredths, rounded."""
+    return round(100.0 * value)
+
+
+def above(value: float) -> int:
+    """Return the first hundredth above a value."""
+    return math.floor(100.0 * value + 1e-6) + 1
+
+
+def below(value: float) -> int:
+    """Return the first hundredth below a value."""
+    return math.ceil(100.0 * value - 1e-6) - 1
+
+
+def with_friction(array: Array, factor: float) -> Array:
+    """Return an array with all of its friction coefficients multiplied by a factor."""
+    names = ("mu", "mu_fast", "mu_static")
+    given = {name: getattr(array, name) for name in names}
+    return array.model_copy(
+        update={name: mu * factor for name, mu in given.items() if mu is not None}
+    )
+
+
+def with_mu(array: Array, mu: float) -> Array:
+    """Return an array with another low-velocity coefficient, its friction law scaled as a whole.
+
+    A law that starts from zero has no factor: the coefficient is then one at every velocity.
+    """
+    if array.mu > 0.0:
+        return with_friction(array, mu / array.mu).model_copy(update={"mu": mu})
+    names = ("mu_fast", "mu_rate_s_per_m", "mu_static")
+    return array.model_copy(update={**dict.fromkeys(names), "mu": mu})
+
+
+def reach(holds: Callable[[int], bool], start: int, end: int) -> tuple[int, ...]:
+    """Walk from one value toward another, and return those before the first failure, in order.
+
+    The first pass goes in steps of `STRIDE`, the second in steps of one from the last value of the
+    first: no value tried between the start and the last one returned fails. Empty if the start
+    fails.
+
+    Parameters
+    ----------
+    holds : callable
+        Whether a value satisfies; called once for each value tried.
+    """
+    if not holds(start):
+        return ()
+    way = 1 if end >= start else -1
+    held = [start]
+    for step in (STRIDE, 1):
+        while (following := held[-1] + way * step) * way <= end * way and holds(following):
+            held.append(following)
+    return tuple(held)
+
+
+class Trials:
+    """One array under the motions of a project, with other friction or with weaker motions.
+
+    Friction and S_DS are in hundredths. Friction that varies with velocity is scaled as a whole;
+    its low-velocity coefficient names it. Results are kept: several clearances of an array ask for
+    the same ones.
+    """
+
+    def __init__(self, given: Assessment, found: ArrayAssessment, pool: Executor) -> None:
+        self.given = given
+        self.found = found
+        self._pool = pool
+        self._governing: dict[tuple[int, int], ArrayAssessment] = {}
+        self._all: dict[tuple[int, int], ArrayAssessment] = {}
+
+    def holds(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
+        """Whether all runs have final values and satisfy a clearance, if any.
+
+        Parameters
+        ----------
+        mu, s_ds : int
+            Friction coefficient and S_DS in hundredths; 0 for those given.
+        """
+        # The governing headings alone refute a value at a quarter of the runs.
+        return self._passes(self.governing(mu, s_ds), row, s_ds) and self._passes(
+            self.complete(mu, s_ds), row, s_ds
+        )
+
+    def may_hold(self, row: Clearance, *, mu: int) -> bool:
+        """Whether the governing heading of each motion alone satisfies a clearance."""
+        return self._passes(self.governing(mu, 0), row, 0)
+
+    def required_m(self, row: Clearance, *, mu: int) -> float:
+        """Return the separation that the array requires with all runs [m]."""
+        return alone(self.given, self.given.project, self.complete(mu, 0), row).required_m
+
+    def governing(self, mu: int, s_ds: int) -> ArrayAssessment:
+        """Return the array with the governing heading of each motion only."""
+        if (mu, s_ds) not in self._governing:
+            array, share = self._array(mu), self._share(s_ds)
+            runs = self._pool.map(partial(_first_run, array, share), self.found.motions)
+            self._governing[mu, s_ds] = self._assessed(array, s_ds, tuple(runs))
+        return self._governing[mu, s_ds]
+
+    def complete(self, mu: int, s_ds: int) -> ArrayAssessment:
+        """Return the array with all runs."""
+        if (mu, s_ds) not in self._all:
+            first = self.governing(mu, s_ds)
+            runs = self._pool.map(
+                partial(_other_runs, first.array), self.found.motions, first.motions
+            )
+            self._all[mu, s_ds] = self._assessed(first.array, s_ds, tuple(runs))
+        return self._all[mu, s_ds]
+
+    def _passes(self, trial: ArrayAssessment, row: Clearance | None, s_ds: int) -> bool:
+        if not is_final(trial):
+            return False
+        return row is None or alone(self.given, self._data(s_ds), trial, row).ok
+
+    def _array(self, mu: int) -> Array:
+        array = self.found.array
+        return with_mu(array, mu / 100) if mu else array
+
+    def _share(self, s_ds: int) -> float:
+        return s_ds / 100 / self.given.project.site.s_ds if s_ds else 1.0
+
+    def _data(self, s_ds: int) -> ProjectInput:
+        return with_s_ds(self.given.project, s_ds / 100) if s_ds else self.given.project
+
+    def _assessed(self, array: Array, s_ds: int, runs: tuple[MotionRun, ...]) -> ArrayAssessment:
+        return assess_array(self._data(s_ds), self.given.rules, array, runs, runs)
+
+
+def _first_run(array: Array, share: float, run: MotionRun) -> MotionRun:
+    motion = replace(run.motion, scale=run.motion.scale * share)
+    return motion_run(motion, [run_heading(array, motion, run.governing.heading)])
+
+
+def _other_runs(array: Array, given: MotionRun, first: MotionRun) -> MotionRun:
+    done = first.governing.heading
+    others = (heading for heading in given.motion.headings if heading != done)
+    runs = (run_heading(array, first.motion, heading) for heading in others)
+    return motion_run(first.motion, [first.governing, *runs])
+
+
+def with_s_ds(data: ProjectInput, s_ds_g: float) -> ProjectInput:
+    """Return an input with another S_DS [g]; the seismic design category remains as given."""
+    return data.model_copy(update={"site": data.site.model_copy(update={"s_ds_g": s_ds_g})})
+
+
+def is_final(found: ArrayAssessment) -> bool:
+    """Whether an array has a design value and every run ended at rest."""
+    statuses = {run.result.status for motion in found.motions for run in motion.runs}
+    return statuses == {Status.OK} and not math.isnan(found.design_m)
+
+
+def alone(
+    given: Assessment, data: ProjectInput, trial: ArrayAssessment, row: Clearance
+) -> ClearanceCheck:
+    """Return a clearance with one array as tried and all others at rest."""
+    arrays = tuple(
+        trial if one.array.id == trial.array.id else displaced(one, 0.0, 0.0)
+        for one in given.arrays
+    )
+    return check_clearance(data, given.rules, arrays, row)
+
+
+def displaced(found: ArrayAssessment, analysis_m: float, floor_m: float) -> ArrayAssessment:
+    """Return an array with one value from analysis in every direction, and a floor [m]."""
+    ways = {way: replace(value, value_m=analysis_m) for way, value in found.directions.items()}
+    return replace(
+        found,
+        analysis=replace(found.analysis, value_m=analysis_m),
+        directions=ways,
+        floor_m=floor_m,
+        design_m=max(analysis_m, floor_m),
+    )
+
+
+def involved(given: Assessment, row: Clearance) -> Sequence[ArrayAssessment]:
+    """Return the arrays on both sides of a clearance."""
+    return [one for one in given.arrays if one.array.id in (row.array, row.object)]

@@ -1,0 +1,224 @@
+import math
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.assessment.remedies import MOST_MU, RemedyKind, remedies
+from report.assessment.trials import above, below, reach
+from report.sheet.schema import RuleSetName
+from solver.model import Friction, Status
+from solver.sliding.checked import slide
+
+PEER = {"peer_reviewed": True}
+SHORT = stand_in.motions(3, seconds=8.0)
+
+
+def of(found, kind, clearance=1):
+    return [one for one in found if one.kind is kind and one.clearance == clearance]
+
+
+def made(provided_m, *, arrays=None, options=PEER, motions=SHORT, near="A2", far="A3", **changes):
+    data = stand_in.project(
+        clearances=[stand_in.clearance(near, far, provided_m)],
+        options=options,
+        **({"arrays": arrays} if arrays else {}),
+        **changes,
+    )
+    return stand_in.assessed(stand_in.book(data, motions))
+
+
+def peaks_m(array, motions, mu, share=1.0):
+    """The PRD of each motion over its headings, by the public solver."""
+    return [
+        max(
+            slide(
+                sign * along,
+                motion.dt_s,
+                slope_rad=array.slope_rad,
+                mu=mu,
+                ay_mps2=across,
+                az_mps2=motion.az_mps2,
+                scale=share,
+            ).prd_m
+            for along, across in (
+                (motion.ax_mps2, motion.ay_mps2),
+                (motion.ay_mps2, motion.ax_mps2),
+            )
+            for sign in motion.signs
+        )
+        for motion in motions
+    ]
+
+
+def test_a_walk_returns_every_value_before_the_first_failure():
+    assert reach(lambda k: k >= 23, 150, 11)[-1] == 23
+    assert reach(lambda k: k <= 44, 5, 99)[-1] == 44
+    assert reach(lambda k: k >= 0, 20, 7)[-1] == 7
+    assert reach(lambda k: k < 0, 20, 7) == ()
+    assert reach(lambda k: True, 20, 20) == (20,)
+
+
+def test_a_walk_stops_at_an_isolated_failure_and_tries_no_value_twice():
+    tried = []
+
+    def holds(k):
+        tried.append(k)
+        return k != 50 and k >= 30
+
+    held = reach(holds, 150, 11)
+    assert held[-1] == 51
+    assert all(k > 50 for k in held)
+    assert len(tried) == len(set(tried)) + 1  # the failure of the first pass is met again
+
+
+def test_the_hundredths_beside_a_value_are_never_the_value():
+    assert (above(0.45), below(0.45)) == (46, 44)
+    assert (above(0.425), below(0.425)) == (43, 42)
+    assert (above(0.0), below(1.566)) == (1, 156)
+
+
+def test_a_satisfied_package_needs_nothing():
+    assert remedies(made(9.0)) == ()
+
+
+@pytest.fixture(scope="module")
+def failing():
+    roomy = made(9.0)
+    return made(0.6 * roomy.clearances[0].required_m)
+
+
+def test_the_least_friction_satisfies_there_and_beyond_and_not_below(failing):
+    found = of(remedies(failing), RemedyKind.FRICTION)
+    gap = failing.clearances[0]
+    by_id = {one.array.id: one.array for one in failing.arrays}
+    assert found
+    for one in found:
+        array = by_id[one.array]
+        allowed = gap.clearance.provided_m / gap.factor
+
+        def design(mu, array=array):
+            return 1.1 * max(peaks_m(array, SHORT, mu))
+
+        assert design(array.mu) > allowed
+        assert one.value > array.mu == one.given
+        assert design(one.value) <= allowed
+        assert design(one.value - one.resolution) > allowed
+        for mu in np.arange(one.value, MOST_MU + 0.01, 0.07):
+            assert design(mu) <= allowed
+        assert one.verified == (one.value, MOST_MU)
+        assert one.n_values >= (MOST_MU - one.value) / 0.05
+
+
+def test_the_separation_is_the_required_one(failing):
+    (one,) = of(remedies(failing), RemedyKind.SEPARATION)
+    assert one.value == failing.clearances[0].required_m
+    assert one.given == failing.clearances[0].clearance.provided_m
+    assert one.resolution == 0.0
+
+
+@pytest.mark.parametrize("options", [PEER, {}])
+def test_the_largest_s_ds_satisfies_with_all_arrays_and_not_above(options):
+    roomy = made(9.0, options=options)
+    failing = made(0.6 * roomy.clearances[0].required_m, options=options)
+    (one,) = of(remedies(failing), RemedyKind.S_DS)
+    gap = failing.clearances[0]
+    allowed = gap.clearance.provided_m / gap.factor
+    arrays = [found.array for found in failing.arrays if found.array.id in ("A2", "A3")]
+
+    def design(s_ds):
+        floor = 0.0 if options else 0.5 * max(60 * 0.0254 * max(s_ds - 0.4, 0) ** 2, 6 * 0.0254)
+        share = s_ds / 1.566
+        return max(floor, *(1.1 * max(peaks_m(a, SHORT, a.mu, share)) for a in arrays))
+
+    assert design(1.566) > allowed
+    assert one.value < one.given == 1.566
+    assert design(one.value) <= allowed < design(one.value + one.resolution)
+    assert ("floor" in one.basis) is not bool(options)
+    assert one.verified == (0.05, one.value)
+
+
+def test_a_floor_that_forbids_leaves_no_friction_but_an_s_ds():
+    failing = made(0.1, options={})
+    found = remedies(failing)
+    for one in of(found, RemedyKind.FRICTION):
+        assert not one.exists
+        assert "floor alone" in one.basis
+        assert one.n_values == 0
+    (s_ds,) = of(found, RemedyKind.S_DS)
+    assert s_ds.exists
+
+
+def test_a_minimum_separation_that_forbids_leaves_neither():
+    site = stand_in.project().site.model_copy(update={"rule_set": RuleSetName("ASCE 7-16")})
+    failing = made(0.2, near="A2", far="S edge", site=site)
+    found = remedies(failing)
+    (friction,) = of(found, RemedyKind.FRICTION)
+    assert "minimum separation" in friction.basis
+    assert not any(one.exists for one in of(found, RemedyKind.S_DS))
+
+
+def test_a_friction_law_is_scaled_as_a_whole():
+    arrays = [
+        stand_in.array("A2", 2.0, mu=0.3, mu_fast=0.36, mu_rate_s_per_m=20.0),
+        stand_in.array("A3", 3.0, mu=0.9, y=90),
+    ]
+    roomy = made(9.0, arrays=arrays)
+    failing = made(0.7 * roomy.clearances[0].required_m, arrays=arrays)
+    one = next(r for r in of(remedies(failing), RemedyKind.FRICTION) if r.array == "A2")
+    gap = failing.clearances[0]
+    array = failing.arrays[0].array
+
+    def design(mu):
+        law = Friction(mu_slow=mu, mu_fast=1.2 * mu, rate_s_per_m=20.0, mu_static=mu)
+        return 1.1 * max(peaks_m(array, SHORT, law))
+
+    allowed = gap.clearance.provided_m / gap.factor
+    assert design(one.value) <= allowed < design(one.value - 0.01)
+    assert "scaled as a whole" in one.basis
+
+
+def test_an_array_that_slides_at_the_end_needs_friction_or_a_weaker_motion():
+    cut = tuple(
+        stand_in.motion(m.id, readonly(m.ax_mps2[:700] / 3), dt_s=m.dt_s, signs=(1,)) for m in SHORT
+    )
+    arrays = [stand_in.array("B1", 1.0, mu=0.08)]
+    data = stand_in.project(arrays=arrays, objects=[], clearances=[], options=PEER)
+    failing = stand_in.assessed(stand_in.book(data, cut))
+    (one,) = of(remedies(failing), RemedyKind.FRICTION, clearance=0)
+    (weaker,) = of(remedies(failing), RemedyKind.S_DS, clearance=0)
+    slope_rad = failing.arrays[0].array.slope_rad
+
+    def finishes(mu, share=1.0):
+        runs = (slide(m.ax_mps2, m.dt_s, slope_rad=slope_rad, mu=mu, scale=share) for m in cut)
+        return all(run.status is Status.OK for run in runs)
+
+    assert not finishes(0.08)
+    assert finishes(one.value)
+    assert not finishes(one.value - 0.01)
+    assert finishes(0.08, weaker.value / 1.566)
+    assert not finishes(0.08, (weaker.value + 0.01) / 1.566)
+
+
+def readonly(values):
+    values.setflags(write=False)
+    return values
+
+
+def test_a_block_that_lifts_off_has_no_friction_that_helps():
+    up = np.zeros(400)
+    up[100:200] = -1.4 * stand_in.G
+    up.setflags(write=False)
+    flat = np.zeros(400)
+    flat.setflags(write=False)
+    lifted = tuple(stand_in.motion(f"L{k}", flat, up, signs=(1,)) for k in range(3))
+    failing = made(0.5, motions=lifted)
+    found = remedies(failing)
+    frictions = of(found, RemedyKind.FRICTION)
+    assert frictions
+    assert not any(one.exists for one in frictions)
+    assert "up to 1.5" in frictions[0].basis
+    (separation,) = of(found, RemedyKind.SEPARATION)
+    assert not separation.exists
+    (s_ds,) = of(found, RemedyKind.S_DS)
+    assert s_ds.value == pytest.approx(math.floor(156.6 / 1.4) / 100)
