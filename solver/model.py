@@ -195,6 +195,11 @@ class Friction:
     rate_s_per_m: float
     mu_static: float
 
+    def at(self, speed_mps: float) -> float:
+        """Return the coefficient at a sliding speed [m/s]."""
+        drop = self.mu_fast - self.mu_slow
+        return self.mu_fast - drop * math.exp(-self.rate_s_per_m * speed_mps)
+
     @property
     def is_constant(self) -> bool:
         """Whether it is Coulomb friction: one coefficient at rest and at every velocity."""

@@ -12,6 +12,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
+from report.sheet.friction_checks import friction_faults
 from report.sheet.motion_checks import motion_faults, site_s_ds
 from report.sheet.schema import (
     PROVISION_KEYS,
@@ -60,6 +61,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
         _site,
         _roof,
         _arrays,
+        friction_faults,
         _objects,
         _clearances,
         motion_faults,

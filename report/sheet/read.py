@@ -36,6 +36,8 @@ SI_SYMBOLS = {
     Quantity.PLAN: "m",
     Quantity.WEIGHT: "N",
     Quantity.STIFFNESS: "N/m",
+    Quantity.VELOCITY: "m/s",
+    Quantity.PRESSURE: "Pa",
 }
 
 

@@ -21,7 +21,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet import style
 from report.sheet.fields import Entry, Frozen, Section, entries
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput, UnitsFirst
-from report.words.units import LENGTHS, STIFFNESSES, WEIGHTS, Unit
+from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS, Unit
 
 BLANK_ROWS = 20
 SPARE_ROWS = 5
@@ -48,7 +48,7 @@ NOTES = (
     "FOLDER is the folder that contains this workbook, named input.xlsx.",
     "Units are in brackets in the table headings and elsewhere in the column Unit. You may change"
     f" them: lengths to {', '.join(LENGTHS)}; weights to {', '.join(WEIGHTS)}; stiffnesses to"
-    f" {', '.join(STIFFNESSES)}.",
+    f" {', '.join(STIFFNESSES)}; velocities to {', '.join(VELOCITIES)}.",
     "Sheets are protected against accidental changes, without a password (Review, Unprotect Sheet)."
     " You may rename sheets, insert rows, and reorder or add columns.",
     "Formulas are accepted. Macros are not: .xlsm files are rejected.",
@@ -172,7 +172,7 @@ def _write_table(
         values += [None] * (size - len(values))
         _write_inputs(sheet, header, column, entry, _unit(entry, units), values)
         _write_help(book, section, header, column, entry, units)
-        if not has_block:
+        if not has_block or column > len(BLOCK_WIDTHS):
             sheet.column_dimensions[get_column_letter(column)].width = _width(entry)
     _add_table(sheet, section, header, size, [_header(entry, units) for entry in fields])
     if not has_block:

@@ -36,6 +36,12 @@ STIFFNESSES = {
 }
 """Stiffnesses in N/m."""
 
+VELOCITIES = {"in/s": INCH_M, "in/min": INCH_M / 60.0, "ft/s": 0.3048, "mm/s": 1e-3, "m/s": 1.0}
+"""Velocities in m/s."""
+
+PRESSURES = {"psf": NEWTONS_PER_POUND / 0.3048**2, "kPa": 1e3, "Pa": 1.0}
+"""Pressures in Pa."""
+
 
 @dataclass(frozen=True, slots=True)
 class Unit:
@@ -58,11 +64,18 @@ class Quantity(Enum):
     PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
     WEIGHT = (Unit("lb", NEWTONS_PER_POUND, 0), Unit("kN", 1e3, 2))
     STIFFNESS = (Unit("lb/in", NEWTONS_PER_POUND / INCH_M, 0), Unit("kN/m", 1e3, 1))
+    VELOCITY = (Unit("in/s", INCH_M, 2), Unit("mm/s", 1e-3, 1))
+    PRESSURE = (Unit("psf", PRESSURES["psf"], 1), Unit("kPa", 1e3, 2))
 
     @property
     def accepted(self) -> Mapping[str, float]:
         """Symbols accepted in the input, each with its size in SI."""
-        others = {Quantity.WEIGHT: WEIGHTS, Quantity.STIFFNESS: STIFFNESSES}
+        others = {
+            Quantity.WEIGHT: WEIGHTS,
+            Quantity.STIFFNESS: STIFFNESSES,
+            Quantity.VELOCITY: VELOCITIES,
+            Quantity.PRESSURE: PRESSURES,
+        }
         return others.get(self, LENGTHS)
 
     @property

@@ -34,6 +34,7 @@ from report.sheet.schema.choices import (
     StructureType,
     UnitsFirst,
 )
+from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Revision, Site, s_ds
@@ -51,6 +52,8 @@ __all__ = [
     "BuildingInput",
     "Clearance",
     "Direction",
+    "FrictionTestRow",
+    "FrictionTests",
     "Links",
     "Model",
     "MotionInput",
@@ -129,6 +132,8 @@ class ProjectInput(Frozen):
     site: Site
     roof: Roof = Roof()
     arrays: tuple[Array, ...]
+    friction_tests: FrictionTests = FrictionTests()
+    friction_runs: tuple[FrictionTestRow, ...] = ()
     objects: tuple[RoofObject, ...] = ()
     clearances: tuple[Clearance, ...] = ()
     motions: tuple[MotionInput, ...]
@@ -199,6 +204,23 @@ SECTIONS = (
         "One row for each array that moves as a unit. Columns to the right of Downslope direction"
         " are optional.",
         Array,
+    ),
+    _block(
+        "friction_tests",
+        "Friction tests",
+        "Friction tests",
+        "Optional: the report on the friction tests. Leave blank what the report does not state.",
+        FrictionTests,
+        may_be_absent=True,
+    ),
+    _table(
+        "friction_runs",
+        "Friction tests",
+        "Runs of the friction tests",
+        "Optional: one row for each run, wet and dry. The package compares the friction"
+        " coefficients of the arrays with the kinetic means.",
+        FrictionTestRow,
+        may_be_absent=True,
     ),
     _table(
         "objects",

@@ -14,12 +14,12 @@ from pydantic import Field, model_validator
 from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import Id, Positive
 from report.words.units import G_MPS2, Quantity
+from solver.friction_tests import MOST_MU
 from solver.sliding.row import BlockRow
 
 BLOCKS = (2, 20)
 """Fewest and most blocks of a row."""
 
-MOST_MU = 1.5
 _COEFFICIENT = re.compile(r"[0-9]*\.[0-9]+")
 
 

@@ -24,14 +24,10 @@ from report.sheet.schema.choices import (
     Text,
 )
 from report.words.units import Quantity
+from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
 from solver.model import Friction
 
-MuCell = Annotated[float, Field(ge=0.0, le=1.5)]
-
-MOST_RATE_S_PER_M = 1000.0
-"""Largest rate for which the error bounds in two axes were tested (see
-`solver.verification.random_pairs`)."""
-
+MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]
 RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
 
 
@@ -72,7 +68,7 @@ class Array(Frozen):
     slope_unit: Annotated[SlopeUnit, Cell("Slope unit", "Unit of the slope.", "degrees")]
     mu: Annotated[
         float,
-        Field(ge=0.0, le=1.5),
+        Field(ge=0.0, le=MOST_MU),
         Cell("Friction coefficient", "Kinetic, from tests; the smaller of wet and dry.", 0.45),
     ]
     mu_report: Annotated[

@@ -10,8 +10,8 @@ from report.sheet.template import write_template
 from sheets import make, project
 
 SHEETS = [
-    "README", "Project", "Site", "Arrays", "Objects", "Clearances", "Motions", "Building",
-    "Spectrum", "Links", "Options",
+    "README", "Project", "Site", "Arrays", "Friction tests", "Objects", "Clearances", "Motions",
+    "Building", "Spectrum", "Links", "Options",
 ]  # fmt: skip
 
 

@@ -1,0 +1,224 @@
+"""Friction tests: kinetic means of the runs, wet and dry, and a friction law fitted to them.
+
+Owns no limits of any rule set. Read `solver.model.Friction` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.model import Friction
+
+MOST_MU = 1.5
+"""Largest friction coefficient that an array may have."""
+
+MOST_RATE_S_PER_M = 1000.0
+"""Largest rate for which the error bounds in two axes were tested (see
+`solver.verification.random_pairs`)."""
+
+LEAST_VELOCITIES = 4
+"""Distinct velocities to which a law with three parameters is fitted: one more than parameters."""
+
+# At the lowest rate searched, the exponent changes by a tenth over the tested velocities: the law
+# is then a straight line within 0.1 % of its change, and no lower rate can be told from it.
+_LEAST_EXPONENT = 0.1
+# Less than the last digit of a reported coefficient: the runs then show one coefficient.
+_LEAST_DROP = 1e-4
+_GRID = 400
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+_NARROWINGS = 70
+
+
+class Surface(StrEnum):
+    """Condition of the roof surface in a test."""
+
+    DRY = "dry"
+    WET = "wet"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrictionRun:
+    """One run of a friction test.
+
+    Attributes
+    ----------
+    report : str
+        Report that contains the run.
+    surface : Surface
+    velocity_mps : float
+        Sliding velocity [m/s]; NaN where it is not reported.
+    mu, mu_static : float
+        Kinetic and breakaway coefficient; the latter NaN where it is not reported.
+    """
+
+    report: str
+    surface: Surface
+    velocity_mps: float
+    mu: float
+    mu_static: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Series:
+    """The runs of one report in one condition, at least one."""
+
+    report: str
+    surface: Surface
+    runs: tuple[FrictionRun, ...]
+
+    @property
+    def mean(self) -> float:
+        """Mean of the kinetic coefficients."""
+        return math.fsum(run.mu for run in self.runs) / len(self.runs)
+
+    @property
+    def static_mean(self) -> float:
+        """Mean of the breakaway coefficients that are reported; NaN for none."""
+        found = [run.mu_static for run in self.runs if not math.isnan(run.mu_static)]
+        return math.fsum(found) / len(found) if found else math.nan
+
+    def mean_of(self, law: Friction) -> float:
+        """Return the mean of a friction law over the tested velocities.
+
+        Where a run reports no velocity, the larger of the law's two coefficients is used.
+        """
+        most = max(law.mu_slow, law.mu_fast)
+        values = (
+            most if math.isnan(run.velocity_mps) else law.at(run.velocity_mps) for run in self.runs
+        )
+        return math.fsum(values) / len(self.runs)
+
+
+def series(runs: Iterable[FrictionRun]) -> tuple[Series, ...]:
+    """Return the runs by report and condition, in the order in which these first appear."""
+    found: dict[tuple[str, Surface], list[FrictionRun]] = {}
+    for run in runs:
+        found.setdefault((run.report, run.surface), []).append(run)
+    return tuple(
+        Series(report=report, surface=surface, runs=tuple(those))
+        for (report, surface), those in found.items()
+    )
+
+
+def governing(found: Sequence[Series], text: str) -> Series:
+    """Return the series with the smallest kinetic mean.
+
+    Parameters
+    ----------
+    found : sequence of Series
+        At least one.
+    text : str
+        The test report of an array, as entered. If it names reports of the series, the others are
+        not considered.
+    """
+    named = [one for one in found if one.report and _is_named(one.report, text)]
+    return min(named or found, key=lambda one: one.mean)
+
+
+def _is_named(report: str, text: str) -> bool:
+    return bool(re.search(rf"(?<!\w){re.escape(report)}(?!\w)", text, re.IGNORECASE))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FittedLaw:
+    """A friction law fitted to runs by least squares.
+
+    Attributes
+    ----------
+    law : Friction
+        Static friction equal to the low-velocity coefficient.
+    rms : float
+        Root mean square of the residuals.
+    is_determined : bool
+        Whether the rate lies within the range that was searched, and both coefficients differ and
+        lie between 0 and `MOST_MU`. If not, the runs do not determine a law.
+    """
+
+    law: Friction
+    rms: float
+    is_determined: bool
+
+
+def fit_law(velocities_mps: Sequence[float], mus: Sequence[float]) -> FittedLaw | None:
+    """Fit mu_fast - (mu_fast - mu_slow) exp(-rate v) to runs by least squares.
+
+    For a given rate the other two parameters follow from linear regression (variable projection,
+    Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432). The rate is the least of a grid in
+    log(rate) up to `MOST_RATE_S_PER_M`, refined by golden section.
+
+    Parameters
+    ----------
+    velocities_mps : sequence, shape (n,)
+        Sliding velocities [m/s], >= 0; runs with NaN are not used.
+    mus : sequence, shape (n,)
+        Kinetic coefficients.
+
+    Returns
+    -------
+    FittedLaw or None
+        None for fewer than `LEAST_VELOCITIES` distinct velocities.
+    """
+    pairs = [(v, mu) for v, mu in zip(velocities_mps, mus, strict=True) if not math.isnan(v)]
+    if len({v for v, _ in pairs}) < LEAST_VELOCITIES:
+        return None
+    v, mu = np.array(pairs).T
+    low, high = math.log(_LEAST_EXPONENT / float(v.max())), math.log(MOST_RATE_S_PER_M)
+    if not low < high:
+        return None
+    grid = np.linspace(low, high, _GRID)
+    best = int(np.argmin([_regressed(math.exp(x), v, mu).squares for x in grid]))
+    x = _refined(float(grid[max(best - 1, 0)]), float(grid[min(best + 1, _GRID - 1)]), v, mu)
+    found = _regressed(math.exp(x), v, mu)
+    slow = found.fast - found.drop
+    is_inside = 0 < best < _GRID - 1 and abs(found.drop) > _LEAST_DROP
+    return FittedLaw(
+        law=Friction(mu_slow=slow, mu_fast=found.fast, rate_s_per_m=math.exp(x), mu_static=slow),
+        rms=math.sqrt(found.squares / v.size),
+        is_determined=is_inside and all(0.0 <= c <= MOST_MU for c in (slow, found.fast)),
+    )
+
+
+class _Regression(NamedTuple):
+    fast: float
+    drop: float
+    squares: float
+
+
+def _regressed(rate: float, v: NDArray[np.float64], mu: NDArray[np.float64]) -> _Regression:
+    """Return the regression of mu = fast - drop exp(-rate v) for a given rate."""
+    decay = np.exp(-rate * v)
+    off = decay - decay.mean()
+    spread = float(off @ off)
+    # Every velocity beyond the decay: one constant fits as well as any law.
+    drop = -float(off @ mu) / spread if spread > 0.0 else 0.0
+    fast = float(mu.mean()) + drop * float(decay.mean())
+    residual = mu - fast + drop * decay
+    return _Regression(fast, drop, float(residual @ residual))
+
+
+def _refined(low: float, high: float, v: NDArray[np.float64], mu: NDArray[np.float64]) -> float:
+    """Return the logarithm of the rate with the least sum of squares between two others."""
+
+    def squares(x: float) -> float:
+        return _regressed(math.exp(x), v, mu).squares
+
+    a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    at_a, at_b = squares(a), squares(b)
+    for _ in range(_NARROWINGS):
+        if at_a < at_b:
+            high, b, at_b = b, a, at_a
+            a = high - _GOLDEN * (high - low)
+            at_a = squares(a)
+        else:
+            low, a, at_a = a, b, at_b
+            b = low + _GOLDEN * (high - low)
+            at_b = squares(b)
+    return (low + high) / 2.0

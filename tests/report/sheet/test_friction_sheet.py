@@ -1,0 +1,155 @@
+"""The sheet Friction tests: reading, and error messages."""
+
+import datetime as dt
+
+import pytest
+from openpyxl import load_workbook
+
+from report.sheet.schema import FrictionTests, UnitsFirst
+from sheets import INCH, edit, make, problems, project, read_workbook
+
+SHEET = "Friction tests"
+REPORT = {
+    "laboratory": "Example Laboratories",
+    "accreditation": "ISO/IEC 17025, no. 1234.01",
+    "standard": "ASTM G115-10",
+    "report": "FT-118",
+    "date": dt.date(2025, 6, 12),
+    "membrane": "TPO, 60 mil",
+    "support": "EPDM pad",
+}
+TOP = 21  # first row of the runs
+
+
+def run(surface, number, mu, **changes):
+    return {"surface": surface, "number": number, "mu": mu} | changes
+
+
+def runs(dry=(0.60, 0.61, 0.62), wet=(0.46, 0.45, 0.47)):
+    return [
+        *(run("dry", k, mu, velocity_mps=1.0 * INCH) for k, mu in enumerate(dry, start=1)),
+        *(run("wet", k, mu, mu_static=mu + 0.04) for k, mu in enumerate(wet, start=1)),
+    ]
+
+
+@pytest.fixture
+def path(tmp_path):
+    return make(tmp_path, friction_tests=REPORT, friction_runs=runs())
+
+
+def arrays(**changes):
+    first, second = (array.model_dump() for array in project().arrays)
+    return [first | changes, second]
+
+
+@pytest.mark.parametrize("units", UnitsFirst)
+def test_report_and_runs_are_read_in_the_units_of_the_sheet(tmp_path, units):
+    path = make(tmp_path, units, friction_tests=REPORT, friction_runs=runs())
+    sheet = load_workbook(path)[SHEET]
+    assert [sheet[f"{c}{TOP - 1}"].value for c in "BCDFG"] == [
+        "Surface", "Run", "Kinetic coefficient", "Static coefficient", "Report",
+    ]  # fmt: skip
+    assert sheet[f"E{TOP}"].value == pytest.approx(1.0 if units is UnitsFirst.US else 25.4)
+    found = read_workbook(path).input
+    assert found.friction_tests == FrictionTests(**REPORT)
+    one, *_, last = [row.run("FT-118") for row in found.friction_runs]
+    assert (one.report, one.surface, one.mu) == ("FT-118", "dry", 0.60)
+    assert one.velocity_mps == pytest.approx(INCH)
+    assert one.mu_static != one.mu_static
+    assert last.velocity_mps != last.velocity_mps
+    assert last.mu_static == pytest.approx(0.51)
+
+
+def test_a_workbook_without_the_sheet_has_no_tests(path):
+    found = read_workbook(edit(path, lambda book: book.remove(book[SHEET]))).input
+    assert found.friction_tests == FrictionTests()
+    assert found.friction_runs == ()
+
+
+def test_columns_beyond_those_of_the_block_are_as_wide_as_their_content(path):
+    widths = load_workbook(path)[SHEET].column_dimensions
+    assert widths["G"].width == 14
+
+
+CELLS = [
+    (f"B{TOP}", "damp", "surface is 'damp'; choose dry or wet"),
+    (f"B{TOP}", None, "surface is missing"),
+    (f"C{TOP}", 0, "run is 0; give a whole number from 1 to 1000"),
+    (f"C{TOP + 1}", 1, f"run is 1, dry, already given at {SHEET}!C{TOP}; give another number"),
+    (f"D{TOP}", 1.6, "kinetic coefficient is 1.6; give a number from 0 to 1.5"),
+    (f"D{TOP}", None, "kinetic coefficient is missing"),
+    (f"E{TOP}", -1, "velocity is -1; give a number of 0 or more [in/s]"),
+    (f"E{TOP - 1}", "Velocity [mph]", "unit of velocity is 'mph'; write one of in/s, in/min,"),
+    ("B9", "June", "report date is 'June'; give a date such as 2026-03-05"),
+]
+
+
+@pytest.mark.parametrize(("cell", "value", "line"), CELLS)
+def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
+    found = problems(edit(path, lambda book: book[SHEET].__setitem__(cell, value)))
+    assert any(one.startswith(f"{SHEET}!{cell}: {line}") for one in found), found
+    assert len(found) == 1
+
+
+def test_a_coefficient_above_the_smaller_mean_is_reported_with_both_cells(tmp_path):
+    path = make(tmp_path, arrays=arrays(mu=0.50), friction_tests=REPORT, friction_runs=runs())
+    line = (
+        "Arrays!E8: friction coefficient is 0.5; the tests give 0.46 (wet, mean of 3 from"
+        f" {SHEET}!D{TOP + 3}); give 0.46 or less"
+    )
+    assert problems(path) == (line,)
+    assert read_workbook(edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.46))).input
+
+
+@pytest.mark.parametrize(("mu", "is_accepted"), [(0.4649, True), (0.4651, False)])
+def test_rounding_to_two_decimals_is_allowed(tmp_path, mu, is_accepted):
+    path = make(tmp_path, arrays=arrays(mu=mu), friction_runs=runs())
+    assert is_accepted or len(problems(path)) == 1
+    assert not is_accepted or read_workbook(path).input
+
+
+def test_one_run_in_one_condition_is_compared_too(tmp_path):
+    path = make(tmp_path, friction_runs=runs(dry=(), wet=(0.44,)))
+    assert [line.split(";")[0] for line in problems(path)] == [
+        "Arrays!E8: friction coefficient is 0.45", "Arrays!E9: friction coefficient is 0.45",
+    ]  # fmt: skip
+
+
+def test_an_array_that_names_a_report_is_compared_with_that_report(tmp_path):
+    other = [run("wet", k, 0.30, report="FT-9") for k in (1, 2, 3)]
+    tests = {"friction_tests": REPORT, "friction_runs": [*runs(), *other]}
+    lines = problems(make(tmp_path / "none", **tests))
+    assert len(lines) == 2
+    assert all("the tests give 0.3 (wet" in line for line in lines)
+    named = [one | {"mu_report": "Report FT-118"} for one in arrays()]
+    assert read_workbook(make(tmp_path / "named", arrays=named, **tests)).input
+
+
+def test_a_law_is_compared_at_the_tested_velocities(tmp_path):
+    law = {"mu": 0.40, "mu_fast": 0.60, "mu_rate_s_per_m": 30.0}
+    slow = [run("dry", k, 0.41, velocity_mps=1e-4) for k in (1, 2, 3)]
+    fast = [run("dry", k, 0.41, velocity_mps=1.0) for k in (1, 2, 3)]
+    unknown = [run("dry", k, 0.41) for k in (1, 2, 3)]
+    second = project().arrays[1].model_dump() | {"mu": 0.3}
+    both = [project().arrays[0].model_dump() | law, second]
+    assert read_workbook(make(tmp_path / "slow", arrays=both, friction_runs=slow)).input
+    for name, given in (("fast", fast), ("unknown", unknown)):
+        (line,) = problems(make(tmp_path / name, arrays=both, friction_runs=given))
+        assert line.startswith(
+            "Arrays!E8: friction coefficient averages 0.6 at the tested velocities; the tests give"
+            " 0.41 (dry, mean of 3 from"
+        )
+        assert line.endswith("; reduce it")
+
+
+def test_static_friction_above_the_tested_mean_is_reported(tmp_path):
+    path = make(tmp_path, arrays=arrays(mu_static=0.52), friction_runs=runs())
+    assert problems(path) == (
+        "Arrays!R8: static friction is 0.52; the tests give 0.5 (wet); give 0.5 or less",
+    )
+
+
+def test_coefficients_are_not_compared_while_a_run_cannot_be_read(tmp_path):
+    path = make(tmp_path, arrays=arrays(mu=0.50), friction_runs=runs())
+    (line,) = problems(edit(path, lambda book: book[SHEET].__setitem__(f"D{TOP}", "x")))
+    assert line.startswith(f"{SHEET}!D{TOP}: kinetic coefficient is 'x'")

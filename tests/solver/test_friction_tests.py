@@ -1,0 +1,136 @@
+"""Means of friction runs, and the law fitted to them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from solver.friction_tests import (
+    LEAST_VELOCITIES,
+    MOST_MU,
+    MOST_RATE_S_PER_M,
+    FrictionRun,
+    Surface,
+    fit_law,
+    governing,
+    series,
+)
+from solver.model import Friction, coulomb
+
+LAW = Friction(mu_slow=0.40, mu_fast=0.52, rate_s_per_m=20.0, mu_static=0.40)
+VELOCITIES = (0.002, 0.01, 0.03, 0.06, 0.1, 0.2)
+
+
+def run(mu, *, surface=Surface.DRY, report="R1", velocity=math.nan, static=math.nan):
+    return FrictionRun(
+        report=report, surface=surface, velocity_mps=velocity, mu=mu, mu_static=static
+    )
+
+
+def test_the_law_runs_from_the_low_to_the_high_velocity_coefficient():
+    assert LAW.at(0.0) == 0.40
+    assert LAW.at(1e3) == 0.52
+    assert LAW.at(math.log(2.0) / 20.0) == pytest.approx(0.46, abs=1e-15)
+    assert coulomb(0.45).at(0.3) == 0.45
+
+
+def test_runs_are_averaged_by_report_and_surface():
+    wet = [run(mu, surface=Surface.WET) for mu in (0.45, 0.46, 0.50)]
+    dry = [run(0.60, static=0.66), run(0.62, static=0.70), run(0.58)]
+    other = [run(0.30, report="R2")]
+    found = series([dry[0], *wet, *dry[1:], *other])
+    assert [(one.report, one.surface, len(one.runs)) for one in found] == [
+        ("R1", Surface.DRY, 3), ("R1", Surface.WET, 3), ("R2", Surface.DRY, 1),
+    ]  # fmt: skip
+    assert [one.mean for one in found] == pytest.approx([0.60, 0.47, 0.30], abs=1e-15)
+    assert found[0].static_mean == pytest.approx(0.68)
+    assert math.isnan(found[1].static_mean)
+
+
+def test_the_smallest_mean_governs_among_the_reports_that_an_array_names():
+    found = series(
+        [run(0.50), run(0.46, surface=Surface.WET), run(0.40, report="R10"), run(0.1, report="")]
+    )
+    assert governing(found, "").mean == 0.1
+    assert governing(found, "ASTM G115, r1, 2025").mean == 0.46
+    assert governing(found, "R10").mean == 0.40
+    assert governing(found, "R1 and R10").mean == 0.40
+    assert governing(found, "R100").mean == 0.1
+
+
+def test_a_law_is_averaged_at_the_tested_velocities_and_taken_at_its_largest_without_any():
+    (tested,) = series([run(0.4, velocity=0.0), run(0.5, velocity=math.log(2.0) / 20.0)])
+    assert tested.mean_of(LAW) == pytest.approx((0.40 + 0.46) / 2, abs=1e-15)
+    assert tested.mean_of(coulomb(0.45)) == 0.45
+    (unknown,) = series([run(0.5)])
+    assert unknown.mean_of(LAW) == 0.52
+    falling = Friction(mu_slow=0.5, mu_fast=0.3, rate_s_per_m=20.0, mu_static=0.5)
+    assert unknown.mean_of(falling) == 0.5
+
+
+@pytest.mark.parametrize("mu_fast", [0.52, 0.31])
+@pytest.mark.parametrize("rate", [3.0, 20.0, 400.0])
+def test_runs_on_a_law_give_that_law(mu_fast, rate):
+    law = Friction(mu_slow=0.40, mu_fast=mu_fast, rate_s_per_m=rate, mu_static=0.40)
+    found = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
+    assert found.is_determined
+    assert found.law.rate_s_per_m == pytest.approx(rate, rel=1e-9)
+    assert found.law.mu_slow == pytest.approx(0.40, abs=1e-11)
+    assert found.law.mu_fast == pytest.approx(mu_fast, abs=1e-11)
+    assert found.law.mu_static == found.law.mu_slow
+    assert found.rms < 1e-12
+
+
+def test_scattered_runs_give_the_law_at_which_the_sum_of_squares_is_stationary():
+    rng = np.random.default_rng(5)
+    v = np.repeat(VELOCITIES, 3)
+    mu = np.array([LAW.at(one) for one in v]) + rng.normal(0.0, 0.01, v.size)
+    found = fit_law(tuple(v), tuple(mu))
+    law = found.law
+    residual = mu - [law.at(one) for one in v]
+    assert found.rms == pytest.approx(math.sqrt(np.mean(residual**2)), rel=1e-12)
+    decay = np.exp(-law.rate_s_per_m * v)
+    drop = law.mu_fast - law.mu_slow
+    # Derivatives of the law by mu_slow, mu_fast and the logarithm of the rate.
+    for slope in (decay, 1.0 - decay, drop * law.rate_s_per_m * v * decay):
+        cosine = residual @ slope / (np.linalg.norm(residual) * np.linalg.norm(slope))
+        assert abs(cosine) < 1e-6
+    rates = np.geomspace(0.5, MOST_RATE_S_PER_M, 5000)
+    least = min(_squares(v, mu, rate) for rate in rates)
+    assert v.size * found.rms**2 <= least * (1.0 + 1e-12)
+
+
+def _squares(v, mu, rate):
+    columns = np.stack([np.exp(-rate * v), np.ones_like(v)], axis=1)
+    return float(np.linalg.lstsq(columns, mu)[1][0])
+
+
+def test_fewer_than_four_velocities_give_no_law():
+    few = VELOCITIES[: LEAST_VELOCITIES - 1]
+    assert fit_law(few * 3, [0.4, 0.42, 0.43] * 3) is None
+    assert fit_law((*few, math.nan), [0.4, 0.42, 0.43, 0.44]) is None
+    assert fit_law((*few, 0.05), [0.4, 0.42, 0.43, 0.44]) is not None
+
+
+@pytest.mark.parametrize(
+    "mus",
+    [
+        (0.46,) * 6,
+        tuple(0.46 + 1e-16 * k for k in range(6)),
+        tuple(0.4 + 0.5 * v for v in VELOCITIES),  # a straight line: no high-velocity value
+        (0.40, 0.50, 0.50, 0.50, 0.50, 0.50),  # the transition lies below the second velocity
+    ],
+)
+def test_runs_that_do_not_show_a_transition_determine_no_law(mus):
+    assert not fit_law(VELOCITIES, mus).is_determined
+
+
+def test_a_law_beyond_the_range_of_coefficients_is_not_determined():
+    law = Friction(mu_slow=0.4, mu_fast=MOST_MU + 0.2, rate_s_per_m=4.0, mu_static=0.4)
+    found = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
+    assert found.law.mu_fast == pytest.approx(MOST_MU + 0.2)
+    assert not found.is_determined
+
+
+def test_velocities_too_low_for_any_rate_give_no_law():
+    assert fit_law((0.0, 1e-6, 2e-6, 3e-6), (0.4, 0.41, 0.42, 0.43)) is None
