@@ -56,8 +56,8 @@ def motion_file(
     records, all_notes = [], list(notes)
     for name, channel in zip(names, channels, strict=True):
         if len(channel.a_mps2) < 2:
-            found = len(channel.a_mps2)
-            samples = "1 sample" if found == 1 else f"{found} samples"
+            count = len(channel.a_mps2)
+            samples = "1 sample" if count == 1 else f"{count} samples"
             raise InputError(f"{source.name}: found {samples}; give at least 2")
         a_mps2 = read_only(channel.a_mps2)
         records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
@@ -86,14 +86,14 @@ def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -
     InputError
         If they differ by a factor of two or more: the unit, the scale or the values are wrong.
     """
-    stated, found = abs(stated_mps2), float(np.abs(a_mps2).max(initial=0.0))
+    stated, reached = abs(stated_mps2), float(np.abs(a_mps2).max(initial=0.0))
     if not 0.0 < stated < np.inf:
         return ()
     g = UNITS["g"]
-    words = f"the header states a peak of {stated / g:.4g} g, the values reach {found / g:.4g} g"
-    if not stated / _PEAK_FACTOR <= found <= stated * _PEAK_FACTOR:
+    words = f"the header states a peak of {stated / g:.4g} g, the values reach {reached / g:.4g} g"
+    if not stated / _PEAK_FACTOR <= reached <= stated * _PEAK_FACTOR:
         raise InputError(f"{source.at(index)}: {words}; give a file whose header and values agree")
-    return () if abs(found - stated) <= _PEAK_WITHIN * stated else (words,)
+    return () if abs(reached - stated) <= _PEAK_WITHIN * stated else (words,)
 
 
 def offset_notes(a_mps2: Floats) -> tuple[str, ...]:

@@ -71,7 +71,7 @@ def read(source: Source) -> MotionFile:
 def _parts(source: Source) -> list[_Part]:
     """All series: several may follow one heading, or each may have its own."""
     headings = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
-    lines = [(i, found) for i, line in enumerate(source.lines) if (found := _DATA.match(line))]
+    lines = [(i, match) for i, line in enumerate(source.lines) if (match := _DATA.match(line))]
     check_number(source, len(lines))
     borders = sorted([*headings, *(i for i, _ in lines), len(source.lines)])
     return [
@@ -79,9 +79,9 @@ def _parts(source: Source) -> list[_Part]:
             first=headings[bisect_right(headings, at) - 1],
             at=at,
             stop=borders[bisect_right(borders, at)],
-            line=found,
+            line=match,
         )
-        for at, found in lines
+        for at, match in lines
     ]
 
 
@@ -109,8 +109,8 @@ def _channel(source: Source, part: _Part) -> Channel:
 
 def _stage(source: Source, part: _Part) -> str:
     """Whether the values are UNCORRECTED or CORRECTED."""
-    found = _FIRST.match(source.lines[part.first])
-    stage = found[1].upper() if found else ""
+    match = _FIRST.match(source.lines[part.first])
+    stage = match[1].upper() if match else ""
     if stage == "RAW":
         raise InputError(
             f"{source.at(part.first)}: found raw counts; give a file of uncorrected or corrected"
@@ -139,10 +139,10 @@ def _scale(source: Source, part: _Part) -> float:
 def _reals(source: Source, part: _Part) -> list[Stated]:
     """Real numbers of the heading."""
     for index in range(part.first, part.at):
-        found = _REALS.match(source.lines[index])
-        layout = layout_of(found[2]) if found else None
-        if found and layout:
-            return header_values(source, index + 1, min(int(found[1]), 1000), layout)
+        match = _REALS.match(source.lines[index])
+        layout = layout_of(match[2]) if match else None
+        if match and layout:
+            return header_values(source, index + 1, min(int(match[1]), 1000), layout)
     raise InputError(
         f"{source.at(part.first)}: found no block ... Real-header values follow ...; give the whole"
         " file"

@@ -111,51 +111,51 @@ def _volume_1(source: Source, part: _Part) -> Channel:
 
 def _pair_values(source: Source, part: _Part) -> tuple[float, Floats, tuple[str, ...]]:
     """Pairs of time and acceleration, ten numbers per line."""
-    found = _search(source, part, _POINTS)
+    points = _search(source, part, _POINTS)
     unit = _search(source, part, _PAIR_UNIT)
-    if not found or not unit:
-        wanted = "NO. OF POINTS" if not found else "UNITS OF UNCOR ACCEL"
+    if not points or not unit:
+        wanted = "NO. OF POINTS" if not points else "UNITS OF UNCOR ACCEL"
         raise InputError(
             f"{source.at(part.first)}: found no line {wanted} = ...; give the whole file"
         )
     scale = source.scale(unit[1][1], unit[0])
     first = part.first + _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1)
     stop, ended = _stop(source, first, part.stop)
-    block = Block(first=first, stop=stop, count=2 * int(found[1][1]), promised=found[0])
+    block = Block(first=first, stop=stop, count=2 * int(points[1][1]), promised=points[0])
     pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
     if len(pairs) < 2:
-        raise InputError(f"{source.at(found[0])}: found {len(pairs)} points; give at least 2")
+        raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; give at least 2")
     per_line = _PAIRS.per_line // 2
     even = sampled(source, pairs[:, 0], pairs[:, 1:].T, lambda i: first + i // per_line)
     return even.dt_s, even.columns[0] * scale, (*even.notes, *ended)
 
 
 def _even_values(
-    source: Source, part: _Part, at: int, found: re.Match[str]
+    source: Source, part: _Part, at: int, match: re.Match[str]
 ) -> tuple[float, Floats, tuple[str, ...]]:
     """Evenly spaced values after a line with their count, rate, unit and format."""
-    rate, count = printed(found[2], at).value, int(found[1])
-    layout = layout_of(found[4])
+    rate, count = printed(match[2], at).value, int(match[1])
+    layout = layout_of(match[4])
     if not rate > 0.0 or not layout:
         raise InputError(
-            f"{source.at(at)}: found {found[2]} points per second in format ({found[4]}); give a"
+            f"{source.at(at)}: found {match[2]} points per second in format ({match[4]}); give a"
             " rate above 0 and a format as (8f9.6)"
         )
     dt_s = source.step(Stated(value=1.0 / rate, rounding=0.0, index=at))
-    scale = source.scale(found[3], at)
+    scale = source.scale(match[3], at)
     stop, ended = _stop(source, at + 1, part.stop)
     block = Block(first=at + 1, stop=stop, count=count, promised=at)
     return dt_s, fixed_values(source, block, layout) * scale, ended
 
 
 def _volume_2(source: Source, part: _Part) -> Channel:
-    found = _search(source, part, _EVEN_2)
-    if not found:
+    place = _search(source, part, _EVEN_2)
+    if not place:
         raise InputError(
             f"{source.at(part.first)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
             " ...; give the whole file"
         )
-    at, line = found
+    at, line = place
     dt_s = source.step(_step_2(source, part, at, printed(line[2], at)))
     scale = source.scale(line[3], at)
     others = (i for i in range(at + 1, part.stop) if _ANY_2.match(source.lines[i]))
@@ -207,8 +207,8 @@ def _search(
 ) -> tuple[int, re.Match[str]] | None:
     """First line of a channel's heading that contains the pattern."""
     for index in _heading(part):
-        if found := pattern.search(source.lines[index]):
-            return index, found
+        if match := pattern.search(source.lines[index]):
+            return index, match
     return None
 
 
@@ -226,10 +226,10 @@ def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
 
 
 def _peak(source: Source, part: _Part, pattern: re.Pattern[str]) -> tuple[int, float]:
-    found = _search(source, part, pattern)
-    if not found:
+    place = _search(source, part, pattern)
+    if not place:
         return part.first, 0.0
-    index, match = found
+    index, match = place
     return index, printed(match[1], index).value * unit_size(match[2])
 
 

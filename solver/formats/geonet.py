@@ -108,10 +108,10 @@ def _step(source: Source, part: _Part, exact: Stated) -> Stated:
     """Step in the real numbers of the heading, compared with the one in the text."""
     at = part.first + _UNIT_LINE - 1
     line = source.line(at)
-    found = _STEP_LINE.search(line) if _INTERVAL.search(line) else None
-    if not found:
+    match = _STEP_LINE.search(line) if _INTERVAL.search(line) else None
+    if not match:
         return exact
-    stated = printed(found[1], at)
+    stated = printed(match[1], at)
     if not exact.value > 0.0:
         return stated
     if abs(exact.value - stated.value) > stated.rounding + exact.rounding:
@@ -125,18 +125,18 @@ def _step(source: Source, part: _Part, exact: Stated) -> Stated:
 def _scale(source: Source, part: _Part) -> float:
     """Value [m/s2] of one unit: from `Raw readings in units of 1.00 mm/s/s`, or of the peak."""
     at = part.first + _UNIT_LINE - 1
-    if found := _UNIT.search(source.line(at)):
-        readings = printed(found[1], at).value
+    if unit := _UNIT.search(source.line(at)):
+        readings = printed(unit[1], at).value
         if not readings > 0.0:
-            raise InputError(f"{source.at(at)}: found units of {found[1]}; give a number above 0")
-        return source.scale(found[2], at) * readings
+            raise InputError(f"{source.at(at)}: found units of {unit[1]}; give a number above 0")
+        return source.scale(unit[2], at) * readings
     at = part.first + _PEAK_LINE - 1
-    found = _PEAK_UNIT.match(source.line(at).strip())
-    if not found:
+    unit = _PEAK_UNIT.match(source.line(at).strip())
+    if not unit:
         raise InputError(
             f"{source.at(at)}: found no line Acceleration: peak ... mm/s/s; give the whole file"
         )
-    return source.scale(found[1], at)
+    return source.scale(unit[1], at)
 
 
 def _rest(source: Source, part: _Part, whole: Sequence[Stated]) -> tuple[str, ...]:

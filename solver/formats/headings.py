@@ -108,15 +108,15 @@ def units_in(line: str) -> list[str]:
 
 def step_in(line: str) -> tuple[str, float]:
     """Time step stated in a line of text, as printed ("" for none), and its unit [s]."""
-    found = _STEP.search(line)
-    return (found[1], 0.001 if found[2] else 1.0) if found else ("", 1.0)
+    match = _STEP.search(line)
+    return (match[1], 0.001 if match[2] else 1.0) if match else ("", 1.0)
 
 
 def _split(text: str) -> tuple[str, str]:
     """Name and unit of a heading."""
     for pattern in (_BRACKETED, _IN):
-        if (found := pattern.fullmatch(text)) and _is_unit(found[2], bracketed=True):
-            return found[1].strip(), found[2].strip()
+        if (match := pattern.fullmatch(text)) and _is_unit(match[2], bracketed=True):
+            return match[1].strip(), match[2].strip()
     for place in (i for i, letter in enumerate(text) if letter == "_"):
         name, unit = text[:place], text[place + 1 :]
         if _is_unit(unit, bracketed=False) or (unit.lower() in _SECONDS and _is_time(name)):

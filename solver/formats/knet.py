@@ -77,8 +77,8 @@ def _entry(source: Source, *names: str) -> _Entry:
 
 def _number(source: Source, name: str) -> Stated:
     entry = _entry(source, name)
-    found = _LEADING.match(entry.text)
-    stated = printed(found[0] if found else "", entry.index)
+    match = _LEADING.match(entry.text)
+    stated = printed(match[0] if match else "", entry.index)
     if not 0.0 < stated.value < 1e6:
         raise InputError(
             f"{source.at(entry.index)}: found {shown(entry.text)}; give a number above 0"
@@ -89,11 +89,11 @@ def _number(source: Source, name: str) -> Stated:
 def _scale(source: Source) -> float:
     """Value of one count [m/s2]."""
     entry = _entry(source, "Scale Factor")
-    found = _SCALE.match(entry.text)
-    over, under = (printed(found[i], entry.index).value for i in (1, 3)) if found else (0.0, 0.0)
-    if not found or not (over > 0.0 and under > 0.0):
+    match = _SCALE.match(entry.text)
+    over, under = (printed(match[i], entry.index).value for i in (1, 3)) if match else (0.0, 0.0)
+    if not match or not (over > 0.0 and under > 0.0):
         raise InputError(
             f"{source.at(entry.index)}: found {shown(entry.text)}; give a scale as"
             " 3920(gal)/6182761"
         )
-    return source.scale(found[2], entry.index) * over / under
+    return source.scale(match[2], entry.index) * over / under

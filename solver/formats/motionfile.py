@@ -51,14 +51,14 @@ class MotionFile:
             return self.channels[0]
         by_name = {_folded(record.name): record for record in self.channels}
         by_number = {str(i): record for i, record in enumerate(self.channels, start=1)}
-        found = (by_number | by_name).get(wanted)
-        if found is None:
+        chosen = (by_number | by_name).get(wanted)
+        if chosen is None:
             what = f"found no channel {shown(name)}" if wanted else "found several channels"
             names = "; ".join(f"{i} {record.name}" for i, record in [*by_number.items()][:_LISTED])
             more = len(by_number) - _LISTED
             names += f"; ... and {more} more" if more > 0 else ""
             raise InputError(f"{self.name}: {what}; give one by name or number: {names}")
-        return found
+        return chosen
 
 
 def distinct(names: Iterable[str]) -> list[str]:

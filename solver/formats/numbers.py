@@ -70,8 +70,8 @@ class Block:
 
 def layout_of(text: str) -> Layout | None:
     """Layout of a Fortran format such as ``8f10.3`` or ``1E15.6``; None if it is not one."""
-    found = _FORMAT.match(text)
-    per_line, width = (int(found[1]), int(found[2])) if found else (0, 0)
+    match = _FORMAT.match(text)
+    per_line, width = (int(match[1]), int(match[2])) if match else (0, 0)
     return Layout(per_line=per_line, width=width) if per_line and width else None
 
 
@@ -150,8 +150,8 @@ def field_problem(field: str) -> str:
 
 def printed(text: str, index: int) -> Stated:
     """A number as printed, with a rounding of up to half of its last digit."""
-    found = NUMBER.fullmatch(text.strip())
-    if not found:
+    match = NUMBER.fullmatch(text.strip())
+    if not match:
         return Stated(value=math.nan, rounding=0.0, index=index)
     mantissa, _, exponent = text.strip().lower().partition("e")
     decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
@@ -229,16 +229,16 @@ def _slowly(source: Source, block: Block, rows: Sequence[str], layout: Layout) -
 def _slow_problems(
     source: Source, block: Block, rows: Sequence[str], layout: Layout
 ) -> Iterator[str]:
-    found = 0
+    count = 0
     for number, row in enumerate(rows):
         fields, at = _cut(row, layout), block.first + number
-        due, found = layout.per_line, number * layout.per_line + len(fields)
+        due, count = layout.per_line, number * layout.per_line + len(fields)
         if len(fields) != due and number < len(rows) - 1:
             values = "1 value" if len(fields) == 1 else f"{len(fields)} values"
             yield f"{source.at(at)}: found {values}; give {due}"
         yield from _field_problems(source, at, fields)
-    if found != block.count:
-        yield _wrong_count(source, block, found)
+    if count != block.count:
+        yield _wrong_count(source, block, count)
 
 
 def _row_by_row(
@@ -261,13 +261,13 @@ def _number(field: str) -> float:
 
 
 def _field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterator[str]:
-    found = (_problem(field) for field in fields)
-    return (f"{source.at(index)}: {problem}" for problem in found if problem)
+    problems = (_problem(field) for field in fields)
+    return (f"{source.at(index)}: {problem}" for problem in problems if problem)
 
 
-def _wrong_count(source: Source, block: Block, found: int) -> str:
-    remedy = "give the whole file" if found < block.count else "correct the count"
-    return f"{source.at(block.promised)}: states {block.count} values, found {found}; {remedy}"
+def _wrong_count(source: Source, block: Block, count: int) -> str:
+    remedy = "give the whole file" if count < block.count else "correct the count"
+    return f"{source.at(block.promised)}: states {block.count} values, found {count}; {remedy}"
 
 
 def _check_no_more(source: Source, block: Block, last: int) -> None:

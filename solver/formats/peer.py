@@ -40,15 +40,15 @@ def read(source: Source) -> MotionFile:
     at = _count_line(source.lines)
     heading = source.lines[:at]
     _check_acceleration(source, heading)
-    found = _NAMED.search(source.lines[at]) or _BEHIND.match(source.lines[at])
-    if not found:
+    counted = _NAMED.search(source.lines[at]) or _BEHIND.match(source.lines[at])
+    if not counted:
         raise InputError(
             f"{source.at(at)}: found {shown(source.lines[at].strip())}; give the count and the step"
             " as in NPTS=  4000, DT=   .0100 SEC"
         )
     scale = _scale(source, heading)
-    dt_s = source.step(printed(found[2], at))
-    block = Block(first=at + 1, stop=len(source.lines), count=int(found[1]), promised=at)
+    dt_s = source.step(printed(counted[2], at))
+    block = Block(first=at + 1, stop=len(source.lines), count=int(counted[1]), promised=at)
     values = free_values(source, block) * scale
     channel = Channel(name=_component(heading), dt_s=dt_s, a_mps2=values, notes=())
     return motion_file(source, "PEER AT2", [channel])

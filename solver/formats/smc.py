@@ -74,8 +74,8 @@ def _samples(source: Source, rate: Stated, block: Block) -> tuple[float, Floats,
 
 
 def _kind(source: Source) -> str:
-    found = _FIRST.match(source.line(0))
-    kind = found[1].upper() if found else ""
+    match = _FIRST.match(source.line(0))
+    kind = match[1].upper() if match else ""
     if "ACCEL" not in kind:
         raise InputError(f"{source.at(0)}: found {kind.lower()}; give a file of acceleration")
     return kind
@@ -129,5 +129,5 @@ def _known(number: Stated) -> float:
 
 
 def _name(source: Source) -> str:
-    found = _COMPONENT.search(source.line(5))
-    return found[1].strip() if found else ""
+    match = _COMPONENT.search(source.line(5))
+    return match[1].strip() if match else ""

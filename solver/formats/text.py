@@ -234,8 +234,8 @@ def _headings(
                 " give one for each"
             )
     for index, line in reversed(remarks):
-        if found := headings.remark(line, separator, width):
-            return headings.settled(found), index
+        if parsed := headings.remark(line, separator, width):
+            return headings.settled(parsed), index
     return [], -1
 
 

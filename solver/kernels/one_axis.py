@@ -51,17 +51,17 @@ def bounds(a):
     """
     fine = (a.size + BLOCK - 1) >> SHIFT
     coarse = (fine + BLOCK - 1) >> SHIFT
-    found = np.empty((2, fine + coarse + 1))
-    found[0], found[1] = np.inf, -np.inf
+    extremes = np.empty((2, fine + coarse + 1))
+    extremes[0], extremes[1] = np.inf, -np.inf
     for i in range(a.size):
         block = i >> SHIFT
-        found[0, block] = min(found[0, block], a[i])
-        found[1, block] = max(found[1, block], a[i])
+        extremes[0, block] = min(extremes[0, block], a[i])
+        extremes[1, block] = max(extremes[1, block], a[i])
     for block in range(fine):
         for above in (fine + (block >> SHIFT), fine + coarse):
-            found[0, above] = min(found[0, above], found[0, block])
-            found[1, above] = max(found[1, above], found[1, block])
-    return found
+            extremes[0, above] = min(extremes[0, above], extremes[0, block])
+            extremes[1, above] = max(extremes[1, above], extremes[1, block])
+    return extremes
 
 
 @njit(cache=True, forceinline=True)

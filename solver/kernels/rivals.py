@@ -226,8 +226,8 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
             if implicit:
                 # Only the contribution of F at the end of the sub-step is unknown.
                 free = x + h * w + lever * (a + drive_j)
-                stretch, found = _solve_sub_step(x, free, lever, k, cap_j)
-                if not found:
+                stretch, is_solved = _solve_sub_step(x, free, lever, k, cap_j)
+                if not is_solved:
                     return failed
             else:
                 stretch = x + h * w + half * a

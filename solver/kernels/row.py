@@ -96,9 +96,9 @@ def _first_below(c, order):
 def _largest(c, order, end):
     """Largest |p| of a polynomial in [0, end]: at the ends, and at one extreme between them."""
     last, slope_last = _value(c, order, end)
-    found = max(abs(c[0]), abs(last))
+    largest = max(abs(c[0]), abs(last))
     if c[1] * slope_last >= 0.0:
-        return found
+        return largest
     low, high = 0.0, end
     for _ in range(50):
         middle = 0.5 * (low + high)
@@ -107,8 +107,8 @@ def _largest(c, order, end):
             low = middle
         else:
             high = middle
-        found = max(found, abs(p))
-    return found
+        largest = max(largest, abs(p))
+    return largest
 
 
 @njit(cache=True)
@@ -184,11 +184,11 @@ def _next_events(b, sigma, mus, hold, degree, line, when, side):
             when[i], falls = _first_below(line, degree)
             side[i] = 1.0 if falls else 0.0
         else:
-            for towards in (1.0, -1.0):
-                tie = max(tie, _room(b, i, towards, mus[i], hold, degree, line))
+            for direction in (1.0, -1.0):
+                tie = max(tie, _room(b, i, direction, mus[i], hold, degree, line))
                 x, falls = _first_below(line, degree)
                 if x < when[i]:
-                    when[i], side[i] = x, towards if falls else 0.0
+                    when[i], side[i] = x, direction if falls else 0.0
         first = min(first, when[i])
     return first, tie
 
@@ -250,10 +250,10 @@ def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
         n_stops += 1
         lost, w[i], sigma[i] = max(lost, abs(w[i])), 0.0, 0.0
         peaks[i, 0], peaks[i, 1] = max(peaks[i, 0], s[i]), min(peaks[i, 1], s[i])
-        for towards in (1.0, -1.0):
-            _room(b, i, towards, mus[i], hold, degree, line)
+        for direction in (1.0, -1.0):
+            _room(b, i, direction, mus[i], hold, degree, line)
             if _value(line, degree, x)[0] < 0.0:
-                sigma[i] = towards
+                sigma[i] = direction
     return n_stops, lost
 
 

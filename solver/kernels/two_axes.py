@@ -507,14 +507,14 @@ def _root(b, row, first, degree, low, at_low, high, at_high, up):
             break
         share = at_low / (at_low - at_high) if at_low != 0.0 else 0.5
         at = low + share * (high - low)
-        found, _ = _value(b, row, first, degree, at)
+        value, _ = _value(b, row, first, degree, at)
         # Illinois: the value at an end that is kept a second time is halved.
-        if found != 0.0 and (found > 0.0) == up:
+        if value != 0.0 and (value > 0.0) == up:
             at_high *= 0.5 if side == -1 else 1.0
-            low, at_low, side = at, found, -1
+            low, at_low, side = at, value, -1
         else:
             at_low *= 0.5 if side == 1 else 1.0
-            high, at_high, side = at, found, 1
+            high, at_high, side = at, value, 1
     return high
 
 
@@ -682,11 +682,11 @@ def _rate(b, order, along, across, ux, uy, cs, h):
 
     The terms omitted are then as small as those omitted in v. Overwrites rows EA and ES.
     """
-    one, two = cs * cs * ux * ux + uy * uy, cs * cs * uy * uy + ux * ux
+    first, second = cs * cs * ux * ux + uy * uy, cs * cs * uy * uy + ux * ux
     both = (1.0 - cs * cs) * ux * uy
     for k in range(order + 1):
-        b[EA, k] = h * (one * b[VA, k] + both * b[VS, k])
-        b[ES, k] = h * (both * b[VA, k] + two * b[VS, k])
+        b[EA, k] = h * (first * b[VA, k] + both * b[VS, k])
+        b[ES, k] = h * (both * b[VA, k] + second * b[VS, k])
         b[E, k] = along * b[VA, k] + across * b[VS, k]
     b[E, order + 1] = 0.0
     for k in range(1, order + 2):
@@ -744,14 +744,14 @@ def _is_quiet(x, y, z, block, p, q, hold):
 
     Rounding is monotone: what is computed from bounds bounds what is computed from samples.
     """
-    one, other = p[2] * x[0, block], p[2] * x[1, block]
+    first, other = p[2] * x[0, block], p[2] * x[1, block]
     low, high = p[0], p[0]
     least = q[0]
     if z is not None:
         up, down = p[1] * z[0, block], p[1] * z[1, block]
         low, high = low + min(up, down), high + max(up, down)
         least += min(q[1] * z[0, block], q[1] * z[1, block])
-    ahead = max(abs(low - max(one, other)), abs(high - min(one, other)))
+    ahead = max(abs(low - max(first, other)), abs(high - min(first, other)))
     aside = p[3] * max(abs(y[0, block]), abs(y[1, block]))
     least = hold * (least + min(q[2] * x[0, block], q[2] * x[1, block]))
     return least >= 0.0 and ahead * ahead + aside * aside <= least * least

@@ -105,11 +105,11 @@ def _displacement_peaks(a: Floats, dt: float, v: Floats, d: Floats) -> Floats:
     start, speed, place = a[:-1], v[:-1], d[:-1]
     with np.errstate(divide="ignore", invalid="ignore"):
         q = -(start + np.copysign(np.sqrt(start * start - 2.0 * r * speed), start))
-        found = []
+        peaks = []
         for x in (q / r, 2.0 * speed / q):
             moved = place + x * (speed + x * (0.5 * start + x * r / 6.0))
-            found.append(moved[(x > 0.0) & (x < dt)])
-    return np.concatenate(found)
+            peaks.append(moved[(x > 0.0) & (x < dt)])
+    return np.concatenate(peaks)
 
 
 def _cumulative(a: Floats, dt: float) -> Floats:

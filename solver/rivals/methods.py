@@ -228,8 +228,8 @@ def _letters(scene: AxisScene) -> tuple[Floats, Floats, float, float, float, flo
     return c.ax, c.az, c.dt, c.sn, c.cs, c.mu, c.g, c.scale
 
 
-def _outcome(found: tuple[int, float, float, float, float, float, int]) -> Outcome:
-    return Outcome(found[0] == rivals.FOLLOWED, *found[1:])
+def _outcome(computed: tuple[int, float, float, float, float, float, int]) -> Outcome:
+    return Outcome(computed[0] == rivals.FOLLOWED, *computed[1:])
 
 
 _PAPER = "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to Seismic Motion"

@@ -75,7 +75,7 @@ def slide(
         ) from None
     rate = _Rate(drive, cap, dt, velocity)
     try:
-        found = solve_ivp(
+        solution = solve_ivp(
             rate,
             (0.0, (drive.size - 1) * dt),
             (0.0, 0.0),
@@ -86,13 +86,13 @@ def slide(
         )
     except _StalledError:
         return False, math.nan, math.nan, math.nan, math.nan, math.nan, 0
-    s, w = found.y
-    if not (found.success and np.isfinite(s).all()):
+    s, w = solution.y
+    if not (solution.success and np.isfinite(s).all()):
         return False, math.nan, math.nan, math.nan, math.nan, math.nan, 0
-    if found.sol is not None:
-        history[:] = found.sol(np.arange(drive.size) * dt)
+    if solution.sol is not None:
+        history[:] = solution.sol(np.arange(drive.size) * dt)
     peak = int(np.abs(s).argmax())
     moving = np.sign(w) * (np.abs(w) > velocity)
     n_stops = int(((moving[:-1] != 0.0) & (moving[1:] != moving[:-1])).sum())
     end = float(w[-1]) if moving[-1] else 0.0
-    return True, float(s.max()), float(s.min()), float(s[-1]), end, float(found.t[peak]), n_stops
+    return True, float(s.max()), float(s.min()), float(s[-1]), end, float(solution.t[peak]), n_stops

@@ -294,17 +294,17 @@ def _shown(value: object) -> str:
 
 
 def _checked_records(records: Mapping[str, ArrayLike | None], problems: list[str]) -> list[Floats]:
-    found = {
+    checked = {
         name: NO_RECORD if values is None else checked_record(name, values, problems)
         for name, values in records.items()
     }
-    shape = found["ax_mps2"].shape
+    shape = checked["ax_mps2"].shape
     problems += [
-        f"{name} has shape {found[name].shape}; give the shape of ax_mps2, {shape}"
+        f"{name} has shape {checked[name].shape}; give the shape of ax_mps2, {shape}"
         for name, values in records.items()
-        if values is not None and found[name].shape != shape
+        if values is not None and checked[name].shape != shape
     ]
-    return list(found.values())
+    return list(checked.values())
 
 
 def _plane_faults(method: str, parameters: Parameters) -> list[str]:

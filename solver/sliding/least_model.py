@@ -129,15 +129,15 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     started = time.perf_counter()
     demand = forces(scene).friction_demand
     if math.isinf(demand) and one_axis.run(scene).status is Status.UPLIFT:
-        found = _lifted(scene)
+        solution = _lifted(scene)
     elif settings.forced is None:
-        found = _climbed(scene, settings, demand)
+        solution = _climbed(scene, settings, demand)
     else:
-        found = _forced(scene, settings, settings.forced, demand)
-    return replace(found, seconds=time.perf_counter() - started)
+        solution = _forced(scene, settings, settings.forced, demand)
+    return replace(solution, seconds=time.perf_counter() - started)
 
 
-def history(scene: Scene, found: Solution, settings: Settings = DEFAULT) -> SlideHistory:
+def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> SlideHistory:
     """Return the motion at the samples of a solved scene, by the same rung.
 
     Raises
@@ -145,10 +145,10 @@ def history(scene: Scene, found: Solution, settings: Settings = DEFAULT) -> Slid
     InputError
         For a row: `solver.sliding.row.row_history` gives the motion of each of its blocks.
     """
-    if found.rung is Rung.ROW:
+    if solution.rung is Rung.ROW:
         raise InputError("a row has a history for each block; call solver.sliding.row.row_history")
-    run = _run_as(scene, found.rung)
-    if found.rung >= Rung.TWO_AXES:
+    run = _run_as(scene, solution.rung)
+    if solution.rung >= Rung.TWO_AXES:
         return two_axes.run_history(run, settings.tolerance)
     return one_axis.run_history(run)
 
@@ -159,11 +159,11 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
     if not scene.friction.is_constant:
         why = "the friction coefficient depends on velocity"
         return _in_plane(scene, settings, Rung.SPEED_FRICTION, why, demand)
-    found = one_axis.run(scene)
-    bound = settings.bound_m(found.prd_m)
-    level = one_axis.run(_level(scene)) if scene.az_mps2.size else found
-    both = two_axes.run(scene, settings.tolerance) if scene.ay_mps2.any() else found
-    less, lesser = _left_out(found, both), _left_out(level, found, both)
+    vertical = one_axis.run(scene)
+    bound = settings.bound_m(vertical.prd_m)
+    level = one_axis.run(_level(scene)) if scene.az_mps2.size else vertical
+    both = two_axes.run(scene, settings.tolerance) if scene.ay_mps2.any() else vertical
+    less, lesser = _left_out(vertical, both), _left_out(level, vertical, both)
     if lesser <= bound:
         why = "the motion has no other component"
         if scene.az_mps2.size or scene.ay_mps2.size:
@@ -174,7 +174,7 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
             f"neglecting the vertical component changes a displacement by {_mm(lesser)}, more than "
             f"{_mm(bound)}"
         )
-        return _along(scene, Rung.ONE_AXIS_VERTICAL, found, less, why, demand)
+        return _along(scene, Rung.ONE_AXIS_VERTICAL, vertical, less, why, demand)
     why = (
         f"neglecting the second horizontal component changes a displacement by {_mm(less)}, more "
         f"than {_mm(bound)}"
@@ -182,15 +182,15 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
     return _followed(scene, Rung.TWO_AXES, both, why, demand)
 
 
-def _left_out(found: SlideResult, *fuller: SlideResult) -> float:
+def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
     """Return the largest change of the PRD or an excursion by more complete models [m]; inf: none.
 
     Excursions are compared as well: two models may give the same PRD by chance on different paths.
     """
     effects = [
-        abs(getattr(result, name) - getattr(found, name)) + result.error_m
+        abs(getattr(result, name) - getattr(chosen, name)) + result.error_m
         for result in fuller
-        if result is not found
+        if result is not chosen
         for name in ("prd_m", "down_m", "up_m", "across_m")
     ]
     return math.inf if any(map(math.isnan, effects)) else max(effects, default=0.0)
@@ -209,12 +209,12 @@ def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solu
         return _linked(scene, settings.row, demand)
     if rung >= Rung.TWO_AXES:
         return _in_plane(scene, settings, rung, why, demand)
-    found, fuller = one_axis.run(_run_as(scene, rung)), []
+    result, fuller = one_axis.run(_run_as(scene, rung)), []
     if scene.ay_mps2.any():
         fuller.append(two_axes.run(_run_as(scene, Rung.TWO_AXES), settings.tolerance))
     if rung is Rung.ONE_AXIS and scene.az_mps2.size:
         fuller.append(one_axis.run(scene))
-    return _along(scene, rung, found, _left_out(found, *fuller), why, demand)
+    return _along(scene, rung, result, _left_out(result, *fuller), why, demand)
 
 
 def _lifted(scene: Scene) -> Solution:
@@ -242,7 +242,7 @@ def _still(scene: Scene, demand: float) -> Solution:
 
 
 def _along(
-    scene: Scene, rung: Rung, found: SlideResult, effect: float, why: str, demand: float
+    scene: Scene, rung: Rung, result: SlideResult, effect: float, why: str, demand: float
 ) -> Solution:
     """Return a solution in one axis, with the effect of the components neglected."""
     following = rung
@@ -253,7 +253,7 @@ def _along(
     return Solution(
         rung=rung,
         reason=why,
-        result=found,
+        result=result,
         next_rung=following,
         next_effect_m=math.nan if following is rung else effect,
         friction_demand=demand,
@@ -261,21 +261,21 @@ def _along(
 
 
 def _in_plane(scene: Scene, settings: Settings, rung: Rung, why: str, demand: float) -> Solution:
-    found = two_axes.run(_run_as(scene, rung), settings.tolerance)
+    result = two_axes.run(_run_as(scene, rung), settings.tolerance)
     if scene.friction.is_constant or rung is Rung.SPEED_FRICTION:
-        return _followed(scene, rung, found, why, demand)
+        return _followed(scene, rung, result, why, demand)
     fuller = two_axes.run(scene, settings.tolerance)
-    by_speed = _followed(scene, rung, found, why, demand)
-    effect = _left_out(found, fuller)
+    by_speed = _followed(scene, rung, result, why, demand)
+    effect = _left_out(result, fuller)
     return replace(by_speed, next_rung=Rung.SPEED_FRICTION, next_effect_m=effect)
 
 
-def _followed(scene: Scene, rung: Rung, found: SlideResult, why: str, demand: float) -> Solution:
+def _followed(scene: Scene, rung: Rung, result: SlideResult, why: str, demand: float) -> Solution:
     """Return a solution in two axes that neglects no component of the scene."""
     return Solution(
         rung=rung,
         reason=why,
-        result=found,
+        result=result,
         next_rung=rung,
         next_effect_m=math.nan,
         friction_demand=demand,
@@ -286,23 +286,23 @@ def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
     """Return the block with the largest PRD of a row, with the largest excursions of all blocks."""
     if row is None:
         raise InputError("a row of blocks is requested but not given; give Settings.row")
-    found = slide_row(scene, row)
-    worst = int(np.argmax(found.prd_m))
+    linked = slide_row(scene, row)
+    worst = int(np.argmax(linked.prd_m))
     result = replace(
-        found.rigid,
-        status=found.status,
-        prd_m=found.prd_m[worst],
-        residual_m=found.residual_m[worst],
-        down_m=max(found.down_m),
-        up_m=max(found.up_m),
+        linked.rigid,
+        status=linked.status,
+        prd_m=linked.prd_m[worst],
+        residual_m=linked.residual_m[worst],
+        down_m=max(linked.down_m),
+        up_m=max(linked.up_m),
         t_prd_s=math.nan,
-        n_stops=found.n_stops,
+        n_stops=linked.n_stops,
         end_speed_mps=math.nan,
-        error_m=found.error_m,
+        error_m=linked.error_m,
     )
     return Solution(
         rung=Rung.ROW,
-        reason=f"requested; the links change the PRD by {_mm(found.flexibility_m)}",
+        reason=f"requested; the links change the PRD by {_mm(linked.flexibility_m)}",
         result=result,
         next_rung=Rung.ROW,
         next_effect_m=math.nan,

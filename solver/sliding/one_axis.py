@@ -66,13 +66,13 @@ def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floa
     n_min_g, t_uplift = least_normal(scene)
     if n_min_g < 0.0:
         return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
-    found = method.follow(scene, dict(method.parameters) | dict(parameters), samples)
-    if not (found.followed and math.isfinite(found.s_max - found.s_min)):
+    outcome = method.follow(scene, dict(method.parameters) | dict(parameters), samples)
+    if not (outcome.followed and math.isfinite(outcome.s_max - outcome.s_min)):
         samples[:] = np.nan
         return without_displacement(Status.DIVERGED, n_min_g, math.nan)
     samples *= scene.cs
     error_m = _rounding(scene) if method.name == "exact" else math.nan
-    return _result(found, scene.cs, n_min_g, error_m)
+    return _result(outcome, scene.cs, n_min_g, error_m)
 
 
 def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
@@ -89,20 +89,20 @@ def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
     )
 
 
-def _result(found: Outcome, cs: float, n_min_g: float, error_m: float) -> SlideResult:
+def _result(outcome: Outcome, cs: float, n_min_g: float, error_m: float) -> SlideResult:
     return SlideResult(
-        status=Status.OK if found.w_end == 0.0 else Status.SLIDING_AT_END,
-        prd_m=cs * max(found.s_max, -found.s_min),
-        residual_m=cs * found.s_end,
-        down_m=cs * found.s_max,
-        up_m=cs * abs(found.s_min),
+        status=Status.OK if outcome.w_end == 0.0 else Status.SLIDING_AT_END,
+        prd_m=cs * max(outcome.s_max, -outcome.s_min),
+        residual_m=cs * outcome.s_end,
+        down_m=cs * outcome.s_max,
+        up_m=cs * abs(outcome.s_min),
         across_m=0.0,
         residual_across_m=0.0,
-        t_prd_s=found.t_peak,
-        n_stops=found.n_stops,
+        t_prd_s=outcome.t_peak,
+        n_stops=outcome.n_stops,
         n_min_g=n_min_g,
         t_uplift_s=math.nan,
-        end_speed_mps=cs * found.w_end,
+        end_speed_mps=cs * outcome.w_end,
         error_m=error_m,
     )
 

@@ -150,8 +150,8 @@ def row_history(scene: Scene, row: BlockRow) -> Floats:
     NaN if `slide_row` gives no displacement; errors as in `slide_row`.
     """
     samples = np.full((len(row.mus), scene.ax_mps2.size), np.nan)
-    found = _run(scene, row, samples)
-    if math.isnan(found.prd_m[0]):
+    result = _run(scene, row, samples)
+    if math.isnan(result.prd_m[0]):
         samples[:] = np.nan
     return samples * math.cos(scene.slope_rad)
 

@@ -135,14 +135,14 @@ def _run(
     x, z = one_axis.bounds(ax), None if az is None else one_axis.bounds(az)
     grid = np.meshgrid(slopes, mus, scales, indexing="ij")
     scenes = np.stack([values.ravel() for values in grid], axis=-1)
-    found = np.empty((len(scenes), 4))
+    outcomes = np.empty((len(scenes), 4))
     for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
         dealt = _deal(part, get_num_threads())
         out = np.empty((dealt.size, 4))
         one_axis.sweep_exact(ax, az, x, z, dt, g, scenes[dealt], out)
-        found[dealt] = out
+        outcomes[dealt] = out
         progress((k + 1) / slopes.size)
-    s = found.reshape(slopes.size, mus.size, scales.size, 4)
+    s = outcomes.reshape(slopes.size, mus.size, scales.size, 4)
     # The same product as in a single run, so that both results agree to the last bit.
     cs = np.array([math.cos(slope) for slope in slopes])[:, None, None]
     status = np.where(np.isnan(s[..., 0]), 2, np.where(s[..., 3] == 0.0, 0, 1))

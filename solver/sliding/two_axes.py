@@ -109,24 +109,24 @@ def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
     return _result(follow(_with_second_axis(scene), tolerance), n_min_g)
 
 
-def _result(found: PlaneOutcome, n_min_g: float) -> SlideResult:
-    if found.status is not Status.OK:
-        return without_displacement(found.status, n_min_g, math.nan)
-    speed = math.hypot(*found.end_mps)
+def _result(outcome: PlaneOutcome, n_min_g: float) -> SlideResult:
+    if outcome.status is not Status.OK:
+        return without_displacement(outcome.status, n_min_g, math.nan)
+    speed = math.hypot(*outcome.end_mps)
     return SlideResult(
         status=Status.OK if speed == 0.0 else Status.SLIDING_AT_END,
-        prd_m=found.prd_m,
-        residual_m=found.end_m[0],
-        down_m=found.down_m,
-        up_m=found.up_m,
-        across_m=max(found.left_m, found.right_m),
-        residual_across_m=found.end_m[1],
-        t_prd_s=found.t_prd_s,
-        n_stops=found.n_stops,
+        prd_m=outcome.prd_m,
+        residual_m=outcome.end_m[0],
+        down_m=outcome.down_m,
+        up_m=outcome.up_m,
+        across_m=max(outcome.left_m, outcome.right_m),
+        residual_across_m=outcome.end_m[1],
+        t_prd_s=outcome.t_prd_s,
+        n_stops=outcome.n_stops,
         n_min_g=n_min_g,
         t_uplift_s=math.nan,
         end_speed_mps=speed,
-        error_m=found.error_m,
+        error_m=outcome.error_m,
     )
 
 
@@ -182,16 +182,16 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> PlaneOutcome:
     return replace(finer, error_m=2.0 * float(np.abs(changes).max()))
 
 
-def follow_history(scene: Scene, found: PlaneOutcome) -> tuple[Floats, tuple[PlaneEvent, ...]]:
+def follow_history(scene: Scene, outcome: PlaneOutcome) -> tuple[Floats, tuple[PlaneEvent, ...]]:
     """Return x, y and their rates at the samples, shape (4, n) [m], [m/s], and the events.
 
     Parameters
     ----------
-    found : PlaneOutcome
+    outcome : PlaneOutcome
         Result of `follow` for the same scene.
     """
-    events, samples = np.empty((found.n_events, 4)), np.empty((4, len(scene.ax_mps2)))
-    _run(scene, found.step_tolerance, events, samples)
+    events, samples = np.empty((outcome.n_events, 4)), np.empty((4, len(scene.ax_mps2)))
+    _run(scene, outcome.step_tolerance, events, samples)
     cs = math.cos(scene.slope_rad)
     samples[0::2] *= cs
     return samples, tuple(
@@ -209,19 +209,19 @@ def _bounded(scene: Scene, tolerance: float) -> PlaneOutcome:
     """Return the first of successively finer runs whose error bound is within the tolerance."""
     steps, share = 0, _SHARE * tolerance
     for _ in range(_ATTEMPTS):
-        found = _run(scene, share, _NO_EVENTS, _NO_HISTORY)
-        steps += found.n_steps
-        wanted = tolerance * max(found.prd_m, kernel.SMALL)
-        settled = not scene.friction.is_monotone or found.error_m <= wanted
-        if settled or found.status is not Status.OK or share <= kernel.LEAST_TOLERANCE:
+        outcome = _run(scene, share, _NO_EVENTS, _NO_HISTORY)
+        steps += outcome.n_steps
+        wanted = tolerance * max(outcome.prd_m, kernel.SMALL)
+        settled = not scene.friction.is_monotone or outcome.error_m <= wanted
+        if settled or outcome.status is not Status.OK or share <= kernel.LEAST_TOLERANCE:
             break
-        share *= max(0.3 * wanted / found.error_m, 1e-3)
-    return replace(found, n_steps=steps)
+        share *= max(0.3 * wanted / outcome.error_m, 1e-3)
+    return replace(outcome, n_steps=steps)
 
 
-def _places(found: PlaneOutcome) -> tuple[float, ...]:
-    sides = found.down_m, found.up_m, found.left_m, found.right_m
-    return found.prd_m, *sides, *found.end_m
+def _places(outcome: PlaneOutcome) -> tuple[float, ...]:
+    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
+    return outcome.prd_m, *sides, *outcome.end_m
 
 
 def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOutcome:

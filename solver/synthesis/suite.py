@@ -56,13 +56,13 @@ class SuiteMotion:
     def correlations(self) -> tuple[float, float, float]:
         """Return the correlation coefficients of x with y, x with z and y with z."""
         pairs = ((self.x, self.y), (self.x, self.z), (self.y, self.z))
-        xy, xz, yz = (correlation(one, other) for one, other in pairs)
+        xy, xz, yz = (correlation(first, other) for first, other in pairs)
         return xy, xz, yz
 
 
-def correlation(one: Record, other: Record) -> float:
+def correlation(record: Record, other: Record) -> float:
     """Correlation coefficient of two records of equal step and length."""
-    return float(np.corrcoef(one.a_mps2, other.a_mps2)[0, 1])
+    return float(np.corrcoef(record.a_mps2, other.a_mps2)[0, 1])
 
 
 def make_suite(
