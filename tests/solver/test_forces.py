@@ -28,13 +28,13 @@ def scene(ax, ay=EMPTY, az=EMPTY, slope=0.1, scale=1.0):
 
 @pytest.mark.parametrize("slope", [0.0, 0.1, -0.3])
 def test_gravity_less_the_acceleration_of_the_roof_is_turned_into_the_plane(slope):
-    found = forces(scene(AX, AY, AZ, slope=slope, scale=0.5))
+    on_plane = forces(scene(AX, AY, AZ, slope=slope, scale=0.5))
     along = np.array([math.cos(slope), -math.sin(slope)])
     outward = np.array([math.sin(slope), math.cos(slope)])
     pull = np.array([-0.5 * AX, -9.81 - 0.5 * AZ])
-    np.testing.assert_allclose(found.down_mps2, along @ pull, rtol=0.0, atol=1e-14)
-    np.testing.assert_allclose(found.normal_mps2, -(outward @ pull), rtol=0.0, atol=1e-14)
-    np.testing.assert_array_equal(found.across_mps2, -0.5 * AY)
+    np.testing.assert_allclose(on_plane.down_mps2, along @ pull, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(on_plane.normal_mps2, -(outward @ pull), rtol=0.0, atol=1e-14)
+    np.testing.assert_array_equal(on_plane.across_mps2, -0.5 * AY)
 
 
 def test_components_that_are_absent_are_zero():
@@ -45,8 +45,8 @@ def test_components_that_are_absent_are_zero():
 
 
 def test_the_friction_demand_is_the_largest_between_the_samples_too():
-    found = forces(scene(AX, AY, AZ)).friction_demand
+    demand = forces(scene(AX, AY, AZ)).friction_demand
     fine, at = np.linspace(0.0, 49.0, 49_001), np.arange(50.0)
     between = [np.interp(fine, at, a) for a in (AX, AY, AZ)]
-    assert found == pytest.approx(forces(scene(*between)).friction_demand, rel=1e-14)
+    assert demand == pytest.approx(forces(scene(*between)).friction_demand, rel=1e-14)
     assert forces(scene(AX, AY, 10.0 * AZ)).friction_demand == math.inf

@@ -56,17 +56,17 @@ def finite_elements(alpha0, heights, count=48):
 @pytest.mark.parametrize("alpha0", ALPHAS[:-2])
 def test_modes_agree_with_finite_elements(alpha0):
     heights = [0.25, 0.5, 0.75, 1.0]
-    found = beam_modes(alpha0, 4, heights)
+    modes = beam_modes(alpha0, 4, heights)
     ratios, factors = finite_elements(alpha0, heights)
-    np.testing.assert_allclose(found.period_ratios, ratios, rtol=2e-5)
-    np.testing.assert_allclose(found.factors, factors, atol=2e-6)
+    np.testing.assert_allclose(modes.period_ratios, ratios, rtol=2e-5)
+    np.testing.assert_allclose(modes.factors, factors, atol=2e-6)
 
 
 @pytest.mark.parametrize("alpha0", ALPHAS[:-1])
 @pytest.mark.parametrize("n", [1, 2, 7])
 def test_modes_solve_their_equation_to_rounding(alpha0, n):
     """Shape, frequency and participation with 40 digits, from the boundary conditions alone."""
-    found = beam_modes(alpha0, n, [0.37, 1.0])
+    modes = beam_modes(alpha0, n, [0.37, 1.0])
     with mpmath.workdps(40):
         a = mpmath.mpf(alpha0)
         gammas = [_root(a, k) for k in (1, n)]
@@ -77,8 +77,8 @@ def test_modes_solve_their_equation_to_rounding(alpha0, n):
         c, d = -matrix[0, 1], matrix[0, 0]
 
         def shape(x):
-            one = mpmath.sin(gamma * x) - gamma / beta * mpmath.sinh(beta * x)
-            return c * one + d * (mpmath.cosh(beta * x) - mpmath.cos(gamma * x))
+            odd = mpmath.sin(gamma * x) - gamma / beta * mpmath.sinh(beta * x)
+            return c * odd + d * (mpmath.cosh(beta * x) - mpmath.cos(gamma * x))
 
         nodes, weights = np.polynomial.legendre.leggauss(40)
         at = (np.arange(4)[:, None] + 0.5 * (1.0 + nodes)).ravel() / 4.0
@@ -87,8 +87,8 @@ def test_modes_solve_their_equation_to_rounding(alpha0, n):
         whole = sum(w * v for w, v in zip(shares, values, strict=True))
         squared = sum(w * v * v for w, v in zip(shares, values, strict=True))
         factors = [float(whole / squared * shape(mpmath.mpf(x))) for x in (0.37, 1.0)]
-    np.testing.assert_allclose(found.period_ratios[-1], float(ratio), rtol=1e-12)
-    np.testing.assert_allclose(found.factors[-1], factors, rtol=1e-11)
+    np.testing.assert_allclose(modes.period_ratios[-1], float(ratio), rtol=1e-12)
+    np.testing.assert_allclose(modes.factors[-1], factors, rtol=1e-11)
 
 
 def _conditions(gamma, beta, a):
@@ -122,19 +122,19 @@ def _root(a, n):
 
 
 def test_a_beam_that_only_bends_has_the_textbook_values():
-    found = beam_modes(0.0, 4)
+    modes = beam_modes(0.0, 4)
     gamma = np.array([1.8751040687, 4.6940911330, 7.8547574382, 10.9955407349])
-    np.testing.assert_allclose(1.0 / found.period_ratios, (gamma / gamma[0]) ** 2, rtol=1e-9)
-    np.testing.assert_allclose(found.factors[:, 0], [1.5660, -0.8679, 0.5089, -0.3638], atol=1e-4)
+    np.testing.assert_allclose(1.0 / modes.period_ratios, (gamma / gamma[0]) ** 2, rtol=1e-9)
+    np.testing.assert_allclose(modes.factors[:, 0], [1.5660, -0.8679, 0.5089, -0.3638], atol=1e-4)
 
 
 def test_a_beam_that_only_shears_has_odd_ratios_and_sines():
-    found = beam_modes(math.inf, 5, [0.5, 1.0])
+    modes = beam_modes(math.inf, 5, [0.5, 1.0])
     odd = np.array([1.0, 3.0, 5.0, 7.0, 9.0])
     signs = np.array([1.0, -1.0, 1.0, -1.0, 1.0])
-    np.testing.assert_allclose(1.0 / found.period_ratios, odd, rtol=1e-14)
-    np.testing.assert_allclose(found.factors[:, 1], 4.0 / math.pi * signs / odd, rtol=1e-14)
-    assert found.factors[0, 0] == pytest.approx(4.0 / math.pi * math.sin(math.pi / 4))
+    np.testing.assert_allclose(1.0 / modes.period_ratios, odd, rtol=1e-14)
+    np.testing.assert_allclose(modes.factors[:, 1], 4.0 / math.pi * signs / odd, rtol=1e-14)
+    assert modes.factors[0, 0] == pytest.approx(4.0 / math.pi * math.sin(math.pi / 4))
 
 
 def test_much_shear_stiffness_comes_near_the_shear_beam():
@@ -151,14 +151,14 @@ def test_factors_of_all_modes_sum_to_one_at_any_height(alpha0):
 
 @pytest.mark.parametrize("stories", [1, 2, 3, 8, 40, 100])
 def test_a_shear_building_of_stories_has_its_closed_form(stories):
-    found = story_modes(math.inf, stories)
+    modes = story_modes(math.inf, stories)
     angle = (2 * np.arange(1, stories + 1) - 1) * math.pi / (2 * stories + 1)
     frequency = np.sin(angle / 2)
-    np.testing.assert_allclose(found.period_ratios, frequency[0] / frequency, rtol=1e-9)
+    np.testing.assert_allclose(modes.period_ratios, frequency[0] / frequency, rtol=1e-9)
     floors = np.arange(1, stories + 1)
     shapes = np.sin(angle[:, None] * floors)
     expected = shapes.sum(axis=1) * shapes[:, -1] / (shapes**2).sum(axis=1)
-    np.testing.assert_allclose(found.factors[:, 0], expected, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(modes.factors[:, 0], expected, rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize("alpha0", [0.0, 3.0, math.inf])
@@ -172,9 +172,9 @@ def test_many_stories_become_the_beam_at_first_order_or_better(alpha0):
 
 @pytest.mark.parametrize("alpha0", [0.0, 3.0, math.inf])
 def test_one_story_is_a_plain_oscillator(alpha0):
-    found = story_modes(alpha0, 1)
-    assert found.period_ratios == pytest.approx([1.0])
-    assert found.factors == pytest.approx(np.array([[1.0]]))
+    modes = story_modes(alpha0, 1)
+    assert modes.period_ratios == pytest.approx([1.0])
+    assert modes.factors == pytest.approx(np.array([[1.0]]))
 
 
 def test_floors_bend_as_a_cantilever_under_a_load_at_its_top():

@@ -43,11 +43,11 @@ def stepped(system, load, a, dt, rows):
     whole[:n, :n], whole[:n, n] = system * dt, load * dt
     whole[n, n + 1] = 1.0
     move = scipy.linalg.expm(whole)
-    x, found = np.zeros(n), [np.zeros(len(rows))]
+    x, steps = np.zeros(n), [np.zeros(len(rows))]
     for before, now in pairwise(a):
         x = move[:n, :n] @ x + move[:n, n] * before + move[:n, n + 1] * (now - before)
-        found.append(rows @ x)
-    return np.array(found)
+        steps.append(rows @ x)
+    return np.array(steps)
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.01, 0.05, 0.6])
@@ -57,17 +57,17 @@ def test_an_oscillator_agrees_with_the_matrix_exponential(ground, period_s, zeta
     system = np.array([[0.0, 1.0], [-(w**2), -2.0 * zeta * w]])
     rows = np.array([[-(w**2), -2.0 * zeta * w]])
     expected = stepped(system, np.array([0.0, -1.0]), ground, dt, rows)[:, 0]
-    found = absolute_accelerations(ground, dt, [period_s], [zeta])[:, 0]
-    assert np.abs(found - expected).max() < 1e-10 * np.abs(expected).max()
+    accelerations = absolute_accelerations(ground, dt, [period_s], [zeta])[:, 0]
+    assert np.abs(accelerations - expected).max() < 1e-10 * np.abs(expected).max()
 
 
 def test_a_step_gives_the_closed_form():
     dt, w, zeta = 0.01, 7.0, 0.03
     t = np.arange(800) * dt
-    found = absolute_accelerations(np.ones(800), dt, [2 * math.pi / w], [zeta])[:, 0]
+    accelerations = absolute_accelerations(np.ones(800), dt, [2 * math.pi / w], [zeta])[:, 0]
     kappa = math.sqrt(1.0 - zeta**2)
     wave = np.cos(kappa * w * t) - zeta / kappa * np.sin(kappa * w * t)
-    np.testing.assert_allclose(found, 1.0 - np.exp(-zeta * w * t) * wave, atol=1e-13)
+    np.testing.assert_allclose(accelerations, 1.0 - np.exp(-zeta * w * t) * wave, atol=1e-13)
 
 
 def test_without_damping_energy_stays_after_the_shaking():
@@ -89,15 +89,15 @@ def test_a_roof_agrees_with_the_equations_of_all_floors_at_once(ground, alpha0, 
     squares = np.linalg.eigvalsh(stiff)
     stiff = stiff * (2.0 * math.pi / period_s) ** 2 / squares[0]
     damp = 2.0 * zeta * scipy.linalg.sqrtm(stiff).real
-    none, one = np.zeros((stories, stories)), np.eye(stories)
-    system = np.block([[none, one], [-stiff, -damp]])
+    none, identity = np.zeros((stories, stories)), np.eye(stories)
+    system = np.block([[none, identity], [-stiff, -damp]])
     load = np.concatenate([np.zeros(stories), -np.ones(stories)])
     rows = np.hstack([-stiff, -damp])[-1:]
     expected = stepped(system, load, ground, dt, rows)[:, 0]
     building = building_of_periods([period_s], damping=[zeta], alpha0=alpha0, stories=stories)
     assert to_roof(ground, dt, building, share=0.0).n_modes == stories
-    found = roof_motion(ground, dt, building, share=0.0)[:1200]
-    assert np.abs(found - expected)[1:].max() < 1e-8 * np.abs(expected).max()
+    roof = roof_motion(ground, dt, building, share=0.0)[:1200]
+    assert np.abs(roof - expected)[1:].max() < 1e-8 * np.abs(expected).max()
 
 
 def test_a_steady_wave_is_passed_with_the_textbook_transmissibility():
@@ -113,10 +113,10 @@ def test_a_steady_wave_is_passed_with_the_textbook_transmissibility():
         assert np.abs(last).max() == pytest.approx(expected, rel=1e-3)
 
 
-def apart(one, other):
+def apart(motion, other):
     """Largest difference over the time that both have."""
-    n = min(one.size, other.size)
-    return np.abs(one[:n] - other[:n]).max()
+    n = min(motion.size, other.size)
+    return np.abs(motion[:n] - other[:n]).max()
 
 
 def slowest(building, count):
@@ -136,14 +136,14 @@ def test_as_few_modes_as_keep_the_rest_under_the_share(ground):
     assert every.left_out_share == every.next_share == 0.0
     counts = []
     for share in (0.3, 0.1, 0.05, 0.01):
-        found = to_roof(ground, 0.01, building, share=share)
+        roof = to_roof(ground, 0.01, building, share=share)
         off = apart(roof_motion(ground, 0.01, building, share=share), whole)
-        assert off <= 1.001 * found.left_out_share * every.roof_peak_mps2
-        assert found.left_out_share <= share
-        assert found.next_share == found.shares[found.n_modes]
-        counts.append(found.n_modes)
+        assert off <= 1.001 * roof.left_out_share * every.roof_peak_mps2
+        assert roof.left_out_share <= share
+        assert roof.next_share == roof.shares[roof.n_modes]
+        counts.append(roof.n_modes)
         # One mode fewer would leave more out than that, seen at the ground's samples alone.
-        fewer = slowest(building, found.n_modes - 1)
+        fewer = slowest(building, roof.n_modes - 1)
         less = roof_motion(ground, 0.01, fewer, share=0.0)
         assert apart(less, whole) > 0.9 * share * every.roof_peak_mps2
     assert counts == sorted(counts)
@@ -154,62 +154,62 @@ def test_as_few_modes_as_keep_the_rest_under_the_share(ground):
 def test_what_is_left_out_is_seen_between_the_samples_too(noise, period_s, stories):
     # The modes left out swing fastest: their peaks are missed at the samples.
     ground, building = noise[::3], building_of_periods([period_s], stories=stories)
-    found = to_roof(ground, 0.03, building, share=0.1)
+    roof = to_roof(ground, 0.03, building, share=0.1)
     at = np.arange(16 * (ground.size - 1) + 1) / 16
     finer = to_roof(np.interp(at, np.arange(ground.size), ground), 0.03 / 16, building, share=0.1)
-    assert found.left_out_share == pytest.approx(finer.left_out_share, rel=0.012)
+    assert roof.left_out_share == pytest.approx(finer.left_out_share, rel=0.012)
 
 
 def test_a_stiff_building_takes_the_ground_to_the_roof(ground):
-    found = to_roof(ground, 0.01, building_of_periods([0.002], stories=1))
-    assert found.n_modes == 0
-    np.testing.assert_array_equal(found.a_mps2[:1200], ground)
-    assert 0.0 < found.next_share == found.left_out_share < 0.05
+    roof = to_roof(ground, 0.01, building_of_periods([0.002], stories=1))
+    assert roof.n_modes == 0
+    np.testing.assert_array_equal(roof.a_mps2[:1200], ground)
+    assert 0.0 < roof.next_share == roof.left_out_share < 0.05
 
 
 def test_a_still_ground_gives_a_still_roof():
-    found = to_roof(np.zeros(50), 0.01, building_of_periods([1.0]))
-    assert found.a_mps2.tolist() == [0.0] * 50
-    assert (found.n_modes, found.pad_s, found.roof_peak_mps2) == (0, 0.0, 0.0)
-    assert not found.shares.any()
+    roof = to_roof(np.zeros(50), 0.01, building_of_periods([1.0]))
+    assert roof.a_mps2.tolist() == [0.0] * 50
+    assert (roof.n_modes, roof.pad_s, roof.roof_peak_mps2) == (0, 0.0, 0.0)
+    assert not roof.shares.any()
 
 
 def test_the_motion_goes_on_until_the_building_rests(ground):
     building = building_of_periods([1.5], damping=[0.02], stories=5)
-    found = to_roof(ground, 0.01, building)
+    roof = to_roof(ground, 0.01, building)
     longer = to_roof(lengthened(ground, 20000), 0.01, building)
-    n = found.a_mps2.size
-    assert found.pad_s == pytest.approx((n - 1200) * 0.01)
-    np.testing.assert_allclose(longer.a_mps2[:n], found.a_mps2, atol=1e-12)
-    assert np.abs(longer.a_mps2[n:]).max() <= RESTING_SHARE * found.roof_peak_mps2
-    assert np.abs(found.a_mps2[-2:]).max() <= 1.1 * RESTING_SHARE * found.roof_peak_mps2
-    assert found.a_mps2.size > 2000  # 40 s at this period and damping
+    n = roof.a_mps2.size
+    assert roof.pad_s == pytest.approx((n - 1200) * 0.01)
+    np.testing.assert_allclose(longer.a_mps2[:n], roof.a_mps2, atol=1e-12)
+    assert np.abs(longer.a_mps2[n:]).max() <= RESTING_SHARE * roof.roof_peak_mps2
+    assert np.abs(roof.a_mps2[-2:]).max() <= 1.1 * RESTING_SHARE * roof.roof_peak_mps2
+    assert roof.a_mps2.size > 2000  # 40 s at this period and damping
 
 
 def test_a_ground_that_is_still_long_before_its_end_is_not_lengthened(ground):
-    found = to_roof(lengthened(ground, 9000), 0.01, building_of_periods([0.5]))
-    assert found.a_mps2.size == 8999 * round(0.01 / found.dt_s) + 1
-    assert found.pad_s == 0.0
+    roof = to_roof(lengthened(ground, 9000), 0.01, building_of_periods([0.5]))
+    assert roof.a_mps2.size == 8999 * round(0.01 / roof.dt_s) + 1
+    assert roof.pad_s == 0.0
 
 
 def test_the_step_is_refined_where_the_roof_would_swing_between_samples(ground):
     """One story of 0.12 s under a record of 0.02 s: as if the record itself had more samples."""
     a, building = ground[::2], building_of_periods([0.12], stories=1)
-    found = to_roof(a, 0.02, building)
+    roof = to_roof(a, 0.02, building)
     steps = 4
-    assert found.dt_s == pytest.approx(0.02 / steps)
+    assert roof.dt_s == pytest.approx(0.02 / steps)
     n = (a.size - 1) * steps + 1
     fine = np.interp(np.arange(16 * (a.size - 1) + 1) / 16, np.arange(a.size), a)
     true = roof_motion(fine, 0.02 / 16, building)
-    np.testing.assert_allclose(found.a_mps2[:n], true[: fine.size : 4], atol=1e-12)
+    np.testing.assert_allclose(roof.a_mps2[:n], true[: fine.size : 4], atol=1e-12)
     # What straight lines between its samples miss, and what those of the record would.
     t = np.arange(fine.size)
     peak = np.abs(true).max()
-    missed = np.abs(np.interp(t, t[::4], found.a_mps2[:n]) - true[: t.size]).max()
+    missed = np.abs(np.interp(t, t[::4], roof.a_mps2[:n]) - true[: t.size]).max()
     coarse = np.abs(np.interp(t, t[::16], true[: t.size : 16]) - true[: t.size]).max()
     assert missed < 0.015 * peak
     assert coarse > 0.04 * peak
-    np.testing.assert_array_equal(roof_motion(a, 0.02, building), found.a_mps2[::steps])
+    np.testing.assert_array_equal(roof_motion(a, 0.02, building), roof.a_mps2[::steps])
 
 
 @pytest.mark.parametrize(
@@ -217,43 +217,43 @@ def test_the_step_is_refined_where_the_roof_would_swing_between_samples(ground):
     [(0.5, 0.01, 1), (0.2, 0.01, 1), (0.19, 0.01, 2), (0.1, 0.08, 16)],
 )
 def test_a_period_has_twenty_samples_or_an_interval_sixteen_steps(ground, period_s, dt_s, steps):
-    found = to_roof(ground, dt_s, building_of_periods([period_s], stories=1), share=0.0)
-    assert dt_s / found.dt_s == pytest.approx(steps)
-    assert found.dt_s <= period_s / FINENESS * (1.0 + 1e-9)
+    roof = to_roof(ground, dt_s, building_of_periods([period_s], stories=1), share=0.0)
+    assert dt_s / roof.dt_s == pytest.approx(steps)
+    assert roof.dt_s <= period_s / FINENESS * (1.0 + 1e-9)
     assert steps <= MOST_STEPS
 
 
 def test_all_components_have_one_step_and_one_length(ground):
     vertical = 0.5 * ground[:1000]
     slow, fast = (building_of_periods([t], stories=1) for t in (2.0, 0.15))
-    found = shaking_to_roof([ground, ground[::-1]], vertical, 0.01, [slow, fast])
-    assert found.dt_s == pytest.approx(0.005)
-    sizes = {found.vertical_mps2.size, *(one.a_mps2.size for one in found.horizontal)}
+    roof = shaking_to_roof([ground, ground[::-1]], vertical, 0.01, [slow, fast])
+    assert roof.dt_s == pytest.approx(0.005)
+    sizes = {roof.vertical_mps2.size, *(side.a_mps2.size for side in roof.horizontal)}
     assert len(sizes) == 1
-    for one, a, building in zip(
-        found.horizontal, (ground, ground[::-1]), (slow, fast), strict=True
+    for side, a, building in zip(
+        roof.horizontal, (ground, ground[::-1]), (slow, fast), strict=True
     ):
-        assert one.dt_s == found.dt_s
-        assert one.pad_s == pytest.approx((one.a_mps2.size - 2399) * 0.005)
+        assert side.dt_s == roof.dt_s
+        assert side.pad_s == pytest.approx((side.a_mps2.size - 2399) * 0.005)
         alone = roof_motion(a, 0.01, building)
-        np.testing.assert_allclose(one.a_mps2[::2][: alone.size - 1], alone[:-1], atol=1e-12)
-    np.testing.assert_array_equal(found.vertical_mps2[: 2 * 1000 : 2], vertical)
-    assert not found.vertical_mps2[2 * 1000 :].any()
+        np.testing.assert_allclose(side.a_mps2[::2][: alone.size - 1], alone[:-1], atol=1e-12)
+    np.testing.assert_array_equal(roof.vertical_mps2[: 2 * 1000 : 2], vertical)
+    assert not roof.vertical_mps2[2 * 1000 :].any()
     np.testing.assert_allclose(
-        found.vertical_mps2[1:1999:2], 0.5 * (vertical[1:] + vertical[:-1]), atol=1e-15
+        roof.vertical_mps2[1:1999:2], 0.5 * (vertical[1:] + vertical[:-1]), atol=1e-15
     )
 
 
 def test_without_vertical_there_is_none_at_the_roof(ground):
-    found = shaking_to_roof([ground], [], 0.01, [building_of_periods([0.5])])
-    assert found.vertical_mps2.size == 0
+    roof = shaking_to_roof([ground], [], 0.01, [building_of_periods([0.5])])
+    assert roof.vertical_mps2.size == 0
 
 
 def test_nothing_is_added_where_nothing_is_needed(ground):
     a = lengthened(ground, 9000)
-    found = shaking_to_roof([a], a, 0.01, [building_of_periods([0.5], stories=1)])
-    assert found.vertical_mps2.size == found.horizontal[0].a_mps2.size == 9000
-    np.testing.assert_array_equal(found.vertical_mps2, a)
+    roof = shaking_to_roof([a], a, 0.01, [building_of_periods([0.5], stories=1)])
+    assert roof.vertical_mps2.size == roof.horizontal[0].a_mps2.size == 9000
+    np.testing.assert_array_equal(roof.vertical_mps2, a)
 
 
 @settings(max_examples=20, deadline=None)
@@ -265,22 +265,22 @@ def test_nothing_is_added_where_nothing_is_needed(ground):
 )
 def test_twice_the_ground_is_twice_the_roof(ground, period_s, factor, alpha0, stories):
     building = building_of_periods([period_s], alpha0=alpha0, stories=stories)
-    one, other = (roof_motion(f * ground, 0.01, building) for f in (1.0, -factor))
-    np.testing.assert_allclose(other, -factor * one, atol=1e-9 * factor)
+    roof, other = (roof_motion(f * ground, 0.01, building) for f in (1.0, -factor))
+    np.testing.assert_allclose(other, -factor * roof, atol=1e-9 * factor)
 
 
 def test_arrays_are_read_only_and_nothing_given_is_changed(ground):
     before = ground.copy()
-    found = to_roof(ground, 0.01, building_of_periods([1.0]))
+    roof = to_roof(ground, 0.01, building_of_periods([1.0]))
     np.testing.assert_array_equal(ground, before)
     given = building_of_modes(own := np.array([0.5]), [0.05], [1.0])
     own[0] = 2.0
     assert given.periods_s.tolist() == [0.5]
-    for array in (found.a_mps2, found.shares, found.building.periods_s):
+    for array in (roof.a_mps2, roof.shares, roof.building.periods_s):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1.0
-    assert found.ground_peak_mps2 == np.abs(ground).max()
-    assert found.roof_peak_mps2 == np.abs(found.a_mps2).max()
+    assert roof.ground_peak_mps2 == np.abs(ground).max()
+    assert roof.roof_peak_mps2 == np.abs(roof.a_mps2).max()
 
 
 def test_given_periods_are_kept_and_higher_ones_follow_the_last():

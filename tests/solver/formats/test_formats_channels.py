@@ -25,10 +25,10 @@ def made(*names: str, notes: tuple[str, ...] = ()) -> MotionFile:
 
 
 def test_a_channel_is_chosen_by_name_or_number() -> None:
-    found = made("CHAN  1: EW ", "CHAN  2: NS", "3: Up")
-    assert found.channel("chan 1:  ew").a_mps2[1] == 1.0
-    assert found.channel(" 2 ").name == "CHAN 2: NS"
-    assert found.channel("3").name == "3: Up"
+    channels = made("CHAN  1: EW ", "CHAN  2: NS", "3: Up")
+    assert channels.channel("chan 1:  ew").a_mps2[1] == 1.0
+    assert channels.channel(" 2 ").name == "CHAN 2: NS"
+    assert channels.channel("3").name == "3: Up"
 
 
 def test_a_name_comes_before_a_number() -> None:

@@ -27,10 +27,10 @@ def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
 
 
 def test_one_value_to_a_line_and_the_step_of_the_series() -> None:
-    found = read_motion_file(SAMPLES / "cosmos.v2c")
-    assert found.format == "COSMOS V1.20"
-    assert found.notes == ()
-    record = found.channel()
+    motion_file = read_motion_file(SAMPLES / "cosmos.v2c")
+    assert motion_file.format == "COSMOS V1.20"
+    assert motion_file.notes == ()
+    record = motion_file.channel()
     assert record.name == "Sta Chan 1: 360 deg (Rcrdr Chan 1) Location: Roof"
     # Milliseconds of the series, not the step of the record it was made of.
     assert record.dt_s == 0.0078125
@@ -38,14 +38,14 @@ def test_one_value_to_a_line_and_the_step_of_the_series() -> None:
 
 
 def test_accelerations_of_several_channels_are_taken_whatever_their_format() -> None:
-    found = read_motion_file(SAMPLES / "cosmos.v1c")
-    assert [record.name for record in found.channels] == [
+    motion_file = read_motion_file(SAMPLES / "cosmos.v1c")
+    assert [record.name for record in motion_file.channels] == [
         "Sta Chan 1: 360 deg (Rcrdr Chan 1) Location: Roof",
         "Sta Chan 2: Up (Rcrdr Chan 2) Location: Roof",
     ]
-    assert [record.dt_s for record in found.channels] == [0.01, 0.01]
-    assert found.channel("1").a_mps2 == pytest.approx(WAVE / 1000 * G, abs=0.51e-5 * G)
-    assert found.channel("2").a_mps2 == pytest.approx(WAVE / 2000 * G, abs=1.01e-5 * G)
+    assert [record.dt_s for record in motion_file.channels] == [0.01, 0.01]
+    assert motion_file.channel("1").a_mps2 == pytest.approx(WAVE / 1000 * G, abs=0.51e-5 * G)
+    assert motion_file.channel("2").a_mps2 == pytest.approx(WAVE / 2000 * G, abs=1.01e-5 * G)
 
 
 @pytest.mark.parametrize(
@@ -72,8 +72,12 @@ def test_a_format_that_ends_in_a_letter_is_understood(altered: Any) -> None:
 
 
 def test_a_file_without_its_last_line_says_so(altered: Any) -> None:
-    found = read_motion_file(altered("cosmos.v2c", ("End-of-data for Chan  1 acceleration", "")))
-    assert found.notes == ("no end-of-data line follows the values: the file may be truncated",)
+    motion_file = read_motion_file(
+        altered("cosmos.v2c", ("End-of-data for Chan  1 acceleration", ""))
+    )
+    assert motion_file.notes == (
+        "no end-of-data line follows the values: the file may be truncated",
+    )
 
 
 @pytest.mark.parametrize(

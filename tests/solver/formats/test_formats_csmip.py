@@ -28,14 +28,14 @@ def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
 
 class TestVolume2:
     def test_accelerations_of_all_channels_are_taken(self) -> None:
-        found = read_motion_file(SAMPLES / "csmip-old.v2")
-        assert found.format == "CSMIP V2"
-        assert found.notes == ()
-        assert [record.name for record in found.channels] == [
+        motion_file = read_motion_file(SAMPLES / "csmip-old.v2")
+        assert motion_file.format == "CSMIP V2"
+        assert motion_file.notes == ()
+        assert [record.name for record in motion_file.channels] == [
             "CHAN 1: 360 DEG (STA CHN: 1) LOCATION: ROOF, NORTH WALL",
             "CHAN 2: UP (STA CHN: 2) LOCATION: ROOF, NORTH WALL",
         ]
-        first, second = found.channels
+        first, second = motion_file.channels
         assert (first.dt_s, second.dt_s) == (0.005, 0.005)
         assert first.a_mps2 == pytest.approx(WAVE / 100, rel=1e-14)
         assert second.a_mps2 == pytest.approx(-WAVE / 200, abs=0.51e-5)
@@ -96,9 +96,9 @@ class TestVolume2:
 
     def test_a_file_cut_behind_its_accelerations_says_so(self, file: Any) -> None:
         text = (SAMPLES / "csmip-new.v2").read_text()
-        found = read_motion_file(file(text[: text.index("points of displ")]))
-        assert found.channel().a_mps2 == pytest.approx(1.5 * WAVE / 100, rel=1e-14)
-        assert found.notes == (
+        motion_file = read_motion_file(file(text[: text.index("points of displ")]))
+        assert motion_file.channel().a_mps2 == pytest.approx(1.5 * WAVE / 100, rel=1e-14)
+        assert motion_file.notes == (
             "no end-of-data line (/&) follows the values: the file may be truncated",
         )
 
@@ -114,38 +114,40 @@ class TestVolume2:
 
 class TestVolume1:
     def test_uneven_pairs_are_resampled(self) -> None:
-        found = read_motion_file(SAMPLES / "csmip-pairs.v1")
-        assert found.format == "CSMIP V1"
-        record = found.channel()
+        motion_file = read_motion_file(SAMPLES / "csmip-pairs.v1")
+        assert motion_file.format == "CSMIP V1"
+        record = motion_file.channel()
         assert record.name == "CHAN 1: 90 DEG (STA CHN: 1)"
         assert record.dt_s == 0.001
         t = [0.0, 0.012, 0.02, 0.033, 0.04, 0.052, 0.06, 0.071, 0.08, 0.092, 0.1, 0.111, 0.12]
         a = [0, 1.25, -2.5, 4.0, -6.125, 7.5, -5.25, 3.5, -2.0, 1.0, -0.5, 0.25, 0]
         expected = np.interp(np.arange(121) * 0.001, t, a) * G / 10
         assert record.a_mps2 == pytest.approx(expected, abs=1e-12)
-        assert found.notes[0].startswith("times are uneven, steps of 0.007 to 0.013 s: resampled")
-        assert found.notes[1] == (
+        assert motion_file.notes[0].startswith(
+            "times are uneven, steps of 0.007 to 0.013 s: resampled"
+        )
+        assert motion_file.notes[1] == (
             "uncorrected: the mean is 0.0123 g, 1.6 % of the peak; it is not removed"
         )
 
     def test_even_values_under_their_own_format_are_read(self) -> None:
-        found = read_motion_file(SAMPLES / "csmip-even.raw")
-        assert found.format == "CSMIP V1"
-        assert [record.name for record in found.channels] == ["Chan 1: 360 Deg", "Chan 2: Up"]
-        assert found.channel("2").dt_s == 0.005
-        assert found.channel("1").a_mps2 == pytest.approx(WAVE / 1000 * G, abs=0.51e-6 * G)
-        assert found.channel("2").a_mps2 == pytest.approx(WAVE / 2000 * G, abs=0.51e-6 * G)
+        motion_file = read_motion_file(SAMPLES / "csmip-even.raw")
+        assert motion_file.format == "CSMIP V1"
+        assert [record.name for record in motion_file.channels] == ["Chan 1: 360 Deg", "Chan 2: Up"]
+        assert motion_file.channel("2").dt_s == 0.005
+        assert motion_file.channel("1").a_mps2 == pytest.approx(WAVE / 1000 * G, abs=0.51e-6 * G)
+        assert motion_file.channel("2").a_mps2 == pytest.approx(WAVE / 2000 * G, abs=0.51e-6 * G)
 
     def test_renadic_has_three_channels_in_tenths_of_g(self) -> None:
-        found = read_motion_file(SAMPLES / "renadic.v1")
-        assert found.format == "RENADIC V1"
-        assert [record.name for record in found.channels] == [
+        motion_file = read_motion_file(SAMPLES / "renadic.v1")
+        assert motion_file.format == "RENADIC V1"
+        assert [record.name for record in motion_file.channels] == [
             "CHAN 1: L (STA CHN: 1)",
             "CHAN 2: V (STA CHN: 2)",
             "CHAN 3: T (STA CHN: 3)",
         ]
-        assert {record.dt_s for record in found.channels} == {0.005}
-        for record, part in zip(found.channels, (1, 2, 4), strict=True):
+        assert {record.dt_s for record in motion_file.channels} == {0.005}
+        for record, part in zip(motion_file.channels, (1, 2, 4), strict=True):
             expected = WAVE / 100 * G / part
             assert record.a_mps2 == pytest.approx(expected, abs=0.51e-4 * G)
 

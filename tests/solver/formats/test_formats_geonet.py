@@ -26,31 +26,31 @@ def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
 
 
 def test_corrected_accelerations_of_three_components_are_taken() -> None:
-    found = read_motion_file(SAMPLES / "geonet.v2a")
-    assert found.format == "GeoNet V2A"
-    assert found.notes == ()
-    assert [record.name for record in found.channels] == [
+    motion_file = read_motion_file(SAMPLES / "geonet.v2a")
+    assert motion_file.format == "GeoNet V2A"
+    assert motion_file.notes == ()
+    assert [record.name for record in motion_file.channels] == [
         "Component N28W Longitudinal Accelerometer Axis",
         "Component S62W Transverse Accelerometer Axis",
         "Component Up Vertical Accelerometer Axis",
     ]
-    assert {record.dt_s for record in found.channels} == {0.02}
-    for record, part in zip(found.channels, (1, 2, 4), strict=True):
+    assert {record.dt_s for record in motion_file.channels} == {0.02}
+    for record, part in zip(motion_file.channels, (1, 2, 4), strict=True):
         assert record.a_mps2 == pytest.approx(WAVE / 100 / part, abs=1.01e-4)
 
 
 def test_uncorrected_readings_keep_their_offset() -> None:
-    found = read_motion_file(SAMPLES / "geonet.v1a")
-    assert found.format == "GeoNet V1A"
-    record = found.channel("component n28w")
+    motion_file = read_motion_file(SAMPLES / "geonet.v1a")
+    assert motion_file.format == "GeoNet V1A"
+    record = motion_file.channel("component n28w")
     assert record.dt_s == 0.005
     assert record.a_mps2 == pytest.approx(WAVE / 100 - 0.006, abs=1.01e-4)
 
 
 def test_readings_in_another_unit_than_one_are_scaled(altered: Any) -> None:
     path = altered("geonet.v1a", ("units of 1.00 mm/s/s", "units of 0.80 mm/s/s"))
-    found = read_motion_file(path).channel("1").a_mps2
-    assert found == pytest.approx(0.8 * (WAVE / 100 - 0.006), abs=1.01e-4)
+    a_mps2 = read_motion_file(path).channel("1").a_mps2
+    assert a_mps2 == pytest.approx(0.8 * (WAVE / 100 - 0.006), abs=1.01e-4)
 
 
 @pytest.mark.parametrize(
@@ -73,10 +73,10 @@ def test_faults_are_told_with_their_line(
 def test_counts_must_hold(altered: Any, file: Any) -> None:
     text = (SAMPLES / "geonet.v1a").read_text()
     line = next(line for line in text.splitlines() if line.startswith("      21"))
-    for count, found in (("22", "21"), ("20", "more in line 29")):
+    for count, reached in (("22", "21"), ("20", "more in line 29")):
         changed = line[:24] + count.rjust(8) + line[32:]
         (problem,) = problems_of(altered("geonet.v1a", (line, changed)))
-        assert problem.startswith(f"geonet.v1a:20: states {count} values, found {found}")
+        assert problem.startswith(f"geonet.v1a:20: states {count} values, found {reached}")
     changed = line[:24] + "       0" + line[32:]
     assert problems_of(altered("geonet.v1a", (line, changed))) == (
         "geonet.v1a:20: states 0 values; give at least 2",

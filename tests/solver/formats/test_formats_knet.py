@@ -26,31 +26,33 @@ def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
 
 
 def test_counts_are_scaled_and_their_offset_is_kept() -> None:
-    found = read_motion_file(SAMPLES / "knet.ns")
-    assert found.format == "K-NET"
-    record = found.channel()
+    motion_file = read_motion_file(SAMPLES / "knet.ns")
+    assert motion_file.format == "K-NET"
+    record = motion_file.channel()
     assert (record.name, record.dt_s) == ("N-S", 0.01)
     counts = 13186 + np.round(200 * WAVE)
     assert record.a_mps2 == pytest.approx(counts * 3920 / 6182761 / 100, rel=1e-14)
-    assert found.notes == (
+    assert motion_file.notes == (
         "uncorrected: the mean is 0.00855 g, 40 % of the peak; it is not removed",
     )
 
 
 def test_kik_net_channels_are_named_by_direction_and_place() -> None:
-    found = read_motion_file(SAMPLES / "kiknet.ew1")
-    assert found.format == "KiK-net"
-    record = found.channel()
+    motion_file = read_motion_file(SAMPLES / "kiknet.ew1")
+    assert motion_file.format == "KiK-net"
+    record = motion_file.channel()
     assert (record.name, record.dt_s) == ("EW1", 0.005)
     counts = -2471 + np.round(100 * WAVE)
     assert record.a_mps2 == pytest.approx(counts * 2000 / 8388608 / 100, rel=1e-14)
-    assert found.notes[1] == "the sensor is in the borehole, not at the surface"
+    assert motion_file.notes[1] == "the sensor is in the borehole, not at the surface"
 
 
 def test_a_sensor_at_the_surface_needs_no_note(altered: Any) -> None:
-    found = read_motion_file(altered("kiknet.ew1", ("Dir.              2", "Dir.              6")))
-    assert found.channel().name == "UD2"
-    assert len(found.notes) == 1
+    motion_file = read_motion_file(
+        altered("kiknet.ew1", ("Dir.              2", "Dir.              6"))
+    )
+    assert motion_file.channel().name == "UD2"
+    assert len(motion_file.notes) == 1
 
 
 def test_the_peak_may_be_named_without_a_point(altered: Any) -> None:

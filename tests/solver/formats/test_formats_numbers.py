@@ -49,8 +49,8 @@ def block(count: int, stop: int, first: int = 0) -> Block:
 def test_a_fortran_format_gives_fields_and_width(
     text: str, expected: tuple[int, int] | None
 ) -> None:
-    found = layout_of(text)
-    assert (found and (found.per_line, found.width)) == expected
+    layout = layout_of(text)
+    assert (layout and (layout.per_line, layout.width)) == expected
 
 
 @given(st.lists(st.integers(-99999, 999999), min_size=2, max_size=40))
@@ -97,7 +97,7 @@ def test_what_python_or_numpy_may_take_but_is_no_number_is_refused(field: str) -
 
 def test_counts_that_do_not_hold_are_told_at_the_line_of_the_promise() -> None:
     layout, lines = Layout(per_line=2, width=4), ("   1   2", "   3   4", "no more")
-    for count, found in (
+    for count, told in (
         (5, "found 4; give the whole"),
         (9, "found 4; give the whole"),
         (3, "found 4; correct the count"),
@@ -105,16 +105,16 @@ def test_counts_that_do_not_hold_are_told_at_the_line_of_the_promise() -> None:
     ):
         with pytest.raises(InputError) as caught:
             fixed_values(source(*lines), block(count, 3), layout)
-        assert caught.value.problems[0].startswith(f"a:10: states {count} values, {found}")
+        assert caught.value.problems[0].startswith(f"a:10: states {count} values, {told}")
 
 
 def test_unused_fields_of_a_heading_may_be_anything() -> None:
-    found = header_values(source("   1****", "    -2.5"), 0, 6, Layout(per_line=2, width=4))
-    values = [number.value for number in found]
+    numbers = header_values(source("   1****", "    -2.5"), 0, 6, Layout(per_line=2, width=4))
+    values = [number.value for number in numbers]
     assert np.array_equal(
         values, [1.0, math.nan, math.nan, -2.5, math.nan, math.nan], equal_nan=True
     )
-    assert [number.index for number in found] == [0, 0, 1, 1, 2, 2]
+    assert [number.index for number in numbers] == [0, 0, 1, 1, 2, 2]
 
 
 @pytest.mark.parametrize(
@@ -129,9 +129,9 @@ def test_unused_fields_of_a_heading_may_be_anything() -> None:
     ],
 )
 def test_a_printed_number_knows_its_rounding(text: str, value: float, rounding: float) -> None:
-    found = printed(text, 3)
-    assert (found.value, found.index) == (value, 3)
-    assert found.rounding == pytest.approx(rounding, rel=1e-12)
+    number = printed(text, 3)
+    assert (number.value, number.index) == (value, 3)
+    assert number.rounding == pytest.approx(rounding, rel=1e-12)
 
 
 @pytest.mark.parametrize("text", ["", "x", "1e", ".", "1,5", "--1"])

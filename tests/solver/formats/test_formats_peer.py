@@ -29,10 +29,10 @@ def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
 
 @pytest.mark.parametrize("name", ["peer-nga.at2", "peer-old.at2"])
 def test_both_styles_of_heading_read_alike(name: str) -> None:
-    found = read_motion_file(SAMPLES / name)
-    assert found.format == "PEER AT2"
-    assert found.notes == ()
-    record = found.channel()
+    motion_file = read_motion_file(SAMPLES / name)
+    assert motion_file.format == "PEER AT2"
+    assert motion_file.notes == ()
+    record = motion_file.channel()
     assert record.name == "180"
     assert record.dt_s == 0.005
     assert record.a_mps2.tolist() == [value * G for value in VALUES]

@@ -58,8 +58,8 @@ def manifest() -> list[Any]:
 def channel_of(row: dict[str, str]) -> Record:
     plain = row["format"] == "plain column"
     how: dict[str, Any] = {"units": "g", "dt_s": float(row["dt_s"])} if plain else {}
-    found = read_motion_file(RECORDS / row["file"], **how)
-    return found.channel(row["component"] if len(found.channels) > 1 else "")
+    motion_file = read_motion_file(RECORDS / row["file"], **how)
+    return motion_file.channel(row["component"] if len(motion_file.channels) > 1 else "")
 
 
 @pytest.mark.parametrize("row", manifest())
@@ -92,10 +92,10 @@ def test_every_sample_is_listed() -> None:
 
 @pytest.mark.parametrize("name", sorted(FORMATS))
 def test_notes_are_short_and_arrays_are_read_only(name: str) -> None:
-    found = read_motion_file(SAMPLES / name, **(BARE if name == "one.txt" else {}))
-    assert found.name == name
-    assert all(0 < len(note) < 200 for note in found.notes)
-    for record in found.channels:
+    motion_file = read_motion_file(SAMPLES / name, **(BARE if name == "one.txt" else {}))
+    assert motion_file.name == name
+    assert all(0 < len(note) < 200 for note in motion_file.notes)
+    for record in motion_file.channels:
         assert not record.a_mps2.flags.writeable
         assert record.a_mps2.dtype == np.float64
         assert record.a_mps2.ndim == 1
@@ -117,12 +117,12 @@ def outcome(path: Path, **how: Any) -> MotionFile | InputError:
 
 def read_or_refuse(path: Path, **how: Any) -> None:
     """Read a file that may be at fault: a record of finite numbers, or an error for the user."""
-    found = outcome(path, **how)
-    if isinstance(found, InputError):
-        assert found.problems
-        assert all(path.name in problem or "more" in problem for problem in found.problems)
+    read = outcome(path, **how)
+    if isinstance(read, InputError):
+        assert read.problems
+        assert all(path.name in problem or "more" in problem for problem in read.problems)
         return
-    for record in found.channels:
+    for record in read.channels:
         assert record.dt_s > 0.0
         assert math.isfinite(record.dt_s)
         assert len(record.a_mps2) >= 2

@@ -29,31 +29,33 @@ def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
 
 
 def test_a_corrected_file_is_read() -> None:
-    found = read_motion_file(SAMPLES / "smc-corrected.smc")
-    assert found.format == "USGS SMC"
-    assert found.notes == ()
-    record = found.channel()
+    motion_file = read_motion_file(SAMPLES / "smc-corrected.smc")
+    assert motion_file.format == "USGS SMC"
+    assert motion_file.notes == ()
+    record = motion_file.channel()
     assert (record.name, record.dt_s) == ("up", 0.005)
     assert record.a_mps2 == pytest.approx(WAVE / 100, rel=1e-14)
 
 
 def test_an_uncorrected_even_file_keeps_its_offset_and_says_so() -> None:
-    found = read_motion_file(SAMPLES / "smc-even.smc")
-    record = found.channel()
+    motion_file = read_motion_file(SAMPLES / "smc-even.smc")
+    record = motion_file.channel()
     assert (record.name, record.dt_s) == ("90", 0.01)
     assert record.a_mps2 == pytest.approx((0.25 * WAVE + 1.0) / 100, abs=1.01e-5)
-    assert found.notes == (
+    assert motion_file.notes == (
         "uncorrected: the mean is 0.00106 g, 3.5 % of the peak; it is not removed",
     )
 
 
 def test_uneven_pairs_with_a_short_line_are_resampled() -> None:
-    found = read_motion_file(SAMPLES / "smc-uneven.smc")
-    record = found.channel()
+    motion_file = read_motion_file(SAMPLES / "smc-uneven.smc")
+    record = motion_file.channel()
     assert (record.name, record.dt_s) == ("45", 0.001)
     expected = np.interp(np.arange(121) * 0.001, *UNEVEN.T) / 100
     assert record.a_mps2 == pytest.approx(expected, abs=1e-13)
-    assert found.notes[0].startswith("times are uneven, steps of 0.007 to 0.013 s: resampled at")
+    assert motion_file.notes[0].startswith(
+        "times are uneven, steps of 0.007 to 0.013 s: resampled at"
+    )
 
 
 def test_a_file_that_counts_its_pairs_is_read_alike(altered: Any) -> None:

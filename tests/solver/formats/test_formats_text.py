@@ -147,12 +147,12 @@ class TestSeveralColumns:
     CONTENT = "time_s,NS_g,EW [gal],UD_g,vel_cm/s\n0,1,2,3,9\n0.5,4,5,6,9\n"
 
     def test_headings_name_channels_and_each_has_its_unit(self, file: Any) -> None:
-        found = read_motion_file(file(self.CONTENT))
-        assert [record.name for record in found.channels] == ["NS", "EW", "UD"]
-        assert {record.dt_s for record in found.channels} == {0.5}
-        assert found.channel("ew").a_mps2.tolist() == [0.02, 0.05]
-        assert found.channel("3").a_mps2.tolist() == [3 * G, 6 * G]
-        assert found.notes == ("column 'vel_cm/s' is ignored: it is not an acceleration",)
+        motion_file = read_motion_file(file(self.CONTENT))
+        assert [record.name for record in motion_file.channels] == ["NS", "EW", "UD"]
+        assert {record.dt_s for record in motion_file.channels} == {0.5}
+        assert motion_file.channel("ew").a_mps2.tolist() == [0.02, 0.05]
+        assert motion_file.channel("3").a_mps2.tolist() == [3 * G, 6 * G]
+        assert motion_file.notes == ("column 'vel_cm/s' is ignored: it is not an acceleration",)
 
     def test_a_channel_must_be_chosen(self, file: Any) -> None:
         (problem,) = problems_of(file(self.CONTENT), units="")
@@ -164,9 +164,9 @@ class TestSeveralColumns:
 
     def test_a_letter_g_among_letters_is_no_unit(self, file: Any) -> None:
         content = "time_s,ch_f,ch_g,ch_h\n0,1,2,3\n1,4,5,6\n"
-        found = read_motion_file(file(content), units="gal")
-        assert [record.name for record in found.channels] == ["ch_f", "ch_g", "ch_h"]
-        assert found.channel("ch_g").a_mps2.tolist() == [0.02, 0.05]
+        motion_file = read_motion_file(file(content), units="gal")
+        assert [record.name for record in motion_file.channels] == ["ch_f", "ch_g", "ch_h"]
+        assert motion_file.channel("ch_g").a_mps2.tolist() == [0.02, 0.05]
         assert "found no unit" in problems_of(file(content), units="")[0]
 
     def test_columns_without_times_take_the_step_from_the_argument(self, file: Any) -> None:
@@ -178,8 +178,8 @@ class TestSeveralColumns:
         assert problem == "roof.csv: found columns without times; give the time step dt"
 
     def test_a_comment_may_name_the_columns(self, file: Any) -> None:
-        found = read_motion_file(file("# t  NS[g]  EW [g]\n0 1 2\n1 3 4\n"))
-        assert found.channel("ew").a_mps2.tolist() == [2 * G, 4 * G]
+        motion_file = read_motion_file(file("# t  NS[g]  EW [g]\n0 1 2\n1 3 4\n"))
+        assert motion_file.channel("ew").a_mps2.tolist() == [2 * G, 4 * G]
 
     @pytest.mark.parametrize(
         ("content", "expected"),
@@ -197,8 +197,8 @@ class TestSeveralColumns:
         assert problem.startswith(expected)
 
     def test_channels_of_one_name_are_told_apart(self, file: Any) -> None:
-        found = read_motion_file(file("t_s,x_g,X_g,_g\n0,1,2,3\n1,4,5,6\n"))
-        assert [record.name for record in found.channels] == ["x", "X (2)", "channel 3"]
+        motion_file = read_motion_file(file("t_s,x_g,X_g,_g\n0,1,2,3\n1,4,5,6\n"))
+        assert [record.name for record in motion_file.channels] == ["x", "X (2)", "channel 3"]
 
 
 class TestFaults:

@@ -27,10 +27,10 @@ class TestEvenTimes:
         self, file: Any, dt_s: float, places: int, n: int
     ) -> None:
         text = "".join(f"{i * dt_s:.{places}f},0.1\n" for i in range(n))
-        found = read_motion_file(file(text), units="g")
-        assert found.channel().dt_s == dt_s
-        assert len(found.channel().a_mps2) == n
-        assert found.notes == ()
+        motion_file = read_motion_file(file(text), units="g")
+        assert motion_file.channel().dt_s == dt_s
+        assert len(motion_file.channel().a_mps2) == n
+        assert motion_file.notes == ()
 
     def test_times_of_single_precision_are_even_enough(self, file: Any) -> None:
         times = np.float32(0.01) * np.arange(3000, dtype=np.float32)
@@ -53,11 +53,11 @@ class TestUnevenTimes:
     def test_times_on_a_coarser_grid_lose_nothing(self) -> None:
         t = np.array([0.0, 0.02, 0.03, 0.07, 0.08, 0.09])
         a = np.array([[0.0, 1.0, -2.0, 0.5, 3.0, 0.0]])
-        found = sampled(SOURCE, t, a, int)
-        assert found.dt_s == 0.01
+        resampled = sampled(SOURCE, t, a, int)
+        assert resampled.dt_s == 0.01
         expected = [0.0, 0.5, 1.0, -2.0, -1.375, -0.75, -0.125, 0.5, 3.0, 0.0]
-        assert found.columns[0].tolist() == pytest.approx(expected, abs=1e-12)
-        assert found.notes == (
+        assert resampled.columns[0].tolist() == pytest.approx(expected, abs=1e-12)
+        assert resampled.notes == (
             "times are uneven, steps of 0.01 to 0.04 s: resampled at 0.01 s by linear"
             " interpolation, which changes no sample",
         )
@@ -70,26 +70,27 @@ class TestUnevenTimes:
     ) -> None:
         t = np.cumsum([step for step, _ in steps])
         a = np.array([value for _, value in steps])
-        found = sampled(SOURCE, t, a[None, :], int)
-        if not found.notes:
+        resampled = sampled(SOURCE, t, a[None, :], int)
+        if not resampled.notes:
             return
-        even = t[0] + found.dt_s * np.arange(found.columns.shape[1])
-        moved = np.abs(np.interp(t, even, found.columns[0]) - a).max()
+        even = t[0] + resampled.dt_s * np.arange(resampled.columns.shape[1])
+        moved = np.abs(np.interp(t, even, resampled.columns[0]) - a).max()
         said = (
-            float((found.notes[0] + " more than 0 %").split("more than ")[1].split(" %")[0]) / 100
+            float((resampled.notes[0] + " more than 0 %").split("more than ")[1].split(" %")[0])
+            / 100
         )
         assert moved <= (1.05 * said + 1e-9) * np.abs(a).max()
-        finest = found.dt_s <= np.median(np.diff(t)) / 80.0
+        finest = resampled.dt_s <= np.median(np.diff(t)) / 80.0
         assert said <= LOSS or finest
-        assert abs(even[-1] - t[-1]) < found.dt_s * (1.0 + 1e-6)
+        assert abs(even[-1] - t[-1]) < resampled.dt_s * (1.0 + 1e-6)
 
     def test_a_peak_between_the_samples_of_the_usual_step_is_kept(self) -> None:
         t = np.r_[np.arange(0, 100) * 0.01, 1.0037, 1.0081 + np.arange(0, 100) * 0.01]
         a = np.zeros((1, len(t)))
         a[0, 100] = 5.0
-        found = sampled(SOURCE, t, a, int)
-        assert np.abs(found.columns).max() >= 5.0 * (1.0 - LOSS)
-        assert found.dt_s < 0.01
+        resampled = sampled(SOURCE, t, a, int)
+        assert np.abs(resampled.columns).max() >= 5.0 * (1.0 - LOSS)
+        assert resampled.dt_s < 0.01
 
     def test_the_loss_is_told_where_the_finest_step_is_too_coarse(self) -> None:
         t = np.r_[np.arange(0, 100) * 0.01, 0.9900101, 1.0 + np.arange(0, 100) * 0.01]
@@ -100,39 +101,41 @@ class TestUnevenTimes:
         assert 50.0 < said <= 100.0
 
     def test_a_column_of_zeros_moves_nothing(self) -> None:
-        found = sampled(SOURCE, np.array([0.0, 0.1, 0.15]), np.zeros((1, 3)), int)
-        assert found.dt_s == 0.05
-        assert found.columns.tolist() == [[0.0] * 4]
+        resampled = sampled(SOURCE, np.array([0.0, 0.1, 0.15]), np.zeros((1, 3)), int)
+        assert resampled.dt_s == 0.05
+        assert resampled.columns.tolist() == [[0.0] * 4]
 
     @pytest.mark.parametrize("gap", [1, 500, 998])
     def test_a_lost_sample_is_a_straight_line(self, file: Any, gap: int) -> None:
         rows = [f"{i / 100:.2f},{i % 7}\n" for i in range(1000) if i != gap]
-        found = read_motion_file(file("".join(rows)), units="m/s2")
-        a = found.channel().a_mps2
-        assert (found.channel().dt_s, len(a)) == (0.01, 1000)
+        motion_file = read_motion_file(file("".join(rows)), units="m/s2")
+        a = motion_file.channel().a_mps2
+        assert (motion_file.channel().dt_s, len(a)) == (0.01, 1000)
         assert a[gap] == pytest.approx((a[gap - 1] + a[gap + 1]) / 2.0)
-        assert "times are uneven, steps of 0.01 to 0.02 s" in found.notes[0]
+        assert "times are uneven, steps of 0.01 to 0.02 s" in motion_file.notes[0]
 
     def test_gaps_are_told_with_their_lines_and_cut_short(self, file: Any) -> None:
         t = [i / 100 + 2.0 * (i // 20) for i in range(120)]
-        found = read_motion_file(file("".join(f"{x:.2f},1\n" for x in t)), units="g")
-        assert found.notes[1] == (
+        motion_file = read_motion_file(file("".join(f"{x:.2f},1\n" for x in t)), units="g")
+        assert motion_file.notes[1] == (
             "roof.csv:21: no samples between 0.19 and 2.2 s: interpolated linearly"
         )
-        assert len(found.notes) == 5
-        assert found.notes[-1] == "... and 2 more gaps"
+        assert len(motion_file.notes) == 5
+        assert motion_file.notes[-1] == "... and 2 more gaps"
 
     def test_a_step_that_drifts_is_resampled(self, file: Any) -> None:
         text = "".join(f"{0.01 * i + 1e-6 * i * i:.7f},{i}\n" for i in range(200))
-        found = read_motion_file(file(text), units="m/s2")
-        t = found.channel().dt_s * np.arange(len(found.channel().a_mps2))
+        motion_file = read_motion_file(file(text), units="m/s2")
+        t = motion_file.channel().dt_s * np.arange(len(motion_file.channel().a_mps2))
         i = (-0.01 + np.sqrt(1e-4 + 4e-6 * t)) / 2e-6
-        assert found.channel().a_mps2[:-1] == pytest.approx(i[:-1], abs=1e-4 * 200)
+        assert motion_file.channel().a_mps2[:-1] == pytest.approx(i[:-1], abs=1e-4 * 200)
 
     def test_all_columns_are_put_on_one_step(self, file: Any) -> None:
-        found = read_motion_file(file("t_s,x_g,y_g\n0,0,1\n1,1,0\n3,3,2\n"))
-        assert [len(record.a_mps2) for record in found.channels] == [4, 4]
-        assert found.channel("y").a_mps2.tolist() == pytest.approx([9.80665, 0, 9.80665, 19.6133])
+        motion_file = read_motion_file(file("t_s,x_g,y_g\n0,0,1\n1,1,0\n3,3,2\n"))
+        assert [len(record.a_mps2) for record in motion_file.channels] == [4, 4]
+        assert motion_file.channel("y").a_mps2.tolist() == pytest.approx(
+            [9.80665, 0, 9.80665, 19.6133]
+        )
 
     def test_a_given_step_does_not_agree_with_uneven_times(self, file: Any) -> None:
         with pytest.raises(InputError) as caught:

@@ -21,22 +21,22 @@ def run(scene, substeps, holds):
 @pytest.mark.parametrize("holds", [True, False])
 def test_the_error_falls_with_the_step(holds):
     scene = stopped_scene()
-    found = two_axes.run(scene)
-    coarse, fine = (abs(run(scene, count, holds)[0] - found.prd_m) for count in (4, 1000))
+    exact = two_axes.run(scene)
+    coarse, fine = (abs(run(scene, count, holds)[0] - exact.prd_m) for count in (4, 1000))
     assert fine < 0.2 * coarse
-    assert fine < 0.01 * found.prd_m
+    assert fine < 0.01 * exact.prd_m
 
 
 def test_a_held_block_rests_and_one_without_a_rule_for_rest_chatters_and_drifts():
     scene = stopped_scene()
-    found = two_axes.run(scene)
-    place = found.residual_m, found.residual_across_m
+    exact = two_axes.run(scene)
+    place = exact.residual_m, exact.residual_across_m
     _, x, y, speed = run(scene, 10, True)
     assert speed == 0.0
-    assert math.dist((x, y), place) < 0.01 * found.prd_m
+    assert math.dist((x, y), place) < 0.01 * exact.prd_m
     _, x, y, speed = run(scene, 10, False)
     assert speed > 1e-4
-    assert math.dist((x, y), place) > 0.1 * found.prd_m
+    assert math.dist((x, y), place) > 0.1 * exact.prd_m
 
 
 def test_a_pushed_block_at_rest_starts_with_what_friction_leaves():

@@ -75,7 +75,7 @@ def run_all(compiled):
             oscillator.histories,
         )
     )
-    found = []
+    numbers = []
     for (horizontal, vertical, sn, mu), scale in product(SCENES + LONG, (1.0, 0.0)):
         ax, cs = readonly(horizontal), cosine(sn)
         az = readonly(vertical) if len(vertical) else None
@@ -86,19 +86,19 @@ def run_all(compiled):
         assert run == again
         history = np.full((2, ax.size), np.nan)
         fill(ax, az, 0.25, sn, cs, mu, G, scale, events[: run[6]], history)
-        found += [*run, *events.ravel(), *history.ravel()]
-        found += normal(ax, az, x, z, 0.25, sn, cs, G, scale)
+        numbers += [*run, *events.ravel(), *history.ravel()]
+        numbers += normal(ax, az, x, z, 0.25, sn, cs, G, scale)
         out, scene = np.empty((1, 4)), np.array([[math.asin(sn), mu, scale]])
         sweep(ax, az, x, z, 0.25, G, scene, out)
-        found += out.ravel().tolist()
+        numbers += out.ravel().tolist()
         for omega in (1e-6, 1e-2, 1.0, 50.0):
             peak, at = np.empty(1), np.empty(1, dtype=np.int64)
             peaks(ax, 0.25, np.array([omega]), 0.05, peak, at)
-            found += [peak[0], at[0]]
+            numbers += [peak[0], at[0]]
         roofs = np.full((ax.size, 3), np.nan)
         oscillations(ax, 0.25, readonly([0.0, 1e-2, 50.0]), readonly([0.05, 0.0, 0.3]), roofs)
-        found += roofs.ravel().tolist()
-    return np.array(found, dtype=float)
+        numbers += roofs.ravel().tolist()
+    return np.array(numbers, dtype=float)
 
 
 def test_compiled_and_plain_kernels_give_the_same_bits():

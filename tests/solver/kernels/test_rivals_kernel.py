@@ -45,7 +45,7 @@ def run_all(compiled):
         f if compiled else getattr(f, "py_func", f)
         for f in (rivals.slide_constant, rivals.slide_linear, rivals.slide_link)
     )
-    dt, found = 0.25, []
+    dt, numbers = 0.25, []
     for horizontal, vertical, sn, mu in SCENES:
         scene = readonly(horizontal), readonly(vertical), dt, sn, cosine(sn), mu, G, 1.0, SUBSTEPS
         runs = [(constant, (False,)), (constant, (True,)), (linear, ())]
@@ -56,8 +56,8 @@ def run_all(compiled):
             history = np.full((2, len(horizontal)), np.nan)
             outcome = follow(*scene, *more, history)
             np.testing.assert_array_equal(outcome, follow(*scene, *more, np.empty((2, 0))))
-            found += [*outcome, *history.ravel()]
-    return np.array(found, dtype=float)
+            numbers += [*outcome, *history.ravel()]
+    return np.array(numbers, dtype=float)
 
 
 def test_compiled_and_plain_rivals_give_the_same_bits():
@@ -74,7 +74,7 @@ def follow_the_equations(ax, dt, theta, mu, g, substeps):
     sn, cs, tn = np.sin(theta), np.cos(theta), np.tan(theta)
     step = dt / substeps
     v_p = u_p = v_x = u_x = dv = dv_before = 0.0  # Eq. 19
-    found = [(0.0, 0.0)]
+    places = [(0.0, 0.0)]
     for i in range(len(ax) - 1):
         for j in range(substeps):
             a_p = ax[i] + (ax[i + 1] - ax[i]) * (j / substeps)
@@ -92,8 +92,8 @@ def follow_the_equations(ax, dt, theta, mu, g, substeps):
             u_x += v_x * step + 0.5 * a_x * step * step
             v_x += a_x * step
             dv_before, dv = dv, v_x - v_p
-        found.append((u_x - u_p, dv))
-    return np.array(found).T
+        places.append((u_x - u_p, dv))
+    return np.array(places).T
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="longer than the lines need")
@@ -102,9 +102,9 @@ def test_constant_acceleration_gives_the_numbers_of_the_papers_equations(noise, 
     theta, ax = np.radians(degrees), readonly(noise)
     expected = follow_the_equations(noise, 0.01, theta, mu, G, 4)
     history = np.full((2, ax.size), np.nan)
-    found = rivals.slide_constant(
+    outcome = rivals.slide_constant(
         ax, readonly([]), 0.01, np.sin(theta), np.cos(theta), mu, G, 1.0, 4, False, history
     )
     scale = np.abs(expected[0]).max()
     np.testing.assert_allclose(np.cos(theta) * history, expected, rtol=0, atol=1e-11 * scale)
-    assert max(found[1], -found[2]) * np.cos(theta) >= scale * (1 - 1e-11)
+    assert max(outcome[1], -outcome[2]) * np.cos(theta) >= scale * (1 - 1e-11)

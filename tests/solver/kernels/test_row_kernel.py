@@ -26,20 +26,20 @@ def readonly(values):
 
 
 def run_all(follow):
-    found = []
+    numbers = []
     for drive, normal, mus, m, k, c in SCENES:
         for most in (1000, 0):
             count = len(mus)
             peaks, links = np.empty((count, 4)), np.empty((count - 1, 2))
             energy, samples = np.empty(5), np.full((count, len(drive)), -1.0)
             for places in (samples, None):
-                found += follow(
+                numbers += follow(
                     readonly(drive), readonly(normal), 0.2, np.array(mus), np.array(m), k, c, most,
                     peaks, links, energy, places,
                 )  # fmt: skip
-                found += [*peaks.ravel(), *links.ravel(), *energy]
-            found += [*samples.ravel()]
-    return np.array(found, dtype=float)
+                numbers += [*peaks.ravel(), *links.ravel(), *energy]
+            numbers += [*samples.ravel()]
+    return np.array(numbers, dtype=float)
 
 
 def test_compiled_and_plain_kernels_give_the_same_motion():
@@ -68,10 +68,10 @@ def test_compiled_and_plain_kernels_give_the_same_motion():
 )
 def test_the_first_root_is_found_and_none_is_made_up(series, root):
     """A double root to the root of a rounding: no more can be seen of it."""
-    found, falls = row._first_below(np.array(series), len(series) - 1)
+    x, falls = row._first_below(np.array(series), len(series) - 1)
     assert falls == (root is not None)
     within = math.sqrt(row.ZERO * row.EPS * np.abs(series).sum())
-    assert found == pytest.approx(row.NEVER if root is None else root, abs=within)
+    assert x == pytest.approx(row.NEVER if root is None else root, abs=within)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -82,8 +82,8 @@ def test_no_root_of_a_polynomial_is_stepped_over(seed):
         series[0] = abs(series[0]) * 0.2
         roots = np.roots(series[::-1])
         real = sorted(r.real for r in roots if abs(r.imag) < 1e-12 and 0.0 <= r.real < 1.0)
-        found, _ = row._first_below(series, 7)
-        assert found == pytest.approx(real[0] if real else row.NEVER, abs=1e-9)
+        x, _ = row._first_below(series, 7)
+        assert x == pytest.approx(real[0] if real else row.NEVER, abs=1e-9)
 
 
 def test_where_a_line_is_too_flat_to_reach_its_root_it_says_from_where_to_look_again():

@@ -59,7 +59,7 @@ def run_all(compiled):
         if compiled
         else getattr(two_axes.slide_plane, "py_func", two_axes.slide_plane)
     )
-    found = []
+    numbers = []
     for along, across, vertical, sn, mu, law in SCENES:
         ax, ay = readonly(along), readonly(across)
         az = readonly(vertical) if len(vertical) else None
@@ -72,8 +72,8 @@ def run_all(compiled):
             events, history = np.full((run[3], 4), np.nan), np.full((4, ax.size), np.nan)
             again = slide(ax, ay, az, *bounds, *settings, events, history, top, end)
             assert again == run
-            found += [*run, *top, *end, *events.ravel(), *history.ravel()]
-    return np.array(found, dtype=float)
+            numbers += [*run, *top, *end, *events.ravel(), *history.ravel()]
+    return np.array(numbers, dtype=float)
 
 
 def test_compiled_and_plain_kernels_give_the_same_bits():
@@ -109,17 +109,17 @@ def test_blocks_passed_over_change_nothing():
     # All of a record but its peak, which rounding is told from.
     least_and_greatest = np.array([[-99.0], [99.0]])
     wide = [least_and_greatest * np.ones_like(bounds) for bounds in (x, y)]
-    for one, bounds in zip(wide, (x, y), strict=True):
-        one[:, -1] = bounds[:, -1]
-    found = []
+    for widened, bounds in zip(wide, (x, y), strict=True):
+        widened[:, -1] = bounds[:, -1]
+    runs = []
     for bounds in ((x, y), wide):
         top, end = np.empty(6), np.empty(4)
         run = two_axes.slide_plane(
             ax, ay, None, *bounds, None, 0.05, 0.1, 0.99, 0.3, G, 1.0, 1e-9, 16, 2000, None,
             np.empty((0, 4)), np.empty((4, 0)), top, end,
         )  # fmt: skip
-        found.append([*run, *top, *end])
-    assert found[0] == found[1]
+        runs.append([*run, *top, *end])
+    assert runs[0] == runs[1]
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")

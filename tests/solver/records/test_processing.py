@@ -31,25 +31,25 @@ def burst(hz, seconds=400.0, dt_s=0.01):
 
 def test_the_defaults_leave_the_record_to_the_last_bit(noise):
     source = record(noise, name="N1")
-    found = process(source, Processing())
-    assert np.array_equal(found.a_mps2, noise)
-    assert (found.dt_s, found.name) == (0.01, "N1")
-    assert not found.a_mps2.flags.writeable
+    processed = process(source, Processing())
+    assert np.array_equal(processed.a_mps2, noise)
+    assert (processed.dt_s, processed.name) == (0.01, "N1")
+    assert not processed.a_mps2.flags.writeable
     assert noise.flags.writeable
 
 
 class TestTrimming:
     def test_samples_at_the_bounds_are_kept(self):
-        found = process(record(np.arange(101.0)), Processing(from_s=0.1, to_s=0.3))
-        assert found.a_mps2.tolist() == list(range(10, 31))
+        processed = process(record(np.arange(101.0)), Processing(from_s=0.1, to_s=0.3))
+        assert processed.a_mps2.tolist() == list(range(10, 31))
 
     def test_bounds_between_samples_draw_inwards(self):
-        found = process(record(np.arange(101.0)), Processing(from_s=0.101, to_s=0.309))
-        assert found.a_mps2.tolist() == list(range(11, 31))
+        processed = process(record(np.arange(101.0)), Processing(from_s=0.101, to_s=0.309))
+        assert processed.a_mps2.tolist() == list(range(11, 31))
 
     def test_an_end_after_the_record_is_its_end(self):
-        found = process(record(np.arange(101.0)), Processing(from_s=0.9, to_s=1e9))
-        assert found.a_mps2.tolist() == list(range(90, 101))
+        processed = process(record(np.arange(101.0)), Processing(from_s=0.9, to_s=1e9))
+        assert processed.a_mps2.tolist() == list(range(90, 101))
 
 
 class TestBaseline:
@@ -57,20 +57,20 @@ class TestBaseline:
     def test_a_polynomial_is_taken_off_whole(self, degree):
         x = np.linspace(0.0, 1.0, 500)
         drift = np.polyval(np.random.default_rng(degree).normal(size=degree + 1), x)
-        found = process(record(drift), Processing(baseline=degree)).a_mps2
-        assert np.abs(found).max() < 1e-12 * np.abs(drift).max()
+        a_mps2 = process(record(drift), Processing(baseline=degree)).a_mps2
+        assert np.abs(a_mps2).max() < 1e-12 * np.abs(drift).max()
 
     @pytest.mark.parametrize("degree", range(6))
     def test_what_is_left_is_least_squares_as_by_another_fit(self, noise, degree):
         t = 0.01 * np.arange(len(noise))
         fitted = np.polynomial.Polynomial.fit(t, noise, degree)
-        found = process(record(noise), Processing(baseline=degree)).a_mps2
-        assert found == pytest.approx(noise - fitted(t), abs=1e-11)
+        a_mps2 = process(record(noise), Processing(baseline=degree)).a_mps2
+        assert a_mps2 == pytest.approx(noise - fitted(t), abs=1e-11)
 
     def test_the_mean_is_that_of_what_is_kept(self):
         a = np.concatenate([np.full(100, 5.0), wave(1.0, 3.0)])
-        found = process(record(a), Processing(from_s=1.0, baseline=0)).a_mps2
-        assert found == pytest.approx(a[100:] - a[100:].mean(), abs=1e-14)
+        a_mps2 = process(record(a), Processing(from_s=1.0, baseline=0)).a_mps2
+        assert a_mps2 == pytest.approx(a[100:] - a[100:].mean(), abs=1e-14)
 
 
 class TestFilters:
@@ -79,19 +79,21 @@ class TestFilters:
     def test_the_gain_is_that_of_a_butterworth_filter_without_its_phase(self, kind, order):
         impulse = np.zeros(2001)
         impulse[1000] = 1.0
-        found = process(record(impulse), Processing(**{f"{kind}pass_hz": 1.0}, order=order)).a_mps2
-        assert found == pytest.approx(found[::-1], abs=1e-15)
-        freq_hz = np.fft.rfftfreq(len(found), 0.01)
+        filtered = process(
+            record(impulse), Processing(**{f"{kind}pass_hz": 1.0}, order=order)
+        ).a_mps2
+        assert filtered == pytest.approx(filtered[::-1], abs=1e-15)
+        freq_hz = np.fft.rfftfreq(len(filtered), 0.01)
         filter_ = signal.butter(order, 2 * np.pi, kind, analog=True)
         _, response = signal.freqs(*filter_, 2 * np.pi * freq_hz)
-        assert np.abs(np.fft.rfft(found)) == pytest.approx(np.abs(response), abs=1e-13)
+        assert np.abs(np.fft.rfft(filtered)) == pytest.approx(np.abs(response), abs=1e-13)
 
     @pytest.mark.parametrize("kind", ["high", "low"])
     def test_the_gain_at_the_corner_is_one_over_root_two(self, kind):
         a = burst(1.0)
-        found = process(record(a), Processing(**{f"{kind}pass_hz": 1.0})).a_mps2
-        pad = (len(found) - len(a)) // 2
-        assert found[pad : pad + len(a)] @ a / (a @ a) == pytest.approx(math.sqrt(0.5), rel=1e-4)
+        filtered = process(record(a), Processing(**{f"{kind}pass_hz": 1.0})).a_mps2
+        pad = (len(filtered) - len(a)) // 2
+        assert filtered[pad : pad + len(a)] @ a / (a @ a) == pytest.approx(math.sqrt(0.5), rel=1e-4)
 
     @pytest.mark.parametrize("kind", ["high", "low"])
     @pytest.mark.parametrize("order", [2, 4, 6])
@@ -104,7 +106,7 @@ class TestFilters:
         pad = (len(twice) - len(noise)) // 2
         sos = signal.butter(order, corner, kind, fs=100.0, output="sos")
         forth_and_back = signal.sosfiltfilt(sos, np.pad(noise, pad), padlen=0)
-        # SciPy's filter is bent towards half the sampling rate, here at 50 Hz.
+        # SciPy's filter is bent toward half the sampling rate, here at 50 Hz.
         assert np.abs(twice - forth_and_back).max() < 2e-3 * np.abs(noise).max()
 
     def test_a_mirrored_record_gives_the_mirrored_result(self, noise):
@@ -114,10 +116,10 @@ class TestFilters:
         assert forth == pytest.approx(back, abs=1e-12)
 
     def test_the_zeros_have_the_length_that_is_said_and_stay(self, noise):
-        found = process(record(noise), Processing(highpass_hz=0.1, lowpass_hz=25.0, order=4))
-        assert len(found.a_mps2) == len(noise) + 2 * 6000
-        found = process(record(noise), Processing(lowpass_hz=25.0, order=4))
-        assert len(found.a_mps2) == len(noise) + 2 * 24
+        processed = process(record(noise), Processing(highpass_hz=0.1, lowpass_hz=25.0, order=4))
+        assert len(processed.a_mps2) == len(noise) + 2 * 6000
+        processed = process(record(noise), Processing(lowpass_hz=25.0, order=4))
+        assert len(processed.a_mps2) == len(noise) + 2 * 24
 
     @pytest.mark.parametrize("order", [2, 3, 4, 6, 8])
     @pytest.mark.parametrize("corner_hz", [0.05, 0.1, 0.5])
@@ -125,8 +127,8 @@ class TestFilters:
         # An offset as of an instrument: 0.16 m/s after 20 s.
         drifting = noise + 0.008
         assert measures(record(drifting)).final_displacement_m > 1.0
-        found = process(record(drifting), Processing(highpass_hz=corner_hz, order=order))
-        left = measures(found)
+        processed = process(record(drifting), Processing(highpass_hz=corner_hz, order=order))
+        left = measures(processed)
         assert abs(left.final_velocity_mps) < 1e-7 * left.pgv_mps
         # Where the order is odd the spectrum has a corner at zero, which dies away more slowly.
         limit = 2e-3 if order % 2 else 2e-5
@@ -150,10 +152,10 @@ class TestResampling:
         finer = process(record(noise), Processing(dt_s=0.01 / parts))
         assert len(finer.a_mps2) == parts * (len(noise) - 1) + 1
         assert np.array_equal(finer.a_mps2[::parts], noise)
-        one = slide(noise, 0.01, slope_rad=0.03, mu=0.2)
+        result = slide(noise, 0.01, slope_rad=0.03, mu=0.2)
         other = slide(finer.a_mps2, finer.dt_s, slope_rad=0.03, mu=0.2)
-        assert other.prd_m == pytest.approx(one.prd_m, rel=1e-11)
-        assert other.residual_m == pytest.approx(one.residual_m, rel=1e-10)
+        assert other.prd_m == pytest.approx(result.prd_m, rel=1e-11)
+        assert other.residual_m == pytest.approx(result.residual_m, rel=1e-10)
 
     def test_any_finer_step_lies_on_the_straight_lines(self, noise):
         finer = process(record(noise), Processing(dt_s=0.0073))
@@ -164,12 +166,12 @@ class TestResampling:
     @pytest.mark.parametrize("new_s", [0.02, 0.03, 0.05, 0.025, 0.0137])
     def test_a_coarser_step_keeps_what_it_can_hold(self, new_s):
         a = burst(3.0, 60.0) + burst(0.4, 60.0)
-        found = process(record(a), Processing(dt_s=new_s))
-        t = new_s * np.arange(len(found.a_mps2))
+        processed = process(record(a), Processing(dt_s=new_s))
+        t = new_s * np.arange(len(processed.a_mps2))
         assert t[-1] <= 60.0 + 1e-9 < t[-1] + new_s + 2e-9
         exact = np.sin(2 * np.pi * 3.0 * t) + np.sin(2 * np.pi * 0.4 * t)
         exact *= np.exp(-0.5 * ((t - 30.0) / 3.75) ** 2)
-        assert np.abs(found.a_mps2 - exact).max() < 3e-4
+        assert np.abs(processed.a_mps2 - exact).max() < 3e-4
 
     @pytest.mark.parametrize("new_s", [0.02, 0.025, 0.05])
     def test_a_coarser_step_makes_no_false_long_periods(self, new_s):
@@ -189,8 +191,8 @@ class TestResampling:
 
 
 def test_zeros_are_added_at_the_end_in_whole_steps():
-    found = process(record(np.ones(11), dt_s=0.1), Processing(pad_s=1.05))
-    assert found.a_mps2.tolist() == [1.0] * 11 + [0.0] * 11
+    processed = process(record(np.ones(11), dt_s=0.1), Processing(pad_s=1.05))
+    assert processed.a_mps2.tolist() == [1.0] * 11 + [0.0] * 11
 
 
 def test_steps_come_in_the_order_of_the_fields(noise):
@@ -198,7 +200,7 @@ def test_steps_come_in_the_order_of_the_fields(noise):
         from_s=1.0, to_s=18.0, baseline=1, highpass_hz=0.2, lowpass_hz=20.0, order=3, dt_s=0.005,
         pad_s=2.0,
     )  # fmt: skip
-    found = record(noise)
+    stepped = record(noise)
     for step in (
         Processing(from_s=1.0, to_s=18.0),
         Processing(baseline=1),
@@ -206,18 +208,18 @@ def test_steps_come_in_the_order_of_the_fields(noise):
         Processing(dt_s=0.005),
         Processing(pad_s=2.0),
     ):
-        found = process(found, step)
-    assert np.array_equal(process(record(noise), settings).a_mps2, found.a_mps2)
+        stepped = process(stepped, step)
+    assert np.array_equal(process(record(noise), settings).a_mps2, stepped.a_mps2)
 
 
 class TestTogether:
     def test_components_keep_one_length(self, noise):
         settings = Processing(from_s=0.5, baseline=2, highpass_hz=0.13, dt_s=0.007, pad_s=1.0)
         parts = [record(noise * k, name=f"r{k}") for k in (1, 2, 3)]
-        found = process_together(parts, settings)
-        assert {len(part.a_mps2) for part in found} == {len(found[0].a_mps2)}
-        assert [part.name for part in found] == ["r1", "r2", "r3"]
-        assert np.array_equal(found[0].a_mps2, process(parts[0], settings).a_mps2)
+        processed = process_together(parts, settings)
+        assert {len(part.a_mps2) for part in processed} == {len(processed[0].a_mps2)}
+        assert [part.name for part in processed] == ["r1", "r2", "r3"]
+        assert np.array_equal(processed[0].a_mps2, process(parts[0], settings).a_mps2)
 
     def test_components_of_other_lengths_or_steps_are_named(self, noise):
         parts = [record(noise, name="x"), record(noise[1:], name="y"), record(noise, 0.02, "z")]

@@ -140,7 +140,7 @@ class TestSpectrum:
         got = response_spectrum(5.0 * t, 0.01, 2.0 * np.pi / w, 0.0)
         assert got == pytest.approx(expected, rel=1e-12)
 
-    def test_resonance_grows_towards_one_over_twice_the_damping(self) -> None:
+    def test_resonance_grows_toward_one_over_twice_the_damping(self) -> None:
         t = 0.002 * np.arange(10_000)
         (psa,) = response_spectrum(np.sin(2.0 * np.pi * t), 0.002, [1.0], 0.05)
         assert psa == pytest.approx(10.0 * (1.0 - math.exp(-0.05 * 2.0 * math.pi * 20)), rel=2e-3)
@@ -184,9 +184,9 @@ class TestSpectrum:
         rng = np.random.default_rng(8)
         for _ in range(20):
             a = rng.normal(0.0, 1.0, 300)
-            (found,) = response_spectrum(a, 0.02, [period_s])
+            (peak,) = response_spectrum(a, 0.02, [period_s])
             (true,) = response_spectrum(spectrum.refined(a, 64), 0.02 / 64, [period_s])
-            assert 0.997 * true <= found <= true * (1.0 + 1e-12)
+            assert 0.997 * true <= peak <= true * (1.0 + 1e-12)
 
     def test_it_takes_time_and_period_in_proportion(self) -> None:
         a = np.random.default_rng(5).normal(0.0, 1.0, 100)

@@ -26,33 +26,33 @@ def own_spectrum(a):
 class TestFactor:
     @pytest.mark.parametrize("scale", [0.01, 0.5, 1.0, 3.7])
     def test_a_scaled_copy_of_a_record_on_target_gives_the_factor(self, noise, scale):
-        found = factor_to_target([record(noise / scale)], own_spectrum(noise), (0.1, 3.0))
-        assert found == pytest.approx(scale, rel=1e-12)
+        factor = factor_to_target([record(noise / scale)], own_spectrum(noise), (0.1, 3.0))
+        assert factor == pytest.approx(scale, rel=1e-12)
 
     def test_two_components_count_by_their_geometric_mean(self, noise):
         pair = [record(noise / 2.0), record(noise / 8.0)]
-        found = factor_to_target(pair, own_spectrum(noise), (0.1, 3.0))
-        assert found == pytest.approx(4.0, rel=1e-12)
+        factor = factor_to_target(pair, own_spectrum(noise), (0.1, 3.0))
+        assert factor == pytest.approx(4.0, rel=1e-12)
 
     def test_polarity_and_order_of_components_do_not_count(self, noise):
         other = np.roll(noise, 300) * 0.7
-        one = factor_to_target([record(noise), record(other)], LEVEL, (0.2, 2.0))
+        factor = factor_to_target([record(noise), record(other)], LEVEL, (0.2, 2.0))
         two = factor_to_target([record(-other), record(noise)], LEVEL, (0.2, 2.0))
-        assert one == pytest.approx(two, rel=1e-12)
+        assert factor == pytest.approx(two, rel=1e-12)
 
     def test_after_scaling_the_mean_logarithm_is_on_target(self, noise):
         target = ac156_vertical(s_ds_g=1.2).at
-        found = factor_to_target([record(noise)], target, (0.2, 2.0))
+        factor = factor_to_target([record(noise)], target, (0.2, 2.0))
         periods = np.geomspace(0.2, 2.0, 101)
-        off = np.log(found * response_spectrum(noise, 0.01, periods) / G / target(1.0 / periods))
+        off = np.log(factor * response_spectrum(noise, 0.01, periods) / G / target(1.0 / periods))
         assert off.mean() == pytest.approx(0.0, abs=1e-12)
 
     def test_the_mean_is_over_the_logarithm_of_the_period(self, noise):
         # The target e times too high over a third of the octaves raises the factor by e^(1/3).
         plain = own_spectrum(noise)
         raised = lambda freq: plain(freq) * np.where(1.0 / freq < 0.2, math.e, 1.0)  # noqa: E731
-        found = factor_to_target([record(noise)], raised, (0.1, 0.8))
-        assert math.log(found) == pytest.approx(1.0 / 3.0, abs=0.01)
+        factor = factor_to_target([record(noise)], raised, (0.1, 0.8))
+        assert math.log(factor) == pytest.approx(1.0 / 3.0, abs=0.01)
 
     def test_a_record_of_zeros_is_refused(self, noise):
         with pytest.raises(InputError, match="quiet: is zero throughout; it cannot be scaled"):

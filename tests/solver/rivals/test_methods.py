@@ -29,14 +29,14 @@ def trapezoid(peak, dt, plateau_steps, rest_steps):
 
 def errors(record, dt, method, *, scenes=SCENES, **parameters):
     """Largest error of the PRD and the residual over the PRD, for each scene."""
-    found = []
+    shares = []
     for degrees, mu in scenes:
         scene = {"slope_rad": math.radians(degrees), "mu": mu}
         exact = slide(record, dt, **scene)
         other = slide(record, dt, **scene, method=method, **parameters)
         off = other.prd_m - exact.prd_m, other.residual_m - exact.residual_m
-        found.append(max(map(abs, off)) / exact.prd_m)
-    return np.array(found)
+        shares.append(max(map(abs, off)) / exact.prd_m)
+    return np.array(shares)
 
 
 def link_at(radians, dt, substeps):
@@ -66,8 +66,8 @@ def test_a_method_runs_with_its_defaults_and_over_its_sweep(name):
         some = method.settings(value, 0.02, G)
         assert some.keys() == method.parameters.keys()
         assert some[method.knob] == value
-        found = slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name, **some)
-        assert found.status is not Status.DIVERGED
+        result = slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name, **some)
+        assert result.status is not Status.DIVERGED
     assert default == slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name, **method.parameters)
 
 
@@ -113,10 +113,10 @@ def test_a_ramped_pulse_on_a_flat_roof_is_met_within_the_ceiling(name):
     dt, plateau = 0.01, 20
     expected = problems.pulse_travel(0.4 * G, 0.1 * G, plateau * dt, dt)
     ax = trapezoid(0.4 * G, dt, plateau, 150)
-    found = slide(ax, dt, slope_rad=0.0, mu=0.1, method=name, **FINE.get(name, {}))
-    assert found.prd_m == pytest.approx(expected, rel=CEILINGS[name])
-    assert found.up_m == pytest.approx(expected, rel=CEILINGS[name])
-    assert found.status is Status.OK
+    result = slide(ax, dt, slope_rad=0.0, mu=0.1, method=name, **FINE.get(name, {}))
+    assert result.prd_m == pytest.approx(expected, rel=CEILINGS[name])
+    assert result.up_m == pytest.approx(expected, rel=CEILINGS[name])
+    assert result.status is Status.OK
 
 
 @pytest.mark.parametrize("vertical", [-0.3, 0.3])
@@ -127,8 +127,8 @@ def test_a_ramped_pulse_on_a_slope_with_vertical_shaking_is_met(name, vertical):
     ax, az = (trapezoid(a * G, dt, plateau, 150) for a in (-0.6, vertical))
     expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
     scene = {"slope_rad": slope, "mu": 0.4, "az_mps2": az}
-    found = slide(ax, dt, **scene, method=name, **FINE.get(name, {}))
-    assert found.down_m == pytest.approx(expected, rel=CEILINGS[name])
+    result = slide(ax, dt, **scene, method=name, **FINE.get(name, {}))
+    assert result.down_m == pytest.approx(expected, rel=CEILINGS[name])
 
 
 @pytest.mark.parametrize("name", ["paper", "linear", "penalty-explicit", "penalty-implicit"])
@@ -159,9 +159,9 @@ def test_a_frozen_normal_force_is_off_by_its_closed_form(degrees, mu, amplitude,
     frozen_drive, frozen_resist = (amplitude * cs + vertical * sn) * G, (mu * cs - sn) * G
     frozen = problems.pulse_travel(frozen_drive, frozen_resist, plateau * dt, dt) * cs
     ax, az = (trapezoid(a * G, dt, plateau, 3000) for a in (-amplitude, vertical))
-    found = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, method="frozen-normal")
-    assert found.down_m == pytest.approx(frozen, rel=1e-12)
-    assert found.down_m / true - 1 == pytest.approx(off, abs=0.01)
+    result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, method="frozen-normal")
+    assert result.down_m == pytest.approx(frozen, rel=1e-12)
+    assert result.down_m / true - 1 == pytest.approx(off, abs=0.01)
 
 
 def test_a_frozen_normal_force_is_exact_on_a_flat_roof_without_vertical_shaking(noise):
@@ -207,11 +207,11 @@ def test_a_lasting_slip_is_met_at_the_formal_order(name):
 def test_linear_acceleration_follows_a_lasting_slip_to_rounding():
     t = np.arange(41) * 0.05
     ax, scene = -2 * np.sin(3 * t) - t, {"slope_rad": math.radians(30), "mu": 0.1}
-    exact, found = (
+    exact, result = (
         slide(ax, 0.05, **scene, method="exact"),
         slide(ax, 0.05, **scene, method="linear", substeps=1),
     )
-    assert found.prd_m == pytest.approx(exact.prd_m, rel=1e-13)
+    assert result.prd_m == pytest.approx(exact.prd_m, rel=1e-13)
 
 
 # Stick and slip: an envelope over scenes and neighboring numbers of sub-steps, and a ceiling.
@@ -222,13 +222,13 @@ def test_linear_acceleration_follows_a_lasting_slip_to_rounding():
     [("paper", (0.13, 0.03, 0.008)), ("linear", (0.012, 0.003, 0.0008))],
 )
 def test_errors_in_stick_and_slip_fall_at_first_order_below_a_ceiling(noise, name, ceilings):
-    found = []
+    largest = []
     for p, ceiling in zip((16, 64, 256), ceilings, strict=True):
         near = [p - p // 8, p, p + p // 8]
-        found.append(np.max([errors(noise, 0.01, name, substeps=q) for q in near]))
-        assert found[-1] < ceiling
+        largest.append(np.max([errors(noise, 0.01, name, substeps=q) for q in near]))
+        assert largest[-1] < ceiling
     # Reversals without a rest hold linear acceleration to first order too.
-    assert math.log(found[0] / found[-1], 16) == pytest.approx(1.0, abs=0.25)
+    assert math.log(largest[0] / largest[-1], 16) == pytest.approx(1.0, abs=0.25)
 
 
 def test_linear_acceleration_is_the_better_one_at_the_same_sub_steps(noise):
@@ -243,11 +243,11 @@ def test_linear_acceleration_is_the_better_one_at_the_same_sub_steps(noise):
 @pytest.mark.parametrize("p", [1, 7, 64])
 def test_small_steps_only_in_slip_give_the_papers_numbers_to_the_last_bit(noise, degrees, p):
     scene = {"slope_rad": math.radians(degrees), "mu": 0.35, "substeps": p}
-    one, other = (
+    paper, other = (
         slide_history(noise, 0.01, **scene, method=name) for name in ("paper", "adaptive")
     )
-    assert one.result == other.result
-    np.testing.assert_array_equal(one.u_m, other.u_m)
+    assert paper.result == other.result
+    np.testing.assert_array_equal(paper.u_m, other.u_m)
 
 
 @settings(max_examples=60, deadline=None)
@@ -258,9 +258,9 @@ def test_small_steps_only_in_slip_give_the_papers_numbers_to_the_last_bit(noise,
 )
 def test_small_steps_only_in_slip_skip_nothing_that_moves(values, mu, slope):
     scene = {"slope_rad": slope, "mu": mu, "g_mps2": 2.0, "substeps": 4}
-    one, other = (slide(values, 0.5, **scene, method=name) for name in ("paper", "adaptive"))
+    paper, other = (slide(values, 0.5, **scene, method=name) for name in ("paper", "adaptive"))
     np.testing.assert_array_equal(
-        [one.prd_m, one.residual_m, one.t_prd_s, one.n_stops],
+        [paper.prd_m, paper.residual_m, paper.t_prd_s, paper.n_stops],
         [other.prd_m, other.residual_m, other.t_prd_s, other.n_stops],
     )
 
@@ -319,15 +319,15 @@ def test_a_ratchet_on_a_steep_roof_is_told_from_slip(noise):
     assert slide(record, 0.01, **scene).prd_m == 0.0
     for radians in (2.1, 3.0, 40.0):
         some = link_at(radians, 0.01, 4)
-        found = slide(record, 0.01, **scene, method="penalty-explicit", **some)
-        assert found.status is Status.DIVERGED
+        result = slide(record, 0.01, **scene, method="penalty-explicit", **some)
+        assert result.status is Status.DIVERGED
 
 
 @pytest.mark.parametrize("name", LINKS)
 def test_numbers_beyond_the_finite_are_diverged(name):
     pulse = trapezoid(-4.0, 0.01, 5, 20)
-    found = slide(pulse, 0.01, slope_rad=0.0, mu=0.2, method=name, stiffness_per_m=1e308)
-    assert found.status is Status.DIVERGED
+    result = slide(pulse, 0.01, slope_rad=0.0, mu=0.2, method=name, stiffness_per_m=1e308)
+    assert result.status is Status.DIVERGED
 
 
 @pytest.mark.parametrize("radians", [0.4, 1.0, 1.6])
@@ -336,8 +336,8 @@ def test_the_implicit_link_converges_up_to_1_6_radians_a_step(noise, radians, su
     for degrees, mu in SCENES:
         scene = {"slope_rad": math.radians(degrees), "mu": mu}
         some = link_at(radians, 0.01, substeps)
-        found = slide(noise, 0.01, **scene, method="penalty-implicit", **some)
-        assert found.status is not Status.DIVERGED
+        result = slide(noise, 0.01, **scene, method="penalty-implicit", **some)
+        assert result.status is not Status.DIVERGED
 
 
 def test_the_implicit_link_goes_to_and_fro_between_stick_and_slip_beyond_3_1_radians(noise):
@@ -357,18 +357,18 @@ def test_the_implicit_link_goes_to_and_fro_between_stick_and_slip_beyond_3_1_rad
 
 @pytest.mark.parametrize("name", LINKS)
 def test_a_link_in_balance_with_gravity_stays_where_it_is(name):
-    found = slide(np.zeros(200), 0.01, slope_rad=0.1, mu=0.4, method=name)
-    assert found.prd_m < 1e-15
-    assert (found.status, found.n_stops) == (Status.OK, 0)
+    result = slide(np.zeros(200), 0.01, slope_rad=0.1, mu=0.4, method=name)
+    assert result.prd_m < 1e-15
+    assert (result.status, result.n_stops) == (Status.OK, 0)
 
 
 def test_a_block_that_slides_freely_needs_no_link():
     slope = math.radians(7)
     expected = problems.free_slide_travel(slope, 0.1, 2.0, G) * math.cos(slope)
     for name in LINKS:
-        found = slide(np.zeros(201), 0.01, slope_rad=slope, mu=0.1, method=name)
-        assert found.down_m == pytest.approx(expected, rel=1e-10)
-        assert found.status is Status.SLIDING_AT_END
+        result = slide(np.zeros(201), 0.01, slope_rad=slope, mu=0.1, method=name)
+        assert result.down_m == pytest.approx(expected, rel=1e-10)
+        assert result.status is Status.SLIDING_AT_END
 
 
 # Regularized friction
@@ -382,9 +382,9 @@ def test_regularized_friction_creeps_where_the_block_should_stick():
     creep = velocity * math.atanh(math.tan(slope) / mu) * 3.99 * math.cos(slope)
     for tolerance in (1e-4, 1e-6):
         some = {"velocity_mps": velocity, "tolerance": tolerance}
-        found = slide(still, 0.01, **scene, method="regularized", **some)
-        assert found.down_m == pytest.approx(creep, rel=0.01)
-        assert found.status is Status.OK
+        result = slide(still, 0.01, **scene, method="regularized", **some)
+        assert result.down_m == pytest.approx(creep, rel=0.01)
+        assert result.status is Status.OK
 
 
 def test_no_tolerance_mends_what_a_large_velocity_spoils(noise):
@@ -413,8 +413,8 @@ def test_a_tighter_tolerance_comes_closer_to_its_own_limit():
 
 def test_a_stalled_run_is_given_up(monkeypatch, noise):
     monkeypatch.setattr(regularized, "EVALUATIONS", 200)
-    found = slide(noise, 0.01, slope_rad=0.0, mu=0.3, method="regularized")
-    assert found.status is Status.DIVERGED
+    result = slide(noise, 0.01, slope_rad=0.0, mu=0.3, method="regularized")
+    assert result.status is Status.DIVERGED
 
 
 def test_without_scipy_the_regularized_method_says_what_to_install(monkeypatch, noise):
@@ -431,19 +431,19 @@ def test_a_history_ends_where_the_result_says_and_follows_the_exact_one(noise, n
     record = noise[600:1000]
     scene, some = {"slope_rad": 0.0, "mu": 0.2}, FINE.get(name, {})
     exact = slide_history(record, 0.01, **scene)
-    found = slide_history(record, 0.01, **scene, method=name, **some)
-    assert found.result == slide(record, 0.01, **scene, method=name, **some)
-    assert found.u_m[-1] == pytest.approx(found.result.residual_m, rel=1e-9)
-    assert np.abs(found.u_m - exact.u_m).max() < 0.05 * exact.result.prd_m
-    assert bool(found.events) is (name == "exact")
+    history = slide_history(record, 0.01, **scene, method=name, **some)
+    assert history.result == slide(record, 0.01, **scene, method=name, **some)
+    assert history.u_m[-1] == pytest.approx(history.result.residual_m, rel=1e-9)
+    assert np.abs(history.u_m - exact.u_m).max() < 0.05 * exact.result.prd_m
+    assert bool(history.events) is (name == "exact")
 
 
 @pytest.mark.parametrize("name", METHODS)
 def test_uplift_gives_no_number_by_any_method(name):
     ax = [0.0, 0.0, -40.0, 0.0]
-    found = slide(ax, 0.1, slope_rad=math.radians(30), mu=0.5, g_mps2=10.0, method=name)
-    assert found.status is Status.UPLIFT
-    assert math.isnan(found.prd_m)
+    result = slide(ax, 0.1, slope_rad=math.radians(30), mu=0.5, g_mps2=10.0, method=name)
+    assert result.status is Status.UPLIFT
+    assert math.isnan(result.prd_m)
 
 
 @pytest.mark.parametrize("name", METHODS)
@@ -482,5 +482,5 @@ def test_parameters_at_fault_raise_the_input_error(name, parameters, message):
 
 def test_whole_numbers_of_any_kind_are_sub_steps(noise):
     scene = {"slope_rad": 0.0, "mu": 0.3, "method": "linear"}
-    one, *others = (slide(noise, 0.01, **scene, substeps=p) for p in (8, 8.0, np.int64(8)))
-    assert others == [one, one]
+    result, *others = (slide(noise, 0.01, **scene, substeps=p) for p in (8, 8.0, np.int64(8)))
+    assert others == [result, result]

@@ -24,12 +24,12 @@ def trapezoid(peak, dt, plateau_steps, rest_steps):
     return np.concatenate([[0.0], np.full(plateau_steps + 1, peak), np.zeros(rest_steps)])
 
 
-def assert_agrees(found, exact, tolerance=1e-12, floor_m=1e-3):
+def assert_agrees(result, exact, tolerance=1e-12, floor_m=1e-3):
     """Relative to the PRD, and to a millimetre below it."""
     scale = max(float(exact.prd), floor_m)
     for field, name in zip(FIELDS, ("prd", "residual", "down", "up"), strict=True):
-        error = abs(float(getattr(found, field) - getattr(exact, name)))
-        assert error <= min(tolerance * scale, found.error_m), (field, error / scale)
+        error = abs(float(getattr(result, field) - getattr(exact, name)))
+        assert error <= min(tolerance * scale, result.error_m), (field, error / scale)
 
 
 # Closed forms
@@ -39,11 +39,11 @@ def assert_agrees(found, exact, tolerance=1e-12, floor_m=1e-3):
 def test_a_ramped_pulse_on_a_flat_roof_is_met_to_rounding(amplitude, mu, duration):
     dt, plateau = duration / 20, 20
     expected = problems.pulse_travel(amplitude * G, mu * G, plateau * dt, dt)
-    found = slide(trapezoid(amplitude * G, dt, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
-    assert found.status is Status.OK
-    assert found.prd_m == pytest.approx(expected, rel=1e-12)
-    assert found.residual_m == pytest.approx(-expected, rel=1e-12)
-    assert (found.down_m, found.n_stops) == (0.0, 1)
+    result = slide(trapezoid(amplitude * G, dt, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
+    assert result.status is Status.OK
+    assert result.prd_m == pytest.approx(expected, rel=1e-12)
+    assert result.residual_m == pytest.approx(-expected, rel=1e-12)
+    assert (result.down_m, result.n_stops) == (0.0, 1)
 
 
 @pytest.mark.parametrize("vertical", [0.0, -0.3, 0.3])
@@ -54,9 +54,9 @@ def test_a_ramped_pulse_on_a_slope_is_met_to_rounding(degrees, mu, amplitude, ve
     ax = trapezoid(-amplitude * G, dt, plateau, 900)
     az = trapezoid(vertical * G, dt, plateau, 900)
     expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
-    found = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, g_mps2=G)
-    assert found.down_m == pytest.approx(expected, rel=1e-12)
-    assert found.up_m == 0.0
+    result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, g_mps2=G)
+    assert result.down_m == pytest.approx(expected, rel=1e-12)
+    assert result.up_m == 0.0
 
 
 def test_a_short_ramp_comes_near_the_rectangular_pulse():
@@ -64,8 +64,8 @@ def test_a_short_ramp_comes_near_the_rectangular_pulse():
     for steps in (30, 300, 3000):
         dt = 0.3 / steps
         ax = trapezoid(-0.5 * G, dt, steps - 1, 5 * steps)
-        found = slide(ax, dt, slope_rad=0.0, mu=0.2, g_mps2=G).prd_m
-        errors.append(abs(found - 0.331087) / 0.331087)
+        prd_m = slide(ax, dt, slope_rad=0.0, mu=0.2, g_mps2=G).prd_m
+        errors.append(abs(prd_m - 0.331087) / 0.331087)
     # First order in the ramp: its share of the pulse, halved.
     assert errors == pytest.approx([0.4 / 30, 0.4 / 300, 0.4 / 3000], rel=0.05)
 
@@ -93,10 +93,10 @@ def test_the_steady_harmonic_travels_as_far_each_half_cycle():
 
 
 def test_a_block_on_a_still_roof_steeper_than_friction_slides_freely():
-    found = slide(np.zeros(201), 0.01, slope_rad=math.radians(7), mu=0.1, g_mps2=G)
+    result = slide(np.zeros(201), 0.01, slope_rad=math.radians(7), mu=0.1, g_mps2=G)
     expected = problems.free_slide_travel(math.radians(7), 0.1, 2.0, G)
-    assert found.down_m == pytest.approx(expected * math.cos(math.radians(7)), rel=1e-12)
-    assert found.status is Status.SLIDING_AT_END
+    assert result.down_m == pytest.approx(expected * math.cos(math.radians(7)), rel=1e-12)
+    assert result.status is Status.SLIDING_AT_END
 
 
 @pytest.mark.parametrize(
@@ -113,14 +113,14 @@ def test_slip_begins_just_beyond_the_yield_accelerations(degrees, mu):
     for limit in problems.yield_accelerations(slope, mu, G):
         for factor, moves in ((1 - 1e-12, False), (1 + 1e-9, True)):
             ax = np.array([0.0, limit * factor, 0.0])
-            found = slide(ax, 0.5, slope_rad=slope, mu=mu, g_mps2=G)
-            assert (found.n_stops > 0) is moves
+            result = slide(ax, 0.5, slope_rad=slope, mu=mu, g_mps2=G)
+            assert (result.n_stops > 0) is moves
 
 
 def test_a_self_locked_block_never_moves_up_the_slope():
     ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
-    found = slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G)
-    assert (found.prd_m, found.status) == (0.0, Status.OK)
+    result = slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G)
+    assert (result.prd_m, result.status) == (0.0, Status.OK)
 
 
 # High precision
@@ -144,17 +144,17 @@ def test_real_records_agree_with_forty_digits(real_records, name, with_vertical)
     ax, az = ax[:size], 0.4 * other[:size] if with_vertical else None
     for degrees, mu, scale in grid()[:: 2 if with_vertical else 1]:
         slope = math.radians(degrees)
-        found = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, scale=scale)
-        if found.status is Status.UPLIFT:
+        result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, scale=scale)
+        if result.status is Status.UPLIFT:
             continue
-        assert_agrees(found, oracle.slide(ax, dt, slope_rad=slope, mu=mu, az=az, scale=scale))
+        assert_agrees(result, oracle.slide(ax, dt, slope_rad=slope, mu=mu, az=az, scale=scale))
 
 
 def test_noise_agrees_with_forty_digits(noise):
     for degrees, mu, scale in grid()[::3]:
         slope = math.radians(degrees)
-        found = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale)
-        assert_agrees(found, oracle.slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale))
+        result = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale)
+        assert_agrees(result, oracle.slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale))
 
 
 # Whole and half multiples of the yield value on a flat roof: equal samples, samples at yield,
@@ -173,13 +173,13 @@ blocks = st.tuples(
 @example([0.0, 1.5, 0.0, 0.0, 1e-38], (0.25, 0.0), 0.01)
 def test_any_short_record_agrees_with_forty_digits_to_the_allowance(values, block, dt):
     mu, slope = block
-    found = slide(values, dt, slope_rad=slope, mu=mu, g_mps2=2.0)
-    if found.status is Status.UPLIFT:
+    result = slide(values, dt, slope_rad=slope, mu=mu, g_mps2=2.0)
+    if result.status is Status.UPLIFT:
         return
     exact = oracle.slide(values, dt, slope_rad=slope, mu=mu, g=2.0)
     for field, name in zip(FIELDS, ("prd", "residual", "down", "up"), strict=True):
         # A stop missed or found at a touching point changes nothing but by rounding.
-        assert abs(float(getattr(found, field) - getattr(exact, name))) <= found.error_m + 1e-30
+        assert abs(float(getattr(result, field) - getattr(exact, name))) <= result.error_m + 1e-30
 
 
 def test_records_of_every_kind_agree_with_forty_digits():
@@ -197,10 +197,10 @@ def test_records_of_every_kind_agree_with_forty_digits():
             "scale": rng.choice([1.0, -1.0, 0.3, -2.0, 0.0]),
         }
         dt = rng.choice([0.005, 0.02, 0.3])
-        found = slide(ax, dt, az_mps2=az, **scene)
-        if found.status is not Status.UPLIFT:
+        result = slide(ax, dt, az_mps2=az, **scene)
+        if result.status is not Status.UPLIFT:
             exact = oracle.slide(ax, dt, az=az, **scene)
-            assert_agrees(found, exact, floor_m=1e-9)
+            assert_agrees(result, exact, floor_m=1e-9)
             compared += 1
     assert compared > 60
 
@@ -208,9 +208,9 @@ def test_records_of_every_kind_agree_with_forty_digits():
 def test_a_speed_that_dips_to_zero_within_an_interval_stops_there():
     # The push falls from 3 to -1 about friction and rises again: zero inside, moving at the end.
     ax = [-4.0, 0.5, -8.0]
-    found = slide_history(ax, 1.0, slope_rad=0.0, mu=0.2, g_mps2=10.0)
+    history = slide_history(ax, 1.0, slope_rad=0.0, mu=0.2, g_mps2=10.0)
     exact = oracle.slide(ax, 1.0, slope_rad=0.0, mu=0.2, g=10.0)
-    assert_agrees(found.result, exact)
+    assert_agrees(history.result, exact)
     dip = slide_history([-4.0, 2.0, 2.0, -8.0], 1.0, slope_rad=0.0, mu=0.2, g_mps2=10.0)
     assert [event.kind for event in dip.events[:3]] == [
         EventKind.SLIP,
@@ -226,26 +226,26 @@ def test_a_speed_that_dips_to_zero_within_an_interval_stops_there():
 @given(anything, blocks)
 def test_the_mirrored_scene_gives_the_mirrored_motion_to_the_last_bit(values, scene):
     mu, slope = scene
-    one = slide(values, 0.1, slope_rad=slope, mu=mu)
+    result = slide(values, 0.1, slope_rad=slope, mu=mu)
     other = slide([-v for v in values], 0.1, slope_rad=-slope, mu=mu)
-    assert one.status is other.status
-    if one.status is not Status.UPLIFT:
-        assert (one.prd_m, one.down_m, one.up_m) == (other.prd_m, other.up_m, other.down_m)
-        assert one.residual_m == -other.residual_m
+    assert result.status is other.status
+    if result.status is not Status.UPLIFT:
+        assert (result.prd_m, result.down_m, result.up_m) == (other.prd_m, other.up_m, other.down_m)
+        assert result.residual_m == -other.residual_m
 
 
 def test_samples_added_on_the_straight_lines_change_nothing(noise):
     finer = np.interp(np.arange(2 * noise.size - 1) / 2, np.arange(noise.size), noise)
-    one = slide(noise, 0.01, slope_rad=0.05, mu=0.3)
+    result = slide(noise, 0.01, slope_rad=0.05, mu=0.3)
     other = slide(finer, 0.005, slope_rad=0.05, mu=0.3)
-    assert other.prd_m == pytest.approx(one.prd_m, rel=1e-12)
-    assert other.n_stops == one.n_stops
+    assert other.prd_m == pytest.approx(result.prd_m, rel=1e-12)
+    assert other.n_stops == result.n_stops
 
 
 def test_gravity_and_record_scaled_together_scale_the_displacement(noise):
-    one = slide(noise, 0.01, slope_rad=0.05, mu=0.3, g_mps2=9.8)
+    result = slide(noise, 0.01, slope_rad=0.05, mu=0.3, g_mps2=9.8)
     other = slide(noise, 0.01, slope_rad=0.05, mu=0.3, g_mps2=19.6, scale=2.0)
-    assert other.prd_m == pytest.approx(2 * one.prd_m, rel=1e-12)
+    assert other.prd_m == pytest.approx(2 * result.prd_m, rel=1e-12)
 
 
 def test_work_done_by_friction_and_gravity_balances_the_relative_energy(noise):
@@ -274,7 +274,7 @@ def test_the_history_ends_where_the_result_says_and_passes_through_its_events(no
     assert max(abs(event.u_m) for event in stops) == result.prd_m
     assert any(event.t_s == result.t_prd_s for event in stops)
     kinds = [event.kind for event in history.events]
-    assert all(one is not other for one, other in itertools.pairwise(kinds))
+    assert all(kind is not other for kind, other in itertools.pairwise(kinds))
     assert np.abs(history.u_m).max() <= result.prd_m
 
 
@@ -313,8 +313,8 @@ def test_physical_check_1_a_shock_knocks_a_resting_block_loose():
 
 
 def test_physical_check_3_slopes_of_opposite_sign_give_different_histories(noise):
-    one, other = (slide(noise, 0.01, slope_rad=math.radians(d), mu=0.4, scale=1.5) for d in (4, -4))
-    assert one.prd_m != other.prd_m
+    up, other = (slide(noise, 0.01, slope_rad=math.radians(d), mu=0.4, scale=1.5) for d in (4, -4))
+    assert up.prd_m != other.prd_m
 
 
 @pytest.mark.parametrize("method", ["exact", "paper"])
@@ -341,17 +341,17 @@ def test_a_history_by_the_papers_algorithm_samples_the_same_motion(noise):
 @pytest.mark.parametrize("method", ["exact", "paper"])
 def test_a_negative_normal_force_gives_the_time_and_no_displacement(method):
     ax = np.array([0.0, 0.0, -40.0, 0.0])
-    found = slide(ax, 0.1, slope_rad=math.radians(30), mu=0.5, g_mps2=10.0, method=method)
-    assert found.status is Status.UPLIFT
-    assert all(math.isnan(getattr(found, field)) for field in FIELDS)
+    result = slide(ax, 0.1, slope_rad=math.radians(30), mu=0.5, g_mps2=10.0, method=method)
+    assert result.status is Status.UPLIFT
+    assert all(math.isnan(getattr(result, field)) for field in FIELDS)
     # N = 10 cos 30 - 400 (t - 0.1) sin 30 = 0
-    assert found.t_uplift_s == pytest.approx(0.1 + math.cos(math.radians(30)) / 20, rel=1e-12)
-    assert found.n_min_g == pytest.approx(math.cos(math.radians(30)) - 2.0, rel=1e-12)
+    assert result.t_uplift_s == pytest.approx(0.1 + math.cos(math.radians(30)) / 20, rel=1e-12)
+    assert result.n_min_g == pytest.approx(math.cos(math.radians(30)) - 2.0, rel=1e-12)
 
 
 def test_vertical_shaking_alone_can_lift_the_block():
-    found = slide([0.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, az_mps2=[0.0, -10.0], g_mps2=9.8)
-    assert found.status is Status.UPLIFT
+    result = slide([0.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, az_mps2=[0.0, -10.0], g_mps2=9.8)
+    assert result.status is Status.UPLIFT
     history = slide_history([0.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, az_mps2=[-10.0, 0.0])
     assert history.result.t_uplift_s == 0.0
     assert np.isnan(history.u_m).all()
@@ -423,15 +423,15 @@ def test_all_faults_are_named_at_once():
 
 
 def test_slide_takes_a_law_of_friction_by_speed(noise):
-    found = slide(noise, 0.01, slope_rad=0.03, mu=law(), tolerance=1e-8)
+    result = slide(noise, 0.01, slope_rad=0.03, mu=law(), tolerance=1e-8)
     constant = [slide(noise, 0.01, slope_rad=0.03, mu=mu).prd_m for mu in (0.2, 0.3)]
-    assert constant[0] > found.prd_m > constant[1]
-    assert found.across_m == 0.0
-    assert found.error_m <= 1e-8 * found.prd_m
+    assert constant[0] > result.prd_m > constant[1]
+    assert result.across_m == 0.0
+    assert result.error_m <= 1e-8 * result.prd_m
     history = slide_history(noise, 0.01, slope_rad=0.03, mu=law(), tolerance=1e-8)
-    assert history.result == found
+    assert history.result == result
     assert solver.solve(solver.scene(noise, 0.01, slope_rad=0.03, mu=law())).result.prd_m == (
-        pytest.approx(found.prd_m, rel=1e-6)
+        pytest.approx(result.prd_m, rel=1e-6)
     )
 
 
@@ -443,8 +443,8 @@ def test_a_law_that_is_constant_is_one_coefficient(noise):
 
 def test_a_scene_is_checked_and_solved(noise):
     about = {"slope_rad": 0.03, "mu": 0.3, "scale": 1.2}
-    one = solver.scene(noise, 0.01, ay_mps2=-noise, **about)
-    assert solver.solve(one).result.prd_m == pytest.approx(
+    block = solver.scene(noise, 0.01, ay_mps2=-noise, **about)
+    assert solver.solve(block).result.prd_m == pytest.approx(
         slide(noise, 0.01, ay_mps2=-noise, **about).prd_m, rel=1e-12
     )
     with pytest.raises(InputError) as raised:
@@ -455,9 +455,9 @@ def test_a_scene_is_checked_and_solved(noise):
 def test_a_result_that_is_not_finite_is_a_status(noise, monkeypatch):
     # The border lets nothing pass that could do it: so the border is taken away.
     monkeypatch.setattr("solver.sliding.checked._overflow", lambda scene: [])
-    found = slide(noise, 1e200, slope_rad=0.0, mu=0.2)
-    assert found.status is Status.DIVERGED
-    assert math.isnan(found.prd_m)
+    result = slide(noise, 1e200, slope_rad=0.0, mu=0.2)
+    assert result.status is Status.DIVERGED
+    assert math.isnan(result.prd_m)
     both = slide([0.0, 5.0, -5.0], 1e-320, slope_rad=0.0, mu=0.2, ay_mps2=[0.0, 1.0, 0.0])
     assert both.status is Status.DIVERGED
     assert math.isnan(both.error_m)

@@ -53,12 +53,12 @@ AX, AY, AZ = shaking(1, 1.0), shaking(2, 0.9), shaking(3, 0.4)
 
 
 def test_a_block_that_friction_holds_is_not_run():
-    found = solve(scene(AX, AY, AZ, mu=1.5, slope_deg=0.0))
+    solution = solve(scene(AX, AY, AZ, mu=1.5, slope_deg=0.0))
     demand = np.max(np.hypot(AX, AY) / (G + AZ))
-    assert found.rung is Rung.NO_SLIP
-    assert found.friction_demand == pytest.approx(demand, rel=1e-14)
+    assert solution.rung is Rung.NO_SLIP
+    assert solution.friction_demand == pytest.approx(demand, rel=1e-14)
     assert demand < 1.5
-    assert (found.result.prd_m, found.next_effect_m) == (0.0, 0.0)
+    assert (solution.result.prd_m, solution.next_effect_m) == (0.0, 0.0)
     assert two_axes.run(scene(AX, AY, AZ, mu=1.5, slope_deg=0.0)).prd_m == 0.0
 
 
@@ -72,51 +72,51 @@ def test_the_friction_demand_tells_slip_from_none(factor):
 
 
 def test_one_component_is_one_axis_and_says_that_the_rest_is_not_known():
-    found = solve(scene(AX))
-    assert found.rung is Rung.ONE_AXIS
-    assert found.result == one_axis.run(scene(AX))
-    assert math.isnan(found.next_effect_m)
+    solution = solve(scene(AX))
+    assert solution.rung is Rung.ONE_AXIS
+    assert solution.result == one_axis.run(scene(AX))
+    assert math.isnan(solution.next_effect_m)
 
 
 def test_a_vertical_that_matters_is_modelled():
-    found = solve(scene(AX, az=AZ))
-    assert found.rung is Rung.ONE_AXIS_VERTICAL
-    assert found.result == one_axis.run(scene(AX, az=AZ))
+    solution = solve(scene(AX, az=AZ))
+    assert solution.rung is Rung.ONE_AXIS_VERTICAL
+    assert solution.result == one_axis.run(scene(AX, az=AZ))
 
 
 def test_a_vertical_that_does_not_matter_is_left_out_and_its_effect_is_exact():
     faint = times(AZ, 1e-4)
-    found = solve(scene(AX, az=faint))
+    solution = solve(scene(AX, az=faint))
     with_it, without = one_axis.run(scene(AX, az=faint)), one_axis.run(scene(AX))
-    assert found.rung is Rung.ONE_AXIS
-    assert found.result == without
-    assert found.next_rung is Rung.ONE_AXIS_VERTICAL
+    assert solution.rung is Rung.ONE_AXIS
+    assert solution.result == without
+    assert solution.next_rung is Rung.ONE_AXIS_VERTICAL
     change = off(with_it, without)
-    assert found.next_effect_m == change + with_it.error_m > with_it.error_m
+    assert solution.next_effect_m == change + with_it.error_m > with_it.error_m
 
 
 def test_a_second_component_that_matters_is_modelled():
-    found = solve(scene(AX, AY, AZ))
-    assert found.rung is Rung.TWO_AXES
-    assert found.result.across_m > 0.01
-    assert found.result.error_m <= 1e-6 * found.result.prd_m
-    assert found.result.prd_m > 1.1 * one_axis.run(scene(AX, az=AZ)).prd_m
+    solution = solve(scene(AX, AY, AZ))
+    assert solution.rung is Rung.TWO_AXES
+    assert solution.result.across_m > 0.01
+    assert solution.result.error_m <= 1e-6 * solution.result.prd_m
+    assert solution.result.prd_m > 1.1 * one_axis.run(scene(AX, az=AZ)).prd_m
 
 
 def test_a_faint_second_component_is_left_out_and_its_effect_is_known():
-    found = solve(scene(AX, times(AY, 0.001), AZ))
+    solution = solve(scene(AX, times(AY, 0.001), AZ))
     fuller = two_axes.run(scene(AX, times(AY, 0.001), AZ))
-    assert found.rung is Rung.ONE_AXIS_VERTICAL
-    assert found.next_rung is Rung.TWO_AXES
-    change = off(fuller, found.result)
-    assert 0.0 < change <= found.next_effect_m <= change + 1.01 * fuller.error_m
-    assert found.next_effect_m <= Settings().bound_m(found.result.prd_m)
+    assert solution.rung is Rung.ONE_AXIS_VERTICAL
+    assert solution.next_rung is Rung.TWO_AXES
+    change = off(fuller, solution.result)
+    assert 0.0 < change <= solution.next_effect_m <= change + 1.01 * fuller.error_m
+    assert solution.next_effect_m <= Settings().bound_m(solution.result.prd_m)
 
 
-def off(one, other):
+def off(result, other):
     """The largest difference of PRD and excursions."""
     names = ("prd_m", "down_m", "up_m", "across_m")
-    return max(abs(getattr(one, name) - getattr(other, name)) for name in names)
+    return max(abs(getattr(result, name) - getattr(other, name)) for name in names)
 
 
 @pytest.mark.parametrize("share", [0.3, 0.1, 0.03, 0.01])
@@ -124,13 +124,13 @@ def off(one, other):
 @pytest.mark.parametrize("slope_deg", [0.0, 7.0])
 def test_what_is_left_out_changes_less_than_is_said_and_than_may_be(share, mu, slope_deg):
     ax, ay, az = shaking(11, 0.9), shaking(61, 0.9 * share), shaking(101, 0.3)
-    one = scene(ax, ay, az, slope_deg=slope_deg, mu=mu)
-    found, true = solve(one), two_axes.run(one, 1e-9)
-    allowed = Settings().bound_m(one_axis.run(one).prd_m)
-    if found.rung is Rung.TWO_AXES:
-        assert off(true, one_axis.run(one)) > allowed - found.result.error_m
+    block = scene(ax, ay, az, slope_deg=slope_deg, mu=mu)
+    solution, true = solve(block), two_axes.run(block, 1e-9)
+    allowed = Settings().bound_m(one_axis.run(block).prd_m)
+    if solution.rung is Rung.TWO_AXES:
+        assert off(true, one_axis.run(block)) > allowed - solution.result.error_m
     else:
-        assert off(true, found.result) <= found.next_effect_m <= allowed
+        assert off(true, solution.result) <= solution.next_effect_m <= allowed
 
 
 def one_sided(periods_hz, peak_g, push_g, rise_s, seconds=20.0):
@@ -143,40 +143,40 @@ def one_sided(periods_hz, peak_g, push_g, rise_s, seconds=20.0):
 def test_a_faint_push_that_stays_is_carried_along_the_path_and_is_not_left_out():
     # 0.02 g across 0.8 g: 14 mm in one axis, 111 mm in two.
     pushed = scene(*one_sided(3.0, 0.8, 0.02, 1.0), slope_deg=0.0, mu=0.4)
-    found = solve(pushed)
+    solution = solve(pushed)
     assert one_axis.run(pushed).prd_m == pytest.approx(0.0139, abs=1e-4)
-    assert found.rung is Rung.TWO_AXES
-    assert found.result.prd_m == pytest.approx(0.1108, abs=1e-4)
+    assert solution.rung is Rung.TWO_AXES
+    assert solution.result.prd_m == pytest.approx(0.1108, abs=1e-4)
 
 
 def test_friction_by_speed_is_modelled_where_it_is_given():
     law = Friction(mu_slow=0.3, mu_fast=0.5, rate_s_per_m=20.0, mu_static=0.3)
-    found = solve(scene(AX, AY, AZ, friction=law))
+    solution = solve(scene(AX, AY, AZ, friction=law))
     plain = solve(scene(AX, AY, AZ, mu=0.3))
-    assert found.rung is Rung.SPEED_FRICTION
-    assert found.result.prd_m < plain.result.prd_m
+    assert solution.rung is Rung.SPEED_FRICTION
+    assert solution.result.prd_m < plain.result.prd_m
 
 
 def test_a_forced_rung_is_run_and_tells_what_the_next_would_change():
     full = scene(AX, AY, AZ)
-    one = solve(full, Settings(forced=Rung.ONE_AXIS))
+    solution = solve(full, Settings(forced=Rung.ONE_AXIS))
     lifted = solve(full, Settings(forced=Rung.ONE_AXIS_VERTICAL))
     two = solve(full, Settings(forced=Rung.TWO_AXES))
-    assert one.result == one_axis.run(scene(AX))
+    assert solution.result == one_axis.run(scene(AX))
     # What the next one and all fuller ones would change.
-    both = off(two.result, one.result), off(lifted.result, one.result)
-    assert one.next_rung is Rung.ONE_AXIS_VERTICAL
-    assert one.next_effect_m == pytest.approx(max(both), abs=2.0 * two.result.error_m)
+    both = off(two.result, solution.result), off(lifted.result, solution.result)
+    assert solution.next_rung is Rung.ONE_AXIS_VERTICAL
+    assert solution.next_effect_m == pytest.approx(max(both), abs=2.0 * two.result.error_m)
     assert lifted.next_rung is Rung.TWO_AXES
     assert lifted.next_effect_m >= abs(two.result.prd_m - lifted.result.prd_m)
-    assert {one.reason, lifted.reason, two.reason} == {"requested"}
+    assert {solution.reason, lifted.reason, two.reason} == {"requested"}
 
 
 def test_two_axes_forced_with_one_component_give_one_axis():
-    found = solve(scene(AX, az=AZ), Settings(forced=Rung.TWO_AXES, tolerance=1e-10))
-    one = one_axis.run(scene(AX, az=AZ))
-    assert found.result.prd_m == pytest.approx(one.prd_m, rel=1e-9)
-    assert found.result.across_m == 0.0
+    solution = solve(scene(AX, az=AZ), Settings(forced=Rung.TWO_AXES, tolerance=1e-10))
+    along = one_axis.run(scene(AX, az=AZ))
+    assert solution.result.prd_m == pytest.approx(along.prd_m, rel=1e-9)
+    assert solution.result.across_m == 0.0
 
 
 def test_no_slip_forced_on_a_block_that_slips_is_refused():
@@ -187,21 +187,21 @@ def test_no_slip_forced_on_a_block_that_slips_is_refused():
 @pytest.mark.parametrize("ay", [EMPTY, AY])
 @pytest.mark.parametrize("forced", [None, *list(Rung)[:-1]])
 def test_where_the_normal_force_vanishes_no_rung_gives_a_number(ay, forced):
-    found = solve(scene(AX, ay, times(AZ, 4.0)), Settings(forced=forced))
-    assert found.result.status is Status.UPLIFT
-    assert math.isnan(found.result.prd_m)
-    assert math.isnan(found.result.error_m)
-    assert found.friction_demand == math.inf
+    solution = solve(scene(AX, ay, times(AZ, 4.0)), Settings(forced=forced))
+    assert solution.result.status is Status.UPLIFT
+    assert math.isnan(solution.result.prd_m)
+    assert math.isnan(solution.result.error_m)
+    assert solution.friction_demand == math.inf
 
 
 def test_a_row_is_run_where_it_is_asked_for():
     row = BlockRow(mus=(0.3, 0.4, 0.5), stiffness_per_s2=1e3)
-    found = solve(scene(AX, az=AZ), Settings(forced=Rung.ROW, row=row))
+    solution = solve(scene(AX, az=AZ), Settings(forced=Rung.ROW, row=row))
     direct = slide_row(scene(AX, az=AZ), row)
-    assert found.result.prd_m == max(direct.prd_m) > direct.rigid.prd_m
-    assert found.result.error_m == direct.error_m
+    assert solution.result.prd_m == max(direct.prd_m) > direct.rigid.prd_m
+    assert solution.result.error_m == direct.error_m
     with pytest.raises(InputError, match="row_history"):
-        history(scene(AX, az=AZ), found)
+        history(scene(AX, az=AZ), solution)
     with pytest.raises(InputError, match="not given"):
         solve(scene(AX), Settings(forced=Rung.ROW))
 
@@ -210,19 +210,19 @@ def test_a_row_is_run_where_it_is_asked_for():
 def test_the_history_is_of_the_rung_that_was_chosen(forced):
     run = scene(AX, az=AZ, mu=2.0 if forced is Rung.NO_SLIP else 0.4)
     settings = Settings(forced=forced)
-    found = solve(run, settings)
-    seen = history(run, found, settings)
-    assert seen.result == found.result
-    assert np.abs(seen.u_m).max() == pytest.approx(found.result.prd_m, rel=0.02, abs=1e-12)
+    solution = solve(run, settings)
+    seen = history(run, solution, settings)
+    assert seen.result == solution.result
+    assert np.abs(seen.u_m).max() == pytest.approx(solution.result.prd_m, rel=0.02, abs=1e-12)
 
 
 def test_the_history_in_two_axes_has_both():
     run = scene(AX, AY, AZ)
-    found = solve(run)
-    seen = history(run, found)
-    assert seen.result == found.result
+    solution = solve(run)
+    seen = history(run, solution)
+    assert seen.result == solution.result
     far = np.hypot(seen.u_m, seen.across_m).max()
-    assert far == pytest.approx(found.result.prd_m, rel=0.01)
+    assert far == pytest.approx(solution.result.prd_m, rel=0.01)
 
 
 def test_every_rung_has_a_name():

@@ -20,34 +20,34 @@ def ended():
 
 def test_no_run_hangs_or_crashes_or_has_no_answer(ended):
     assert len(ended) == COUNT * len(KINDS)
-    assert [one for one in ended if one.trouble] == []
+    assert [call for call in ended if call.trouble] == []
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_no_pair_differs_by_more_than_its_bounds(ended, kind):
-    found = [one for one in ended if one.arguments[0] == kind]
-    assert max(one.outcome.ratio for one in found) <= 1.0
+    calls = [call for call in ended if call.arguments[0] == kind]
+    assert max(call.outcome.ratio for call in calls) <= 1.0
     # The bounds say something, and most blocks slide.
-    slid = [one.outcome for one in found if one.outcome.prd_m > 1e-6]
+    slid = [call.outcome for call in calls if call.outcome.prd_m > 1e-6]
     assert len(slid) > 0.5 * COUNT
     if kind not in random_pairs.UNBOUNDED:
-        assert np.median([one.bound_m / one.prd_m for one in slid]) < 1e-3
+        assert np.median([outcome.bound_m / outcome.prd_m for outcome in slid]) < 1e-3
 
 
 def test_a_pair_is_the_same_each_time():
     for kind in KINDS:
-        one, again = pair(kind, 7), pair(kind, 7)
-        np.testing.assert_array_equal(one.two.ax_mps2, again.two.ax_mps2)
-        assert one.tolerances == again.tolerances
+        made, again = pair(kind, 7), pair(kind, 7)
+        np.testing.assert_array_equal(made.two.ax_mps2, again.two.ax_mps2)
+        assert made.tolerances == again.tolerances
 
 
 def test_a_wrong_answer_is_found(monkeypatch):
     true = random_pairs.follow
 
     def off(scene, tolerance):
-        found = true(scene, tolerance)
+        outcome = true(scene, tolerance)
         # As if an extreme had been missed by a ten thousandth.
-        return random_pairs.replace(found, down_m=found.down_m * (1.0 + 1e-4 * tolerance))
+        return random_pairs.replace(outcome, down_m=outcome.down_m * (1.0 + 1e-4 * tolerance))
 
     monkeypatch.setattr(random_pairs, "follow", off)
     ratios = [pair("two tolerances", index).run().ratio for index in range(200)]
@@ -64,9 +64,9 @@ def sometimes(number):
 
 
 def test_a_call_that_hangs_crashes_or_dies_is_told_and_the_others_are_kept():
-    found = campaign(sometimes, [(number,) for number in range(9)], limit_s=0.5, prepare=dict)
-    assert [one.arguments for one in found] == [(number,) for number in range(9)]
-    troubles = {one.arguments[0]: one.trouble for one in found if one.trouble}
+    calls = campaign(sometimes, [(number,) for number in range(9)], limit_s=0.5, prepare=dict)
+    assert [call.arguments for call in calls] == [(number,) for number in range(9)]
+    troubles = {call.arguments[0]: call.trouble for call in calls if call.trouble}
     assert troubles.keys() == {3, 5, 7}
     assert "ZeroDivisionError" in troubles[5]
-    assert [one.outcome for one in found if not one.trouble] == [0, 1, 2, 4, 6, 8]
+    assert [call.outcome for call in calls if not call.trouble] == [0, 1, 2, 4, 6, 8]

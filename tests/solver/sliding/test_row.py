@@ -64,23 +64,23 @@ def constant(a, seconds, dt=0.01):
 @pytest.mark.parametrize("slope", [0.0, 0.05, -0.1])
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.5])
 def test_a_row_of_one_block_is_the_block_with_vertical_shaking(seed, slope, mu):
-    one = shaken(seed, slope)
-    found = slide_row(one, BlockRow(mus=(mu,), stiffness_per_s2=1e3))
-    exact = one_axis.run(replace(one, friction=coulomb(mu)))
-    assert found.prd_m[0] == pytest.approx(exact.prd_m, rel=1e-9)
-    assert found.residual_m[0] == pytest.approx(exact.residual_m, rel=1e-9, abs=1e-9 * exact.prd_m)
-    assert (found.down_m[0], found.up_m[0]) == pytest.approx((exact.down_m, exact.up_m), rel=1e-9)
-    assert abs(found.prd_m[0] - exact.prd_m) <= found.error_m < 1e-9
-    assert (found.n_stops, found.status) == (exact.n_stops, exact.status)
-    assert found.rigid == exact
-    assert found.stretch_m == found.link_force == 0.0
+    block = shaken(seed, slope)
+    result = slide_row(block, BlockRow(mus=(mu,), stiffness_per_s2=1e3))
+    exact = one_axis.run(replace(block, friction=coulomb(mu)))
+    assert result.prd_m[0] == pytest.approx(exact.prd_m, rel=1e-9)
+    assert result.residual_m[0] == pytest.approx(exact.residual_m, rel=1e-9, abs=1e-9 * exact.prd_m)
+    assert (result.down_m[0], result.up_m[0]) == pytest.approx((exact.down_m, exact.up_m), rel=1e-9)
+    assert abs(result.prd_m[0] - exact.prd_m) <= result.error_m < 1e-9
+    assert (result.n_stops, result.status) == (exact.n_stops, exact.status)
+    assert result.rigid == exact
+    assert result.stretch_m == result.link_force == 0.0
 
 
 def test_a_row_of_one_block_is_the_block_on_real_records(real_records):
     for record, dt in real_records.values():
-        one = scene(record * (G / np.abs(record).max()), dt=dt)
-        found = slide_row(one, BlockRow(mus=(0.4,), stiffness_per_s2=1.0))
-        assert found.prd_m[0] == pytest.approx(found.rigid.prd_m, rel=1e-12)
+        block = scene(record * (G / np.abs(record).max()), dt=dt)
+        result = slide_row(block, BlockRow(mus=(0.4,), stiffness_per_s2=1.0))
+        assert result.prd_m[0] == pytest.approx(result.rigid.prd_m, rel=1e-12)
 
 
 # Rigid limits
@@ -89,13 +89,14 @@ def test_a_row_of_one_block_is_the_block_on_real_records(real_records):
 @pytest.mark.parametrize("stiffness", [0.0, 1.0, 1e3, 1e6])
 @pytest.mark.parametrize("shares", [(), (0.1, 0.2, 0.3, 0.4)])
 def test_blocks_of_equal_friction_move_as_one_whatever_their_links(stiffness, shares):
-    one = shaken(1)
-    found = slide_row(
-        one, BlockRow(mus=(0.4,) * 4, stiffness_per_s2=stiffness, damping_per_s=2.0, shares=shares)
+    block = shaken(1)
+    result = slide_row(
+        block,
+        BlockRow(mus=(0.4,) * 4, stiffness_per_s2=stiffness, damping_per_s=2.0, shares=shares),
     )
-    assert found.prd_m == pytest.approx((found.rigid.prd_m,) * 4, rel=1e-9)
-    assert found.stretch_m == found.link_force == 0.0
-    assert found.rigid.prd_m == one_axis.run(replace(one, friction=coulomb(0.4))).prd_m
+    assert result.prd_m == pytest.approx((result.rigid.prd_m,) * 4, rel=1e-9)
+    assert result.stretch_m == result.link_force == 0.0
+    assert result.rigid.prd_m == one_axis.run(replace(block, friction=coulomb(0.4))).prd_m
 
 
 @pytest.mark.parametrize("shares", [(), (0.5, 0.2, 0.3)])
@@ -106,32 +107,32 @@ def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
     Links ring with the speed F / sqrt(k) when a block stops or slips, F the friction that they
     share out; over a second of sliding that is the envelope.
     """
-    mus, one = (0.25, 0.55, 0.4), shaken(seed)
+    mus, block = (0.25, 0.55, 0.4), shaken(seed)
     aways, stretches, shared = [], [], G * (0.55 - 0.4)
     for stiffness in (1e2, 1e4, 1e6, 1e8):
         links = BlockRow(
             mus=mus, stiffness_per_s2=stiffness, damping_per_s=0.2 * stiffness**0.5, shares=shares
         )
-        found = slide_row(one, links)
-        away = max(abs(prd - found.rigid.prd_m) for prd in found.prd_m)
+        result = slide_row(block, links)
+        away = max(abs(prd - result.rigid.prd_m) for prd in result.prd_m)
         assert away <= 1.0 * shared / math.sqrt(stiffness)
-        assert abs(found.flexibility_m) <= away
+        assert abs(result.flexibility_m) <= away
         aways.append(away)
-        stretches.append(found.stretch_m)
+        stretches.append(result.stretch_m)
     assert aways[3] < 1e-2 * aways[0]
     assert max(stretches[i + 1] / stretches[i] for i in (1, 2)) < 0.02
     mean = sum(m * w for m, w in zip(mus, shares or (1 / 3,) * 3, strict=True))
-    rigid = one_axis.run(replace(one, friction=coulomb(mean)))
-    assert found.rigid.prd_m == pytest.approx(rigid.prd_m, rel=1e-12)
+    rigid = one_axis.run(replace(block, friction=coulomb(mean)))
+    assert result.rigid.prd_m == pytest.approx(rigid.prd_m, rel=1e-12)
 
 
 def test_without_links_each_block_goes_by_itself():
-    one, mus = shaken(4), (0.2, 0.5, 0.35)
-    found = slide_row(one, BlockRow(mus=mus, stiffness_per_s2=0.0))
-    alone = [one_axis.run(replace(one, friction=coulomb(mu))).prd_m for mu in mus]
-    assert found.prd_m == pytest.approx(alone, rel=1e-9)
-    assert found.stretch_m > 0.0
-    assert found.link_force == 0.0
+    block, mus = shaken(4), (0.2, 0.5, 0.35)
+    result = slide_row(block, BlockRow(mus=mus, stiffness_per_s2=0.0))
+    alone = [one_axis.run(replace(block, friction=coulomb(mu))).prd_m for mu in mus]
+    assert result.prd_m == pytest.approx(alone, rel=1e-9)
+    assert result.stretch_m > 0.0
+    assert result.link_force == 0.0
 
 
 # Closed forms
@@ -140,24 +141,24 @@ def test_without_links_each_block_goes_by_itself():
 @pytest.mark.parametrize("k", [30.0, 400.0, 1e5])
 def test_a_block_without_friction_on_a_held_one_swings_about_its_weight_by_the_spring(k):
     a = 2.0
-    found = slide_row(constant(a, 3.0), BlockRow(mus=(HELD, 0.0), stiffness_per_s2=k))
-    assert found.prd_m == pytest.approx((0.0, 2.0 * a / k), rel=1e-12)
-    assert found.residual_m[1] == pytest.approx(
+    result = slide_row(constant(a, 3.0), BlockRow(mus=(HELD, 0.0), stiffness_per_s2=k))
+    assert result.prd_m == pytest.approx((0.0, 2.0 * a / k), rel=1e-12)
+    assert result.residual_m[1] == pytest.approx(
         a / k * (1.0 - math.cos(3.0 * math.sqrt(k))), rel=1e-9
     )
-    assert found.stretch_m == pytest.approx(2.0 * a / k, rel=1e-12)
-    assert found.link_force == pytest.approx(2.0 * a / G, rel=1e-12)
+    assert result.stretch_m == pytest.approx(2.0 * a / k, rel=1e-12)
+    assert result.link_force == pytest.approx(2.0 * a / G, rel=1e-12)
 
 
 def test_a_dashpot_alone_lets_a_block_reach_a_steady_speed():
     a, c, t = 2.0, 3.0, 2.0
-    found = slide_row(
+    result = slide_row(
         constant(a, t), BlockRow(mus=(HELD, 0.0), stiffness_per_s2=0.0, damping_per_s=c)
     )  # fmt: skip
     way = a / c * (t - (1.0 - math.exp(-c * t)) / c)
-    assert found.residual_m == pytest.approx((0.0, way), rel=1e-12)
-    assert found.link_force == pytest.approx(a / G * (1.0 - math.exp(-c * t)), rel=1e-12)
-    assert found.status is Status.SLIDING_AT_END
+    assert result.residual_m == pytest.approx((0.0, way), rel=1e-12)
+    assert result.link_force == pytest.approx(a / G * (1.0 - math.exp(-c * t)), rel=1e-12)
+    assert result.status is Status.SLIDING_AT_END
 
 
 @pytest.mark.parametrize(("a", "mu"), [(5.0, 0.03), (5.0, 0.11), (5.0, 0.24), (5.0, 0.26)])
@@ -167,31 +168,31 @@ def test_friction_ends_a_swing_after_as_many_reversals_as_the_closed_form_has(a,
     while abs(a - k * place) > mu * G:
         place = 2.0 * (a - side * mu * G) / k - place
         side, n_stops = -side, n_stops + 1
-    found = slide_row(constant(a, 8.0), BlockRow(mus=(HELD, mu), stiffness_per_s2=k))
-    assert found.residual_m[1] == pytest.approx(place, rel=1e-11)
-    assert found.prd_m[1] == pytest.approx(2.0 * (a - mu * G) / k, rel=1e-12)
-    assert (found.n_stops, found.status) == (n_stops, Status.OK)
+    result = slide_row(constant(a, 8.0), BlockRow(mus=(HELD, mu), stiffness_per_s2=k))
+    assert result.residual_m[1] == pytest.approx(place, rel=1e-11)
+    assert result.prd_m[1] == pytest.approx(2.0 * (a - mu * G) / k, rel=1e-12)
+    assert (result.n_stops, result.status) == (n_stops, Status.OK)
 
 
 def test_a_block_too_steep_to_rest_by_itself_comes_to_rest_on_its_link():
     slope, mu, k = 0.3, 0.1, 50.0
-    one = scene(np.zeros(1001), slope=slope)
-    found = slide_row(one, BlockRow(mus=(HELD, mu), stiffness_per_s2=k))
+    block = scene(np.zeros(1001), slope=slope)
+    result = slide_row(block, BlockRow(mus=(HELD, mu), stiffness_per_s2=k))
     a, hold = G * math.sin(slope), mu * G * math.cos(slope)
-    assert found.status is Status.OK
-    assert found.prd_m[1] == pytest.approx(math.cos(slope) * 2.0 * (a - hold) / k, rel=1e-12)
-    assert one_axis.run(replace(one, friction=coulomb(mu))).status is Status.SLIDING_AT_END
+    assert result.status is Status.OK
+    assert result.prd_m[1] == pytest.approx(math.cos(slope) * 2.0 * (a - hold) / k, rel=1e-12)
+    assert one_axis.run(replace(block, friction=coulomb(mu))).status is Status.SLIDING_AT_END
 
 
 def test_a_block_without_friction_that_nothing_pushes_rests():
-    found = slide_row(
+    result = slide_row(
         scene(np.zeros(100), slope=0.0), BlockRow(mus=(0.0, 0.4), stiffness_per_s2=10.0)
     )
-    assert (found.status, found.prd_m, found.n_stops) == (Status.OK, (0.0, 0.0), 0)
+    assert (result.status, result.prd_m, result.n_stops) == (Status.OK, (0.0, 0.0), 0)
     pushed = scene([0.0, 0.0, -1.0, 1.0, 0.0, 0.0], dt=0.1, slope=0.0)
-    found = slide_row(pushed, BlockRow(mus=(0.0, HELD, 0.0), stiffness_per_s2=10.0))
-    assert found.status is Status.SLIDING_AT_END
-    assert found.prd_m[0] == pytest.approx(found.prd_m[2], rel=1e-12)
+    result = slide_row(pushed, BlockRow(mus=(0.0, HELD, 0.0), stiffness_per_s2=10.0))
+    assert result.status is Status.SLIDING_AT_END
+    assert result.prd_m[0] == pytest.approx(result.prd_m[2], rel=1e-12)
 
 
 # Symmetry, invariance, energy
@@ -202,21 +203,21 @@ MIXED = BlockRow(mus=(0.3, 0.5, 0.3, 0.2), stiffness_per_s2=2e3, damping_per_s=5
 
 
 def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
-    one = shaken(5)
-    mirrored = replace(one, ax_mps2=readonly(-one.ax_mps2), slope_rad=-one.slope_rad)
+    block = shaken(5)
+    mirrored = replace(block, ax_mps2=readonly(-block.ax_mps2), slope_rad=-block.slope_rad)
     other = replace(MIXED, mus=MIXED.mus[::-1], shares=MIXED.shares[::-1])
-    found, seen = slide_row(one, MIXED), slide_row(mirrored, other)
-    assert seen.prd_m == found.prd_m[::-1]
-    assert seen.residual_m == tuple(-u for u in found.residual_m[::-1])
-    assert (seen.down_m, seen.up_m) == (found.up_m[::-1], found.down_m[::-1])
-    assert (seen.stretch_m, seen.n_stops) == (found.stretch_m, found.n_stops)
+    result, seen = slide_row(block, MIXED), slide_row(mirrored, other)
+    assert seen.prd_m == result.prd_m[::-1]
+    assert seen.residual_m == tuple(-u for u in result.residual_m[::-1])
+    assert (seen.down_m, seen.up_m) == (result.up_m[::-1], result.down_m[::-1])
+    assert (seen.stretch_m, seen.n_stops) == (result.stretch_m, result.n_stops)
 
 
 def test_blocks_that_mirror_each_other_without_a_slope_stop_and_slip_together():
     """Every event of one end is one of the other at the same time."""
-    one = scene(shaking(6, 1.0), slope=0.0)
+    block = scene(shaking(6, 1.0), slope=0.0)
     row = BlockRow(mus=(0.3, 0.3, 0.6, 0.6, 0.3, 0.3), stiffness_per_s2=1e3)
-    history = row_history(one, row)
+    history = row_history(block, row)
     np.testing.assert_allclose(history, history[::-1], rtol=0.0, atol=1e-11)
 
 
@@ -235,40 +236,40 @@ def test_work_is_what_friction_dampers_speed_and_springs_have(seed, damping, k):
 @pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
 @pytest.mark.parametrize("seed", range(4))
 def test_samples_put_between_samples_change_no_more_than_the_bound(seed, k):
-    one, row = shaken(seed), replace(MIXED, stiffness_per_s2=k)
-    at = np.arange(3 * one.ax_mps2.size - 2) / 3.0
+    block, row = shaken(seed), replace(MIXED, stiffness_per_s2=k)
+    at = np.arange(3 * block.ax_mps2.size - 2) / 3.0
     finer = replace(
-        one,
-        ax_mps2=readonly(np.interp(at, np.arange(one.ax_mps2.size), one.ax_mps2)),
-        az_mps2=readonly(np.interp(at, np.arange(one.ax_mps2.size), one.az_mps2)),
-        dt_s=one.dt_s / 3.0,
+        block,
+        ax_mps2=readonly(np.interp(at, np.arange(block.ax_mps2.size), block.ax_mps2)),
+        az_mps2=readonly(np.interp(at, np.arange(block.ax_mps2.size), block.az_mps2)),
+        dt_s=block.dt_s / 3.0,
     )
-    found, again = slide_row(one, row), slide_row(finer, row)
-    assert found.error_m < 1e-8 * max(found.prd_m)
-    changes = np.subtract(again.prd_m + again.residual_m, found.prd_m + found.residual_m)
-    assert np.abs(changes).max() <= found.error_m + again.error_m
-    assert again.stretch_m == pytest.approx(found.stretch_m, rel=1e-7)
-    assert again.link_force == pytest.approx(found.link_force, rel=1e-7)
+    result, again = slide_row(block, row), slide_row(finer, row)
+    assert result.error_m < 1e-8 * max(result.prd_m)
+    changes = np.subtract(again.prd_m + again.residual_m, result.prd_m + result.residual_m)
+    assert np.abs(changes).max() <= result.error_m + again.error_m
+    assert again.stretch_m == pytest.approx(result.stretch_m, rel=1e-7)
+    assert again.link_force == pytest.approx(result.link_force, rel=1e-7)
 
 
 # SciPy, written apart: horizontal record, springs by place, events by SciPy
 
 
-def by_scipy(one, row):
+def by_scipy(block, row):
     """Places of the blocks at the samples, by an adaptive solver stopped at every event."""
-    n, dt = len(row.mus), one.dt_s
+    n, dt = len(row.mus), block.dt_s
     mus, mass = np.array(row.mus), np.array(row.weights) * n
-    grid = np.arange(one.ax_mps2.size) * dt
-    vertical = one.az_mps2 if one.az_mps2.size else np.zeros(grid.size)
-    sn, cs = math.sin(one.slope_rad), math.cos(one.slope_rad)
+    grid = np.arange(block.ax_mps2.size) * dt
+    vertical = block.az_mps2 if block.az_mps2.size else np.zeros(grid.size)
+    sn, cs = math.sin(block.slope_rad), math.cos(block.slope_rad)
 
     def normal(t):
-        return (G + np.interp(t, grid, vertical)) * cs + np.interp(t, grid, one.ax_mps2) * sn
+        return (G + np.interp(t, grid, vertical)) * cs + np.interp(t, grid, block.ax_mps2) * sn
 
     def pull(t, y):
         s, w = y[:n], y[n:]
         tension = row.stiffness_per_s2 * np.diff(s) + row.damping_per_s * np.diff(w)
-        drive = (G + np.interp(t, grid, vertical)) * sn - np.interp(t, grid, one.ax_mps2) * cs
+        drive = (G + np.interp(t, grid, vertical)) * sn - np.interp(t, grid, block.ax_mps2) * cs
         return drive + (np.append(tension, 0.0) - np.append(0.0, tension)) / mass
 
     def rate(t, y, sigma):
@@ -323,40 +324,40 @@ def test_an_adaptive_solver_stopped_at_every_event_gives_the_same_motion(mus, sh
     rng = np.random.default_rng(seed)
     ax = np.concatenate([[0.0], rng.normal(0.0, 6.0, 24), [0.0, 0.0]])
     az = np.concatenate([[0.0], rng.normal(0.0, 1.5, 24), [0.0, 0.0]])
-    one = scene(ax, az, dt=0.1, slope=0.08)
+    block = scene(ax, az, dt=0.1, slope=0.08)
     row = BlockRow(mus=mus, stiffness_per_s2=k, damping_per_s=c, shares=shares)
-    history = row_history(one, row)
-    assert slide_row(one, row).n_stops >= 10
-    np.testing.assert_allclose(history, by_scipy(one, row), rtol=0.0, atol=1e-11)
+    history = row_history(block, row)
+    assert slide_row(block, row).n_stops >= 10
+    np.testing.assert_allclose(history, by_scipy(block, row), rtol=0.0, atol=1e-11)
 
 
 # Results and refusals
 
 
 def test_a_history_ends_where_the_result_does_and_never_leaves_its_peaks():
-    one, found = shaken(7), slide_row(shaken(7), MIXED)
-    history = row_history(one, MIXED)
-    assert history.shape == (4, one.ax_mps2.size)
-    np.testing.assert_allclose(history[:, -1], found.residual_m, rtol=0.0, atol=1e-15)
-    assert (history.max(axis=1) <= np.array(found.down_m) + 1e-15).all()
-    assert (-history.min(axis=1) <= np.array(found.up_m) + 1e-15).all()
-    np.testing.assert_allclose(np.abs(history).max(axis=1), found.prd_m, rtol=0.01)
+    block, result = shaken(7), slide_row(shaken(7), MIXED)
+    history = row_history(block, MIXED)
+    assert history.shape == (4, block.ax_mps2.size)
+    np.testing.assert_allclose(history[:, -1], result.residual_m, rtol=0.0, atol=1e-15)
+    assert (history.max(axis=1) <= np.array(result.down_m) + 1e-15).all()
+    assert (-history.min(axis=1) <= np.array(result.up_m) + 1e-15).all()
+    np.testing.assert_allclose(np.abs(history).max(axis=1), result.prd_m, rtol=0.01)
 
 
 def test_where_the_row_lifts_off_it_gives_no_number():
-    one = scene(shaking(1, 1.0), 6.0 * shaking(2, 0.5))
-    found = slide_row(one, MIXED)
-    assert found.status is found.rigid.status is Status.UPLIFT
-    assert np.isnan([*found.prd_m, found.stretch_m, found.link_force, found.error_m]).all()
-    assert np.isnan(row_history(one, MIXED)).all()
+    block = scene(shaking(1, 1.0), 6.0 * shaking(2, 0.5))
+    result = slide_row(block, MIXED)
+    assert result.status is result.rigid.status is Status.UPLIFT
+    assert np.isnan([*result.prd_m, result.stretch_m, result.link_force, result.error_m]).all()
+    assert np.isnan(row_history(block, MIXED)).all()
 
 
 def test_a_row_that_is_given_up_gives_no_number(monkeypatch):
     monkeypatch.setattr(rows, "_MOST_EVENTS", 0)
-    found = slide_row(shaken(1), MIXED)
-    assert found.status is Status.DIVERGED
-    assert np.isnan(found.prd_m).all()
-    assert found.rigid.status is Status.OK
+    result = slide_row(shaken(1), MIXED)
+    assert result.status is Status.DIVERGED
+    assert np.isnan(result.prd_m).all()
+    assert result.rigid.status is Status.OK
 
 
 def test_every_fault_of_a_row_is_named():

@@ -18,8 +18,8 @@ SCALES = [0.0, 0.7, 2.0]
 @pytest.mark.parametrize("with_vertical", [False, True])
 def test_a_sweep_is_every_single_run(noise, with_vertical):
     az = 0.3 * noise[::-1] if with_vertical else None
-    found = sweep(noise, 0.01, slopes_rad=SLOPES, mus=FRICTIONS, scales=SCALES, az_mps2=az)
-    assert found.prd_m.shape == found.status.shape == (4, 3, 3)
+    swept = sweep(noise, 0.01, slopes_rad=SLOPES, mus=FRICTIONS, scales=SCALES, az_mps2=az)
+    assert swept.prd_m.shape == swept.status.shape == (4, 3, 3)
     seen = set()
     for (i, slope), (j, mu), (k, scale) in (
         (a, b, c)
@@ -27,31 +27,31 @@ def test_a_sweep_is_every_single_run(noise, with_vertical):
         for b in enumerate(FRICTIONS)
         for c in enumerate(SCALES)
     ):
-        one = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale, az_mps2=az)
-        np.testing.assert_array_equal(found.prd_m[i, j, k], one.prd_m)
-        np.testing.assert_array_equal(found.residual_m[i, j, k], one.residual_m)
-        assert STATUSES[found.status[i, j, k]] is one.status
-        seen.add(one.status)
+        result = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale, az_mps2=az)
+        np.testing.assert_array_equal(swept.prd_m[i, j, k], result.prd_m)
+        np.testing.assert_array_equal(swept.residual_m[i, j, k], result.residual_m)
+        assert STATUSES[swept.status[i, j, k]] is result.status
+        seen.add(result.status)
     assert {Status.OK, Status.SLIDING_AT_END} <= seen
 
 
 def test_uplift_is_a_hole_with_its_status():
-    found = sweep([0.0, -40.0, 0.0], 0.1, slopes_rad=[0.5, 0.0], mus=[0.4], scales=[1.0])
-    assert np.isnan(found.prd_m[0, 0, 0])
-    assert STATUSES[found.status[0, 0, 0]] is Status.UPLIFT
-    assert np.isfinite(found.prd_m[1, 0, 0])
+    swept = sweep([0.0, -40.0, 0.0], 0.1, slopes_rad=[0.5, 0.0], mus=[0.4], scales=[1.0])
+    assert np.isnan(swept.prd_m[0, 0, 0])
+    assert STATUSES[swept.status[0, 0, 0]] is Status.UPLIFT
+    assert np.isfinite(swept.prd_m[1, 0, 0])
 
 
 def test_the_number_of_threads_changes_nothing(noise):
     before = numba.get_num_threads()
-    found = []
+    prds_m = []
     try:
         for threads in (1, before):
             numba.set_num_threads(threads)
-            found.append(sweep(noise, 0.01, slopes_rad=SLOPES, mus=FRICTIONS, scales=SCALES).prd_m)
+            prds_m.append(sweep(noise, 0.01, slopes_rad=SLOPES, mus=FRICTIONS, scales=SCALES).prd_m)
     finally:
         numba.set_num_threads(before)
-    np.testing.assert_array_equal(*found)
+    np.testing.assert_array_equal(*prds_m)
 
 
 def test_progress_runs_up_to_one(noise):

@@ -51,9 +51,9 @@ def shaking(seed, n=400, dt=0.01, peak=8.0):
     return waves[0], waves[1], 0.3 * waves[2]
 
 
-def places(found):
-    sides = found.down_m, found.up_m, found.left_m, found.right_m
-    return np.array([found.prd_m, *sides, *found.end_m])
+def places(outcome):
+    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
+    return np.array([outcome.prd_m, *sides, *outcome.end_m])
 
 
 @pytest.mark.parametrize("degrees", [-6.0, 0.0, 4.0])
@@ -69,56 +69,56 @@ def test_without_transverse_shaking_it_is_the_exact_one_axis_motion(degrees, mu,
         mu=mu,
         az_mps2=az if with_vertical else None,
     )
-    found = follow(scene(ax, 0.0 * ax, 0.01, degrees=degrees, friction=mu, az=az))
-    assert found.prd_m == pytest.approx(exact.prd_m, rel=1e-12)
-    assert found.down_m == pytest.approx(exact.down_m, rel=1e-12)
-    assert found.up_m == pytest.approx(exact.up_m, rel=1e-12, abs=1e-15)
-    assert found.end_m == pytest.approx((exact.residual_m, 0.0), abs=1e-12 * exact.prd_m)
-    assert found.t_prd_s == pytest.approx(exact.t_prd_s, abs=1e-9)
+    outcome = follow(scene(ax, 0.0 * ax, 0.01, degrees=degrees, friction=mu, az=az))
+    assert outcome.prd_m == pytest.approx(exact.prd_m, rel=1e-12)
+    assert outcome.down_m == pytest.approx(exact.down_m, rel=1e-12)
+    assert outcome.up_m == pytest.approx(exact.up_m, rel=1e-12, abs=1e-15)
+    assert outcome.end_m == pytest.approx((exact.residual_m, 0.0), abs=1e-12 * exact.prd_m)
+    assert outcome.t_prd_s == pytest.approx(exact.t_prd_s, abs=1e-9)
     if mu > 0.0:
-        assert found.n_stops == exact.n_stops
+        assert outcome.n_stops == exact.n_stops
 
 
 @pytest.mark.parametrize("part", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-200])
 def test_a_little_transverse_shaking_changes_little(part):
     ax, ay, _ = shaking(2)
     alone = follow(scene(ax, 0.0 * ax, 0.01, degrees=3.0))
-    found = follow(scene(ax, part * ay, 0.01, degrees=3.0))
-    assert abs(found.prd_m - alone.prd_m) <= (2.0 * part + 1e-9) * alone.prd_m
-    assert found.left_m + found.right_m <= (3.0 * part + 1e-9) * alone.prd_m
+    outcome = follow(scene(ax, part * ay, 0.01, degrees=3.0))
+    assert abs(outcome.prd_m - alone.prd_m) <= (2.0 * part + 1e-9) * alone.prd_m
+    assert outcome.left_m + outcome.right_m <= (3.0 * part + 1e-9) * alone.prd_m
 
 
 @pytest.mark.parametrize("turn", [0.3, 1.0, math.pi / 2, 2.5])
 def test_a_turned_motion_turns_the_answer_on_a_flat_roof(turn):
     ax, ay, az = shaking(3)
     sn, cs = math.sin(turn), math.cos(turn)
-    found = follow(scene(ax, ay, 0.01, az=az), 1e-10)
+    outcome = follow(scene(ax, ay, 0.01, az=az), 1e-10)
     turned = follow(scene(cs * ax - sn * ay, sn * ax + cs * ay, 0.01, az=az), 1e-10)
-    assert turned.prd_m == pytest.approx(found.prd_m, rel=1e-9)
-    x, y = found.end_m
+    assert turned.prd_m == pytest.approx(outcome.prd_m, rel=1e-9)
+    x, y = outcome.end_m
     expected = (cs * x - sn * y, sn * x + cs * y)
-    assert turned.end_m == pytest.approx(expected, abs=1e-9 * found.prd_m)
-    assert turned.n_stops == found.n_stops
+    assert turned.end_m == pytest.approx(expected, abs=1e-9 * outcome.prd_m)
+    assert turned.n_stops == outcome.n_stops
 
 
 def test_components_in_proportion_slide_along_one_line():
     a, _, _ = shaking(4)
     exact = checked.slide(a, 0.01, slope_rad=0.0, mu=0.25)
-    found = follow(scene(0.6 * a, -0.8 * a, 0.01, friction=0.25), 1e-8)
-    assert found.prd_m == pytest.approx(exact.prd_m, rel=1e-8)
-    x, y = found.end_m
+    outcome = follow(scene(0.6 * a, -0.8 * a, 0.01, friction=0.25), 1e-8)
+    assert outcome.prd_m == pytest.approx(exact.prd_m, rel=1e-8)
+    x, y = outcome.end_m
     assert (x, y) == pytest.approx((0.6 * exact.residual_m, -0.8 * exact.residual_m), rel=1e-7)
 
 
 def test_a_mirrored_scene_gives_the_mirrored_answer_to_the_last_bit():
     ax, ay, az = shaking(5)
-    found = follow(scene(ax, ay, 0.01, degrees=4.0, az=az))
+    outcome = follow(scene(ax, ay, 0.01, degrees=4.0, az=az))
     across = follow(scene(ax, -ay, 0.01, degrees=4.0, az=az))
-    assert across.prd_m == found.prd_m
-    assert (across.left_m, across.right_m) == (found.right_m, found.left_m)
+    assert across.prd_m == outcome.prd_m
+    assert (across.left_m, across.right_m) == (outcome.right_m, outcome.left_m)
     along = follow(scene(-ax, ay, 0.01, degrees=-4.0, az=az))
-    assert along.prd_m == found.prd_m
-    assert (along.down_m, along.up_m) == (found.up_m, found.down_m)
+    assert along.prd_m == outcome.prd_m
+    assert (along.down_m, along.up_m) == (outcome.up_m, outcome.down_m)
 
 
 def test_steady_circular_shaking_slides_in_a_circle():
@@ -142,8 +142,8 @@ def test_under_a_constant_drive_across_it_stops_as_the_closed_form_says():
     ax, ay = np.zeros(200), np.full(200, -drive)
     ax[1:6] = -9.0
     block = scene(ax, ay, dt, friction=mu)
-    found = follow(block, 1e-10)
-    samples, events = follow_history(block, found)
+    outcome = follow(block, 1e-10)
+    samples, events = follow_history(block, outcome)
     x, y, vx, vy = samples[:, 6]
     w, c, along = math.hypot(vx, vy), mu * G, drive * vy
     rest = (c * w + along) / (c * c - drive * drive)
@@ -153,13 +153,13 @@ def test_under_a_constant_drive_across_it_stops_as_the_closed_form_says():
     cosine, sine = vy / w, vx / w
     ahead = w * w * (drive * (1.0 + cosine**2) + 2.0 * c * cosine) / (4.0 * (c * c - drive**2))
     aside = w * w * sine * (2.0 * c + drive * cosine) / (4.0 * c * c - drive**2)
-    assert (stop.x_m, stop.y_m) == pytest.approx((x + aside, y + ahead), abs=1e-10 * found.prd_m)
+    assert (stop.x_m, stop.y_m) == pytest.approx((x + aside, y + ahead), abs=1e-10 * outcome.prd_m)
 
 
 def test_without_friction_it_is_the_record_summed_twice():
     ax, ay, az = shaking(6)
-    found = follow(scene(ax, ay, 0.01, friction=0.0, az=az))
-    for a, end, end_mps in zip((ax, ay), found.end_m, found.end_mps, strict=True):
+    outcome = follow(scene(ax, ay, 0.01, friction=0.0, az=az))
+    for a, end, end_mps in zip((ax, ay), outcome.end_m, outcome.end_mps, strict=True):
         v = np.concatenate([[0.0], np.cumsum(0.5 * (a[1:] + a[:-1]))]) * 0.01
         u = np.sum(v[:-1] * 0.01 + 1e-4 * (a[:-1] / 3.0 + a[1:] / 6.0))
         assert end == pytest.approx(-u, rel=1e-11)
@@ -167,17 +167,17 @@ def test_without_friction_it_is_the_record_summed_twice():
 
 
 def test_a_steep_roof_slides_without_shaking():
-    found = follow(scene(np.zeros(201), np.zeros(201), 0.01, degrees=25.0, friction=0.3))
+    outcome = follow(scene(np.zeros(201), np.zeros(201), 0.01, degrees=25.0, friction=0.3))
     sn, cs = math.sin(math.radians(25.0)), math.cos(math.radians(25.0))
-    assert found.prd_m == pytest.approx(0.5 * G * (sn - 0.3 * cs) * 4.0 * cs, rel=1e-12)
-    assert found.n_stops == 0
+    assert outcome.prd_m == pytest.approx(0.5 * G * (sn - 0.3 * cs) * 4.0 * cs, rel=1e-12)
+    assert outcome.n_stops == 0
 
 
 def test_nothing_moves_below_the_yield_acceleration():
     t = np.arange(3000) * 0.01
     a = 0.3 * G * (1.0 - 1e-9)
-    found = follow(scene(a * np.cos(t), a * np.sin(t), 0.01, friction=0.3))
-    assert (found.prd_m, found.n_stops, found.n_steps, found.error_m) == (0.0, 0, 0, 0.0)
+    outcome = follow(scene(a * np.cos(t), a * np.sin(t), 0.01, friction=0.3))
+    assert (outcome.prd_m, outcome.n_stops, outcome.n_steps, outcome.error_m) == (0.0, 0, 0, 0.0)
 
 
 def test_a_first_sample_beyond_the_yield_acceleration_slides_at_once():
@@ -208,10 +208,10 @@ def test_traps_are_followed_as_scipy_follows_them(name, mu):
     ax, ay = TRAPS[name]
     exact = plane_oracle.slide(ax, ay, 0.05, slope_rad=0.0, mu=mu, g=G)
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
-        found = follow(scene(ax, ay, 0.05, friction=mu), tolerance)
-        error = abs(found.prd_m - exact.prd)
-        assert error <= found.error_m + ORACLE * exact.prd
-        assert found.error_m <= tolerance * exact.prd
+        outcome = follow(scene(ax, ay, 0.05, friction=mu), tolerance)
+        error = abs(outcome.prd_m - exact.prd)
+        assert error <= outcome.error_m + ORACLE * exact.prd
+        assert outcome.error_m <= tolerance * exact.prd
 
 
 def assert_every_tolerance_is_kept_to(block):
@@ -228,11 +228,11 @@ def assert_every_tolerance_is_kept_to(block):
     theirs = (exact.prd, exact.x_max, -exact.x_min, exact.y_max, -exact.y_min, *exact.end)
     assert exact.prd > 0.0
     for tolerance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
-        found = follow(block, tolerance)
-        error = np.abs(places(found) - theirs).max()
-        assert error <= found.error_m + ORACLE * exact.prd
-        assert found.error_m <= tolerance * exact.prd
-        assert found.n_stops == exact.n_stops
+        outcome = follow(block, tolerance)
+        error = np.abs(places(outcome) - theirs).max()
+        assert error <= outcome.error_m + ORACLE * exact.prd
+        assert outcome.error_m <= tolerance * exact.prd
+        assert outcome.n_stops == exact.n_stops
 
 
 @pytest.mark.parametrize(("degrees", "mu"), [(0.0, 0.3), (5.0, 0.4)])
@@ -262,20 +262,20 @@ def test_the_history_is_that_of_scipy_and_its_events_alternate():
     ax, ay, az = shaking(8, n=40, dt=0.04)
     exact = plane_oracle.slide(ax, ay, 0.04, slope_rad=0.05, mu=0.35, az=az, g=G)
     block = replace(scene(ax, ay, 0.04, friction=0.35, az=az), slope_rad=0.05)
-    found = follow(block, 1e-9)
-    samples, events = follow_history(block, found)
+    outcome = follow(block, 1e-9)
+    samples, events = follow_history(block, outcome)
     assert samples == pytest.approx(exact.history, abs=1e-9)
     kinds = [event.kind for event in events]
-    assert kinds == [EventKind.SLIP, EventKind.STOP] * found.n_stops
-    assert len(events) == found.n_events
+    assert kinds == [EventKind.SLIP, EventKind.STOP] * outcome.n_stops
+    assert len(events) == outcome.n_events
     times = [event.t_s for event in events]
     assert times == sorted(times)
-    assert samples[:2, -1] == pytest.approx(found.end_m, abs=0.0)
+    assert samples[:2, -1] == pytest.approx(outcome.end_m, abs=0.0)
 
 
 def test_the_largest_distance_is_found_between_samples():
     block = scene([0.0, -8.0, 8.0, 8.0, 0.0], [0.0, -6.0, 2.0, 9.0, 0.0], 0.2, friction=0.3)
-    found = follow(block, 1e-10)
+    outcome = follow(block, 1e-10)
     fine = [
         np.interp(np.arange(0.0, 0.80001, 0.0002), np.arange(5) * 0.2, a)
         for a in (block.ax_mps2, block.ay_mps2)
@@ -284,9 +284,9 @@ def test_the_largest_distance_is_found_between_samples():
         scene(*fine, 0.0002, friction=0.3), follow(scene(*fine, 0.0002), 1e-8)
     )
     seen = np.hypot(*samples[:2])
-    assert seen.max() <= found.prd_m * (1.0 + 1e-9)
-    assert seen.max() == pytest.approx(found.prd_m, rel=1e-5)
-    assert found.t_prd_s == pytest.approx(0.0002 * seen.argmax(), abs=0.0003)
+    assert seen.max() <= outcome.prd_m * (1.0 + 1e-9)
+    assert seen.max() == pytest.approx(outcome.prd_m, rel=1e-5)
+    assert outcome.t_prd_s == pytest.approx(0.0002 * seen.argmax(), abs=0.0003)
 
 
 @given(
@@ -299,15 +299,15 @@ def test_samples_put_between_change_nothing(seed, mu, degrees, factor):
     ax, ay, az = shaking(seed, n=60, dt=0.03)
     fine = np.arange(59 * factor + 1) / factor
     more = [np.interp(fine, np.arange(60), a) for a in (ax, ay, az)]
-    one = follow(scene(ax, ay, 0.03, degrees=degrees, friction=mu, az=az), 1e-8)
+    outcome = follow(scene(ax, ay, 0.03, degrees=degrees, friction=mu, az=az), 1e-8)
     two = follow(scene(*more[:2], 0.03 / factor, degrees=degrees, friction=mu, az=more[2]), 1e-8)
-    assert np.abs(places(one) - places(two)).max() <= one.error_m + two.error_m + 1e-12
+    assert np.abs(places(outcome) - places(two)).max() <= outcome.error_m + two.error_m + 1e-12
 
 
 @given(seed=st.integers(0, 1000), mu=st.floats(0.0, 0.9), scale=st.floats(0.25, 4.0))
 def test_a_motion_and_gravity_scaled_scale_the_answer(seed, mu, scale):
     ax, ay, az = shaking(seed, n=80, dt=0.02)
     block = scene(ax, ay, 0.02, degrees=3.0, friction=mu, az=az)
-    one = follow(block, 1e-8)
+    outcome = follow(block, 1e-8)
     two = follow(replace(block, scale=scale, g_mps2=scale * G), 1e-8)
-    assert places(two) == pytest.approx(scale * places(one), abs=2e-8 * scale * one.prd_m)
+    assert places(two) == pytest.approx(scale * places(outcome), abs=2e-8 * scale * outcome.prd_m)

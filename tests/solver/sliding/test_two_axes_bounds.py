@@ -42,37 +42,37 @@ def every(group):
     return range(len(SCENES[group]))
 
 
-def places(found):
-    sides = found.down_m, found.up_m, found.left_m, found.right_m
-    return np.array([found.prd_m, *sides, *found.end_m])
+def places(outcome):
+    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
+    return np.array([outcome.prd_m, *sides, *outcome.end_m])
 
 
 def test_scenes_that_hung_crashed_or_took_20_s_end():
     groups = ("hang", "crash", "slow")
     calls = [(g, number, tol) for g in groups for number in every(g) for tol in (1e-2, 1e-6, 1e-10)]
     assert len(calls) == 27
-    found = campaign(status_at, calls)
-    assert {one.outcome for one in found} == {Status.OK}, found
+    ended = campaign(status_at, calls)
+    assert {call.outcome for call in ended} == {Status.OK}, ended
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6, 1e-8])
 @pytest.mark.parametrize("group", ["hang", "over_the_bound", "onset_of_friction_by_speed"])
 def test_scenes_that_broke_the_bound_keep_to_it(group, tolerance):
     for number in every(group):
-        one = scene(group, number)
-        found, tight = follow(one, tolerance), follow(one, 1e-10)
-        off = np.abs(places(found) - places(tight)).max()
-        assert off <= found.error_m + tight.error_m
-        assert found.error_m <= tolerance * max(tight.prd_m, 1e-6)
+        block = scene(group, number)
+        outcome, tight = follow(block, tolerance), follow(block, 1e-10)
+        off = np.abs(places(outcome) - places(tight)).max()
+        assert off <= outcome.error_m + tight.error_m
+        assert outcome.error_m <= tolerance * max(tight.prd_m, 1e-6)
         for factor in (2, 3, 5, 7):
-            split = follow(finer(one, factor), tolerance)
-            off = np.abs(places(found) - places(split)).max()
-            assert off <= found.error_m + split.error_m + rounding(one)
+            split = follow(finer(block, factor), tolerance)
+            off = np.abs(places(outcome) - places(split)).max()
+            assert off <= outcome.error_m + split.error_m + rounding(block)
 
 
 def test_no_slip_stops_before_it_begins():
     # From rest both the first and the second coefficient of the speed are zero but for rounding.
-    found = checked.slide(
+    result = checked.slide(
         [0.0, 0.0, 0.0],
         0.005,
         slope_rad=math.atan(0.02),
@@ -80,28 +80,28 @@ def test_no_slip_stops_before_it_begins():
         ay_mps2=[0.0, 0.0, 0.37],
         az_mps2=[0.0, 0.0, -1.0],
     )
-    assert found.status is Status.SLIDING_AT_END
-    assert 0.0 < found.prd_m < 1e-5
+    assert result.status is Status.SLIDING_AT_END
+    assert 0.0 < result.prd_m < 1e-5
 
 
 def test_a_roof_at_the_angle_of_friction_holds_but_for_rounding():
     # The paper's check 4 in two axes.
     slope = math.radians(0.5)
     pushed = {"slope_rad": slope, "mu": math.tan(slope), "ay_mps2": [0.0, 1e-9, 0.0, 0.0]}
-    found = checked.slide([0.0] * 4, 0.01, **pushed)
-    assert found.status is Status.OK
-    assert found.prd_m <= found.error_m < 1e-15
+    result = checked.slide([0.0] * 4, 0.01, **pushed)
+    assert result.status is Status.OK
+    assert result.prd_m <= result.error_m < 1e-15
 
 
 def test_the_largest_distance_is_found_where_its_rate_crosses_zero_twice_in_a_step():
     # Straight ramps without friction: each place is a cubic in time. The rate of the distance is
     # zero at the begin, and its sign there that of its slope.
     (x0, x1), (y0, y1) = (0.0, 0.003434822012933009), (0.017228017645023474, -0.022575339622219606)
-    found, t = follow(frictionless((x0, x1), (y0, y1), 0.1), 1e-8), np.linspace(0.0, 0.1, 200_001)
+    outcome, t = follow(frictionless((x0, x1), (y0, y1), 0.1), 1e-8), np.linspace(0.0, 0.1, 200_001)
     x, y = (a * t * t / 2.0 + (b - a) / 0.1 * t**3 / 6.0 for a, b in ((x0, x1), (y0, y1)))
-    assert found.prd_m == pytest.approx(np.hypot(x, y).max(), rel=1e-9)
-    assert found.right_m == pytest.approx(y.max(), rel=1e-9)
-    assert (found.left_m, found.down_m) == (0.0, 0.0)
+    assert outcome.prd_m == pytest.approx(np.hypot(x, y).max(), rel=1e-9)
+    assert outcome.right_m == pytest.approx(y.max(), rel=1e-9)
+    assert (outcome.left_m, outcome.down_m) == (0.0, 0.0)
 
 
 def frictionless(ax, ay, dt):
@@ -120,26 +120,26 @@ def frictionless(ax, ay, dt):
 def test_a_block_that_hardly_presses_on_the_roof_is_not_stopped_at_speed():
     # N = 1e-9 g: the series of the speed comes to zero where the block has millimetres a second.
     weightless = np.full(4, -G * (1.0 - 1e-9))
-    one = replace(
+    block = replace(
         frictionless([0.0, -20.0, 20.0, 20.0], [0.0, 0.02, 0.01, -0.01], 0.2),
         az_mps2=readonly(weightless),
         friction=coulomb(0.5),
     )
-    free = follow(replace(one, friction=coulomb(0.0)), 1e-10)
+    free = follow(replace(block, friction=coulomb(0.0)), 1e-10)
     for tolerance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
-        found = follow(one, tolerance)
-        assert found.n_stops == 0
-        assert found.error_m <= tolerance * found.prd_m
-        assert np.abs(places(found) - places(free)).max() < 1e-8 * free.prd_m
+        outcome = follow(block, tolerance)
+        assert outcome.n_stops == 0
+        assert outcome.error_m <= tolerance * outcome.prd_m
+        assert np.abs(places(outcome) - places(free)).max() < 1e-8 * free.prd_m
 
 
 @pytest.mark.parametrize("kind", ["N to zero", "mu = tan(slope)", "friction by speed"])
 def test_the_tolerance_is_met_but_for_rounding(kind):
     for index in range(300):
-        one = pair(kind, index).one
+        block = pair(kind, index).one
         for tolerance in (1e-2, 1e-6):
-            found = follow(one, tolerance)
-            assert found.error_m <= tolerance * max(found.prd_m, 1e-6) + 8.0 * rounding(one)
+            outcome = follow(block, tolerance)
+            assert outcome.error_m <= tolerance * max(outcome.prd_m, 1e-6) + 8.0 * rounding(block)
 
 
 def test_a_dip_of_the_speed_below_zero_near_the_begin_of_a_step_is_seen():
@@ -149,20 +149,20 @@ def test_a_dip_of_the_speed_below_zero_near_the_begin_of_a_step_is_seen():
 
 def test_the_second_axis_of_scenes_that_lost_it_is_modelled():
     for number in every("second_axis_left_out"):
-        found = least_model.solve(scene("second_axis_left_out", number))
+        solution = least_model.solve(scene("second_axis_left_out", number))
         expected = SCENES["second_axis_left_out"][number]["prd_two_axes_m"]
-        assert found.rung is Rung.TWO_AXES
-        assert found.result.prd_m == pytest.approx(expected, rel=1e-4)
+        assert solution.rung is Rung.TWO_AXES
+        assert solution.result.prd_m == pytest.approx(expected, rel=1e-4)
 
 
 def test_too_many_steps_are_no_number(monkeypatch):
     monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS", 10)
     monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS_OF_SAMPLE", 0)
     slow = scene("slow", 0)
-    found = two_axes.run(slow)
-    assert found.status is Status.STEP_LIMIT
-    assert math.isnan(found.prd_m)
-    assert math.isnan(found.error_m)
+    result = two_axes.run(slow)
+    assert result.status is Status.STEP_LIMIT
+    assert math.isnan(result.prd_m)
+    assert math.isnan(result.error_m)
     history = two_axes.run_history(slow)
     assert np.isnan(history.u_m).all()
     assert history.events == ()

@@ -84,11 +84,11 @@ def test_it_is_as_scipy_follows_it(friction):
     theirs = (exact.prd, exact.x_max, -exact.x_min, exact.y_max, -exact.y_min, *exact.end)
     assert exact.n_stops > 2
     for tolerance in (1e-3, 1e-6, 1e-9):
-        found = follow(block, tolerance)
-        error = np.abs(places(found) - theirs).max()
-        assert error <= found.error_m + 1e-10 * exact.prd
+        outcome = follow(block, tolerance)
+        error = np.abs(places(outcome) - theirs).max()
+        assert error <= outcome.error_m + 1e-10 * exact.prd
         assert error <= (tolerance + 1e-10) * exact.prd
-        assert found.n_stops == exact.n_stops
+        assert outcome.n_stops == exact.n_stops
 
 
 @pytest.mark.parametrize("rate", [30.0, 1e3, 1e5])
@@ -99,10 +99,10 @@ def test_friction_that_turns_within_a_step_is_seen(rate, seed):
     waves = [np.sign(wave) * 3.0 for wave in shaking(seed, n=50, dt=0.1)[:2]]
     fine = np.arange(49 * 16 + 1) / 16
     more = [np.interp(fine, np.arange(50), wave) for wave in waves]
-    one = follow(scene(*waves, 0.1, friction=friction), 1e-8)
+    outcome = follow(scene(*waves, 0.1, friction=friction), 1e-8)
     two = follow(scene(*more, 0.1 / 16, friction=friction), 1e-8)
-    assert one.prd_m > 0.03
-    assert np.abs(places(one) - places(two)).max() <= one.error_m + two.error_m
+    assert outcome.prd_m > 0.03
+    assert np.abs(places(outcome) - places(two)).max() <= outcome.error_m + two.error_m
 
 
 @pytest.mark.parametrize("rate", [1.0, 30.0, 200.0])
@@ -112,27 +112,27 @@ def test_a_stop_under_a_constant_push_counts_the_friction_of_its_speed(rate, see
     waves = [np.where(np.abs(w) > 4.0, 8.0 * np.sign(w), 0.0) for w in shaking(seed, 50, 0.1)[:2]]
     fine = np.arange(49 * 16 + 1) / 16
     more = [np.interp(fine, np.arange(50), wave) for wave in waves]
-    one = follow(scene(*waves, 0.1, friction=friction), 1e-10)
+    outcome = follow(scene(*waves, 0.1, friction=friction), 1e-10)
     two = follow(scene(*more, 0.1 / 16, friction=friction), 1e-10)
-    assert one.n_stops > 2
-    assert np.abs(places(one) - places(two)).max() <= one.error_m + two.error_m
+    assert outcome.n_stops > 2
+    assert np.abs(places(outcome) - places(two)).max() <= outcome.error_m + two.error_m
 
 
 def test_friction_between_two_constants_slides_between_their_ways():
     ax, ay, _ = shaking(11)
-    found = [
+    prds_m = [
         follow(scene(ax, ay, 0.01, friction=friction)).prd_m
         for friction in (coulomb(GROWING.mu_fast), GROWING, coulomb(GROWING.mu_slow))
     ]
-    assert found == sorted(found)
+    assert prds_m == sorted(prds_m)
 
 
 def test_without_friction_at_a_crawl_nothing_sticks():
     law = Friction(mu_slow=0.0, mu_fast=0.3, rate_s_per_m=5.0, mu_static=0.0)
     a = readonly([0.0, -1e-3, 0.0, 0.0, 0.0])
-    found = follow(scene(a, 0.0 * a, 0.1, friction=law))
+    outcome = follow(scene(a, 0.0 * a, 0.1, friction=law))
     # At a crawl friction is a dashpot: the speed is what is left of every push.
     t = np.linspace(0.0, 0.4, 40_001)
     left = -np.interp(t, np.arange(5) * 0.1, a) * np.exp(-0.3 * 5.0 * G * (0.4 - t))
-    assert found.end_mps[0] == pytest.approx(left.sum() * 1e-5, rel=1e-3)
-    assert found.n_stops == 0
+    assert outcome.end_mps[0] == pytest.approx(left.sum() * 1e-5, rel=1e-3)
+    assert outcome.n_stops == 0

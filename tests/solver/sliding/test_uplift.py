@@ -30,56 +30,56 @@ def scene(az_g, *, ax_g=None, slope=0.0, dt=0.1):
 
 
 def test_a_triangle_below_zero_is_seen_with_its_times_and_depth():
-    found = uplift(scene([0.0, 0.0, -3.0, 0.0, 0.0]))
-    assert found.lifts
-    assert found.n_min_g == -2.0
-    assert found.t_min_s == 0.2
-    assert found.t_first_s == pytest.approx(0.1 + 0.1 / 3.0, rel=1e-15)
-    assert found.duration_s == pytest.approx(0.4 / 3.0, rel=1e-15)
-    assert found.times == 1
+    lift = uplift(scene([0.0, 0.0, -3.0, 0.0, 0.0]))
+    assert lift.lifts
+    assert lift.n_min_g == -2.0
+    assert lift.t_min_s == 0.2
+    assert lift.t_first_s == pytest.approx(0.1 + 0.1 / 3.0, rel=1e-15)
+    assert lift.duration_s == pytest.approx(0.4 / 3.0, rel=1e-15)
+    assert lift.times == 1
 
 
 def test_two_dips_and_one_that_lasts_are_added():
-    found = uplift(scene([0.0, -2.0, 0.0, -2.0, -2.0, 0.0]))
-    assert found.times == 2
-    assert found.duration_s == pytest.approx(0.05 * 4 + 0.1, rel=1e-14)
-    assert found.t_min_s == 0.1
+    lift = uplift(scene([0.0, -2.0, 0.0, -2.0, -2.0, 0.0]))
+    assert lift.times == 2
+    assert lift.duration_s == pytest.approx(0.05 * 4 + 0.1, rel=1e-14)
+    assert lift.t_min_s == 0.1
 
 
 def test_a_record_that_begins_below_zero_lifts_at_once():
-    found = uplift(scene([-2.0, 0.0, -1.5]))
-    assert (found.t_first_s, found.times) == (0.0, 2)
-    assert found.duration_s == pytest.approx(0.05 + 0.1 / 3.0, rel=1e-14)
+    lift = uplift(scene([-2.0, 0.0, -1.5]))
+    assert (lift.t_first_s, lift.times) == (0.0, 2)
+    assert lift.duration_s == pytest.approx(0.05 + 0.1 / 3.0, rel=1e-14)
 
 
 @pytest.mark.parametrize("az_g", [[0.0, 0.5, -0.99], [0.0, -1.0, 0.0], [-1.0, -1.0, -1.0]])
 def test_a_normal_force_of_zero_or_more_is_no_uplift(az_g):
-    found = uplift(scene(az_g))
-    assert not found.lifts
-    assert (found.duration_s, found.times) == (0.0, 0)
-    assert math.isnan(found.t_first_s)
-    assert found.n_min_g == pytest.approx(1.0 + min(az_g), abs=1e-15)
+    lift = uplift(scene(az_g))
+    assert not lift.lifts
+    assert (lift.duration_s, lift.times) == (0.0, 0)
+    assert math.isnan(lift.t_first_s)
+    assert lift.n_min_g == pytest.approx(1.0 + min(az_g), abs=1e-15)
 
 
 def test_without_a_vertical_record_a_steep_roof_can_lift():
     """N = g cos(theta) + ax sin(theta)."""
-    one = scene([0.0, 0.0, 0.0], ax_g=[0.0, -2.0, 0.0], slope=math.radians(45.0))
-    found = uplift(one)
-    assert found.n_min_g == pytest.approx(-math.sqrt(0.5), rel=1e-15)
-    assert found.duration_s == pytest.approx(0.1, rel=1e-14)
+    block = scene([0.0, 0.0, 0.0], ax_g=[0.0, -2.0, 0.0], slope=math.radians(45.0))
+    lift = uplift(block)
+    assert lift.n_min_g == pytest.approx(-math.sqrt(0.5), rel=1e-15)
+    assert lift.duration_s == pytest.approx(0.1, rel=1e-14)
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_it_agrees_with_what_the_solver_refuses_and_with_a_fine_grid(seed):
     rng = np.random.default_rng(seed)
-    one = scene(rng.normal(0.0, 0.6, 60), ax_g=rng.normal(0.0, 0.6, 60), slope=0.2)
-    found, refused = uplift(one), one_axis.run(one)
+    block = scene(rng.normal(0.0, 0.6, 60), ax_g=rng.normal(0.0, 0.6, 60), slope=0.2)
+    lift, refused = uplift(block), one_axis.run(block)
     assert refused.status is Status.UPLIFT
-    assert found.n_min_g == pytest.approx(refused.n_min_g, rel=1e-13)
-    assert found.t_first_s == pytest.approx(refused.t_uplift_s, rel=1e-13)
+    assert lift.n_min_g == pytest.approx(refused.n_min_g, rel=1e-13)
+    assert lift.t_first_s == pytest.approx(refused.t_uplift_s, rel=1e-13)
     fine = np.linspace(0.0, 5.9, 590_001)
     at = np.arange(60) * 0.1
-    ax, az = np.interp(fine, at, one.ax_mps2), np.interp(fine, at, one.az_mps2)
+    ax, az = np.interp(fine, at, block.ax_mps2), np.interp(fine, at, block.az_mps2)
     below = (G + az) * math.cos(0.2) + ax * math.sin(0.2) < 0.0
-    assert found.duration_s == pytest.approx(below.mean() * 5.9, abs=1e-3)
-    assert found.times == np.count_nonzero(below[1:] & ~below[:-1]) + below[0]
+    assert lift.duration_s == pytest.approx(below.mean() * 5.9, abs=1e-3)
+    assert lift.times == np.count_nonzero(below[1:] & ~below[:-1]) + below[0]

@@ -73,11 +73,11 @@ def likeness(made: Record, record: Record) -> float:
     bell, freq_hz = np.hanning(400), np.fft.rfftfreq(400, 0.005)
     part = (freq_hz > 1.0) & (freq_hz < 10.0)
     starts = range(1400, 5000, 200)
-    one, other = (
+    spectrum, other = (
         np.array([np.fft.rfft(bell * a[i : i + 400])[part] for i in starts])
         for a in (made.a_mps2, placed)
     )
-    cosine = (one * other.conj()).real / np.abs(one) / np.abs(other)
+    cosine = (spectrum * other.conj()).real / np.abs(spectrum) / np.abs(other)
     return float(cosine.mean(axis=1).mean())
 
 
@@ -105,8 +105,8 @@ def test_what_each_component_grew_from_is_told(made: Any) -> None:
 
 def test_a_motion_of_records_is_the_same_whatever_the_count(made: Any) -> None:
     again = make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, records=[made[0]])[0]
-    for one, other in zip(again.components, made[1][0].components, strict=True):
-        assert np.array_equal(one.a_mps2, other.a_mps2)
+    for record, other in zip(again.components, made[1][0].components, strict=True):
+        assert np.array_equal(record.a_mps2, other.a_mps2)
 
 
 def test_phases_of_components_alike_are_turned(made: Any) -> None:
@@ -120,26 +120,26 @@ def test_phases_of_components_alike_are_turned(made: Any) -> None:
 def test_the_strongest_part_of_a_long_record_is_used() -> None:
     t = 0.01 * np.arange(10_000)
     weak, strong = 0.1 * np.sin(3.0 * t), np.where((t > 40.0) & (t < 65.0), np.sin(9.0 * t), 0.0)
-    found = seeds.strongest(Record(name="long", dt_s=0.01, a_mps2=weak + strong), 0.005, 6001)
-    at = 0.005 * np.flatnonzero(np.abs(found) > 0.5)
+    seed = seeds.strongest(Record(name="long", dt_s=0.01, a_mps2=weak + strong), 0.005, 6001)
+    at = 0.005 * np.flatnonzero(np.abs(seed) > 0.5)
     assert at[-1] - at[0] == pytest.approx(25.0, abs=0.5)
 
 
 def test_a_short_record_stands_in_the_middle_at_the_motions_step() -> None:
     t = 0.02 * np.arange(501)
-    found = seeds.strongest(Record(name="short", dt_s=0.02, a_mps2=np.sin(5.0 * t)), 0.005, 6001)
-    assert not found[:2000].any()
-    assert not found[4001:].any()
+    seed = seeds.strongest(Record(name="short", dt_s=0.02, a_mps2=np.sin(5.0 * t)), 0.005, 6001)
+    assert not seed[:2000].any()
+    assert not seed[4001:].any()
     exact = np.sin(5.0 * 0.005 * np.arange(2001))
-    assert np.corrcoef(found[2000:4001], exact)[0, 1] > 0.9999
+    assert np.corrcoef(seed[2000:4001], exact)[0, 1] > 0.9999
 
 
 @pytest.mark.parametrize("size", [1e-300, 1e-6, 1e300])
 def test_the_size_of_a_record_does_not_matter(made: Any, size: float) -> None:
     first = made[0][0]
     sized = Record(name="falling-1", dt_s=0.01, a_mps2=first.a_mps2 * size)
-    found = seeds.strongest(sized, 0.005, 6001)
-    assert found == pytest.approx(seeds.strongest(first, 0.005, 6001), abs=1e-12)
+    seed = seeds.strongest(sized, 0.005, 6001)
+    assert seed == pytest.approx(seeds.strongest(first, 0.005, 6001), abs=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -147,8 +147,8 @@ class TestSuite:
 
     def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites: Any) -> None:
         again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=3)
-        for one, other in zip(again[0].components, suites[3].components, strict=True):
-            assert np.array_equal(one.a_mps2, other.a_mps2)
+        for component, other in zip(again[0].components, suites[3].components, strict=True):
+            assert np.array_equal(component.a_mps2, other.a_mps2)
         names = [record.name for record in again[1].components]
         assert names == ["motion-02-x", "motion-02-y", "motion-02-z"]
         assert not np.array_equal(again[1].x.a_mps2, again[0].x.a_mps2)
@@ -241,17 +241,17 @@ class TestFit:
         assert fit.achieved_g == pytest.approx(achieved, rel=1e-9)
         ratio = achieved / target_sa_g(HORIZONTAL, fit.freq_hz)
         assert fit.ratio == pytest.approx(ratio, rel=1e-9)
-        found = fit.least, fit.mean, fit.greatest
-        assert found == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-9)
+        ratios = fit.least, fit.mean, fit.greatest
+        assert ratios == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-9)
 
     def test_scipy_finds_the_same_spectrum_by_a_state_space_model(self, suites: Any) -> None:
         # The step of these is a 40th of a period or less: peaks are looked for at samples alone.
         record, freq_hz = suites[4].y, np.array([0.1, 0.3, 0.9, 2.7, 4.9])
         t = record.dt_s * np.arange(len(record.a_mps2))
-        found = []
+        peaks_g = []
         for omega in 2.0 * np.pi * freq_hz:
             # Input minus the acceleration, output omega^2 times the displacement.
             oscillator = signal.lti([omega**2], [1.0, 0.1 * omega, omega**2])
-            found.append(np.abs(signal.lsim(oscillator, -record.a_mps2, t)[1]).max() / G)
+            peaks_g.append(np.abs(signal.lsim(oscillator, -record.a_mps2, t)[1]).max() / G)
         fit = spectrum_fit(record, HORIZONTAL, freq_hz)
-        assert fit.achieved_g == pytest.approx(found, rel=1e-6)
+        assert fit.achieved_g == pytest.approx(peaks_g, rel=1e-6)
