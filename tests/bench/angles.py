@@ -35,16 +35,16 @@ def motions() -> list[tuple[Floats, Floats, Floats, float]]:
     """Return three components, the third at times empty, and the time step of each motion."""
     folder = Path(sys.argv[1]) if sys.argv[1:] else SHARED
     triples = [*recorded_triples(folder)] if folder.is_dir() else own_triples(quick=False)
-    found = [(one.x_mps2, one.y_mps2, one.z_mps2, one.dt_s) for one in triples]
+    made = [(triple.x_mps2, triple.y_mps2, triple.z_mps2, triple.dt_s) for triple in triples]
     manifest = folder / "MANIFEST.csv"
     rows = list(csv.DictReader(manifest.open(encoding="utf-8"))) if manifest.is_file() else []
     pairs = [row for row in rows if row["units"] == "g" and row["file"].endswith(".txt")]
-    for one, other in itertools.pairwise(pairs):
-        if one["station"] == other["station"] and one["event"] == other["event"]:
-            ax, ay = (np.loadtxt(folder / row["file"]) * G for row in (one, other))
+    for row_of_x, other in itertools.pairwise(pairs):
+        if row_of_x["station"] == other["station"] and row_of_x["event"] == other["event"]:
+            ax, ay = (np.loadtxt(folder / row["file"]) * G for row in (row_of_x, other))
             n = min(ax.size, ay.size)
-            found.append((readonly(ax[:n]), readonly(ay[:n]), NO_RECORD, float(one["dt_s"])))
-    return found
+            made.append((readonly(ax[:n]), readonly(ay[:n]), NO_RECORD, float(row_of_x["dt_s"])))
+    return made
 
 
 def turned(scene: Scene, degrees: float) -> Scene:
@@ -83,7 +83,7 @@ def main() -> None:
                 other = worst(replace(scene, az_mps2=readonly(-az)), range(0, 360, 90))
                 rows["vertical reversed"].append(other / package)
     for name, ratios in rows.items():
-        kept = np.array([one for one in ratios if math.isfinite(one)])
+        kept = np.array([ratio for ratio in ratios if math.isfinite(ratio)])
         print(f"{name:20}{kept.size:4} scenes  median {np.median(kept):.3f}  largest "
               f"{kept.max():.3f}")  # fmt: skip
 

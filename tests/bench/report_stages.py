@@ -56,7 +56,7 @@ def child(project: Path) -> None:
     stage("result tables")
     from report.results.tables import tables
 
-    sizes = [len(package), *(len(found) for found in tables(assessment, evidence).values())]
+    sizes = [len(package), *(len(table) for table in tables(assessment, evidence).values())]
     stage("")
     count = sum(len(motion.runs) for item in assessment.arrays for motion in item.motions)
     laps[f"(the solver alone, {count} histories)"] = solver_s
@@ -67,7 +67,7 @@ def main() -> None:
     """Print the median of each stage and of the whole process."""
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 5
     project = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT / "projects" / "example"
-    found, walls = [], []
+    stages, walls = [], []
     for _ in range(runs + 1):
         started = time.perf_counter()
         done = subprocess.run(
@@ -78,10 +78,10 @@ def main() -> None:
             text=True,
         )
         walls.append(time.perf_counter() - started)
-        found.append(json.loads(done.stdout)["laps"])
+        stages.append(json.loads(done.stdout)["laps"])
     print(f"{platform.machine()}, Python {platform.python_version()}, median of {runs} runs")
-    for name in found[-1]:
-        print(f"{name:56}{statistics.median(laps[name] for laps in found[1:]):8.4f} s")
+    for name in stages[-1]:
+        print(f"{name:56}{statistics.median(laps[name] for laps in stages[1:]):8.4f} s")
     print(f"{'whole process':56}{statistics.median(walls[1:]):8.4f} s")
 
 

@@ -26,12 +26,12 @@ DT_S, DAMPING = 0.005, 0.05
 
 def filters(periods_s: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
     """Recursions from ground to absolute acceleration, exact for straight lines."""
-    found = []
+    recursions = []
     for w in 2.0 * math.pi / periods_s:
         system = ([2.0 * DAMPING * w, w * w], [1.0, 2.0 * DAMPING * w, w * w])
         top, below, _ = cont2discrete(system, DT_S, "foh")
-        found.append((top.ravel(), below))
-    return found
+        recursions.append((top.ravel(), below))
+    return recursions
 
 
 def seconds(call: Callable[[], object], repeats: int) -> float:
@@ -55,12 +55,12 @@ def main() -> None:
     for count, samples in SIZES:
         a, periods = rng.normal(size=samples), np.geomspace(4.0, 0.1, count)
         zeta, each = np.full(count, DAMPING), filters(periods)
-        found = seconds(
+        took_s = seconds(
             lambda a=a, p=periods, z=zeta: absolute_accelerations(a, DT_S, p, z), repeats
         )
         plain = seconds(lambda a=a, e=each: [lfilter(t, b, a) for t, b in e], repeats)
-        print(f"{count:6}{samples:9}{found * 1e3:9.2f}{found / count / samples * 1e9:9.2f}"
-              f"{plain * 1e3:12.2f}{plain / found:7.2f}")  # fmt: skip
+        print(f"{count:6}{samples:9}{took_s * 1e3:9.2f}{took_s / count / samples * 1e9:9.2f}"
+              f"{plain * 1e3:12.2f}{plain / took_s:7.2f}")  # fmt: skip
     a = rng.normal(size=13_000)
     for stories in (1, 4, 12, 0):
         building = building_of_periods([1.0], stories=stories)

@@ -58,12 +58,12 @@ def main() -> None:
           f"{'rigid mm':>9}{'stretch mm':>11}{'force':>7}{'bound m':>9}{'defect':>9}")  # fmt: skip
     for k in STIFFNESSES:
         row = BlockRow(mus=MUS, stiffness_per_s2=k, damping_per_s=0.1 * math.sqrt(k))
-        found = slide_row(scene, row)
+        result = slide_row(scene, row)
         took = seconds(lambda r=row: slide_row(scene, r), repeats)
-        defect = abs(found.energy.defect) / found.energy.work
-        print(f"{k:9.0e}{took * 1e3:9.1f}{took / rigid:9.0f}{found.n_steps:9}{found.n_stops:7}"
-              f"{max(found.prd_m) * 1e3:9.3f}{found.rigid.prd_m * 1e3:9.3f}"
-              f"{found.stretch_m * 1e3:11.2g}{found.link_force:7.2f}{found.error_m:9.1g}"
+        defect = abs(result.energy.defect) / result.energy.work
+        print(f"{k:9.0e}{took * 1e3:9.1f}{took / rigid:9.0f}{result.n_steps:9}{result.n_stops:7}"
+              f"{max(result.prd_m) * 1e3:9.3f}{result.rigid.prd_m * 1e3:9.3f}"
+              f"{result.stretch_m * 1e3:11.2g}{result.link_force:7.2f}{result.error_m:9.1g}"
               f"{defect:9.1g}")  # fmt: skip
     for count in (1, 2, 5, 10, 20):
         row = BlockRow(

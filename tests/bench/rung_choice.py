@@ -34,15 +34,15 @@ ACROSS = ("like it", "noise", "push")
 @cache
 def records() -> tuple[tuple[list[Floats], float], ...]:
     """Return recorded or made components, three to a motion, with their step."""
-    found = []
+    motions = []
     for path in sorted(RECORDS.glob("*.V2A")):
         channels = read_motion_file(path).channels
-        found.append(([channel.a_mps2 for channel in channels], channels[0].dt_s))
+        motions.append(([channel.a_mps2 for channel in channels], channels[0].dt_s))
     for path in sorted((ROOT / "projects" / "example" / "records").glob("*-x.csv")):
         names = (path.name.replace("-x", side) for side in ("-x", "-y", "-z"))
         sides = [read_record(path.with_name(name)) for name in names]
-        found.append(([side.a_mps2 for side in sides], sides[0].dt_s))
-    return tuple(found)
+        motions.append(([side.a_mps2 for side in sides], sides[0].dt_s))
+    return tuple(motions)
 
 
 def noise(rng: np.random.Generator, n: int, dt: float) -> Floats:
@@ -90,10 +90,10 @@ def scene(rng: np.random.Generator) -> tuple[str, Scene]:
     )
 
 
-def difference(one: SlideResult, other: SlideResult) -> float:
+def difference(result: SlideResult, other: SlideResult) -> float:
     """Return the largest difference of PRD and excursions [m]."""
     names = ("prd_m", "down_m", "up_m", "across_m")
-    return max(abs(getattr(one, name) - getattr(other, name)) for name in names)
+    return max(abs(getattr(result, name) - getattr(other, name)) for name in names)
 
 
 def main() -> None:
@@ -102,24 +102,24 @@ def main() -> None:
     count: Counter[tuple[str, str]] = Counter()
     chosen_s = always_s = worst = 0.0
     for index in range(scenes):
-        kind, one = scene(np.random.default_rng([10, index]))
+        kind, block = scene(np.random.default_rng([10, index]))
         started = time.perf_counter()
-        found = least_model.solve(one)
+        solution = least_model.solve(block)
         chosen_s += time.perf_counter() - started
-        if found.rung is least_model.Rung.NO_SLIP or found.result.status is Status.UPLIFT:
+        if solution.rung is least_model.Rung.NO_SLIP or solution.result.status is Status.UPLIFT:
             continue
         started = time.perf_counter()
-        two_axes.run(one)
+        two_axes.run(block)
         always_s += time.perf_counter() - started
-        true, lesser = two_axes.run(one, 1e-8), one_axis.run(one)
-        off = difference(found.result, true)
+        true, lesser = two_axes.run(block, 1e-8), one_axis.run(block)
+        off = difference(solution.result, true)
         bound = least_model.DEFAULT.bound_m(lesser.prd_m)
         worst = max(worst, off / bound)
         for what in (kind, "all"):
             count[what, "slide"] += 1
-            count[what, "wrong"] += off > bound + true.error_m + found.result.error_m
+            count[what, "wrong"] += off > bound + true.error_m + solution.result.error_m
             count[what, "need rung 3"] += difference(lesser, true) > bound
-            count[what, "get rung 3"] += found.rung is least_model.Rung.TWO_AXES
+            count[what, "get rung 3"] += solution.rung is least_model.Rung.TWO_AXES
     print(f"{'scenes':34}{'slide':>8}{'wrong':>8}{'need rung 3':>13}{'get rung 3':>13}")
     for kind in sorted({kind for kind, _ in count}):
         slide, wrong = count[kind, "slide"], count[kind, "wrong"]

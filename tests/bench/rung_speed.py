@@ -78,7 +78,7 @@ def main() -> None:
     print(f"{'rung':30}{'median ms':>12}{'longest ms':>12}{'ratio':>9}")
     first = math.nan
     for title, taken in times.items():
-        each = [statistics.median(one[1:]) for one in taken]
+        each = [statistics.median(call_times[1:]) for call_times in taken]
         middle = statistics.median(each)
         first = middle if math.isnan(first) else first
         print(f"{title:30}{1e3 * middle:12.4f}{1e3 * max(each):12.4f}{middle / first:9.1f}")

@@ -32,16 +32,16 @@ SECONDS = 3.0
 def motions() -> list[tuple[str, list[np.ndarray], float]]:
     """Return name, three components and time step of each motion, cut to its strong part."""
     paths = [Path(name) for name in sys.argv[1:]] or sorted(SHARED.glob("*.V2A"))
-    found = []
+    whole = []
     for path in paths:
         channels = read_motion_file(path).channels
-        found.append((path.stem, [channel.a_mps2 for channel in channels], channels[0].dt_s))
-    if not found:
+        whole.append((path.stem, [channel.a_mps2 for channel in channels], channels[0].dt_s))
+    if not whole:
         for path in sorted((ROOT / "projects" / "example" / "records").glob("*-x.csv"))[:2]:
             names = [path.with_name(path.name.replace("-x", side)) for side in ("-x", "-y", "-z")]
             records = [read_record(name) for name in names]
-            found.append((path.stem, [record.a_mps2 for record in records], records[0].dt_s))
-    return [(name, strong_part(sides, dt), dt) for name, sides, dt in found]
+            whole.append((path.stem, [record.a_mps2 for record in records], records[0].dt_s))
+    return [(name, strong_part(sides, dt), dt) for name, sides, dt in whole]
 
 
 def strong_part(sides: list[np.ndarray], dt: float) -> list[np.ndarray]:
@@ -54,10 +54,10 @@ def strong_part(sides: list[np.ndarray], dt: float) -> list[np.ndarray]:
     return cut
 
 
-def places(found: PlaneOutcome) -> np.ndarray:
+def places(outcome: PlaneOutcome) -> np.ndarray:
     """Return what an error is looked for in."""
-    sides = found.down_m, found.up_m, found.left_m, found.right_m
-    return np.array([found.prd_m, *sides, *found.end_m])
+    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
+    return np.array([outcome.prd_m, *sides, *outcome.end_m])
 
 
 def main() -> None:
@@ -91,9 +91,9 @@ def main() -> None:
             sides = exact.x_max, -exact.x_min, exact.y_max, -exact.y_min
             theirs = np.array([exact.prd, *sides, *exact.end])
             for tolerance in TOLERANCES if exact.prd > 0.0 else ():
-                found = follow(scene, tolerance)
-                error = float(np.abs(places(found) - theirs).max())
-                rows[tolerance].append((error / exact.prd, found.error_m / exact.prd))
+                outcome = follow(scene, tolerance)
+                error = float(np.abs(places(outcome) - theirs).max())
+                rows[tolerance].append((error / exact.prd, outcome.error_m / exact.prd))
             print(f"{name} {slope_deg:g} deg mu {mu:g}: PRD {exact.prd:.4f} m", flush=True)
     print("tolerance   largest error   largest bound   scenes")
     for tolerance, pairs in rows.items():

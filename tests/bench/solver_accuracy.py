@@ -30,12 +30,12 @@ def records() -> list[tuple[str, np.ndarray, np.ndarray | None, float]]:
         pairs = zip(sys.argv[1::2], sys.argv[2::2], strict=True)
         read = [read_record(Path(name), units="g", dt_s=float(dt)) for name, dt in pairs]
         return [(record.name, record.a_mps2, None, record.dt_s) for record in read]
-    found: list[tuple[str, np.ndarray, np.ndarray | None, float]] = []
+    components: list[tuple[str, np.ndarray, np.ndarray | None, float]] = []
     for path in sorted((ROOT / "projects" / "example" / "records").glob("*-x.csv")):
         h = read_record(path, units="g")
         v = read_record(path.with_name(path.name.replace("-x", "-z")), units="g")
-        found += [(h.name, h.a_mps2, z, h.dt_s) for z in (None, v.a_mps2)]
-    return found
+        components += [(h.name, h.a_mps2, z, h.dt_s) for z in (None, v.a_mps2)]
+    return components
 
 
 def main() -> None:
@@ -45,11 +45,11 @@ def main() -> None:
         for degrees, mu, ppa in SCENES:
             scene = {"slope_rad": math.radians(degrees), "mu": mu}
             scale = ppa * G / float(np.abs(ax).max())
-            found = slide(ax, dt, az_mps2=az, scale=scale, **scene)
+            result = slide(ax, dt, az_mps2=az, scale=scale, **scene)
             exact = oracle.slide(ax, dt, az=az, scale=scale, **scene)
-            if math.isnan(found.prd_m) or not exact.prd:
+            if math.isnan(result.prd_m) or not exact.prd:
                 continue
-            errors = (abs(found.prd_m - exact.prd), abs(found.residual_m - exact.residual))
+            errors = (abs(result.prd_m - exact.prd), abs(result.residual_m - exact.residual))
             rows.append((float(max(errors) / exact.prd), name, degrees, mu, ppa))
     rows.sort(reverse=True)
     median = statistics.median(row[0] for row in rows)

@@ -25,26 +25,26 @@ def repeat(
     ax: np.ndarray, x: np.ndarray, dt: float, sn: float, mu: float, times: int
 ) -> tuple[float, int]:
     """Run one scene many times; the sum keeps the work from being optimised away."""
-    found, stops = 0.0, 0
+    sum_m, stops = 0.0, 0
     for _ in range(times):
         out = one_axis.slide_exact(
             ax, None, x, None, dt, sn, math.sqrt(1.0 - sn * sn), mu, G, 1.0, None
         )
-        found += out[0] - out[1]
+        sum_m += out[0] - out[1]
         stops = out[5]
-    return found, stops
+    return sum_m, stops
 
 
 def nanoseconds(ax: np.ndarray, dt: float, sn: float, mu: float) -> tuple[float, int]:
     """Median time of a run [ns] and its number of stops."""
     ax.setflags(write=False)
-    x, times, found = one_axis.bounds(ax), 200, []
+    x, times, durations_ns = one_axis.bounds(ax), 200, []
     _, stops = repeat(ax, x, dt, sn, mu, times)
     for _ in range(15):
         started = time.perf_counter()
         repeat(ax, x, dt, sn, mu, times)
-        found.append((time.perf_counter() - started) / times * 1e9)
-    return statistics.median(found), stops
+        durations_ns.append((time.perf_counter() - started) / times * 1e9)
+    return statistics.median(durations_ns), stops
 
 
 def main() -> None:

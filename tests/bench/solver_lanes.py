@@ -33,7 +33,7 @@ def onset(q_0, q_1, tau, dt):
 @njit
 def slide_lanes(ax, x, dt, cases, first, out):
     """Rows of cases: weights of 1 and a in the push down and up, and the resting band."""
-    last, rate, half, zero, one = ax.size - 1, 1.0 / dt, 0.5 * dt, floats(0.0), floats(1.0)
+    last, rate, half, zero, unity = ax.size - 1, 1.0 / dt, 0.5 * dt, floats(0.0), floats(1.0)
     own = whole(first)
     d_0, d_1, u_0 = gather(cases[0], own), gather(cases[1], own), gather(cases[2], own)
     u_1, low, high = gather(cases[3], own), gather(cases[4], own), gather(cases[5], own)
@@ -70,7 +70,7 @@ def slide_lanes(ax, x, dt, cases, first, out):
             rises, tau = t_up < t_down, where(still, least(t_up, t_down), tau)
             c_0 = where(still, where(rises, u_0, d_0), c_0)
             c_1 = where(still, where(rises, u_1, d_1), c_1)
-            sigma = where(still, where(rises, zero - 1.0, one), sigma)
+            sigma = where(still, where(rises, zero - 1.0, unity), sigma)
             rests = still & ~(tau < dt)
             rest, acts = rest | rests, acts & ~rests
             q_0, r = c_0 - c_1 * a_0, c_1 * ((a_0 - a_1) * rate)
@@ -124,17 +124,17 @@ def run_lanes(ax, x, dt, peak, out):
     steps = np.round(20.0 * np.log(np.maximum(near, 1e-3)))
     order = np.lexsort((far, steps, -cases[4] < cases[5]))
     order = np.append(order, np.repeat(order[-1:], -len(GRID) % LANES))
-    found = np.empty((len(order), 3))
-    run_all(ax, x, dt, np.ascontiguousarray(cases[:, order]), found)
-    out[order] = found
+    outcomes = np.empty((len(order), 3))
+    run_all(ax, x, dt, np.ascontiguousarray(cases[:, order]), outcomes)
+    out[order] = outcomes
 
 
 @njit
 def run_one_by_one(ax, x, dt, peak, grid, out):
     for k in range(grid.shape[0]):
         sn, cs, scale = math.sin(grid[k, 0]), math.cos(grid[k, 0]), grid[k, 2] * G / peak
-        found = one_axis.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
-        out[k, 0], out[k, 1], out[k, 2] = found[0], found[1], found[2]
+        outcome = one_axis.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
+        out[k, 0], out[k, 1], out[k, 2] = outcome[0], outcome[1], outcome[2]
 
 
 def measure(path):
@@ -157,9 +157,9 @@ def main():
     for name, paths in suites().items():
         logs = []
         for path in paths:
-            one, lanes, difference = measure(path)
-            logs.append(math.log(one / lanes))
-            figures = f"{one * 1e6:15.2f}{lanes * 1e6:15.2f}{one / lanes:15.2f}"
+            scalar, lanes, difference = measure(path)
+            logs.append(math.log(scalar / lanes))
+            figures = f"{scalar * 1e6:15.2f}{lanes * 1e6:15.2f}{scalar / lanes:15.2f}"
             print(f"{path.stem:32}{figures}{difference:15.0e}")
         print(f"{name + ', geometric mean':62}{math.exp(statistics.mean(logs)):15.2f}")
 

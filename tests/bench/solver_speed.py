@@ -46,22 +46,22 @@ PASSES = 500
 @njit
 def total(a: np.ndarray) -> float:
     """Sum of the samples: one streaming pass."""
-    found = 0.0
+    summed = 0.0
     for value in a:
-        found += value
-    return found
+        summed += value
+    return summed
 
 
 @njit
 def run_exact(ax: np.ndarray, x: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> float:
     """Run every row of the grid; the sum of the PRDs keeps the work from being optimised away."""
-    found = 0.0
+    sum_m = 0.0
     for k in range(grid.shape[0]):
         sn, cs, scale = math.sin(grid[k, 0]), math.cos(grid[k, 0]), grid[k, 2] * G / peak
         n_min, _ = one_axis.least_normal(ax, None, x, None, dt, sn, cs, G, scale)
         out = one_axis.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
-        found += max(out[0], -out[1]) + min(n_min, 0.0)
-    return found
+        sum_m += max(out[0], -out[1]) + min(n_min, 0.0)
+    return sum_m
 
 
 @njit
@@ -102,13 +102,13 @@ def run_listed(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> np.n
 
 def run_fast(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> np.ndarray:
     """PRD of every row of the grid by the paper's algorithm as fast as it goes."""
-    found = np.empty(len(grid))
+    prd_m = np.empty(len(grid))
     for k, (slope, mu, ppa) in enumerate(grid):
         sn, cs, scale = math.sin(slope), math.cos(slope), ppa * G / peak
         scene = ax, NO_RECORD, dt, sn, cs, mu, G, scale
         _, s_max, s_min, *_ = rivals.slide_constant(*scene, SUBSTEPS, False, NO_HISTORY)
-        found[k] = cs * max(s_max, -s_min)
-    return found
+        prd_m[k] = cs * max(s_max, -s_min)
+    return prd_m
 
 
 def seconds(*calls: Callable[[], object]) -> list[float]:
@@ -144,12 +144,12 @@ def suites() -> dict[str, list[Path]]:
     if sys.argv[1:]:
         return {"records": [Path(name) for name in sys.argv[1:]]}
     made = ROOT / "projects" / "example" / "records"
-    found = {"example": sorted(made.glob("*-x.csv"))}
+    paths = {"example": sorted(made.glob("*-x.csv"))}
     spec = importlib.util.find_spec("pyslammer")
     if spec is not None and spec.origin is not None:
         real = Path(spec.origin).parent / "sample_ground_motions"
-        found["pyslammer"] = sorted(real.glob("*.csv"))
-    return found
+        paths["pyslammer"] = sorted(real.glob("*.csv"))
+    return paths
 
 
 def main() -> None:
@@ -160,10 +160,10 @@ def main() -> None:
     for name, paths in suites().items():
         logs = []
         for path in paths:
-            size, exact, one, listed, fast = measure(path)
-            ratios = (exact / one, listed / exact, fast / exact)
+            size, exact, streamed, listed, fast = measure(path)
+            ratios = (exact / streamed, listed / exact, fast / exact)
             logs.append([math.log(ratio) for ratio in ratios])
-            figures = (size, exact * 1e6, one * 1e6, *ratios)
+            figures = (size, exact * 1e6, streamed * 1e6, *ratios)
             print(f"{path.stem:32}" + "".join(f"{figure:13.2f}" for figure in figures))
         means = [math.exp(statistics.mean(column)) for column in zip(*logs, strict=True)]
         print(f"{name + ', geometric mean':71}" + "".join(f"{mean:13.2f}" for mean in means))

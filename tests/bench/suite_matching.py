@@ -75,7 +75,7 @@ def reqpy(record: Record) -> Floats:
     freq_hz, sa_g = targets()[0]
     periods = np.geomspace(0.02, 12.0, 400)
     wanted = np.exp(np.interp(np.log(1 / periods), np.log(freq_hz), np.log(sa_g)))
-    found = reqpy_M.generate_single_component_compatible_record(
+    compatible = reqpy_M.generate_single_component_compatible_record(
         s=strongest(record, DT_S, N),
         fs=1 / DT_S,
         T_PSA=periods,
@@ -84,7 +84,7 @@ def reqpy(record: Record) -> Floats:
         T2PSA=10.0,
         baseline_method="classic",
     )
-    return np.asarray(found["sc"]) * 9.80665
+    return np.asarray(compatible["sc"]) * 9.80665
 
 
 def compare(name: str, match: Callable[[Record], Floats], records: Sequence[Record]) -> None:
@@ -96,11 +96,11 @@ def compare(name: str, match: Callable[[Record], Floats], records: Sequence[Reco
         a = match(record)
         seconds = time.perf_counter() - begun
         made = Record(name=record.name, dt_s=DT_S, a_mps2=np.ascontiguousarray(a))
-        fit, found = spectrum_fit(made, target), measures(made)
+        fit, measured = spectrum_fit(made, target), measures(made)
         print(
             f"{name:8} {record.name:34} {seconds:5.2f} s  {fit.least:.3f} to {fit.greatest:.3f}, "
-            f"mean {fit.mean:.3f}; end {100 * found.final_velocity_mps:.1e} cm/s, "
-            f"{100 * found.final_displacement_m:.1e} cm; D5-95 {found.d5_95_s:.1f} s"
+            f"mean {fit.mean:.3f}; end {100 * measured.final_velocity_mps:.1e} cm/s, "
+            f"{100 * measured.final_displacement_m:.1e} cm; D5-95 {measured.d5_95_s:.1f} s"
         )
 
 

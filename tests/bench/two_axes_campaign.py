@@ -32,24 +32,26 @@ def main() -> int:
         for kind in KINDS:
             ends = range(begin, begin + count)
             parts = [[(kind, n) for n in ends[at : at + PART]] for at in range(0, count, PART)]
-            found = [
-                one for part in pool.map(campaign, [run_pair] * len(parts), parts) for one in part
+            ended = [
+                call for part in pool.map(campaign, [run_pair] * len(parts), parts) for call in part
             ]
-            troubled = [one for one in found if one.trouble]
-            over = [one for one in found if not one.trouble and one.outcome.ratio > 1.0]
+            troubled = [call for call in ended if call.trouble]
+            over = [call for call in ended if not call.trouble and call.outcome.ratio > 1.0]
             bad += troubled + over
             ratios = [
-                one.outcome.ratio for one in found if not one.trouble and one.outcome.prd_m > 0.0
+                call.outcome.ratio
+                for call in ended
+                if not call.trouble and call.outcome.prd_m > 0.0
             ]
             middle, most = np.percentile(ratios, (50.0, 99.0))
             print(
-                f"{kind:24}{len(found):8}{len(troubled):8}{len(over):6}{middle:9.1e}{most:9.1e}"
+                f"{kind:24}{len(ended):8}{len(troubled):8}{len(over):6}{middle:9.1e}{most:9.1e}"
                 f"{max(ratios):9.1e}",
                 flush=True,
             )
-    for one in bad:
-        kind, index = one.arguments
-        print(f"pair({kind!r}, {index}): {one.trouble or one.outcome}")
+    for call in bad:
+        kind, index = call.arguments
+        print(f"pair({kind!r}, {index}): {call.trouble or call.outcome}")
     print(f"{time.perf_counter() - started:.0f} s")
     return 1 if bad else 0
 
