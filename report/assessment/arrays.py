@@ -80,11 +80,11 @@ class ArrayAssessment:
             return DesignBasis.NO_VALUE
         return DesignBasis.FLOOR if self.floor_m > self.analysis.value_m else DesignBasis.ANALYSIS
 
-    def design_towards_m(self, direction: Direction) -> float:
+    def design_toward_m(self, direction: Direction) -> float:
         """Return the design displacement in a direction [m], not less than the floor."""
         return self._floored(self.directions[direction])
 
-    def chosen_towards_m(self, direction: Direction) -> float:
+    def chosen_toward_m(self, direction: Direction) -> float:
         """Return the same with the adequate models [m]."""
         return self._floored(self.chosen[direction])
 
@@ -92,14 +92,14 @@ class ArrayAssessment:
         return math.nan if math.isnan(analysis.value_m) else max(analysis.value_m, self.floor_m)
 
     @property
-    def is_model_asked_for(self) -> bool:
+    def is_model_requested(self) -> bool:
         """Whether the workbook requests a model."""
         return self.array.model in RUNGS
 
     @property
     def is_model_enough(self) -> bool:
         """Whether the adequate models require no larger displacement in any direction."""
-        pairs = ((self.chosen_towards_m(d), self.design_towards_m(d)) for d in Direction)
+        pairs = ((self.chosen_toward_m(d), self.design_toward_m(d)) for d in Direction)
         return all(math.isnan(b) or a <= b + least_model.DEFAULT.bound_m(b) for a, b in pairs)
 
     @property
@@ -149,7 +149,7 @@ def assess_array(
     )
     asked = data.options.statistic
     basis = None if asked is Statistic.RULE_SET else Basis(asked.value)
-    directions = _towards(rules, runs, basis)
+    directions = _by_direction(rules, runs, basis)
     analysis = directions[Direction.ANY]
     floor = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
     no_value = math.isnan(analysis.value_m)
@@ -160,7 +160,7 @@ def assess_array(
         motions=runs,
         analysis=analysis,
         directions=directions,
-        chosen=directions if needed is runs else _towards(rules, needed, basis),
+        chosen=directions if needed is runs else _by_direction(rules, needed, basis),
         needed=needed,
         prescriptive=prescriptive,
         floor_m=floor,
@@ -187,7 +187,7 @@ def assess_array(
     )
 
 
-def _towards(
+def _by_direction(
     rules: RuleSet, runs: Sequence[MotionRun], basis: Basis | None
 ) -> Mapping[Direction, AnalysisValue]:
     return {

@@ -90,8 +90,8 @@ def check_clearance(
     facing += [
         (other, facing_direction(near.array, other.array, row.direction)) for other in others
     ]
-    governing, direction = max(facing, key=lambda a: nan_is_worst(a[0].design_towards_m(a[1])))
-    design_m = governing.design_towards_m(direction)
+    governing, direction = max(facing, key=lambda a: nan_is_worst(a[0].design_toward_m(a[1])))
+    design_m = governing.design_toward_m(direction)
     if others:
         alike = near.array.construction.casefold() == others[0].array.construction.casefold()
         neighbor = Neighbor.LIKE if alike else Neighbor.UNLIKE

@@ -233,7 +233,7 @@ def _runs(motions: Sequence[Motion]) -> str:
 
 def _requested(package: PackageData) -> str:
     """Return which arrays use a model that the workbook requests."""
-    arrays = [item.array for item in package.assessment.arrays if item.is_model_asked_for]
+    arrays = [item.array for item in package.assessment.arrays if item.is_model_requested]
     return "".join(
         f"; {array.id} uses the requested model, {array.model.value}" for array in arrays
     )

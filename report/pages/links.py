@@ -128,7 +128,7 @@ def _lines(package: PackageData) -> Sequence[Line]:
             steps=tuple(_step(package, linked) for linked in package.assessment.linked),
             note="Where a model is requested, the value from analysis is the larger of its value "
             "and that of the adequate model."
-            if any(linked.design.is_model_asked_for for linked in package.assessment.linked)
+            if any(linked.design.is_model_requested for linked in package.assessment.linked)
             else "",
         ),
     )
@@ -218,7 +218,7 @@ def _design(package: PackageData, linked: LinkedArray) -> tuple[str, ...]:
         *fmt.cells(linked.rigid.value_m),
         *fmt.cells(linked.linked.value_m),
         _ratio(linked.ratio),
-        *fmt.cells(linked.design.design_towards_m(Direction.ANY)),
+        *fmt.cells(linked.design.design_toward_m(Direction.ANY)),
         *(("∞", "∞") if math.isinf(estimated) else fmt.cells(estimated)),
         verdict(linked.is_rigid_enough),
     )

@@ -251,7 +251,7 @@ def _directions_line(package: PackageData, array: ArrayAssessment) -> Line:
                 f"{way.value.capitalize()}: max({factor} × "
                 f"{fmt.both(analysis.largest_m if largest else analysis.mean_m)}, "
                 f"{fmt.both(array.floor_m)})",
-                fmt.both(array.design_towards_m(way)) + package.towards_mark(array, way),
+                fmt.both(array.design_toward_m(way)) + package.direction_mark(array, way),
             )
             for way in ways
             for analysis in (array.directions[way],)

@@ -60,11 +60,11 @@ def model_troubles(package: PackageData) -> Iterator[str]:
     for array in package.assessment.arrays:
         if array.is_model_enough:
             continue
-        worst = max(Direction, key=lambda d: array.chosen_towards_m(d) - array.design_towards_m(d))
+        worst = max(Direction, key=lambda d: array.chosen_toward_m(d) - array.design_toward_m(d))
         yield (
             f"Array {array.id}: the requested model, {array.array.model.value}, gives "
-            f"{package.fmt.both(array.design_towards_m(worst))} ({worst.value}); the adequate "
-            f"model gives {package.fmt.both(array.chosen_towards_m(worst))}."
+            f"{package.fmt.both(array.design_toward_m(worst))} ({worst.value}); the adequate "
+            f"model gives {package.fmt.both(array.chosen_toward_m(worst))}."
         )
 
 
@@ -111,7 +111,7 @@ def _stability(array: ArrayAssessment) -> tuple[str, ...]:
         number(lifts.duration_s, 3) if lifts.lifts else "none",
         number(tips.demand, 2) if math.isfinite(tips.demand) else "no limit",
         number(tips.capacity, 2),
-        ratio(tips.held_ratio),
+        ratio(tips.at_rest_ratio),
         ratio(tips.sliding_ratio),
         verdict(tips.is_ok and not lifts.lifts),
     )
@@ -192,7 +192,7 @@ def _model_rows(array: ArrayAssessment) -> Iterator[tuple[str, ...]]:
 
 def _reason(array: ArrayAssessment, run: HeadingRun) -> str:
     reason = run.solution.reason
-    return "requested in the workbook" if array.is_model_asked_for else reason
+    return "requested in the workbook" if array.is_model_requested else reason
 
 
 def _error(runs: Sequence[HeadingRun]) -> str:
@@ -231,7 +231,7 @@ def _neglected_table(package: PackageData) -> Table:
 def _neglected_rows(
     package: PackageData, array: ArrayAssessment
 ) -> Iterator[tuple[str | Wide, ...]]:
-    if array.is_model_asked_for:
+    if array.is_model_requested:
         yield _requested_row(package, array)
         return
     solutions = [run.solution for run in _runs(array)]
@@ -283,7 +283,7 @@ def _requested_row(package: PackageData, array: ArrayAssessment) -> tuple[str | 
         abs(more.governing.result.prd_m - run.governing.result.prd_m)
         for run, more in zip(array.motions, array.needed, strict=True)
     )
-    change = array.chosen_towards_m(Direction.ANY) - array.design_m
+    change = array.chosen_toward_m(Direction.ANY) - array.design_m
     floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
     return (
         array.id,

@@ -294,7 +294,7 @@ class PackageData:
         key = "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
         return "" if math.isnan(array.design_m) else self.mark(key)
 
-    def towards_mark(self, array: ArrayAssessment, direction: Direction) -> str:
+    def direction_mark(self, array: ArrayAssessment, direction: Direction) -> str:
         """Return the marks of a design displacement in a direction."""
         value = array.directions[direction].value_m
         key = "analysis_floor" if array.floor_m > value else "analysis_factor"

@@ -164,7 +164,7 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
     factor = rules.values["analysis_factor"].clause + package.mark("analysis_factor")
     floor = rules.values["analysis_floor"].clause + package.mark("analysis_floor")
     ways = [array.directions[direction] for direction in _WAYS]
-    toward = [array.design_towards_m(direction) for direction in _WAYS]
+    toward = [array.design_toward_m(direction) for direction in _WAYS]
     lines: tuple[tuple[str, float, str, str, list[float]], ...] = (
         ("Mean", analysis.mean_m, "", "of the motions", [way.mean_m for way in ways]),
         ("Largest", analysis.largest_m, "", "of the motions", [way.largest_m for way in ways]),

@@ -102,7 +102,7 @@ def _write_row(
             sheet.write_string(row, column, "no value")
         return
     picked = "D" if found.basis is Basis.LARGEST_FACTORED else "C"
-    design = item.design_towards_m(direction) / inch
+    design = item.design_toward_m(direction) / inch
     for column, formula, value in (
         (2, f"=AVERAGE({peaks})", found.mean_m / inch),
         (3, f"=MAX({peaks})", found.largest_m / inch),

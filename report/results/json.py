@@ -108,8 +108,8 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
                 "mean_m": found.mean_m,
                 "largest_m": found.largest_m,
                 "computed_m": found.value_m,
-                "design_m": item.design_towards_m(direction),
-                "design_by_chosen_model_m": item.chosen_towards_m(direction),
+                "design_m": item.design_toward_m(direction),
+                "design_by_chosen_model_m": item.chosen_toward_m(direction),
             }
             for direction, found in item.directions.items()
         },
@@ -124,7 +124,7 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
         "tipping": {
             "demand": item.tipping.demand,
             "capacity": item.tipping.capacity,
-            "held_ratio": item.tipping.held_ratio,
+            "held_ratio": item.tipping.at_rest_ratio,
             "sliding_ratio": item.tipping.sliding_ratio,
             "ok": item.tipping.is_ok,
         },

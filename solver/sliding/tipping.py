@@ -45,7 +45,7 @@ class Tipping:
         Largest shear over normal force with no slip; inf if the block lifts off.
     capacity : float
         `Supports.capacity`.
-    held_ratio : float
+    at_rest_ratio : float
         With the block at rest, up to slip: the lesser of the demand and the static friction
         coefficient, over the capacity.
     sliding_ratio : float
@@ -54,18 +54,18 @@ class Tipping:
 
     demand: float
     capacity: float
-    held_ratio: float
+    at_rest_ratio: float
     sliding_ratio: float
 
     @property
     def ratio(self) -> float:
         """The greater of the two."""
-        return max(self.held_ratio, self.sliding_ratio)
+        return max(self.at_rest_ratio, self.sliding_ratio)
 
     @property
     def governs(self) -> str:
         """The state with the greater ratio, at rest or sliding; at rest if they are equal."""
-        return "at rest" if self.held_ratio >= self.sliding_ratio else "sliding"
+        return "at rest" if self.at_rest_ratio >= self.sliding_ratio else "sliding"
 
     @property
     def is_ok(self) -> bool:
@@ -98,7 +98,7 @@ def tipping(scene: Scene, supports: Supports) -> Tipping:
     return Tipping(
         demand=demand,
         capacity=supports.capacity,
-        held_ratio=min(demand, friction.mu_static) / supports.capacity,
+        at_rest_ratio=min(demand, friction.mu_static) / supports.capacity,
         sliding_ratio=_kinetic(friction) / supports.capacity if slips else 0.0,
     )
 

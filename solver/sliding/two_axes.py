@@ -54,7 +54,7 @@ _FINER = 0.03
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlaneOutcome:
+class TwoAxesOutcome:
     """The motion of a block in plan, relative to the roof: x downslope, y cross-slope.
 
     Attributes
@@ -92,7 +92,7 @@ class PlaneOutcome:
     step_tolerance: float
 
 
-class PlaneEvent(NamedTuple):
+class TwoAxesEvent(NamedTuple):
     """Slip begins or ends: time [s], kind, displacement in plan [m]."""
 
     t_s: float
@@ -109,7 +109,7 @@ def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
     return _result(follow(_with_second_axis(scene), tolerance), n_min_g)
 
 
-def _result(outcome: PlaneOutcome, n_min_g: float) -> SlideResult:
+def _result(outcome: TwoAxesOutcome, n_min_g: float) -> SlideResult:
     if outcome.status is not Status.OK:
         return without_displacement(outcome.status, n_min_g, math.nan)
     speed = math.hypot(*outcome.end_mps)
@@ -163,7 +163,7 @@ def _with_second_axis(scene: Scene) -> Scene:
     return replace(scene, ay_mps2=zero)
 
 
-def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> PlaneOutcome:
+def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome:
     """Compute the motion of a block to a tolerance relative to its PRD.
 
     Assumes that the normal force never falls below zero (`solver.kernels.one_axis.least_normal`).
@@ -182,12 +182,14 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> PlaneOutcome:
     return replace(finer, error_m=2.0 * float(np.abs(changes).max()))
 
 
-def follow_history(scene: Scene, outcome: PlaneOutcome) -> tuple[Floats, tuple[PlaneEvent, ...]]:
+def follow_history(
+    scene: Scene, outcome: TwoAxesOutcome
+) -> tuple[Floats, tuple[TwoAxesEvent, ...]]:
     """Return x, y and their rates at the samples, shape (4, n) [m], [m/s], and the events.
 
     Parameters
     ----------
-    outcome : PlaneOutcome
+    outcome : TwoAxesOutcome
         Result of `follow` for the same scene.
     """
     events, samples = np.empty((outcome.n_events, 4)), np.empty((4, len(scene.ax_mps2)))
@@ -195,7 +197,7 @@ def follow_history(scene: Scene, outcome: PlaneOutcome) -> tuple[Floats, tuple[P
     cs = math.cos(scene.slope_rad)
     samples[0::2] *= cs
     return samples, tuple(
-        PlaneEvent(
+        TwoAxesEvent(
             t_s=t,
             kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP,
             x_m=cs * sx,
@@ -205,7 +207,7 @@ def follow_history(scene: Scene, outcome: PlaneOutcome) -> tuple[Floats, tuple[P
     )
 
 
-def _bounded(scene: Scene, tolerance: float) -> PlaneOutcome:
+def _bounded(scene: Scene, tolerance: float) -> TwoAxesOutcome:
     """Return the first of successively finer runs whose error bound is within the tolerance."""
     steps, share = 0, _SHARE * tolerance
     for _ in range(_ATTEMPTS):
@@ -219,12 +221,12 @@ def _bounded(scene: Scene, tolerance: float) -> PlaneOutcome:
     return replace(outcome, n_steps=steps)
 
 
-def _places(outcome: PlaneOutcome) -> tuple[float, ...]:
+def _places(outcome: TwoAxesOutcome) -> tuple[float, ...]:
     sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
     return outcome.prd_m, *sides, *outcome.end_m
 
 
-def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOutcome:
+def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesOutcome:
     friction, cs = scene.friction, math.cos(scene.slope_rad)
     law = None
     if not friction.is_constant:
@@ -256,7 +258,7 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> PlaneOut
     )
     prd, t_prd, s_max, s_min, y_max, y_min = top.tolist()
     sx, sy, vx, vy = end.tolist()
-    return PlaneOutcome(
+    return TwoAxesOutcome(
         status=_STATUSES[outcome],
         prd_m=prd,
         t_prd_s=t_prd,

@@ -16,7 +16,7 @@ import numpy as np
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, Status, coulomb
 from solver.rivals.methods import NO_RECORD
-from solver.sliding.two_axes import PlaneOutcome, follow
+from solver.sliding.two_axes import TwoAxesOutcome, follow
 from solver.verification.study import flat_scene
 from solver.verification.triples import readonly
 
@@ -27,7 +27,7 @@ SLOPES_DEG = (0.0, 0.0, 0.0, 0.5, -0.5, 2.0, -2.0, 5.0, 7.0, 12.0, -20.0)
 MUS = (0.001, 0.02, 0.1, 0.2, 0.4, 0.8)
 
 Random = np.random.Generator
-Compare = Callable[[PlaneOutcome, PlaneOutcome], Floats]
+Compare = Callable[[TwoAxesOutcome, TwoAxesOutcome], Floats]
 Law = Callable[[float], Friction]
 
 
@@ -245,21 +245,21 @@ def _falling(rng: Random) -> Law:
 # Pairs
 
 
-def _places(found: PlaneOutcome) -> Floats:
+def _places(found: TwoAxesOutcome) -> Floats:
     sides = found.down_m, found.up_m, found.left_m, found.right_m
     return np.array([found.prd_m, *sides, *found.end_m])
 
 
-def _same(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
+def _same(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
     return np.subtract(_places(a), _places(b))
 
 
-def _mirrored_across(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
+def _mirrored_across(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
     x, y = b.end_m
     return np.subtract(_places(a), [b.prd_m, b.down_m, b.up_m, b.right_m, b.left_m, x, -y])
 
 
-def _mirrored_along(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
+def _mirrored_along(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
     x, y = b.end_m
     return np.subtract(_places(a), [b.prd_m, b.up_m, b.down_m, b.left_m, b.right_m, -x, y])
 
@@ -316,7 +316,7 @@ def _rotated(rng: Random) -> Pair:
         ay_mps2=readonly(sn * one.ax_mps2 + cs * one.ay_mps2),
     )
 
-    def compare(a: PlaneOutcome, b: PlaneOutcome) -> Floats:
+    def compare(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
         x, y = a.end_m
         x, y = cs * x - sn * y, sn * x + cs * y
         return np.array([a.prd_m - b.prd_m, math.hypot(x - b.end_m[0], y - b.end_m[1])])

@@ -18,7 +18,7 @@ import numpy as np
 import plane_oracle
 from solver.formats.reader import read_motion_file, read_record
 from solver.model import Scene, coulomb
-from solver.sliding.two_axes import PlaneOutcome, follow
+from solver.sliding.two_axes import TwoAxesOutcome, follow
 
 ROOT = Path(__file__).resolve().parents[2]
 SHARED = ROOT.parent / "shared" / "records"
@@ -54,7 +54,7 @@ def strong_part(sides: list[np.ndarray], dt: float) -> list[np.ndarray]:
     return cut
 
 
-def places(outcome: PlaneOutcome) -> np.ndarray:
+def places(outcome: TwoAxesOutcome) -> np.ndarray:
     """Return what an error is looked for in."""
     sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
     return np.array([outcome.prd_m, *sides, *outcome.end_m])

@@ -93,7 +93,7 @@ def test_a_model_that_is_not_adequate_is_ng():
         options={"peer_reviewed": True},
     )
     item = found.assessment.arrays[0]
-    assert item.chosen_towards_m(Direction.ANY) > 1.1 * item.design_m
+    assert item.chosen_toward_m(Direction.ANY) > 1.1 * item.design_m
     (text,) = model.page(found)["troubles"]
     assert text.startswith("Array A1: the requested model, one axis, gives")
     assert not found.assessment.ok
@@ -169,7 +169,7 @@ def test_a_stable_array_has_its_tipping_ratios(usual):
     for row, found in zip(rows[:2], usual.assessment.arrays[:2], strict=True):
         capacity = 0.5 * found.array.support_spacing_m / found.array.cg_height_m
         held = min(found.tipping.demand, found.array.mu) / capacity
-        assert found.tipping.held_ratio == pytest.approx(held, rel=1e-12)
+        assert found.tipping.at_rest_ratio == pytest.approx(held, rel=1e-12)
         runs = [run for motion in found.motions for run in motion.runs]
         assert found.tipping.demand == max(run.solution.friction_demand for run in runs)
         assert found.uplift.n_min_g == min(uplift(run.scene).n_min_g for run in runs)

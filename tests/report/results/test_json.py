@@ -37,7 +37,7 @@ def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document
     array, item = document["arrays"][2], assessment.arrays[2]
     for direction in Direction:
         found = array["directions"][direction]
-        assert found["design_m"] == item.design_towards_m(direction)
+        assert found["design_m"] == item.design_toward_m(direction)
         peaks = [motion[f"{direction}_m"] for motion in array["peaks"]]
         assert found["mean_m"] == pytest.approx(sum(peaks) / len(peaks))
     run, solution = array["runs"][0], item.motions[0].runs[0].solution
@@ -47,7 +47,7 @@ def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document
     assert run["next_effect_m"] is None
     gap = document["clearances"][3]
     assert gap["governing_direction"] == "up"
-    assert gap["design_m"] == item.design_towards_m(Direction.UP)
+    assert gap["design_m"] == item.design_toward_m(Direction.UP)
 
 
 def test_json_has_rows_of_linked_blocks_with_their_runs():

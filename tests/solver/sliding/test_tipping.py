@@ -34,7 +34,7 @@ def test_a_block_that_friction_holds_tips_by_its_demand():
     tips = tipping(scene([0.0, 0.3, -0.1, 0.0]), SLENDER)
     assert tips.capacity == 0.25
     assert tips.demand == pytest.approx(0.3, rel=1e-15)
-    assert tips.held_ratio == pytest.approx(1.2, rel=1e-15)
+    assert tips.at_rest_ratio == pytest.approx(1.2, rel=1e-15)
     assert tips.sliding_ratio == 0.0
     assert (tips.governs, tips.is_ok) == ("at rest", False)
 
@@ -43,7 +43,7 @@ def test_a_block_that_friction_holds_tips_by_its_demand():
 def test_a_block_that_slides_cannot_be_given_more_than_friction(peak_g):
     tips = tipping(scene([0.0, -peak_g, 0.0]), STOCKY)
     assert tips.demand == pytest.approx(peak_g, rel=1e-15)
-    assert tips.held_ratio == tips.sliding_ratio == 0.25
+    assert tips.at_rest_ratio == tips.sliding_ratio == 0.25
     assert tips.is_ok
 
 
@@ -56,14 +56,14 @@ def test_a_block_slides_before_it_tips_just_where_friction_is_below_its_slendern
 def test_static_friction_governs_at_the_moment_it_slips():
     law = Friction(mu_slow=0.2, mu_fast=0.2, rate_s_per_m=0.0, mu_static=0.3)
     tips = tipping(replace(scene([0.0, 1.0, 0.0]), friction=law), SLENDER)
-    assert (tips.held_ratio, tips.sliding_ratio) == (1.2, 0.8)
+    assert (tips.at_rest_ratio, tips.sliding_ratio) == (1.2, 0.8)
     assert (tips.governs, tips.is_ok) == ("at rest", False)
 
 
 def test_friction_that_grows_with_speed_governs_while_it_slides():
     law = Friction(mu_slow=0.2, mu_fast=0.4, rate_s_per_m=20.0, mu_static=0.2)
     tips = tipping(replace(scene([0.0, 1.0, 0.0]), friction=law), SLENDER)
-    assert (tips.held_ratio, tips.sliding_ratio) == (0.8, 1.6)
+    assert (tips.at_rest_ratio, tips.sliding_ratio) == (0.8, 1.6)
     assert tips.governs == "sliding"
     same = replace(law, rate_s_per_m=0.0)
     assert tipping(replace(scene([0.0, 1.0, 0.0]), friction=same), SLENDER).sliding_ratio == 0.8
