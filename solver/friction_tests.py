@@ -82,8 +82,8 @@ class Series:
     @property
     def static_mean(self) -> float:
         """Mean of the breakaway coefficients that are reported; NaN for none."""
-        found = [run.mu_static for run in self.runs if not math.isnan(run.mu_static)]
-        return math.fsum(found) / len(found) if found else math.nan
+        coefficients = [run.mu_static for run in self.runs if not math.isnan(run.mu_static)]
+        return math.fsum(coefficients) / len(coefficients) if coefficients else math.nan
 
     def mean_of(self, law: Friction) -> float:
         """Return the mean of a friction law over the tested velocities.
@@ -99,28 +99,28 @@ class Series:
 
 def series(runs: Iterable[FrictionRun]) -> tuple[Series, ...]:
     """Return the runs by report and condition, in the order in which these first appear."""
-    found: dict[tuple[str, Surface], list[FrictionRun]] = {}
+    grouped: dict[tuple[str, Surface], list[FrictionRun]] = {}
     for run in runs:
-        found.setdefault((run.report, run.surface), []).append(run)
+        grouped.setdefault((run.report, run.surface), []).append(run)
     return tuple(
         Series(report=report, surface=surface, runs=tuple(those))
-        for (report, surface), those in found.items()
+        for (report, surface), those in grouped.items()
     )
 
 
-def governing(found: Sequence[Series], text: str) -> Series:
+def governing(choices: Sequence[Series], text: str) -> Series:
     """Return the series with the smallest kinetic mean.
 
     Parameters
     ----------
-    found : sequence of Series
+    choices : sequence of Series
         At least one.
     text : str
         The test report of an array, as entered. If it names reports of the series, the others are
         not considered.
     """
-    named = [one for one in found if one.report and _is_named(one.report, text)]
-    return min(named or found, key=lambda one: one.mean)
+    named = [choice for choice in choices if choice.report and _is_named(choice.report, text)]
+    return min(named or choices, key=lambda choice: choice.mean)
 
 
 def _is_named(report: str, text: str) -> bool:
@@ -176,13 +176,13 @@ def fit_law(velocities_mps: Sequence[float], mus: Sequence[float]) -> FittedLaw 
     grid = np.linspace(low, high, _GRID)
     best = int(np.argmin([_regressed(math.exp(x), v, mu).squares for x in grid]))
     x = _refined(float(grid[max(best - 1, 0)]), float(grid[min(best + 1, _GRID - 1)]), v, mu)
-    found = _regressed(math.exp(x), v, mu)
-    slow = found.fast - found.drop
-    is_inside = 0 < best < _GRID - 1 and abs(found.drop) > _LEAST_DROP
+    fit = _regressed(math.exp(x), v, mu)
+    slow = fit.fast - fit.drop
+    is_inside = 0 < best < _GRID - 1 and abs(fit.drop) > _LEAST_DROP
     return FittedLaw(
-        law=Friction(mu_slow=slow, mu_fast=found.fast, rate_s_per_m=math.exp(x), mu_static=slow),
-        rms=math.sqrt(found.squares / v.size),
-        is_determined=is_inside and all(0.0 <= c <= MOST_MU for c in (slow, found.fast)),
+        law=Friction(mu_slow=slow, mu_fast=fit.fast, rate_s_per_m=math.exp(x), mu_static=slow),
+        rms=math.sqrt(fit.squares / v.size),
+        is_determined=is_inside and all(0.0 <= c <= MOST_MU for c in (slow, fit.fast)),
     )
 
 

@@ -38,24 +38,24 @@ def test_runs_are_averaged_by_report_and_surface():
     wet = [run(mu, surface=Surface.WET) for mu in (0.45, 0.46, 0.50)]
     dry = [run(0.60, static=0.66), run(0.62, static=0.70), run(0.58)]
     other = [run(0.30, report="R2")]
-    found = series([dry[0], *wet, *dry[1:], *other])
-    assert [(one.report, one.surface, len(one.runs)) for one in found] == [
+    groups = series([dry[0], *wet, *dry[1:], *other])
+    assert [(group.report, group.surface, len(group.runs)) for group in groups] == [
         ("R1", Surface.DRY, 3), ("R1", Surface.WET, 3), ("R2", Surface.DRY, 1),
     ]  # fmt: skip
-    assert [one.mean for one in found] == pytest.approx([0.60, 0.47, 0.30], abs=1e-15)
-    assert found[0].static_mean == pytest.approx(0.68)
-    assert math.isnan(found[1].static_mean)
+    assert [group.mean for group in groups] == pytest.approx([0.60, 0.47, 0.30], abs=1e-15)
+    assert groups[0].static_mean == pytest.approx(0.68)
+    assert math.isnan(groups[1].static_mean)
 
 
 def test_the_smallest_mean_governs_among_the_reports_that_an_array_names():
-    found = series(
+    groups = series(
         [run(0.50), run(0.46, surface=Surface.WET), run(0.40, report="R10"), run(0.1, report="")]
     )
-    assert governing(found, "").mean == 0.1
-    assert governing(found, "ASTM G115, r1, 2025").mean == 0.46
-    assert governing(found, "R10").mean == 0.40
-    assert governing(found, "R1 and R10").mean == 0.40
-    assert governing(found, "R100").mean == 0.1
+    assert governing(groups, "").mean == 0.1
+    assert governing(groups, "ASTM G115, r1, 2025").mean == 0.46
+    assert governing(groups, "R10").mean == 0.40
+    assert governing(groups, "R1 and R10").mean == 0.40
+    assert governing(groups, "R100").mean == 0.1
 
 
 def test_a_law_is_averaged_at_the_tested_velocities_and_taken_at_its_largest_without_any():
@@ -72,23 +72,23 @@ def test_a_law_is_averaged_at_the_tested_velocities_and_taken_at_its_largest_wit
 @pytest.mark.parametrize("rate", [3.0, 20.0, 400.0])
 def test_runs_on_a_law_give_that_law(mu_fast, rate):
     law = Friction(mu_slow=0.40, mu_fast=mu_fast, rate_s_per_m=rate, mu_static=0.40)
-    found = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
-    assert found.is_determined
-    assert found.law.rate_s_per_m == pytest.approx(rate, rel=1e-9)
-    assert found.law.mu_slow == pytest.approx(0.40, abs=1e-11)
-    assert found.law.mu_fast == pytest.approx(mu_fast, abs=1e-11)
-    assert found.law.mu_static == found.law.mu_slow
-    assert found.rms < 1e-12
+    fit = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
+    assert fit.is_determined
+    assert fit.law.rate_s_per_m == pytest.approx(rate, rel=1e-9)
+    assert fit.law.mu_slow == pytest.approx(0.40, abs=1e-11)
+    assert fit.law.mu_fast == pytest.approx(mu_fast, abs=1e-11)
+    assert fit.law.mu_static == fit.law.mu_slow
+    assert fit.rms < 1e-12
 
 
 def test_scattered_runs_give_the_law_at_which_the_sum_of_squares_is_stationary():
     rng = np.random.default_rng(5)
     v = np.repeat(VELOCITIES, 3)
-    mu = np.array([LAW.at(one) for one in v]) + rng.normal(0.0, 0.01, v.size)
-    found = fit_law(tuple(v), tuple(mu))
-    law = found.law
-    residual = mu - [law.at(one) for one in v]
-    assert found.rms == pytest.approx(math.sqrt(np.mean(residual**2)), rel=1e-12)
+    mu = np.array([LAW.at(speed) for speed in v]) + rng.normal(0.0, 0.01, v.size)
+    fit = fit_law(tuple(v), tuple(mu))
+    law = fit.law
+    residual = mu - [law.at(speed) for speed in v]
+    assert fit.rms == pytest.approx(math.sqrt(np.mean(residual**2)), rel=1e-12)
     decay = np.exp(-law.rate_s_per_m * v)
     drop = law.mu_fast - law.mu_slow
     # Derivatives of the law by mu_slow, mu_fast and the logarithm of the rate.
@@ -97,7 +97,7 @@ def test_scattered_runs_give_the_law_at_which_the_sum_of_squares_is_stationary()
         assert abs(cosine) < 1e-6
     rates = np.geomspace(0.5, MOST_RATE_S_PER_M, 5000)
     least = min(_squares(v, mu, rate) for rate in rates)
-    assert v.size * found.rms**2 <= least * (1.0 + 1e-12)
+    assert v.size * fit.rms**2 <= least * (1.0 + 1e-12)
 
 
 def _squares(v, mu, rate):
@@ -127,9 +127,9 @@ def test_runs_that_do_not_show_a_transition_determine_no_law(mus):
 
 def test_a_law_beyond_the_range_of_coefficients_is_not_determined():
     law = Friction(mu_slow=0.4, mu_fast=MOST_MU + 0.2, rate_s_per_m=4.0, mu_static=0.4)
-    found = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
-    assert found.law.mu_fast == pytest.approx(MOST_MU + 0.2)
-    assert not found.is_determined
+    fit = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
+    assert fit.law.mu_fast == pytest.approx(MOST_MU + 0.2)
+    assert not fit.is_determined
 
 
 def test_velocities_too_low_for_any_rate_give_no_law():
