@@ -44,7 +44,7 @@ def verify(out: Path, quick: bool, records: Path | None) -> None:
     for row in failed:
         click.echo(
             f"  {row.section}: {row.problem}, {row.quantity}: expected {row.expected:.10g}, found "
-            f"{row.found:.10g} {row.unit}, error {row.error:.1e} exceeds "
+            f"{row.computed:.10g} {row.unit}, error {row.error:.1e} exceeds "
             f"{row.tolerance:.1e}"
         )
     for name in files:

@@ -50,7 +50,7 @@ def _check(row: CheckRow) -> dict[str, object]:
         "quantity": row.quantity,
         "unit": row.unit,
         "expected": row.expected,
-        "computed": row.found,
+        "computed": row.computed,
         "error [-]": row.error,
         "tolerance [-]": row.tolerance,
         "passed": "yes" if row.passed else "no",

@@ -70,7 +70,7 @@ def _check_row(row: CheckRow) -> TableRow:
             unbroken(lettered(row.problem)),
             f"{row.quantity} [{lettered(row.unit)}]" if row.unit != "1" else row.quantity,
             digits(row.expected),
-            digits(row.found),
+            digits(row.computed),
             scientific(row.error),
             scientific(row.tolerance),
             verdict(row.passed, (PASS, FAIL)),

@@ -28,16 +28,16 @@ def bound_ratios(*, quick: bool) -> tuple[BoundRatios, ...]:
 
 
 def _of_kind(kind: str, count: int) -> BoundRatios:
-    found = []
+    outcomes = []
     for index in range(count):
         try:
-            found.append(pair(kind, index).run())
+            outcomes.append(pair(kind, index).run())
         except ArithmeticError:
             continue
-    moved = [one.ratio for one in found if one.prd_m > 0.0]
+    moved = [outcome.ratio for outcome in outcomes if outcome.prd_m > 0.0]
     return BoundRatios(
         kind=_PRINTED.get(kind, kind),
         n_pairs=count,
-        n_unanswered=count - len(found),
+        n_unanswered=count - len(outcomes),
         ratios=np.sort(np.array(moved)),
     )

@@ -182,16 +182,18 @@ def _properties(records: FloorRecords) -> Iterator[tuple[str, Identified]]:
 
 
 def _predict(
-    name: str, found: Identified, records: FloorRecords, scale: float, roof_sa: Floats
+    name: str, properties: Identified, records: FloorRecords, scale: float, roof_sa: Floats
 ) -> RoofPrediction:
-    building = building_of_periods([found.period_s], damping=[found.damping], alpha0=found.alpha0)
+    building = building_of_periods(
+        [properties.period_s], damping=[properties.damping], alpha0=properties.alpha0
+    )
     motion = to_roof(records.ground_mps2, records.dt_s, building)
-    return _compared(name, found, motion, records, scale, roof_sa)
+    return _compared(name, properties, motion, records, scale, roof_sa)
 
 
 def _compared(
     name: str,
-    found: Identified,
+    properties: Identified,
     motion: RoofMotion,
     records: FloorRecords,
     scale: float,
@@ -205,9 +207,9 @@ def _compared(
     ratios, scatters = _by_band(np.log(sa / roof_sa))
     return RoofPrediction(
         name=name,
-        period_s=found.period_s,
-        damping=found.damping,
-        alpha0=found.alpha0,
+        period_s=properties.period_s,
+        damping=properties.damping,
+        alpha0=properties.alpha0,
         n_modes=motion.n_modes,
         left_out_share=motion.left_out_share,
         unexplained=unexplained(a, roof),

@@ -28,7 +28,7 @@ _BENDING = ((1.875104069, 0.734095514), (4.694091133, 1.018467319), (7.854757438
 """gamma and sigma of a clamped-free beam: Blevins, Formulas for Natural Frequency (1979), 8-1."""
 
 
-def building_checks(made: FloorRecords, found: RoofComparison) -> Iterator[CheckRow]:
+def building_checks(made: FloorRecords, comparison: RoofComparison) -> Iterator[CheckRow]:
     """Run the checks, including those of the model building's comparison."""
     yield from _steps()
     yield from _steady_waves()
@@ -37,7 +37,7 @@ def building_checks(made: FloorRecords, found: RoofComparison) -> Iterator[Check
     yield from _sums()
     yield from _stories()
     yield _whole_building(made)
-    yield from _identified(found)
+    yield from _identified(comparison)
 
 
 def made_building(ground: Record) -> FloorRecords:
@@ -83,25 +83,25 @@ def _stepped(a: Floats, dt: float) -> Floats:
     rate[STORIES:n, n] = -1.0
     rate[n, n + 1] = 1.0
     step = _exponential(rate * dt)
-    state, found = np.zeros(n), np.zeros((a.size, STORIES))
+    state, accelerations = np.zeros(n), np.zeros((a.size, STORIES))
     for i in range(1, a.size):
         slope = (a[i] - a[i - 1]) / dt
         state = step[:n, :n] @ state + step[:n, n] * a[i - 1] + step[:n, n + 1] * slope
-        found[i] = rate[STORIES:n, :n] @ state
-    return found
+        accelerations[i] = rate[STORIES:n, :n] @ state
+    return accelerations
 
 
 def _exponential(matrix: Floats) -> Floats:
     """Matrix exponential by power series, scaling and squaring."""
     halvings = max(0, math.ceil(math.log2(float(np.abs(matrix).sum(axis=1).max()))) + 3)
     part = matrix / 2.0**halvings
-    term = found = np.eye(len(matrix))
+    term = total = np.eye(len(matrix))
     for k in range(1, 16):
         term = term @ part / k
-        found = found + term
+        total = total + term
     for _ in range(halvings):
-        found = found @ found
-    return found
+        total = total @ total
+    return total
 
 
 def _steps() -> Iterator[CheckRow]:
@@ -109,7 +109,7 @@ def _steps() -> Iterator[CheckRow]:
         t, w = 1.37, 2.0 * math.pi / period_s
         kappa = math.sqrt(1.0 - zeta**2)
         wave = math.cos(kappa * w * t) - zeta / kappa * math.sin(kappa * w * t)
-        found = absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0]
+        acceleration = absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0]
         yield check(
             SECTION,
             f"Unit step, T = {period_s:g} s, zeta = {zeta:g}",
@@ -118,7 +118,7 @@ def _steps() -> Iterator[CheckRow]:
             "Acceleration",
             "m/s2",
             1.0 - math.exp(-zeta * w * t) * wave,
-            float(found),
+            float(acceleration),
             ROUNDING,
         )
 
@@ -276,8 +276,8 @@ def _whole_building(made: FloorRecords) -> CheckRow:
     )
 
 
-def _identified(found: RoofComparison) -> Iterator[CheckRow]:
-    best = found.predictions[0]
+def _identified(comparison: RoofComparison) -> Iterator[CheckRow]:
+    best = comparison.predictions[0]
     source = "Properties of the model building, as a beam half a story taller; fitted to two floors"
     ratio = ALPHA0 * (1.0 + 0.5 / STORIES)
     for quantity, unit, expected, value, tolerance in (

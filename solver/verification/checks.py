@@ -34,12 +34,12 @@ def check(
     quantity: str,
     unit: str,
     expected: float,
-    found: float,
+    computed: float,
     tolerance: float,
     of: float = 0.0,
 ) -> CheckRow:
     """Return the row; the error is relative to `of`, else to `expected`; absolute if both are 0."""
-    error = abs(found - expected) / (abs(of) or abs(expected) or 1.0)
+    error = abs(computed - expected) / (abs(of) or abs(expected) or 1.0)
     return CheckRow(
         section=section,
         problem=problem,
@@ -47,7 +47,7 @@ def check(
         quantity=quantity,
         unit=unit,
         expected=expected,
-        found=found,
+        computed=computed,
         error=error,
         tolerance=tolerance,
         passed=bool(error <= tolerance),
@@ -98,7 +98,7 @@ def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
         name = f"A = {a:g} g for {lasts:g} s, mu = {mu:g}, flat roof"
         plateau = round(lasts / dt)
         expected = problems.pulse_travel(a * G, mu * G, plateau * dt, dt)
-        found = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
+        result = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
         source = "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps"
         yield check(
             section,
@@ -107,13 +107,13 @@ def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
             "PRD",
             "m",
             expected,
-            found.prd_m,
+            result.prd_m,
             ROUNDING,
         )
         ramps = 3000
         newmark = (a * G * lasts) ** 2 / (2.0 * G * mu) * (1.0 - mu / a)
         ax = trapezoid(-a * G, ramps - 1, 10 * ramps)
-        found = slide(ax, lasts / ramps, slope_rad=0.0, mu=mu, g_mps2=G)
+        result = slide(ax, lasts / ramps, slope_rad=0.0, mu=mu, g_mps2=G)
         # A ramp shortens the slip by mu / A of its length; the factor 1.5 is a margin on that.
         tolerance = 1.5 * mu / a / ramps
         source = "Newmark, Geotechnique 15 (1965); each ramp is 1/3000 of the pulse"
@@ -124,7 +124,7 @@ def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
             "PRD",
             "m",
             newmark,
-            found.prd_m,
+            result.prd_m,
             tolerance,
         )
 
@@ -136,7 +136,7 @@ def _pulses_on_a_slope() -> Iterator[CheckRow]:
         for b in (0.0, -0.3, 0.3):
             drive, resist = problems.slope_pulse(slope, mu, a, b, G)
             expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
-            found = slide(
+            result = slide(
                 trapezoid(-a * G, plateau, 900),
                 dt,
                 slope_rad=slope,
@@ -152,7 +152,7 @@ def _pulses_on_a_slope() -> Iterator[CheckRow]:
                 "Downslope slip, horizontal",
                 "m",
                 expected,
-                found.down_m,
+                result.down_m,
                 ROUNDING,
             )
 
@@ -161,17 +161,17 @@ def _half_sines() -> Iterator[CheckRow]:
     for a, mu, freq in ((0.5, 0.2, 1.0), (0.8, 0.4, 2.0), (1.0, 0.1, 1.0)):
         expected = problems.half_sine_travel(a, mu, freq, G)
         name = f"Half-sine pulse A = {a:g} g, {freq:g} Hz, mu = {mu:g}, flat roof"
-        found = []
+        travels_m = []
         for steps in (100, 200, 400):
             dt = 0.5 / freq / steps
             pulse = a * G * np.sin(np.pi * np.arange(steps + 1) / steps)
             ax = np.concatenate([pulse, np.zeros(40 * steps)])
-            found.append(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m)
+            travels_m.append(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m)
         source = "Closed-form integration of the sine; record sampled at 400 points"
         # Straight chords of a sine lose the share (step in radians)^2 / 12 of its area.
         tolerance = 2.0 * a / mu * (math.pi / 400) ** 2 / 12.0
-        yield check("Closed forms", name, source, "PRD", "m", expected, found[-1], tolerance)
-        order = math.log2(abs(found[1] - expected) / abs(found[2] - expected))
+        yield check("Closed forms", name, source, "PRD", "m", expected, travels_m[-1], tolerance)
+        order = math.log2(abs(travels_m[1] - expected) / abs(travels_m[2] - expected))
         source = "Errors with 200 and 400 samples: linear interpolation is second order"
         yield check("Closed forms", name, source, "Order of convergence", "1", 2.0, order, 0.025)
 
@@ -196,7 +196,7 @@ def _harmonic() -> CheckRow:
 def _free_slide(section: str, degrees: float, mu: float, time_s: float) -> CheckRow:
     slope = math.radians(degrees)
     steps = round(time_s / 0.01)
-    found = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
+    result = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
     expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
     return check(
         section,
@@ -205,7 +205,7 @@ def _free_slide(section: str, degrees: float, mu: float, time_s: float) -> Check
         "Downslope slip, horizontal",
         "m",
         expected,
-        found.down_m,
+        result.down_m,
         ROUNDING,
     )
 
@@ -222,12 +222,12 @@ def _yield_accelerations() -> Iterator[CheckRow]:
                 "Yield acceleration",
                 "m/s2",
                 limit,
-                _found_limit(slope, mu, limit),
+                _limit_by_bisection(slope, mu, limit),
                 1e-9,
             )
 
 
-def _found_limit(slope: float, mu: float, limit: float) -> float:
+def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
     """Return the least acceleration that moves the block; bisects from 0 to twice `limit`."""
     least, most = 0.0, 2.0 * limit
     for _ in range(45):
@@ -264,7 +264,7 @@ def physical_checks(record: Record) -> Iterator[CheckRow]:
     name = "A pulse of 0.6 g for 0.3 s causes slip"
     yield check(section, name, source, "PRD", "m", expected, loose.prd_m, ROUNDING)
     yield _free_slide(section, 7.0, 0.1, 5.0)
-    one, other = (run(record, Case(slope_deg, 0.4, 1.5)) for slope_deg in (4.0, -4.0))
+    down, up = (run(record, Case(slope_deg, 0.4, 1.5)) for slope_deg in (4.0, -4.0))
     yield check(
         section,
         f"Slopes 4 and -4 deg, mu = 0.4, {record.name}, PPA = 1.5 g",
@@ -272,7 +272,7 @@ def physical_checks(record: Record) -> Iterator[CheckRow]:
         "PRDs differ by more than 1 % (1 = yes)",
         "1",
         1.0,
-        float(abs(one.prd_m - other.prd_m) > 0.01 * max(one.prd_m, other.prd_m)),
+        float(abs(down.prd_m - up.prd_m) > 0.01 * max(down.prd_m, up.prd_m)),
         0.0,
     )
     yield from _critical_friction(section)
@@ -284,7 +284,7 @@ def _critical_friction(section: str) -> Iterator[CheckRow]:
     for factor in (0.999, 1.0):
         mu = factor * math.tan(slope)
         expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
-        found = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
+        result = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
         name = f"No shaking, slope 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
         # sin - mu cos cancels to a thousandth of sin, which costs three digits.
         yield check(
@@ -294,6 +294,6 @@ def _critical_friction(section: str) -> Iterator[CheckRow]:
             "PRD",
             "m",
             expected if factor < 1.0 else 0.0,
-            found.prd_m,
+            result.prd_m,
             1e-11 if factor < 1.0 else ROUNDING,
         )

@@ -42,7 +42,7 @@ def fifty_digits(record: Record) -> Iterator[CheckRow]:
 def _against_digits(record: Record, case: Case, *, with_vertical: bool) -> Iterator[CheckRow]:
     ax, dt, scale = record.a_mps2, record.dt_s, scale_to(record, case.ppa_g)
     az = 0.3 * ax[::-1] if with_vertical else None
-    found = slide(ax, dt, slope_rad=case.slope_rad, mu=case.mu, az_mps2=az, scale=scale)
+    result = slide(ax, dt, slope_rad=case.slope_rad, mu=case.mu, az_mps2=az, scale=scale)
     exact = reference.slide(
         ax.tolist(),
         dt,
@@ -58,7 +58,7 @@ def _against_digits(record: Record, case: Case, *, with_vertical: bool) -> Itera
         f"{record.name}, {case}{more}",
         "Decimal arithmetic, Eqs. 12-18 of the paper; shares no code with the solver",
         exact,
-        found,
+        result,
         ROUNDING,
     )
 
@@ -68,52 +68,52 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
     case = Case(3.0, 0.25, 1.0)
     ax, dt, scale = record.a_mps2, record.dt_s, scale_to(record, case.ppa_g)
     slope, mu, g = case.slope_rad, case.mu, STANDARD_GRAVITY_MPS2
-    one = slide(ax, dt, slope_rad=slope, mu=mu, scale=scale)
+    plain = slide(ax, dt, slope_rad=slope, mu=mu, scale=scale)
     mirrored = slide(-ax, dt, slope_rad=-slope, mu=mu, scale=scale)
     fine = np.interp(np.arange(2 * ax.size - 1) / 2, np.arange(ax.size), ax)
     finer = slide(fine, dt / 2, slope_rad=slope, mu=mu, scale=scale)
     twice = slide(ax, dt, slope_rad=slope, mu=mu, scale=2 * scale, g_mps2=2 * g)
     slow = slide(ax, 2 * dt, slope_rad=slope, mu=mu, scale=scale)
-    for problem, source, expected, found, tolerance in (
+    for problem, source, expected, computed, tolerance in (
         (
             "Slope and record mirrored",
             "PRD identical to the last bit",
-            one.prd_m,
+            plain.prd_m,
             mirrored.prd_m,
             0.0,
         ),
         (
             "Slope and record mirrored, residual",
             "Residual of opposite sign, identical to the last bit",
-            -one.residual_m,
+            -plain.residual_m,
             mirrored.residual_m,
             0.0,
         ),
         (
             "Samples added by linear interpolation",
             "The displacement is unchanged",
-            one.prd_m,
+            plain.prd_m,
             finer.prd_m,
             ROUNDING,
         ),
         (
             "Gravity and record doubled",
             "Displacements are doubled",
-            2 * one.prd_m,
+            2 * plain.prd_m,
             twice.prd_m,
             ROUNDING,
         ),
         (
             "Time step doubled",
             "Displacements are multiplied by four",
-            4 * one.prd_m,
+            4 * plain.prd_m,
             slow.prd_m,
             ROUNDING,
         ),
     ):
         quantity = "Residual" if "residual" in problem else "PRD"
         name = f"{problem}: {record.name}, {case}"
-        yield check("Symmetries", name, source, quantity, "m", expected, found, tolerance)
+        yield check("Symmetries", name, source, quantity, "m", expected, computed, tolerance)
     yield _energy(record, case)
 
 
@@ -150,7 +150,7 @@ def rivals() -> Iterator[CheckRow]:
     for name, method in METHODS.items():
         if not is_runnable(name):
             continue
-        found = slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=name, **_fine(method, dt))
+        result = slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=name, **_fine(method, dt))
         yield check(
             "Methods",
             f"{method.title}: pulse A = {a:g} g for 0.2 s, mu = {mu:g}, flat roof",
@@ -158,7 +158,7 @@ def rivals() -> Iterator[CheckRow]:
             "PRD",
             "m",
             expected,
-            found.prd_m,
+            result.prd_m,
             method.ceiling,
         )
 

@@ -22,9 +22,9 @@ def percent_of(off_m: Floats, exact_m: Floats | float) -> Floats:
     return np.asarray(100.0 * off_m / np.maximum(np.abs(exact_m), FLOOR_M))
 
 
-def percent_off(found_m: Floats | float, exact_m: Floats | float) -> Floats:
-    """Return |found - exact| as `percent_of` the exact value."""
-    return percent_of(np.abs(np.asarray(found_m) - np.asarray(exact_m)), exact_m)
+def percent_off(computed_m: Floats | float, exact_m: Floats | float) -> Floats:
+    """Return |computed - exact| as `percent_of` the exact value."""
+    return percent_of(np.abs(np.asarray(computed_m) - np.asarray(exact_m)), exact_m)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,7 +34,7 @@ class CheckRow:
     Attributes
     ----------
     section, problem, source, quantity, unit : str
-    expected, found : float
+    expected, computed : float
     error : float
         Relative to `expected`, or to what `quantity` says; absolute where `expected` is 0.
     tolerance : float
@@ -48,7 +48,7 @@ class CheckRow:
     quantity: str
     unit: str
     expected: float
-    found: float
+    computed: float
     error: float
     tolerance: float
     passed: bool

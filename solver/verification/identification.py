@@ -65,9 +65,9 @@ def identify(
         period_s, damping, alpha0 = (float(v) for v in _plain(point))
         modes = _beam(alpha0, heights)
         zeta = np.full(MODES, damping)
-        found = absolute_accelerations(ground_mps2, dt_s, period_s * modes.period_ratios, zeta)
+        responses = absolute_accelerations(ground_mps2, dt_s, period_s * modes.period_ratios, zeta)
         rigid = 1.0 - modes.factors.sum(axis=0)
-        return unexplained(found @ modes.factors + ground_mps2[:, None] * rigid, floors_mps2)
+        return unexplained(responses @ modes.factors + ground_mps2[:, None] * rigid, floors_mps2)
 
     steps = int(np.log(periods_s[1] / periods_s[0]) / _PERIOD_STEP) + 2
     grid = product(np.log(np.geomspace(*periods_s, steps)), np.log(DAMPINGS), np.log1p(ALPHAS))
@@ -92,9 +92,9 @@ def _descend(misfit: Callable[[_Point], float], least: float, best: _Point) -> t
         around: list[_Point] = [
             tuple(best + sign * move) for move in np.diag(reach) for sign in (1.0, -1.0)
         ]
-        found, point = best_of(misfit, around)
-        if found < least:
-            least, best = found, point
+        nearby, point = best_of(misfit, around)
+        if nearby < least:
+            least, best = nearby, point
         else:
             reach /= 2.0
     return least, best

@@ -53,8 +53,8 @@ def convergence(record: Record) -> Convergence:
     exact, prd = np.empty((2, len(CONVERGENCE_CASES)))
     seconds = np.empty_like(residual)
     for i, case in enumerate(CONVERGENCE_CASES):
-        found = run(record, case)
-        exact[i], prd[i] = found.residual_m, found.prd_m
+        result = run(record, case)
+        exact[i], prd[i] = result.residual_m, result.prd_m
         scene = prepared(record, case)
         for j, substeps in enumerate(SUBSTEPS):
             parameters = {"substeps": substeps}
@@ -81,8 +81,8 @@ def link_comparison(record: Record, slope_deg: float) -> LinkComparison:
     substeps = math.ceil(record.dt_s / LINK_STEP_S - 1e-9)
     link = {"stiffness_per_m": LINK_PER_M, "substeps": substeps}
     pairs = [(run(record, c), run(record, c, "penalty-explicit", **link)) for c in cases]
-    prd = np.array([[found.prd_m for found in pair] for pair in pairs])
-    rrd = np.array([[abs(found.residual_m) for found in pair] for pair in pairs])
+    prd = np.array([[result.prd_m for result in pair] for pair in pairs])
+    rrd = np.array([[abs(result.residual_m) for result in pair] for pair in pairs])
     off = percent_off(rrd[:, 0], rrd[:, 1])
     followed = off[np.isfinite(off)]
     worst = int(np.nan_to_num(off, nan=-1.0).argmax())
@@ -119,14 +119,14 @@ def design_curves(record: Record) -> DesignCurves:
             scales=PPAS_G * scale_to(record, 1.0),
         ).prd_m
 
-    found, seconds = all_runs(), least_seconds(all_runs, enough_s=1.0)
+    prd_m, seconds = all_runs(), least_seconds(all_runs, enough_s=1.0)
     flat = SLOPES_DEG.size - 1
     return DesignCurves(
         record=record.name,
-        runs=found.size,
+        runs=prd_m.size,
         seconds=seconds,
         slopes_deg=SLOPES_DEG,
         mus=MUS,
         ppas_g=PPAS_G,
-        prd_m=np.fmax(found[flat:], found[flat::-1]),
+        prd_m=np.fmax(prd_m[flat:], prd_m[flat::-1]),
     )

@@ -189,13 +189,13 @@ def _pyslammer(scene: Scene) -> float:
     """
     pyslammer = importlib.import_module("pyslammer")
     mu, a = scene.friction.mu_slow, scene.scale * scene.ax_mps2
-    found = []
+    travels_m = []
     for theta, way in ((scene.slope_rad, -a), (-scene.slope_rad, a)):
         motion = pyslammer.GroundMotion(way / _G, scene.dt_s)
         travel = pyslammer.RigidAnalysis(math.tan(math.atan(mu) - theta), motion).max_sliding_disp
         share = math.cos(theta) + mu * math.sin(theta)
-        found.append(float(travel) * share * math.cos(theta))
-    return max(found)
+        travels_m.append(float(travel) * share * math.cos(theta))
+    return max(travels_m)
 
 
 _MUJOCO = """<mujoco>

@@ -208,19 +208,19 @@ def regularized(scene: Scene, solver: Solver, velocity_mps: float, tolerance: fl
     end = (scene.ax_mps2.size - 1) * scene.dt_s
     try:
         with np.errstate(over="ignore"):  # from Radau's finite differences for the Jacobian
-            found = solve_ivp(
+            solution = solve_ivp(
                 rate, (0.0, end), np.zeros(4), method=solver, rtol=tolerance, atol=1e-3 * tolerance
             )
     except _StalledError:
         return _lost(rate.asked)
-    if not (found.success and np.isfinite(found.y).all()):
+    if not (solution.success and np.isfinite(solution.y).all()):
         return _lost(rate.asked)
-    x, y = found.y[0] * math.cos(scene.slope_rad), found.y[1]
+    x, y = solution.y[0] * math.cos(scene.slope_rad), solution.y[1]
     return Integrated(
         followed=True,
         prd_m=float(np.hypot(x, y).max()),
         end_m=(float(x[-1]), float(y[-1])),
-        end_speed_mps=math.hypot(*found.y[2:, -1].tolist()),
+        end_speed_mps=math.hypot(*solution.y[2:, -1].tolist()),
         evaluations=rate.asked,
     )
 

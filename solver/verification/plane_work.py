@@ -46,18 +46,18 @@ def work(triple: Triple, *, quick: bool) -> tuple[str, tuple[PlaneWork, ...]]:
     part = triple.cut(SAMPLES[not quick])
     scene = part.scene(CASE, coulomb(CASE.mu))
     exact = two_axes.run(scene, TIGHT)
-    found = (*_ours(scene), *_fixed(scene, exact.prd_m), *_scipy(scene, exact.prd_m, quick))
-    return f"{part.name}, {CASE}", tuple(found)
+    points = (*_ours(scene), *_fixed(scene, exact.prd_m), *_scipy(scene, exact.prd_m, quick))
+    return f"{part.name}, {CASE}", tuple(points)
 
 
 def _ours(scene: Scene) -> Iterator[PlaneWork]:
     """The error is the largest at the samples: that of the PRD may be zero by chance."""
     truth = two_axes.run_history(scene, TIGHT)
     for tolerance in TOLERANCES:
-        found = two_axes.follow(scene, tolerance)
+        outcome = two_axes.follow(scene, tolerance)
         seen = two_axes.run_history(scene, tolerance)
         off = max(
-            abs(found.prd_m - truth.result.prd_m),
+            abs(outcome.prd_m - truth.result.prd_m),
             float(abs(seen.u_m - truth.u_m).max()),
             float(abs(seen.across_m - truth.across_m).max()),
         )
@@ -65,7 +65,7 @@ def _ours(scene: Scene) -> Iterator[PlaneWork]:
             method=OURS,
             setting=f"tol. {tolerance:g}",
             seconds=least_seconds(partial(two_axes.follow, scene, tolerance)),
-            steps=found.n_steps,
+            steps=outcome.n_steps,
             error_percent=100.0 * off / truth.result.prd_m,
         )
 
@@ -75,13 +75,13 @@ def _fixed(scene: Scene, prd_m: float) -> Iterator[PlaneWork]:
     for method, holds in ((HOLDING, True), (CHATTERING, False)):
         for substeps in SUBSTEPS:
             run = partial(fixed_steps.slide_fixed, rows, scene.dt_s, cs, substeps, holds)
-            found = run()[0]  # before timing: the first call compiles
+            end_prd_m = run()[0]  # before timing: the first call compiles
             yield PlaneWork(
                 method=method,
                 setting=f"P = {substeps}",
                 seconds=least_seconds(run),
                 steps=substeps * (len(rows) - 1),
-                error_percent=100.0 * abs(found - prd_m) / prd_m,
+                error_percent=100.0 * abs(end_prd_m - prd_m) / prd_m,
             )
 
 
@@ -90,15 +90,15 @@ def _scipy(scene: Scene, prd_m: float, quick: bool) -> Iterator[PlaneWork]:
         return
     for solver, velocity_mps, tolerances in SCIPY[:3] if quick else SCIPY:
         for tolerance in tolerances[:2] if quick else tolerances:
-            found, seconds = clocked(
+            outcome, seconds = clocked(
                 partial(plane_scipy.regularized, scene, solver, velocity_mps, tolerance)
             )
             yield PlaneWork(
                 method=f"SciPy {solver}, v0 = {1e3 * velocity_mps:g} mm/s",
                 setting=f"tol. {tolerance:g}",
-                seconds=seconds if found.followed else math.nan,
-                steps=found.evaluations,
-                error_percent=100.0 * abs(found.prd_m - prd_m) / prd_m,
+                seconds=seconds if outcome.followed else math.nan,
+                steps=outcome.evaluations,
+                error_percent=100.0 * abs(outcome.prd_m - prd_m) / prd_m,
             )
 
 
@@ -143,12 +143,12 @@ def _scipy_stops(scene: Scene, place: tuple[float, float]) -> Iterator[StopPoint
         ("DOP853", 0.0, 1e-6),
     )
     for solver, velocity_mps, tolerance in runs:
-        found = plane_scipy.regularized(scene, solver, velocity_mps, tolerance)
+        outcome = plane_scipy.regularized(scene, solver, velocity_mps, tolerance)
         friction = f"v0 = {1e3 * velocity_mps:g} mm/s" if velocity_mps else "Coulomb, no events"
         yield StopPoint(
             method=f"SciPy {solver}, {friction}",
             setting=f"tol. {tolerance:g}",
-            steps=found.evaluations,
-            error_m=math.dist(found.end_m, place),
-            end_speed_mps=found.end_speed_mps,
+            steps=outcome.evaluations,
+            error_m=math.dist(outcome.end_m, place),
+            end_speed_mps=outcome.end_speed_mps,
         )

@@ -62,7 +62,7 @@ class Pair:
 
     Attributes
     ----------
-    one, two : Scene
+    first, second : Scene
     tolerances : tuple of float
         Of both runs.
     rounding_m : float
@@ -71,8 +71,8 @@ class Pair:
         Returns the differences in position, which should be zero.
     """
 
-    one: Scene
-    two: Scene
+    first: Scene
+    second: Scene
     tolerances: tuple[float, float]
     rounding_m: float
     compare: Compare
@@ -85,7 +85,7 @@ class Pair:
         ArithmeticError
             If one of them has no result.
         """
-        scenes = zip((self.one, self.two), self.tolerances, strict=True)
+        scenes = zip((self.first, self.second), self.tolerances, strict=True)
         a, b = (follow(scene, tolerance) for scene, tolerance in scenes)
         if a.status is not Status.OK or b.status is not Status.OK:
             raise ArithmeticError(f"{a.status}, {b.status}")
@@ -93,7 +93,7 @@ class Pair:
         return Outcome(
             prd_m=a.prd_m,
             off_m=float(np.abs(self.compare(a, b)).max()),
-            bound_m=bound if self.one.friction.is_monotone else math.inf,
+            bound_m=bound if self.first.friction.is_monotone else math.inf,
         )
 
 
@@ -123,26 +123,26 @@ def rounding(scene: Scene) -> float:
 def _wave(rng: Random, n: int) -> Floats:
     """Return a record of one of eight shapes, its peak about 1."""
     t: Floats = np.arange(n, dtype=np.float64) / max(n - 1, 1)
-    found: Floats = np.zeros(n)
+    wave: Floats = np.zeros(n)
     shape = rng.integers(8)
     if shape == 0:
         freq, phase = rng.uniform(0.3, 0.25 * n, (6, 1)), rng.uniform(0.0, 6.3, (6, 1))
-        found = np.sin(2.0 * np.pi * freq * t + phase).sum(axis=0) / 3.0
+        wave = np.sin(2.0 * np.pi * freq * t + phase).sum(axis=0) / 3.0
     elif shape == 1:
-        found = rng.normal(size=n)
+        wave = rng.normal(size=n)
     elif shape == 2:  # constant over many samples
-        found = np.repeat(rng.choice((-1.0, -0.5, 0.0, 0.5, 1.0), n), rng.integers(1, 6))[:n]
+        wave = np.repeat(rng.choice((-1.0, -0.5, 0.0, 0.5, 1.0), n), rng.integers(1, 6))[:n]
     elif shape == 3:  # mostly quiet
-        found[rng.random(n) < 0.25] = rng.normal()
+        wave[rng.random(n) < 0.25] = rng.normal()
     elif shape == 4:  # one-sided
-        found = np.minimum(t * rng.uniform(1.0, 8.0), 1.0)
+        wave = np.minimum(t * rng.uniform(1.0, 8.0), 1.0)
     elif shape == 5:
-        found = np.sin(2.0 * np.pi * rng.uniform(0.5, 5.0) * t) * np.minimum(4.0 * t, 1.0)
+        wave = np.sin(2.0 * np.pi * rng.uniform(0.5, 5.0) * t) * np.minimum(4.0 * t, 1.0)
     elif shape == 6:
-        found[rng.integers(n) :] = 1.0
+        wave[rng.integers(n) :] = 1.0
     else:
-        found[rng.integers(n)] = 1.0
-    return found * float(rng.choice((-1.0, 1.0)))
+        wave[rng.integers(n)] = 1.0
+    return wave * float(rng.choice((-1.0, 1.0)))
 
 
 def _horizontal(rng: Random, n: int, peak: float) -> tuple[Floats, Floats]:
@@ -245,9 +245,9 @@ def _falling(rng: Random) -> Law:
 # Pairs
 
 
-def _places(found: TwoAxesOutcome) -> Floats:
-    sides = found.down_m, found.up_m, found.left_m, found.right_m
-    return np.array([found.prd_m, *sides, *found.end_m])
+def _places(outcome: TwoAxesOutcome) -> Floats:
+    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
+    return np.array([outcome.prd_m, *sides, *outcome.end_m])
 
 
 def _same(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
@@ -264,56 +264,60 @@ def _mirrored_along(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
     return np.subtract(_places(a), [b.prd_m, b.up_m, b.down_m, b.left_m, b.right_m, -x, y])
 
 
-def finer(one: Scene, factor: int) -> Scene:
+def finer(scene: Scene, factor: int) -> Scene:
     """Return a scene with linearly interpolated samples added."""
-    coarse = np.arange(one.ax_mps2.size)
+    coarse = np.arange(scene.ax_mps2.size)
     fine = np.arange((coarse.size - 1) * factor + 1) / factor
     ax, ay, az = (
         readonly(np.interp(fine, coarse, a)) if a.size else a
-        for a in (one.ax_mps2, one.ay_mps2, one.az_mps2)
+        for a in (scene.ax_mps2, scene.ay_mps2, scene.az_mps2)
     )
-    return replace(one, ax_mps2=ax, ay_mps2=ay, az_mps2=az, dt_s=one.dt_s / factor)
+    return replace(scene, ax_mps2=ax, ay_mps2=ay, az_mps2=az, dt_s=scene.dt_s / factor)
 
 
-def _put_between(rng: Random, one: Scene) -> Pair:
+def _put_between(rng: Random, first: Scene) -> Pair:
     tolerance = float(rng.choice(TOLERANCES))
     return Pair(
-        one=one,
-        two=finer(one, int(rng.integers(2, 9))),
+        first=first,
+        second=finer(first, int(rng.integers(2, 9))),
         tolerances=(tolerance, tolerance),
-        rounding_m=rounding(one),
+        rounding_m=rounding(first),
         compare=_same,
     )
 
 
-def _tolerances(rng: Random, one: Scene) -> Pair:
+def _tolerances(rng: Random, first: Scene) -> Pair:
     tolerances = float(rng.choice(TOLERANCES)), float(rng.choice(TOLERANCES))
-    return Pair(one=one, two=one, tolerances=tolerances, rounding_m=0.0, compare=_same)
+    return Pair(first=first, second=first, tolerances=tolerances, rounding_m=0.0, compare=_same)
 
 
-def _either(rng: Random, one: Scene) -> Pair:
-    return _put_between(rng, one) if rng.random() < 0.5 else _tolerances(rng, one)
+def _either(rng: Random, first: Scene) -> Pair:
+    return _put_between(rng, first) if rng.random() < 0.5 else _tolerances(rng, first)
 
 
 def _mirrored(rng: Random) -> Pair:
-    one, tolerance = _scene(rng), float(rng.choice(TOLERANCES))
-    across, compare = replace(one, ay_mps2=readonly(-one.ay_mps2)), _mirrored_across
+    first, tolerance = _scene(rng), float(rng.choice(TOLERANCES))
+    across, compare = replace(first, ay_mps2=readonly(-first.ay_mps2)), _mirrored_across
     if rng.random() < 0.5:
-        across = replace(one, ax_mps2=readonly(-one.ax_mps2), slope_rad=-one.slope_rad)
+        across = replace(first, ax_mps2=readonly(-first.ax_mps2), slope_rad=-first.slope_rad)
         compare = _mirrored_along
     return Pair(
-        one=one, two=across, tolerances=(tolerance, tolerance), rounding_m=0.0, compare=compare
+        first=first,
+        second=across,
+        tolerances=(tolerance, tolerance),
+        rounding_m=0.0,
+        compare=compare,
     )
 
 
 def _rotated(rng: Random) -> Pair:
-    one, tolerance = _scene(rng, slope_deg=0.0), float(rng.choice(TOLERANCES))
+    first, tolerance = _scene(rng, slope_deg=0.0), float(rng.choice(TOLERANCES))
     turn = float(rng.choice((math.pi / 2, rng.uniform(0.0, 6.3))))
     sn, cs = math.sin(turn), math.cos(turn)
-    two = replace(
-        one,
-        ax_mps2=readonly(cs * one.ax_mps2 - sn * one.ay_mps2),
-        ay_mps2=readonly(sn * one.ax_mps2 + cs * one.ay_mps2),
+    second = replace(
+        first,
+        ax_mps2=readonly(cs * first.ax_mps2 - sn * first.ay_mps2),
+        ay_mps2=readonly(sn * first.ax_mps2 + cs * first.ay_mps2),
     )
 
     def compare(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
@@ -322,9 +326,13 @@ def _rotated(rng: Random) -> Pair:
         return np.array([a.prd_m - b.prd_m, math.hypot(x - b.end_m[0], y - b.end_m[1])])
 
     # Two products and a sum per sample, and the same again for rotating the position.
-    allowed = 4.0 * rounding(one)
+    allowed = 4.0 * rounding(first)
     return Pair(
-        one=one, two=two, tolerances=(tolerance, tolerance), rounding_m=allowed, compare=compare
+        first=first,
+        second=second,
+        tolerances=(tolerance, tolerance),
+        rounding_m=allowed,
+        compare=compare,
     )
 
 
@@ -362,8 +370,8 @@ UNBOUNDED = ("velocity-weakening friction",)
 def warm_up() -> None:
     """Compile or load what pairs need: two axes with and without vertical, and both laws."""
     push = readonly(np.array([0.0, 5.0, -5.0, 0.0]))
-    one = flat_scene(push, push, 0.01, coulomb(0.2))
+    scene = flat_scene(push, push, 0.01, coulomb(0.2))
     law = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=1.0, mu_static=0.2)
-    for friction in (one.friction, law):
+    for friction in (scene.friction, law):
         for az in (NO_RECORD, push):
-            follow(replace(one, friction=friction, az_mps2=az))
+            follow(replace(scene, friction=friction, az_mps2=az))

@@ -98,7 +98,7 @@ def verify(
     rows = list(_rows(chosen))
     progress("Roof motion from ground motion: modes, model building, recorded buildings if given")
     made = building_checks.made_building(main)
-    roofs = tuple(building.compare(one) for one in (made, *buildings))
+    roofs = tuple(building.compare(floors) for floors in (made, *buildings))
     rows += building_checks.building_checks(made, roofs[0])
     progress("Two axes: checks, comparison of models, accuracy against run time")
     triples = (*own_triples(quick), *(motions[:1] if quick else motions))

@@ -101,7 +101,7 @@ class RungStudy:
 
     def named(self, name: str) -> RungChange:
         """Return the change with that name."""
-        return next(one for one in self.changes if one.name == name)
+        return next(change for change in self.changes if change.name == name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -51,7 +51,8 @@ def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]
     yield from _choices(kept[0])
     yield from _random_pairs(quick=quick)
     if plane_scipy.is_installed():
-        for triple in [kept[0], *(one for one in kept if one.is_recorded)][: 1 if quick else 3]:
+        recorded = [triple for triple in kept if triple.is_recorded]
+        for triple in [kept[0], *recorded][: 1 if quick else 3]:
             yield from _against_scipy(triple, REFERENCE_SAMPLES[not quick])
 
 
@@ -63,9 +64,9 @@ def stays(triple: Triple) -> bool:
 
 def _one_axis(triple: Triple) -> Iterator[CheckRow]:
     for case in MODEL_CASES:
-        one = triple.scene(case, coulomb(case.mu), second=False)
+        scene = triple.scene(case, coulomb(case.mu), second=False)
         name = f"No cross-slope component: {triple.name}, {case}"
-        exact, plane = one_axis.run(one), two_axes.run(one, TIGHT)
+        exact, plane = one_axis.run(scene), two_axes.run(scene, TIGHT)
         source = "Exact method, one axis with vertical"
         yield from slip_checks(SECTION, name, source, exact, plane, AGREES)
 
@@ -73,14 +74,14 @@ def _one_axis(triple: Triple) -> Iterator[CheckRow]:
 def _turned(triple: Triple) -> Iterator[CheckRow]:
     case = MODEL_CASES[0]
     flat = triple.scene(case, coulomb(case.mu))
-    one = two_axes.run(flat, TIGHT)
+    plain = two_axes.run(flat, TIGHT)
     for degrees in (30.0, 137.0):
         turned = two_axes.run(_turned_by(flat, degrees), TIGHT)
         back = _turn(np.array([turned.residual_m, turned.residual_across_m]), -degrees)
-        off = math.dist(back.tolist(), (one.residual_m, one.residual_across_m))
+        off = math.dist(back.tolist(), (plain.residual_m, plain.residual_across_m))
         name = f"Both components rotated by {degrees:g} degrees: {triple.name}, {case}"
         source = "Flat roof: the displacement rotates with the motion"
-        yield check(SECTION, name, source, "PRD", "m", one.prd_m, turned.prd_m, AGREES)
+        yield check(SECTION, name, source, "PRD", "m", plain.prd_m, turned.prd_m, AGREES)
         yield check(
             SECTION,
             name,
@@ -88,22 +89,22 @@ def _turned(triple: Triple) -> Iterator[CheckRow]:
             "Residual, rotated back: difference / PRD",
             "1",
             0.0,
-            off / one.prd_m,
+            off / plain.prd_m,
             AGREES,
         )
 
 
 def _in_proportion(triple: Triple) -> CheckRow:
     case = MODEL_CASES[0]
-    one = triple.scene(case, coulomb(case.mu), second=False)
-    line = two_axes.run(_turned_by(one, 53.0), TIGHT)
+    scene = triple.scene(case, coulomb(case.mu), second=False)
+    line = two_axes.run(_turned_by(scene, 53.0), TIGHT)
     return check(
         SECTION,
         f"One component rotated by 53 degrees: {triple.name}, {case}",
         "Proportional components cause slip along one line: exact method, one axis",
         "PRD",
         "m",
-        one_axis.run(one).prd_m,
+        one_axis.run(scene).prd_m,
         line.prd_m,
         AGREES,
     )
@@ -140,8 +141,8 @@ def _circle() -> Iterator[CheckRow]:
     source = (
         "Steady state: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples per cycle"
     )
-    found = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
-    yield check(SECTION, name, source, "Speed", "m/s", speed, found, AGREES)
+    final = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
+    yield check(SECTION, name, source, "Speed", "m/s", speed, final, AGREES)
     yield check(SECTION, name, source, "Diameter", "m", 2.0 * speed / omega, across, AGREES)
 
 
@@ -167,7 +168,7 @@ def _stop() -> Iterator[CheckRow]:
         "(v (mu N + G cos ψ))' = G^2 - (mu N)^2, ψ = angle from drive G to v, and similar forms "
         "for displacement, from 0.06 s"
     )
-    for quantity, unit, known, found in (
+    for quantity, unit, known, computed in (
         ("Time to stop", "s", rest, history.events[-1].t_s - at * scene.dt_s),
         (
             "Transverse displacement",
@@ -182,7 +183,7 @@ def _stop() -> Iterator[CheckRow]:
             float(history.u_m[-1] - history.u_m[at]),
         ),
     ):
-        yield check(SECTION, name, source, quantity, unit, known, found, AGREES)
+        yield check(SECTION, name, source, quantity, unit, known, computed, AGREES)
 
 
 def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
@@ -195,7 +196,7 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
             rate_s_per_m=30.0,
             mu_static=case.mu * (1.0 - drop),
         )
-        found = two_axes.run(triple.scene(case, law), TIGHT)
+        result = two_axes.run(triple.scene(case, law), TIGHT)
         yield check(
             SECTION,
             f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.name}, {case}",
@@ -203,7 +204,7 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
             "PRD",
             "m",
             plain.prd_m,
-            found.prd_m,
+            result.prd_m,
             50.0 * drop,
         )
 
@@ -238,7 +239,7 @@ def _one_block(triple: Triple) -> Iterator[CheckRow]:
     scene = triple.scene(case, coulomb(case.mu), second=False)
     exact = one_axis.run(scene)
     for count in (1, 3):
-        found = slide_row(scene, BlockRow(mus=(case.mu,) * count, stiffness_per_s2=1e4))
+        row = slide_row(scene, BlockRow(mus=(case.mu,) * count, stiffness_per_s2=1e4))
         yield check(
             SECTION,
             f"Row of identical blocks, {count} in all: {triple.name}, {case}",
@@ -246,7 +247,7 @@ def _one_block(triple: Triple) -> Iterator[CheckRow]:
             "PRD, largest of the blocks",
             "m",
             exact.prd_m,
-            max(found.prd_m),
+            max(row.prd_m),
             AGREES,
         )
 
@@ -258,10 +259,10 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
         for case in MODEL_CASES[:2] if quick else MODEL_CASES:
             full = triple.scene(case, coulomb(case.mu))
             scene = faded(full, share)
-            found = least_model.solve(scene)
-            change = abs(two_axes.run(scene, TIGHT).prd_m - found.result.prd_m)
-            said = 0.0 if found.rung is Rung.TWO_AXES else found.next_effect_m
-            over += not change <= said + found.result.error_m
+            choice = least_model.solve(scene)
+            change = abs(two_axes.run(scene, TIGHT).prd_m - choice.result.prd_m)
+            said = 0.0 if choice.rung is Rung.TWO_AXES else choice.next_effect_m
+            over += not change <= said + choice.result.error_m
             count += 1
     return check(
         SECTION,
@@ -277,16 +278,16 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
 
 def _random_pairs(*, quick: bool) -> Iterator[CheckRow]:
     """Count the random pairs of every kind that have no result or exceed their bounds."""
-    for one in bound_ratios(quick=quick):
+    for ratios in bound_ratios(quick=quick):
         yield check(
             SECTION,
-            f"{one.n_pairs} random pairs, {one.kind}",
+            f"{ratios.n_pairs} random pairs, {ratios.kind}",
             "Both runs of a pair have a result, and they agree within the sum of their error "
             "bounds",
             "Failed pairs",
             "1",
             0.0,
-            float(one.n_over + one.n_unanswered),
+            float(ratios.n_over + ratios.n_unanswered),
             0.0,
         )
 

@@ -176,9 +176,9 @@ def _map(
 
 
 def _largest_error(record: Record, name: str, runs: list[_Run]) -> float:
-    found = [run(record, case, name, **parameters).prd_m for case, parameters in runs]
+    prd_m = [run(record, case, name, **parameters).prd_m for case, parameters in runs]
     exact = [run(record, case).prd_m for case, _ in runs]
-    return float(percent_off(np.array(found), np.array(exact)).max())
+    return float(percent_off(np.array(prd_m), np.array(exact)).max())
 
 
 def conditioning(record: Record, *, quick: bool) -> Iterator[Conditioning]:
@@ -207,14 +207,14 @@ def _conditioning(
     record: Record, ppa_g: float, change: float, mu: Floats, title: str, note: str
 ) -> Conditioning:
     mus = np.concatenate([mu, mu * (1.0 - change), mu * (1.0 + change)])
-    found = sweep(
+    prds_m = sweep(
         record.a_mps2,
         record.dt_s,
         slopes_rad=math.radians(SLOPE_DEG),
         mus=mus,
         scales=scale_to(record, ppa_g),
     ).prd_m
-    prd, less, more = found.reshape(3, mu.size)
+    prd, less, more = prds_m.reshape(3, mu.size)
     return Conditioning(
         title=title,
         note=note,

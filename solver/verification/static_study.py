@@ -110,11 +110,11 @@ def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
 
 def _pushed() -> Iterator[PushedPoint]:
     for across_mps2 in ACROSS_MPS2:
-        found = two_axes.run(pushed_scene(across_mps2, JUMPING), PUSHED_TOLERANCE)
+        jumped = two_axes.run(pushed_scene(across_mps2, JUMPING), PUSHED_TOLERANCE)
         fell = two_axes.run(pushed_scene(across_mps2, FALLING), PUSHED_TOLERANCE)
         yield PushedPoint(
             across_mps2=across_mps2,
-            end_m=math.hypot(found.residual_m, found.residual_across_m),
-            error_m=found.error_m,
+            end_m=math.hypot(jumped.residual_m, jumped.residual_across_m),
+            error_m=jumped.error_m,
             falling_end_m=math.hypot(fell.residual_m, fell.residual_across_m),
         )

@@ -105,8 +105,8 @@ def recorded_triples(folder: Path) -> tuple[Triple, ...]:
     Two horizontal components and one named up or vertical; files that cannot be read or have
     other channels are skipped.
     """
-    found = (_triple(path) for path in sorted(folder.rglob("*")) if path.is_file())
-    return tuple(triple for triple in found if triple is not None)
+    triples = (_triple(path) for path in sorted(folder.rglob("*")) if path.is_file())
+    return tuple(triple for triple in triples if triple is not None)
 
 
 def _triple(path: Path) -> Triple | None:
@@ -114,8 +114,8 @@ def _triple(path: Path) -> Triple | None:
         channels = read_motion_file(path).channels
     except InputError:
         return None
-    up = [one for one in channels if _is_vertical(one)]
-    level = [one for one in channels if not _is_vertical(one)]
+    up = [channel for channel in channels if _is_vertical(channel)]
+    level = [channel for channel in channels if not _is_vertical(channel)]
     if len(up) != 1 or len(level) != 2:
         return None
     return Triple(

@@ -79,8 +79,8 @@ def _point(
     parameters: Mapping[str, float],
     exact: SlideResult,
 ) -> WorkPoint:
-    found, seconds = clocked(partial(run, record, case, method.name, **parameters))
-    if found.status in (Status.DIVERGED, Status.UPLIFT):
+    result, seconds = clocked(partial(run, record, case, method.name, **parameters))
+    if result.status in (Status.DIVERGED, Status.UPLIFT):
         seconds = math.nan
     elif not is_slow(method):
         seconds = timed(method, prepared(record, case), parameters)
@@ -91,9 +91,9 @@ def _point(
         record=record.name,
         scene=str(case),
         seconds=seconds,
-        prd_error_m=abs(found.prd_m - exact.prd_m),
-        prd_error_percent=float(percent_off(found.prd_m, exact.prd_m)),
-        residual_error_m=abs(found.residual_m - exact.residual_m),
-        residual_error_percent=float(percent_off(found.residual_m, exact.residual_m)),
-        status=found.status,
+        prd_error_m=abs(result.prd_m - exact.prd_m),
+        prd_error_percent=float(percent_off(result.prd_m, exact.prd_m)),
+        residual_error_m=abs(result.residual_m - exact.residual_m),
+        residual_error_percent=float(percent_off(result.residual_m, exact.residual_m)),
+        status=result.status,
     )

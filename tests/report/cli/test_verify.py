@@ -111,7 +111,7 @@ def words_of_broken(broken):
 
 def failing(found):
     """The same verification with its second check failed and some runs lost."""
-    wrong = replace(found.checks[1], found=1.5, error=0.25, passed=False)
+    wrong = replace(found.checks[1], computed=1.5, error=0.25, passed=False)
     nan = math.nan
     lost = [
         replace(
@@ -162,7 +162,7 @@ def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(f
         line = (
             f"{lettered(row.problem)} {row.quantity}"
             + (f" [{lettered(row.unit)}]" if row.unit != "1" else "")
-            + f" {blocks.digits(row.expected)} {blocks.digits(row.found)} "
+            + f" {blocks.digits(row.expected)} {blocks.digits(row.computed)} "
             + f"{blocks.scientific(row.error)} {blocks.scientific(row.tolerance)} PASS"
         )
         assert line in words, line
@@ -210,7 +210,7 @@ def test_all_and_only_the_checks_and_runs_are_in_the_table(made, found):
     assert len(runs) == len(found.work)
     in_two_axes = sum(len(one.work) for one in found.rungs)
     assert len(table) == len(checks) + len(runs) + in_two_axes
-    assert checks["computed"].tolist() == [row.found for row in found.checks]
+    assert checks["computed"].tolist() == [row.computed for row in found.checks]
     assert checks["error [-]"].tolist() == [row.error for row in found.checks]
     assert set(checks["passed"]) == {"yes"}
     assert runs["time per run [s]"].tolist() == [point.seconds for point in found.work]

@@ -37,7 +37,7 @@ def test_no_pair_differs_by_more_than_its_bounds(ended, kind):
 def test_a_pair_is_the_same_each_time():
     for kind in KINDS:
         made, again = pair(kind, 7), pair(kind, 7)
-        np.testing.assert_array_equal(made.two.ax_mps2, again.two.ax_mps2)
+        np.testing.assert_array_equal(made.second.ax_mps2, again.second.ax_mps2)
         assert made.tolerances == again.tolerances
 
 

@@ -136,7 +136,7 @@ def test_a_block_that_hardly_presses_on_the_roof_is_not_stopped_at_speed():
 @pytest.mark.parametrize("kind", ["N to zero", "mu = tan(slope)", "friction by speed"])
 def test_the_tolerance_is_met_but_for_rounding(kind):
     for index in range(300):
-        block = pair(kind, index).one
+        block = pair(kind, index).first
         for tolerance in (1e-2, 1e-6):
             outcome = follow(block, tolerance)
             assert outcome.error_m <= tolerance * max(outcome.prd_m, 1e-6) + 8.0 * rounding(block)

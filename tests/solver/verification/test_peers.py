@@ -37,21 +37,21 @@ def test_a_peer_gets_the_scaled_record_and_its_error_is_of_the_exact_prd(monkeyp
         assert scene.dt_s == RECORD.dt_s
         return 1.01 * one_axis.run(scene).prd_m
 
-    found = points(monkeypatch, peer(one_percent_off))
+    results = points(monkeypatch, peer(one_percent_off))
     assert peaks == pytest.approx([1.0, 1.0])
-    assert [point.prd_error_percent for point in found] == pytest.approx([1.0, 1.0])
-    assert all(point.seconds > 0.0 and point.version == "unknown" for point in found)
-    assert {point.note for point in found} == {"one axis; as is"}
+    assert [point.prd_error_percent for point in results] == pytest.approx([1.0, 1.0])
+    assert all(point.seconds > 0.0 and point.version == "unknown" for point in results)
+    assert {point.note for point in results} == {"one axis; as is"}
 
 
 def test_a_peer_that_raises_or_gives_up_is_a_hole_with_its_reason(monkeypatch):
     def broken(_):
         raise RuntimeError("no library")
 
-    found = points(monkeypatch, peer(broken), peer(lambda _: math.nan))
-    assert len(found) == 4
-    assert all(math.isnan(p.seconds) and math.isnan(p.prd_error_percent) for p in found)
-    assert [point.note for point in found[::2]] == [
+    results = points(monkeypatch, peer(broken), peer(lambda _: math.nan))
+    assert len(results) == 4
+    assert all(math.isnan(p.seconds) and math.isnan(p.prd_error_percent) for p in results)
+    assert [point.note for point in results[::2]] == [
         "one axis; RuntimeError: no library",
         "one axis; as is; did not converge",
     ]
@@ -68,11 +68,11 @@ def test_a_peer_that_is_installed_comes_near_the_exact_prd(monkeypatch, judge):
 
 @pytest.mark.parametrize(
     ("kind", "judge"),
-    [*(("vertical", one) for one in peers.VERTICAL), ("two_axes", peers.TWO_AXES[-1])],
+    [*(("vertical", judge) for judge in peers.VERTICAL), ("two_axes", peers.TWO_AXES[-1])],
 )
 def test_with_vertical_and_in_two_axes_they_come_near_too(monkeypatch, kind, judge):
     if importlib.util.find_spec(judge.module) is None:
         pytest.skip(f"{judge.module} is not installed")
-    found = points(monkeypatch, triples=own_triples(True), **{kind: (judge,)})
-    assert found
-    assert all(p.prd_error_percent < 5.0 for p in found)
+    results = points(monkeypatch, triples=own_triples(True), **{kind: (judge,)})
+    assert results
+    assert all(p.prd_error_percent < 5.0 for p in results)

@@ -31,16 +31,16 @@ def test_the_reference_is_the_exact_motion_where_there_is_one_axis(slope_deg):
 
 def test_regularized_friction_creeps_as_its_closed_form_says():
     scene, v0 = stopped_scene(), 1e-3
-    found = plane_scipy.regularized(scene, "Radau", v0, 1e-6)
+    outcome = plane_scipy.regularized(scene, "Radau", v0, 1e-6)
     share = 2.0 / (0.4 * scene.g_mps2)
-    assert found.followed
-    assert found.end_speed_mps == pytest.approx(v0 * math.atanh(share), rel=1e-4)
+    assert outcome.followed
+    assert outcome.end_speed_mps == pytest.approx(v0 * math.atanh(share), rel=1e-4)
 
 
 def test_a_general_solver_does_not_get_past_the_jump_of_friction(monkeypatch):
     monkeypatch.setattr(plane_scipy, "EVALUATIONS", 5000)
-    found = plane_scipy.regularized(stopped_scene(), "DOP853", 0.0, 1e-6)
-    assert not found.followed
-    assert found.evaluations > 5000
-    assert math.isnan(found.prd_m)
-    assert math.isnan(found.end_m[0])
+    outcome = plane_scipy.regularized(stopped_scene(), "DOP853", 0.0, 1e-6)
+    assert not outcome.followed
+    assert outcome.evaluations > 5000
+    assert math.isnan(outcome.prd_m)
+    assert math.isnan(outcome.end_m[0])

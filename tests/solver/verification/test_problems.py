@@ -22,9 +22,9 @@ G = 9.81
 def test_newmarks_rectangular_pulse(amplitude, mu, duration, expected):
     speed = amplitude * G * duration
     newmark = speed**2 / (2 * G * mu) * (1 - mu / amplitude)
-    found = pulse_travel(amplitude * G, mu * G, duration, 0.0)
-    assert found == pytest.approx(newmark, rel=1e-14)
-    assert found == pytest.approx(expected, abs=1e-6)
+    travel_m = pulse_travel(amplitude * G, mu * G, duration, 0.0)
+    assert travel_m == pytest.approx(newmark, rel=1e-14)
+    assert travel_m == pytest.approx(expected, abs=1e-6)
 
 
 @pytest.mark.parametrize(

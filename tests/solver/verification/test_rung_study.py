@@ -32,19 +32,20 @@ def study():
 
 def test_every_run_is_counted(study):
     assert study.n_runs == 2 * 2 * 2 * 4
-    for one in study.changes[:8]:
-        count = study.n_runs // 4 if one.name == WORST else study.n_runs
-        assert one.ratios.size + one.n_small + (study.n_uplift if one.name != WORST else 0) == count
-        assert np.all(np.diff(one.ratios) >= 0.0)
+    for change in study.changes[:8]:
+        count = study.n_runs // 4 if change.name == WORST else study.n_runs
+        n_uplift = 0 if change.name == WORST else study.n_uplift
+        assert change.ratios.size + change.n_small + n_uplift == count
+        assert np.all(np.diff(change.ratios) >= 0.0)
 
 
 def test_a_ratio_is_that_of_two_slides(study):
     (triple,) = own_triples(True)
     scene = {"slope_rad": 0.0, "mu": 0.3, "scale": triple.scale_to(1.5)}
-    one = slide(triple.x_mps2, triple.dt_s, az_mps2=triple.z_mps2, **scene)
-    two = slide(triple.x_mps2, triple.dt_s, ay_mps2=triple.y_mps2, az_mps2=triple.z_mps2, **scene)
-    assert min(one.prd_m, two.prd_m) > LEAST_M
-    ratio = two.prd_m / one.prd_m
+    alone = slide(triple.x_mps2, triple.dt_s, az_mps2=triple.z_mps2, **scene)
+    both = slide(triple.x_mps2, triple.dt_s, ay_mps2=triple.y_mps2, az_mps2=triple.z_mps2, **scene)
+    assert min(alone.prd_m, both.prd_m) > LEAST_M
+    ratio = both.prd_m / alone.prd_m
     assert np.abs(study.named(SECOND).ratios - ratio).min() == pytest.approx(0.0, abs=1e-9)
 
 
@@ -75,7 +76,7 @@ def test_lifted_runs_are_counted_and_not_compared():
     lifting = replace(triple, z_mps2=readonly(20.0 * triple.z_mps2))
     study = rung_study.study((lifting,), quick=True)
     assert study.n_uplift == study.n_runs
-    assert all(one.ratios.size == 0 and math.isnan(one.median) for one in study.changes)
+    assert all(change.ratios.size == 0 and math.isnan(change.median) for change in study.changes)
     assert math.isnan(study.largest_error)
 
 
@@ -86,7 +87,7 @@ def test_percentiles_and_the_share_above_one():
 
 
 def test_rungs_are_timed_against_the_first():
-    found = rung_study.times(own_triples(True)[0])
-    assert found[0].ratio == 1.0
-    assert len({one.title for one in found}) == 5
-    assert all(one.ratio == pytest.approx(one.seconds / found[0].seconds) for one in found)
+    times = rung_study.times(own_triples(True)[0])
+    assert times[0].ratio == 1.0
+    assert len({rung.title for rung in times}) == 5
+    assert all(rung.ratio == pytest.approx(rung.seconds / times[0].seconds) for rung in times)

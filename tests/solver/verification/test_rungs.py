@@ -24,22 +24,22 @@ def test_every_check_passes(rows):
 
 
 def test_each_rung_is_chosen_once(rows):
-    assert [row.found for row in rows if row.quantity == "Model chosen"] == [0, 1, 2, 3, 4]
+    assert [row.computed for row in rows if row.quantity == "Model chosen"] == [0, 1, 2, 3, 4]
 
 
 def test_every_tolerance_is_met_against_scipy(rows):
     pytest.importorskip("scipy")
     met = [row for row in rows if row.problem.startswith("Tolerance of")]
     assert [row.tolerance for row in met] == [1e-4, 1e-6, 1e-8, 1e-10]
-    assert all(0.0 < row.found <= row.tolerance for row in met)
+    assert all(0.0 < row.computed <= row.tolerance for row in met)
 
 
 def test_a_solver_that_is_off_by_a_millionth_fails(monkeypatch):
     true = two_axes.run
 
     def off(*args):
-        found = true(*args)
-        return replace(found, prd_m=found.prd_m * (1.0 + 1e-6))
+        result = true(*args)
+        return replace(result, prd_m=result.prd_m * (1.0 + 1e-6))
 
     monkeypatch.setattr(two_axes, "run", off)
     failed = [row for row in rungs.rung_checks(own_triples(True), quick=True) if not row.passed]
@@ -50,5 +50,5 @@ def test_a_solver_that_is_off_by_a_millionth_fails(monkeypatch):
 def test_a_motion_whose_vertical_lifts_the_block_is_left_out():
     (triple,) = own_triples(True)
     lifting = replace(triple, name="lifting", z_mps2=readonly(9.0 * triple.z_mps2))
-    found = rungs.rung_checks((triple, lifting), quick=True)
-    assert not any("lifting" in row.problem for row in found)
+    rows = rungs.rung_checks((triple, lifting), quick=True)
+    assert not any("lifting" in row.problem for row in rows)

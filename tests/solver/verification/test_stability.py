@@ -68,8 +68,8 @@ def test_no_tolerance_mends_what_a_large_velocity_spoils(maps):
 
 
 def test_a_map_is_the_same_every_time(record):
-    one, other = (stability.link_map(record, "penalty-explicit", quick=True) for _ in range(2))
-    np.testing.assert_array_equal(one.error_percent, other.error_percent)
+    chart, other = (stability.link_map(record, "penalty-explicit", quick=True) for _ in range(2))
+    np.testing.assert_array_equal(chart.error_percent, other.error_percent)
 
 
 def test_at_the_critical_friction_the_ninth_digit_shows_and_elsewhere_it_does_not(record):

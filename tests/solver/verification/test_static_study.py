@@ -16,21 +16,21 @@ pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions t
 
 
 @pytest.fixture(scope="module")
-def found():
+def evidence():
     return rung_study.static(own_triples(True), quick=True)
 
 
-def test_each_scene_that_slides_is_in_every_row(found):
-    assert found.n_scenes > 1
-    assert found.ratio == 1.25
-    for one in found.differences:
-        assert one.one_axis.size == one.two_axes.size == found.n_scenes
-    for one in found.fading:
-        assert one.one_coefficient.size == one.static_above.size == found.n_scenes
+def test_each_scene_that_slides_is_in_every_row(evidence):
+    assert evidence.n_scenes > 1
+    assert evidence.ratio == 1.25
+    for difference in evidence.differences:
+        assert difference.one_axis.size == difference.two_axes.size == evidence.n_scenes
+    for fading in evidence.fading:
+        assert fading.one_coefficient.size == fading.static_above.size == evidence.n_scenes
 
 
-def test_the_change_falls_with_the_square_of_the_difference(found):
-    wider, narrower = found.differences[-2:]
+def test_the_change_falls_with_the_square_of_the_difference(evidence):
+    wider, narrower = evidence.differences[-2:]
     step = wider.excess / narrower.excess
     for former, later in (
         (wider.one_axis, narrower.one_axis),
@@ -39,14 +39,14 @@ def test_the_change_falls_with_the_square_of_the_difference(found):
         assert math.log(former[-1] / later[-1]) / math.log(step) == pytest.approx(2.0, abs=0.1)
 
 
-def test_two_axes_tend_to_one_with_one_coefficient_and_need_not_with_two(found):
-    wide, faint = found.fading[1], found.fading[-1]
+def test_two_axes_tend_to_one_with_one_coefficient_and_need_not_with_two(evidence):
+    wide, faint = evidence.fading[1], evidence.fading[-1]
     assert faint.one_coefficient[-1] < 1e-3 * wide.one_coefficient[-1]
     assert faint.static_above[-1] == pytest.approx(wide.static_above[-1], rel=0.5)
 
 
-def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone(found):
-    alone, faint, *pushed = found.pushed
+def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone(evidence):
+    alone, faint, *pushed = evidence.pushed
     # v falls from its speed at 0.06 s with the push and friction: v^2 / 2a, before that a ramp.
     scene = static_study.pushed_scene(0.0, static_study.JUMPING)
     history = two_axes.run_history(scene)
@@ -55,10 +55,10 @@ def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone(found):
     stops = history.u_m[at] + history.v_mps[at] ** 2 / (2.0 * braking)
     assert alone.end_m == pytest.approx(stops, rel=1e-9)
     assert faint.end_m == pytest.approx(alone.end_m, rel=1e-9)
-    assert all(one.end_m > 50.0 * alone.end_m for one in pushed)
+    assert all(point.end_m > 50.0 * alone.end_m for point in pushed)
     # What two tolerances do not agree on is told.
     assert pushed[0].error_m > pushed[0].end_m
-    falling = [one.falling_end_m for one in found.pushed]
+    falling = [point.falling_end_m for point in evidence.pushed]
     assert falling == pytest.approx([falling[0]] * len(falling), rel=1e-3)
 
 
@@ -75,4 +75,4 @@ def test_where_nothing_slides_there_is_nothing_to_compare():
     still = triple.scene(MODEL_CASES[0], coulomb(9.0))
     none = static_study.static_evidence([still], 1.25)
     assert none.n_scenes == 0
-    assert all(np.size(one.one_axis) == 0 for one in none.differences)
+    assert all(np.size(difference.one_axis) == 0 for difference in none.differences)

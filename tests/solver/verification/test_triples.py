@@ -41,15 +41,15 @@ def test_files_of_three_components_are_found_and_what_is_not_one_is_passed_over(
     for path in SAMPLES.iterdir():
         shutil.copy(path, tmp_path / "below" / path.name)
     (tmp_path / "notes.txt").write_text("no motion")
-    found = recorded_triples(tmp_path)
-    assert found
-    assert all(one.is_recorded for one in found)
-    assert all(one.x_mps2.size == one.y_mps2.size == one.z_mps2.size for one in found)
+    triples = recorded_triples(tmp_path)
+    assert triples
+    assert all(triple.is_recorded for triple in triples)
+    assert all(triple.x_mps2.size == triple.y_mps2.size == triple.z_mps2.size for triple in triples)
 
 
 def test_the_vertical_is_told_by_its_name_wherever_it_stands():
     if not RECORDS.is_dir():
         pytest.skip("the real records are not here")
-    found = {one.name: one for one in recorded_triples(RECORDS)}
-    assert np.abs(found["20161113_110259_WTMC_20"].z_mps2).max() == pytest.approx(18.02, abs=0.01)
-    assert np.abs(found["llolleo1002271"].z_mps2).max() == pytest.approx(6.88, abs=0.01)
+    triples = {triple.name: triple for triple in recorded_triples(RECORDS)}
+    assert np.abs(triples["20161113_110259_WTMC_20"].z_mps2).max() == pytest.approx(18.02, abs=0.01)
+    assert np.abs(triples["llolleo1002271"].z_mps2).max() == pytest.approx(6.88, abs=0.01)

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.skipif(
 
 
 @pytest.fixture(scope="module")
-def found():
+def verified():
     stages = []
     return verify([], quick=True, progress=stages.append), stages
 
@@ -31,8 +31,8 @@ def pulse():
     return near_fault_pulse()
 
 
-def test_a_quick_verification_passes_and_fills_every_part(found):
-    verification, stages = found
+def test_a_quick_verification_passes_and_fills_every_part(verified):
+    verification, stages = verified
     assert verification.passed
     assert verification.quick
     assert verification.records == ("motion-01-x", "near-fault-pulse")
@@ -55,8 +55,8 @@ def test_a_quick_verification_passes_and_fills_every_part(found):
     ]
 
 
-def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(found):
-    rows = found[0].checks
+def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(verified):
+    rows = verified[0].checks
     assert {row.section for row in rows} == {
         "Closed forms",
         "Physical checks of the paper",
@@ -72,8 +72,8 @@ def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(foun
     assert len({(row.problem, row.quantity) for row in digits}) == len(digits)
 
 
-def test_no_two_rows_are_alike(found):
-    names = [(row.section, row.problem, row.quantity) for row in found[0].checks]
+def test_no_two_rows_are_alike(verified):
+    names = [(row.section, row.problem, row.quantity) for row in verified[0].checks]
     assert len(set(names)) == len(names)
 
 
@@ -126,8 +126,8 @@ def test_fifty_decimal_digits_agree_with_forty_binary_ones(pulse, degrees, mu, w
 
 
 def test_records_of_the_project_are_the_same_every_time_and_read_only():
-    one, other = own_records(True), own_records(True)
-    for a, b in zip(one, other, strict=True):
+    records, other = own_records(True), own_records(True)
+    for a, b in zip(records, other, strict=True):
         np.testing.assert_array_equal(a.a_mps2, b.a_mps2)
         assert not a.a_mps2.flags.writeable
         assert scale_to(a, 1.0) * np.abs(a.a_mps2).max() == pytest.approx(9.80665)
@@ -142,8 +142,8 @@ def test_errors_in_percent_have_a_floor_of_a_millimetre():
 # The paper's figures
 
 
-def test_the_papers_method_converges_at_first_order_under_an_envelope(found):
-    for study in found[0].convergence:
+def test_the_papers_method_converges_at_first_order_under_an_envelope(verified):
+    for study in verified[0].convergence:
         assert study.scenarios == 60
         assert study.substeps == (1, 2, 4, 8, 16, 32, 64, 128, 256)
         error = study.largest_error_exact_percent
@@ -157,13 +157,13 @@ def test_the_papers_method_converges_at_first_order_under_an_envelope(found):
         assert (study.longest_seconds > 0.0).all()
 
 
-def test_a_single_pulse_has_errors_like_the_papers_own(found):
-    pulse = found[0].convergence[1]
+def test_a_single_pulse_has_errors_like_the_papers_own(verified):
+    pulse = verified[0].convergence[1]
     assert 0.01 < pulse.largest_error_exact_percent[6] < 1.0  # 0.48 % in the paper
 
 
-def test_the_link_differs_by_about_as_much_as_in_the_paper(found):
-    for link in found[0].links:
+def test_the_link_differs_by_about_as_much_as_in_the_paper(verified):
+    for link in verified[0].links:
         assert len(link.mus) == (10 if link.slope_deg == 0.0 else 6)
         assert link.mean_percent < link.worst_percent < 15.0  # 6.78 and 1.69 % in the paper
         assert link.history_mu in link.mus
@@ -173,8 +173,8 @@ def test_the_link_differs_by_about_as_much_as_in_the_paper(found):
         assert (link.prd_exact_m >= link.rrd_exact_m - 1e-15).all()
 
 
-def test_design_curves_are_the_papers_6960_runs(found):
-    curves = found[0].curves[0]
+def test_design_curves_are_the_papers_6960_runs(verified):
+    curves = verified[0].curves[0]
     assert curves.runs == 6960
     assert curves.prd_m.shape == (15, 15, 16)
     record = own_records(True)[0]
@@ -206,9 +206,9 @@ def test_the_least_friction_is_read_off_between_the_runs():
 
 
 def test_studies_of_the_paper_give_the_same_every_time(pulse):
-    one, other = (paper_studies.link_comparison(pulse, 4.0) for _ in range(2))
-    np.testing.assert_array_equal(one.history_link_m, other.history_link_m)
-    assert one.worst_percent == other.worst_percent
+    link, other = (paper_studies.link_comparison(pulse, 4.0) for _ in range(2))
+    np.testing.assert_array_equal(link.history_link_m, other.history_link_m)
+    assert link.worst_percent == other.worst_percent
     first, second = (paper_studies.design_curves(pulse) for _ in range(2))
     np.testing.assert_array_equal(first.prd_m, second.prd_m)
 

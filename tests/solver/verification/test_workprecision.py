@@ -41,9 +41,9 @@ def test_every_method_runs_in_every_case_over_its_settings(points):
 def test_the_full_run_takes_every_setting_of_the_sweep(record):
     for name in ("paper", "penalty-implicit"):
         method = METHODS[name]
-        found = list(workprecision.settings(method, record, quick=False))
-        assert [value for value, _ in found] == list(method.sweep)
-        assert all(set(parameters) == set(method.parameters) for _, parameters in found)
+        settings = list(workprecision.settings(method, record, quick=False))
+        assert [value for value, _ in settings] == list(method.sweep)
+        assert all(set(parameters) == set(method.parameters) for _, parameters in settings)
 
 
 def test_the_exact_method_has_no_error_and_finer_settings_have_less(points):
@@ -67,9 +67,9 @@ def test_a_failed_run_is_a_hole_with_its_status(record, monkeypatch):
     monkeypatch.setattr(workprecision, "settings", lambda *_, **__: [(1e8, stiff)])
     link = {"penalty-explicit": METHODS["penalty-explicit"]}
     monkeypatch.setattr(workprecision, "METHODS", link)
-    found = list(workprecision.work_points([record], quick=True))
-    assert len(found) == 3
-    for point in found:
+    failed = list(workprecision.work_points([record], quick=True))
+    assert len(failed) == 3
+    for point in failed:
         assert point.status is Status.DIVERGED
         assert math.isnan(point.seconds)
         assert math.isnan(point.prd_error_m)
@@ -82,7 +82,7 @@ def test_what_is_timed_is_what_is_run(record):
             method = METHODS[name]
             scene = prepared(record, case)
             outcome = method.follow(scene, method.parameters, np.empty((2, 0)))
-            found = slide(
+            result = slide(
                 record.a_mps2,
                 record.dt_s,
                 slope_rad=case.slope_rad,
@@ -90,12 +90,12 @@ def test_what_is_timed_is_what_is_run(record):
                 scale=scale_to(record, case.ppa_g),
                 method=name,
             )
-            assert scene.cs * outcome.s_end == found.residual_m
+            assert scene.cs * outcome.s_end == result.residual_m
 
 
 def test_results_are_the_same_every_time_but_for_the_seconds(record, points):
     again = tuple(workprecision.work_points([record], quick=True))
-    for one, other in zip(points, again, strict=True):
-        assert one.prd_error_m == other.prd_error_m
-        assert one.residual_error_percent == other.residual_error_percent
-        assert one.parameters == other.parameters
+    for point, other in zip(points, again, strict=True):
+        assert point.prd_error_m == other.prd_error_m
+        assert point.residual_error_percent == other.residual_error_percent
+        assert point.parameters == other.parameters
