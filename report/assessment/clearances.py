@@ -85,7 +85,7 @@ def check_clearance(
 ) -> ClearanceCheck:
     """Return a clearance with its required separation, the larger of the two between arrays."""
     near = by_id(arrays, row.array)
-    others = [a for a in arrays if a.array.id == row.object]
+    others = [a for a in arrays if a.id == row.object]
     facing = [(near, row.direction)]
     facing += [
         (other, facing_direction(near.array, other.array, row.direction)) for other in others
@@ -107,7 +107,7 @@ def check_clearance(
     return ClearanceCheck(
         clearance=row,
         neighbor=neighbor,
-        governing_array=governing.array.id,
+        governing_array=governing.id,
         governing_direction=direction,
         design_m=design_m,
         factor=factor,

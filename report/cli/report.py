@@ -124,7 +124,7 @@ def _print_summary(assessment: Assessment) -> None:
         click.echo(f"warning: {warning}")
     for item in assessment.arrays:
         if not item.tipping.is_ok:
-            click.echo(f"warning: array {item.array.id} starts to tip; see part 11 of the package")
+            click.echo(f"warning: array {item.id} starts to tip; see part 11 of the package")
     for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
         text = f"one rigid block has not been shown to be adequate for array {name}"
         click.echo(f"warning: {text}; see part 11 of the package")
@@ -141,10 +141,10 @@ def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) 
             return "no value"
         return pair(value_m, Quantity.DISPLACEMENT, us_first)
 
-    gap = assessment.governing_clearance(item.array.id)
-    clearance = (f"to {gap.across_from(item.array.id)}", ratio(gap.demand_capacity)) if gap else ()
+    gap = assessment.governing_clearance(item.id)
+    clearance = (f"to {gap.across_from(item.id)}", ratio(gap.demand_capacity)) if gap else ()
     return (
-        item.array.id,
+        item.id,
         shown(item.analysis.value_m),
         shown(item.prescriptive.value_m),
         shown(item.design_m),

@@ -20,14 +20,14 @@ FLOOR = 1e-16  # an error of zero is drawn here: the resolution of a double
 _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 
 
-def work_precision(found: Rivals, us_first: bool) -> str:
+def work_precision(rivals: Rivals, us_first: bool) -> str:
     """Return the error in PRD against steps per sampling interval, one line per method."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     with style():
         figure, axes = framed(1.85, 0.55, 2.5, 0.1, 0.42)
-        for name in dict.fromkeys(run.method.name for run in found.runs):
-            _draw(axes, [run for run in found.runs if run.method.name == name and not run.failed])
-        floor = max(found.doubled, FLOOR)
+        for name in dict.fromkeys(run.method.name for run in rivals.runs):
+            _draw(axes, [run for run in rivals.runs if run.method.name == name and not run.failed])
+        floor = max(rivals.doubled, FLOOR)
         axes.plot([1.0], [100.0 * floor], **LOOKS["exact"].all | {"markersize": 9})
         axes.annotate(
             "exact method: rounding error",
@@ -36,8 +36,8 @@ def work_precision(found: Rivals, us_first: bool) -> str:
             textcoords="offset points",
             va="center",
         )
-        _axes(axes, max(run.steps for run in found.runs))
-        peak = found.exact.prd_m / unit.si
+        _axes(axes, max(run.steps for run in rivals.runs))
+        peak = rivals.exact.prd_m / unit.si
         other = axes.secondary_yaxis(
             "right", functions=(lambda e: e * peak / 100.0, lambda u: u * 100.0 / peak)
         )

@@ -22,10 +22,10 @@ _PERIODS_S = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 _SPECTRUM_IN, _HISTORY_IN, _ABOVE_IN, _BELOW_IN = 2.2, 1.05, 0.22, 0.42
 
 
-def comparison(found: RoofComparison) -> str:
+def comparison(roof: RoofComparison) -> str:
     """Return spectra of ground, roof and computed roofs; below, histories of a recorded roof."""
     panels = [(_spectra, _SPECTRUM_IN)]
-    if found.is_recorded:
+    if roof.is_recorded:
         panels.append((_histories, _HISTORY_IN))
     height = sum(_ABOVE_IN + panel_in + _BELOW_IN for _, panel_in in panels)
     with style():
@@ -33,33 +33,33 @@ def comparison(found: RoofComparison) -> str:
         top = height
         for draw, panel_in in panels:
             top -= _ABOVE_IN + panel_in
-            draw(figure.add_axes((0.085, top / height, 0.9, panel_in / height)), found)
+            draw(figure.add_axes((0.085, top / height, 0.9, panel_in / height)), roof)
             top -= _BELOW_IN
         return svg_text(figure)
 
 
-def computed(found: RoofComparison) -> tuple[RoofPrediction, ...]:
+def computed(roof: RoofComparison) -> tuple[RoofPrediction, ...]:
     """Return the predictions by a building model: all except the ground motion itself."""
-    return tuple(one for one in found.predictions if one.n_modes > 0)
+    return tuple(prediction for prediction in roof.predictions if prediction.n_modes > 0)
 
 
-def _spectra(axes: Axes, found: RoofComparison) -> None:
-    roof = "roof, recorded" if found.is_recorded else "roof, integrated directly"
+def _spectra(axes: Axes, roof: RoofComparison) -> None:
+    label = "roof, recorded" if roof.is_recorded else "roof, integrated directly"
     for sa_mps2, look in (
-        (found.ground_sa_mps2, {"color": GREY, "linewidth": 0.9, "label": "ground"}),
-        (found.roof_sa_mps2, {"color": INK, "linewidth": 1.8, "label": roof}),
+        (roof.ground_sa_mps2, {"color": GREY, "linewidth": 0.9, "label": "ground"}),
+        (roof.roof_sa_mps2, {"color": INK, "linewidth": 1.8, "label": label}),
         *(
             (
-                one.sa_mps2,
-                {"color": ACCENT, "linewidth": 1.3, "linestyle": dash, "label": one.name},
+                prediction.sa_mps2,
+                {"color": ACCENT, "linewidth": 1.3, "linestyle": dash, "label": prediction.name},
             )
-            for one, dash in zip(computed(found), _DASHES, strict=False)
+            for prediction, dash in zip(computed(roof), _DASHES, strict=False)
         ),
     ):
-        axes.plot(found.periods_s, sa_mps2 / G_MPS2, **look)
+        axes.plot(roof.periods_s, sa_mps2 / G_MPS2, **look)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlim(found.periods_s[0], found.periods_s[-1])
+    axes.set_xlim(roof.periods_s[0], roof.periods_s[-1])
     axes.xaxis.set_major_locator(FixedLocator(_PERIODS_S))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     low, high = axes.get_ylim()
@@ -79,15 +79,15 @@ def _spectra(axes: Axes, found: RoofComparison) -> None:
 _LEVELS_G = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0)
 
 
-def _histories(axes: Axes, found: RoofComparison) -> None:
-    first = found.predictions[0]
-    width = round(SHOWN_S / found.dt_s)
-    energy = np.convolve(found.roof_mps2**2, np.ones(min(width, found.roof_mps2.size)), "valid")
+def _histories(axes: Axes, roof: RoofComparison) -> None:
+    first = roof.predictions[0]
+    width = round(SHOWN_S / roof.dt_s)
+    energy = np.convolve(roof.roof_mps2**2, np.ones(min(width, roof.roof_mps2.size)), "valid")
     start = int(energy.argmax())
     part = slice(start, start + width)
-    t = np.arange(found.roof_mps2.size)[part] * found.dt_s
-    every = max(1, round(0.02 / found.dt_s))
-    axes.plot(t[::every], found.roof_mps2[part][::every] / G_MPS2, color=INK, linewidth=1.1)
+    t = np.arange(roof.roof_mps2.size)[part] * roof.dt_s
+    every = max(1, round(0.02 / roof.dt_s))
+    axes.plot(t[::every], roof.roof_mps2[part][::every] / G_MPS2, color=INK, linewidth=1.1)
     axes.plot(
         t[::every],
         first.a_mps2[part][::every] / G_MPS2,

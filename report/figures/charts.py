@@ -49,16 +49,16 @@ __all__ = [
 ]
 
 
-def spectra(found: Sequence[Spectra]) -> str:
+def spectra(parts: Sequence[Spectra]) -> str:
     """Return the spectra: motions thin, mean and target thick, one panel per component."""
     with style():
-        height = 0.62 + _PANEL_IN[min(len(found), 3)] * len(found)
+        height = 0.62 + _PANEL_IN[min(len(parts), 3)] * len(parts)
         figure = Figure(figsize=(WIDTH_IN, height))
         figure.subplots_adjust(
             left=0.07, right=0.99, top=1 - 0.22 / height, bottom=0.4 / height, hspace=0.2
         )
-        panels = np.atleast_1d(figure.subplots(len(found), 1, sharex=True))
-        for axes, part in zip(panels, found, strict=True):
+        panels = np.atleast_1d(figure.subplots(len(parts), 1, sharex=True))
+        for axes, part in zip(panels, parts, strict=True):
             each = Broken()
             for row in part.sa_g:
                 each.add(part.periods_s, row)
@@ -109,10 +109,10 @@ def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
     first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
     with style():
         height = 1.3 + _row_in(len(arrays)) * len(arrays)
-        names = [tick_text(one.array.id) for one in arrays]
+        names = [tick_text(array.id) for array in arrays]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
-        for row, found in enumerate(arrays):
-            _compare(axes, row, found, first, labeled=row == 0)
+        for row, array in enumerate(arrays):
+            _compare(axes, row, array, first, labeled=row == 0)
         axes.set_yticks(range(len(arrays)), names)
         axes.set_ylim(len(arrays) - 0.45, -0.55)
         axes.set_xlim(0, None)
@@ -159,11 +159,11 @@ def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
     axes.spines["right"].set_visible(False)
 
 
-def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labeled: bool) -> None:
+def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labeled: bool) -> None:
     def text(label: str) -> str:
         return label if labeled else "_"
 
-    prescriptive = found.prescriptive.value_m / unit.si
+    prescriptive = array.prescriptive.value_m / unit.si
     axes.barh(
         [row],
         [prescriptive],
@@ -173,8 +173,8 @@ def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labele
         linewidth=0.8,
         label=text("prescriptive"),
     )
-    if found.floor_m > 0:
-        floor = found.floor_m / unit.si
+    if array.floor_m > 0:
+        floor = array.floor_m / unit.si
         axes.plot(
             [floor, floor],
             [row - 0.4, row + 0.4],
@@ -183,7 +183,7 @@ def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labele
             linewidth=1.2,
             label=text("floor"),
         )
-    peaks = np.array([run.governing.result.prd_m for run in found.motions]) / unit.si
+    peaks = np.array([run.governing.result.prd_m for run in array.motions]) / unit.si
     axes.plot(
         peaks,
         np.full(peaks.shape, float(row)),
@@ -195,15 +195,15 @@ def _compare(axes: Axes, row: int, found: ArrayAssessment, unit: Unit, *, labele
         markeredgewidth=0.8,
         label=text("PRD of each motion"),
     )
-    mean = found.analysis.mean_m / unit.si
+    mean = array.analysis.mean_m / unit.si
     axes.plot(
         [mean, mean], [row - 0.25, row + 0.25], color=ACCENT, linewidth=2.0, label=text("mean")
     )
-    design = found.design_m / unit.si
+    design = array.design_m / unit.si
     axes.plot(
         [design], [row], linestyle="", marker="D", markersize=6, color=INK, label=text("design")
     )
-    if math.isnan(found.design_m):
+    if math.isnan(array.design_m):
         axes.text(prescriptive / 2, row, "no value", ha="center", va="center")
 
 

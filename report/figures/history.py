@@ -61,12 +61,16 @@ class _Grid:
     def __init__(
         self, motions: Sequence[MotionRun], followed: Sequence[SlideHistory], unit: Unit
     ) -> None:
-        self.followed = [None if math.isnan(one.result.prd_m) else one for one in followed]
+        self.followed = [
+            None if math.isnan(history.result.prd_m) else history for history in followed
+        ]
         self.unit = unit
         self.columns = 2 if len(motions) <= 4 else 3
         self.rows = math.ceil(len(motions) / self.columns)
         self.last = len(motions) - self.columns  # panels from here on are in the bottom row
-        drawn = [line for one in self.followed if one for line in (one.u_m, one.across_m)]
+        drawn = [
+            line for history in self.followed if history for line in (history.u_m, history.across_m)
+        ]
         high = max([0.0, *(float(line.max()) for line in drawn if line.size)]) / unit.si
         low = min([0.0, *(float(line.min()) for line in drawn if line.size)]) / unit.si
         self.ticks = [float(t) for t in MaxNLocator(4).tick_values(low, high or 1.0)]

@@ -53,50 +53,50 @@ def stability(maps: Sequence[StabilityMap], first: int = 1) -> str:
         grid = figure.subplots(rows, 2, squeeze=False)
         for axes in grid.flat[len(maps) :]:
             axes.set_axis_off()
-        for count, (axes, found) in enumerate(zip(grid.flat, maps, strict=False), start=first):
-            _map(axes, found, count)
+        for count, (axes, sweep) in enumerate(zip(grid.flat, maps, strict=False), start=first):
+            _map(axes, sweep, count)
         figure.legend(handles=_key(maps), loc="lower center", ncols=4, handlelength=2.6)
         return svg_text(figure)
 
 
-def _map(axes: Axes, found: StabilityMap, count: int) -> None:
-    x, y = _edges(found.x, log=found.x_log), _edges(found.y, log=found.y_log)
+def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
+    x, y = _edges(sweep.x, log=sweep.x_log), _edges(sweep.y, log=sweep.y_log)
     bands = ListedColormap([band[2] for band in _BANDS])
     norm = BoundaryNorm([0.0, 0.1, 1.0, 10.0, 1e300], bands.N)
-    shown = np.ma.masked_where(found.failed | np.isnan(found.error_percent), found.error_percent)
+    shown = np.ma.masked_where(sweep.failed | np.isnan(sweep.error_percent), sweep.error_percent)
     axes.pcolormesh(x, y, shown, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
-    for row, column in np.argwhere(found.failed | np.isnan(found.error_percent)):
+    for row, column in np.argwhere(sweep.failed | np.isnan(sweep.error_percent)):
         axes.fill(
             [x[column], x[column + 1], x[column + 1], x[column]],
             [y[row], y[row], y[row + 1], y[row + 1]],
             **_FAILED,
         )
-    _contours(axes, found)
-    if found.limit.size:
-        axes.plot(found.x, found.limit, **_LIMIT)
-    if not math.isnan(found.x_mark):
-        axes.axvline(found.x_mark, **_LIMIT)
-    for axis, log in ((axes.xaxis, found.x_log), (axes.yaxis, found.y_log)):
+    _contours(axes, sweep)
+    if sweep.limit.size:
+        axes.plot(sweep.x, sweep.limit, **_LIMIT)
+    if not math.isnan(sweep.x_mark):
+        axes.axvline(sweep.x_mark, **_LIMIT)
+    for axis, log in ((axes.xaxis, sweep.x_log), (axes.yaxis, sweep.y_log)):
         if log:
             axis.axes.set_xscale("log") if axis is axes.xaxis else axis.axes.set_yscale("log")
             decades(axis, most=7)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
-    axes.set_xlabel(found.x_label)
-    axes.set_ylabel(found.y_label)
-    title = lettered(found.title).replace(": ", ":\n", 1)
+    axes.set_xlabel(sweep.x_label)
+    axes.set_ylabel(sweep.y_label)
+    title = lettered(sweep.title).replace(": ", ":\n", 1)
     axes.set_title(f"({count}) {title}", loc="left", fontsize=7.5, weight="semibold")
 
 
-def _contours(axes: Axes, found: StabilityMap) -> None:
-    if min(found.error_percent.shape) < 2:
+def _contours(axes: Axes, sweep: StabilityMap) -> None:
+    if min(sweep.error_percent.shape) < 2:
         return
-    levels = np.log10(np.maximum(found.error_percent, 1e-9))
+    levels = np.log10(np.maximum(sweep.error_percent, 1e-9))
     usable = levels[np.isfinite(levels)]
     for level, line, width in ((0.0, "-", 0.9), (1.0, (0, (4, 1.6)), 1.2)):
         if usable.size and usable.min() < level < usable.max():
             axes.contour(
-                found.x, found.y, levels, [level], colors=INK, linewidths=width, linestyles=[line]
+                sweep.x, sweep.y, levels, [level], colors=INK, linewidths=width, linestyles=[line]
             )
 
 
@@ -123,26 +123,26 @@ def _key(maps: Sequence[StabilityMap]) -> list[Any]:
     handles.append(
         Line2D([], [], color=INK, linewidth=1.2, linestyle=(0, (4, 1.6)), label="10 % contour")
     )
-    if any(one.limit.size or not math.isnan(one.x_mark) for one in maps):
+    if any(sweep.limit.size or not math.isnan(sweep.x_mark) for sweep in maps):
         handles.append(Line2D([], [], **_LIMIT, label="theoretical limit"))
     return handles
 
 
-def conditioning(found: Sequence[Conditioning]) -> str:
+def conditioning(cases: Sequence[Conditioning]) -> str:
     """Return PRD over mu, and below it the change due to a small change of mu, a column each."""
     with style():
         figure = Figure(figsize=(WIDTH_IN, 2.6))
         figure.subplots_adjust(
             left=0.12, right=0.985, top=0.92, bottom=0.16, wspace=0.34, hspace=0.16
         )
-        grid = figure.subplots(2, len(found), sharex="col", squeeze=False)
-        for (above, below), one in zip(grid.T, found, strict=True):
-            above.plot(one.mu, 1e3 * one.prd_m, color=ACCENT, linewidth=1.4)
-            below.plot(one.mu, np.maximum(one.change_percent, 1e-14), color=INK, linewidth=0.9)
+        grid = figure.subplots(2, len(cases), sharex="col", squeeze=False)
+        for (above, below), case in zip(grid.T, cases, strict=True):
+            above.plot(case.mu, 1e3 * case.prd_m, color=ACCENT, linewidth=1.4)
+            below.plot(case.mu, np.maximum(case.change_percent, 1e-14), color=INK, linewidth=0.9)
             above.set_yscale("symlog", linthresh=1.0)
-            _spread(below, one.change_percent)
+            _spread(below, case.change_percent)
             _plain_symlog(above)
-            above.set_title(f"{one.title}", loc="left", fontsize=7.5, weight="semibold")
+            above.set_title(f"{case.title}", loc="left", fontsize=7.5, weight="semibold")
             below.set_xlabel("Friction coefficient μ")
             for axes in (above, below):
                 axes.grid(True)

@@ -29,42 +29,42 @@ _LINES: tuple[Any, ...] = ("-", _DASHED, _DASHDOT, _DOTTED)
 _MARKERS = ("o", "s", "^", "D", "v", "X", "P", "*")
 
 
-def convergence(found: Sequence[Convergence]) -> str:
+def convergence(studies: Sequence[Convergence]) -> str:
     """Return Fig. 5, a row for each record: largest error and longest time against P."""
     with style():
-        figure, grid = _rows(len(found), 2.25)
-        for (left, right), one in zip(grid, found, strict=True):
-            _errors(left, one)
-            right.plot(one.substeps, 1e3 * one.longest_seconds, "o-", color=INK, markersize=4)
+        figure, grid = _rows(len(studies), 2.25)
+        for (left, right), study in zip(grid, studies, strict=True):
+            _errors(left, study)
+            right.plot(study.substeps, 1e3 * study.longest_seconds, "o-", color=INK, markersize=4)
             right.set_yscale("log")
             decades(right.yaxis, most=7)
             right.set_ylabel("Longest time per run [ms]")
-            left.set_title(one.record, loc="left", weight="semibold")
+            left.set_title(study.record, loc="left", weight="semibold")
             for axes in (left, right):
-                _powers_of_two(axes, one.substeps)
+                _powers_of_two(axes, study.substeps)
                 bare(axes)
         return svg_text(figure)
 
 
-def _errors(axes: Axes, one: Convergence) -> None:
+def _errors(axes: Axes, study: Convergence) -> None:
     axes.plot(
-        one.substeps,
-        one.largest_error_exact_percent,
+        study.substeps,
+        study.largest_error_exact_percent,
         "o-",
         color=INK,
         markersize=4,
         label="against exact",
     )
-    by_finest = one.largest_error_p256_percent > 0.0
+    by_finest = study.largest_error_p256_percent > 0.0
     axes.plot(
-        np.array(one.substeps)[by_finest],
-        one.largest_error_p256_percent[by_finest],
+        np.array(study.substeps)[by_finest],
+        study.largest_error_p256_percent[by_finest],
         marker="s",
         markerfacecolor="white",
         linestyle=_DASHED,
         color=ACCENT,
         markersize=4,
-        label=f"against P = {one.substeps[-1]}, as in the paper",
+        label=f"against P = {study.substeps[-1]}, as in the paper",
     )
     axes.plot(
         [64], [PAPER_P64_PERCENT], linestyle="", marker="*", markersize=9, color=GREY,
@@ -102,19 +102,19 @@ def _rows(count: int, row_in: float, below_in: float = 0.45) -> tuple[Figure, An
     return figure, figure.subplots(count, 2, squeeze=False)
 
 
-def links(found: Sequence[LinkComparison]) -> str:
+def links(comparisons: Sequence[LinkComparison]) -> str:
     """Return Figs. 6 to 9, a row each: history with the largest difference; PRD and RRD over mu."""
     with style():
-        figure, grid = _rows(len(found), 2.0)
-        for (left, right), one in zip(grid, found, strict=True):
-            _history(left, one)
-            _over_mu(right, one)
+        figure, grid = _rows(len(comparisons), 2.0)
+        for (left, right), comparison in zip(grid, comparisons, strict=True):
+            _history(left, comparison)
+            _over_mu(right, comparison)
             left.set_title(
-                f"θ = {one.slope_deg:g}°: history at μ = {one.history_mu:g}",
+                f"θ = {comparison.slope_deg:g}°: history at μ = {comparison.history_mu:g}",
                 loc="left",
                 weight="semibold",
             )
-            right.set_title(f"θ = {one.slope_deg:g}°: all μ", loc="left", weight="semibold")
+            right.set_title(f"θ = {comparison.slope_deg:g}°: all μ", loc="left", weight="semibold")
             for axes in (left, right):
                 axes.grid(True)
                 axes.set_axisbelow(True)
@@ -122,24 +122,30 @@ def links(found: Sequence[LinkComparison]) -> str:
         return svg_text(figure)
 
 
-def _history(axes: Axes, one: LinkComparison) -> None:
+def _history(axes: Axes, comparison: LinkComparison) -> None:
     for u_m, line, color, width, label in (
-        (one.history_exact_m, "-", INK, 1.0, "exact"),
-        (one.history_link_m, _DASHED, ACCENT, 1.4, "link"),
+        (comparison.history_exact_m, "-", INK, 1.0, "exact"),
+        (comparison.history_link_m, _DASHED, ACCENT, 1.4, "link"),
     ):
-        t, u = envelope(one.history_t_s, 1e3 * u_m)
+        t, u = envelope(comparison.history_t_s, 1e3 * u_m)
         axes.plot(t, u, linestyle=line, color=color, linewidth=width, label=label)
     axes.set_xlabel("Time [s]")
     axes.set_ylabel("Displacement u [mm]")
     axes.legend(loc="best", handlelength=2.8)
 
 
-def _over_mu(axes: Axes, one: LinkComparison) -> None:
+def _over_mu(axes: Axes, comparison: LinkComparison) -> None:
     looks: tuple[tuple[Floats, dict[str, Any]], ...] = (
-        (one.prd_exact_m, {"marker": "o", "linestyle": "-", "color": INK, "label": "PRD, exact"}),
-        (one.prd_link_m, {"marker": "x", "linestyle": "", "color": ACCENT, "label": "PRD, link"}),
         (
-            one.rrd_exact_m,
+            comparison.prd_exact_m,
+            {"marker": "o", "linestyle": "-", "color": INK, "label": "PRD, exact"},
+        ),
+        (
+            comparison.prd_link_m,
+            {"marker": "x", "linestyle": "", "color": ACCENT, "label": "PRD, link"},
+        ),
+        (
+            comparison.rrd_exact_m,
             {
                 "marker": "s",
                 "linestyle": _DASHED,
@@ -148,11 +154,14 @@ def _over_mu(axes: Axes, one: LinkComparison) -> None:
                 "label": "RRD, exact",
             },
         ),
-        (one.rrd_link_m, {"marker": "+", "linestyle": "", "color": ACCENT, "label": "RRD, link"}),
+        (
+            comparison.rrd_link_m,
+            {"marker": "+", "linestyle": "", "color": ACCENT, "label": "RRD, link"},
+        ),
     )
     for values, look in looks:
         size = 6 if look["marker"] in "x+" else 4
-        axes.plot(one.mus, 1e3 * values, linewidth=0.9, markersize=size, **look)
+        axes.plot(comparison.mus, 1e3 * values, linewidth=0.9, markersize=size, **look)
     axes.set_yscale("symlog", linthresh=1.0)
     ticks = [t for t in (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5) if t <= axes.get_ylim()[1]]
     axes.set_yticks(ticks, [f"{t:g}" for t in ticks])
@@ -164,31 +173,31 @@ def _over_mu(axes: Axes, one: LinkComparison) -> None:
     axes.legend(loc="best", handlelength=2.8)
 
 
-def curves(found: DesignCurves) -> str:
+def curves(study: DesignCurves) -> str:
     """Return Figs. 10 and 11: PRD against PPA for several mu, and against slope for several PPA."""
-    slope = _nearest(found.slopes_deg, FIG_10_SLOPE_DEG)
-    mu = _nearest(found.mus, FIG_11_MU)
+    slope = _nearest(study.slopes_deg, FIG_10_SLOPE_DEG)
+    mu = _nearest(study.mus, FIG_11_MU)
     with style():
         figure, grid = _rows(1, 2.75, below_in=0.88)
         left, right = grid[0]
         _family(
             left,
-            found.ppas_g,
-            [(f"μ = {m:.2g}", found.prd_m[slope, k]) for k, m in _every(found.mus)],
+            study.ppas_g,
+            [(f"μ = {m:.2g}", study.prd_m[slope, k]) for k, m in _every(study.mus)],
         )
         left.set_xlabel("PPA [g]")
-        left.set_title(f"θ = {found.slopes_deg[slope]:g}°", loc="left", weight="semibold")
+        left.set_title(f"θ = {study.slopes_deg[slope]:g}°", loc="left", weight="semibold")
         _family(
             right,
-            found.slopes_deg,
+            study.slopes_deg,
             [
-                (f"{ppa:.2g} g", found.prd_m[:, mu, k])
-                for k, ppa in _every(found.ppas_g)
-                if found.prd_m[:, mu, k].max() > 0.0
+                (f"{ppa:.2g} g", study.prd_m[:, mu, k])
+                for k, ppa in _every(study.ppas_g)
+                if study.prd_m[:, mu, k].max() > 0.0
             ],
         )
         right.set_xlabel("Slope θ [deg]")
-        right.set_title(f"μ = {found.mus[mu]:.2g}", loc="left", weight="semibold")
+        right.set_title(f"μ = {study.mus[mu]:.2g}", loc="left", weight="semibold")
         left.set_ylabel("PRD [mm]")
         return svg_text(figure)
 
@@ -231,18 +240,18 @@ def _family(axes: Axes, x: Floats, family: Sequence[tuple[str, Floats]]) -> None
     bare(axes)
 
 
-def contours(found: DesignCurves) -> str:
+def contours(study: DesignCurves) -> str:
     """Return Fig. 12: contours of PRD over mu and slope, with the least mu for the limit."""
-    ppa = _nearest(found.ppas_g, FIG_12_PPA_G)
-    prd_mm = 1e3 * found.prd_m[:, :, ppa]
+    ppa = _nearest(study.ppas_g, FIG_12_PPA_G)
+    prd_mm = 1e3 * study.prd_m[:, :, ppa]
     slope_deg, wanted_m = READ_OFF
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.1))
         axes = figure.add_axes((0.085, 0.135, 0.9, 0.82))
         levels = [v for v in _LEVELS_MM if prd_mm.min() < v < prd_mm.max()]
         drawn = axes.contour(
-            found.mus,
-            found.slopes_deg,
+            study.mus,
+            study.slopes_deg,
             prd_mm,
             levels,
             colors=INK,
@@ -250,11 +259,11 @@ def contours(found: DesignCurves) -> str:
             linestyles=["-" if v in (500.0, 1000.0) else _DASHED for v in levels],
         )
         axes.clabel(drawn, fmt=lambda value: f"{value:g} mm", fontsize=7, inline_spacing=2)
-        least = found.least_mu(slope_deg, float(found.ppas_g[ppa]), wanted_m)
+        least = study.least_mu(slope_deg, float(study.ppas_g[ppa]), wanted_m)
         if not math.isnan(least):
             _read_off(axes, least, slope_deg, wanted_m)
-        axes.set_xlim(found.mus[0], found.mus[-1])
-        axes.set_ylim(found.slopes_deg[0], found.slopes_deg[-1])
+        axes.set_xlim(study.mus[0], study.mus[-1])
+        axes.set_ylim(study.slopes_deg[0], study.slopes_deg[-1])
         axes.set_xlabel("Friction coefficient μ")
         axes.set_ylabel("Slope θ [deg]")
         bare(axes)

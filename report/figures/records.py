@@ -86,10 +86,10 @@ def _figure(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> Figur
 
 def _histories(panels: Sequence[Axes], records: Sequence[Record]) -> None:
     """Draw all records with the same time and acceleration scales."""
-    reach = max(float(np.abs(one.a_mps2).max()) for one in records) / G_MPS2 or 1.0
-    longest = max((len(one.a_mps2) - 1) * one.dt_s for one in records)
-    for axes, one in zip(panels, records, strict=True):
-        _history(axes, one)
+    reach = max(float(np.abs(record.a_mps2).max()) for record in records) / G_MPS2 or 1.0
+    longest = max((len(record.a_mps2) - 1) * record.dt_s for record in records)
+    for axes, record in zip(panels, records, strict=True):
+        _history(axes, record)
         axes.set_xlim(0.0, longest)
         axes.set_ylim(-1.12 * reach, 1.12 * reach)
         axes.yaxis.set_major_locator(MaxNLocator(4, symmetric=True))
@@ -115,11 +115,11 @@ def _history(axes: Axes, record: Record) -> None:
 
 
 def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> None:
-    for place, (one, row) in enumerate(zip(records, sa_g, strict=True)):
+    for place, (record, row) in enumerate(zip(records, sa_g, strict=True)):
         color = _COLORS[place % len(_COLORS)]
         dash = _DASHES[place % len(_DASHES)]
         axes.plot(
-            periods_s, row, color=color, linestyle=dash, linewidth=1.2, label=_cut(one.name, 30)
+            periods_s, row, color=color, linestyle=dash, linewidth=1.2, label=_cut(record.name, 30)
         )
     axes.set_xscale("log")
     axes.set_xlim(periods_s[0], periods_s[-1])

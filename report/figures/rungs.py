@@ -22,17 +22,17 @@ _SPREAD = 0.31
 """Vertical spread of the dots of a row, to each side of its center line."""
 
 
-def changes(found: Sequence[RungChange]) -> str:
+def changes(studied: Sequence[RungChange]) -> str:
     """Return a row for each change: a dot for each run, a bar for 10 to 90 %, a median mark."""
-    height = 0.5 + 0.31 * len(found)
+    height = 0.5 + 0.31 * len(studied)
     with style():
         figure, axes = framed(height, 1.95, 0.15, 0.08, 0.42)
         axes.axvline(1.0, color=INK, linewidth=0.8, zorder=1)
-        for row, one in enumerate(found):
-            _row(axes, row, one)
+        for row, change in enumerate(studied):
+            _row(axes, row, change)
         axes.set_xscale("log")
-        axes.set_ylim(len(found) - 0.5, -0.5)
-        axes.set_yticks(range(len(found)), [one.name for one in found])
+        axes.set_ylim(len(studied) - 0.5, -0.5)
+        axes.set_yticks(range(len(studied)), [change.name for change in studied])
         axes.tick_params(axis="y", length=0)
         low, high = axes.get_xlim()
         axes.xaxis.set_major_locator(FixedLocator([v for v in _RATIOS if low <= v <= high]))
@@ -46,15 +46,15 @@ def changes(found: Sequence[RungChange]) -> str:
         return svg_text(figure)
 
 
-def _row(axes: Any, row: int, one: RungChange) -> None:
-    if not one.ratios.size:
+def _row(axes: Any, row: int, change: RungChange) -> None:
+    if not change.ratios.size:
         return
     # Golden-ratio offsets: the same in every run, and equal values do not overlap.
     turn = 0.5 * (1.0 + math.sqrt(5.0))
-    aside = _SPREAD * (2.0 * np.mod(turn * np.arange(one.ratios.size), 1.0) - 1.0)
-    axes.plot(one.ratios, row + aside, linestyle="", marker=".", markersize=1.8, color=_DOT)
-    axes.plot([one.at(10.0), one.at(90.0)], [row, row], color=ACCENT, linewidth=2.0)
-    axes.plot([one.median] * 2, [row - 0.36, row + 0.36], color=ACCENT, linewidth=2.0)
+    aside = _SPREAD * (2.0 * np.mod(turn * np.arange(change.ratios.size), 1.0) - 1.0)
+    axes.plot(change.ratios, row + aside, linestyle="", marker=".", markersize=1.8, color=_DOT)
+    axes.plot([change.at(10.0), change.at(90.0)], [row, row], color=ACCENT, linewidth=2.0)
+    axes.plot([change.median] * 2, [row - 0.36, row + 0.36], color=ACCENT, linewidth=2.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,18 +78,20 @@ _LOOKS = (
 )
 
 
-def work(found: Sequence[PlaneWork]) -> str:
+def work(points: Sequence[PlaneWork]) -> str:
     """Return a line for each method, from coarse to fine; failed runs are not drawn."""
-    names = list(dict.fromkeys(one.method for one in found))
+    names = list(dict.fromkeys(point.method for point in points))
     with style():
         height = 2.4
         figure = Figure(figsize=(WIDTH_IN, height))
         axes = figure.add_axes((0.085, 0.17, 0.5, 0.79))
         for name, look in zip(names, _LOOKS, strict=False):
-            own = [one for one in found if one.method == name and not math.isnan(one.seconds)]
+            own = [
+                point for point in points if point.method == name and not math.isnan(point.seconds)
+            ]
             axes.plot(
-                [one.seconds for one in own],
-                [max(one.error_percent, LEAST_PERCENT) for one in own],
+                [point.seconds for point in own],
+                [max(point.error_percent, LEAST_PERCENT) for point in own],
                 color=look.color,
                 linestyle=look.linestyle,
                 marker=look.marker,
@@ -119,22 +121,22 @@ LEAST_RATIO = 1e-6
 """Smallest ratio drawn; smaller ones are drawn there."""
 
 
-def bounds(found: Sequence[BoundRatios]) -> str:
+def bounds(groups: Sequence[BoundRatios]) -> str:
     """Return, for each kind, the share of the pairs whose ratio to the bound exceeds a value."""
     with style():
         figure = Figure(figsize=(WIDTH_IN, 2.5))
         axes = figure.add_axes((0.085, 0.165, 0.58, 0.8))
         axes.axvline(1.0, color=INK, linewidth=0.8)
         axes.text(1.15, 0.9, "bound", fontsize=7.5, color=INK)
-        for one, look in zip(found, _LOOKS, strict=False):
-            above = 1.0 - np.arange(one.ratios.size) / max(one.ratios.size, 1)
+        for group, look in zip(groups, _LOOKS, strict=False):
+            above = 1.0 - np.arange(group.ratios.size) / max(group.ratios.size, 1)
             axes.plot(
-                np.maximum(one.ratios, LEAST_RATIO),
+                np.maximum(group.ratios, LEAST_RATIO),
                 above,
                 color=look.color,
                 linestyle=look.linestyle,
                 linewidth=1.2,
-                label=one.kind.replace("mu", "μ"),
+                label=group.kind.replace("mu", "μ"),
             )
         axes.set_xscale("log")
         axes.set_yscale("log")

@@ -41,10 +41,10 @@ def curves(points: Sequence[WorkPoint], measure: str, floor: float) -> tuple[Cur
     Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
     """
     names = dict.fromkeys(point.method for point in points)
-    found = (
+    drawn = (
         _curve(name, [p for p in points if p.method == name], measure, floor) for name in names
     )
-    return tuple(curve for curve in found if curve.median.size)
+    return tuple(curve for curve in drawn if curve.median.size)
 
 
 def _curve(name: str, points: Sequence[WorkPoint], measure: str, floor: float) -> Curve:
@@ -125,8 +125,8 @@ def by_method(points: Sequence[WorkPoint], measure: str, floor: float) -> str:
     The medians of the other methods are drawn in light gray behind each panel.
     """
     rivals = [point for point in points if point.method != "exact"]
-    found = curves(rivals, f"{measure}_percent", floor)
-    rows = math.ceil(len(found) / 4)
+    shown = curves(rivals, f"{measure}_percent", floor)
+    rows = math.ceil(len(shown) / 4)
     with style():
         height = 1.75 * rows + 0.45
         figure = Figure(figsize=(WIDTH_IN, height))
@@ -139,23 +139,23 @@ def by_method(points: Sequence[WorkPoint], measure: str, floor: float) -> str:
             hspace=0.22,
         )
         grid = figure.subplots(rows, 4, sharex=True, sharey=True, squeeze=False)
-        for axes in grid.flat[len(found) :]:
+        for axes in grid.flat[len(shown) :]:
             axes.set_axis_off()
-        for axes, curve in zip(grid.flat, found, strict=False):
-            _panel(axes, curve, found)
+        for axes, curve in zip(grid.flat, shown, strict=False):
+            _panel(axes, curve, shown)
         for axes in grid[:, 0]:
             axes.set_ylabel("Error [%]")
-        for index in range(len(found)):
-            if index + 4 >= len(found):
+        for index in range(len(shown)):
+            if index + 4 >= len(shown):
                 axes = grid.flat[index]
                 axes.set_xlabel("Time per run [s]")
                 axes.tick_params(labelbottom=True)
         return svg_text(figure)
 
 
-def _panel(axes: Axes, curve: Curve, found: Sequence[Curve]) -> None:
+def _panel(axes: Axes, curve: Curve, shown: Sequence[Curve]) -> None:
     others = Broken()
-    for other in found:
+    for other in shown:
         others.add(other.seconds, other.median)
     axes.plot(others.x, others.y, color=PALE, linewidth=1.0, zorder=1)
     axes.plot(

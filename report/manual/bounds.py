@@ -13,19 +13,19 @@ from report.pages.parts import Picture, Table, TableColumn, TableRow
 from solver.verification.rung_evidence import BoundRatios
 
 
-def block(found: Sequence[BoundRatios]) -> Block:
+def block(groups: Sequence[BoundRatios]) -> Block:
     """Return how far the pairs of each kind come to the bound of their difference."""
     return Block(
         title="Verification of the stated error bound",
-        texts=(_words(found),),
-        charts=(_chart(found),),
-        tables=(_table(found),),
+        texts=(_words(groups),),
+        charts=(_chart(groups),),
+        tables=(_table(groups),),
     )
 
 
-def _words(found: Sequence[BoundRatios]) -> str:
-    pairs, over = sum(one.n_pairs for one in found), sum(one.n_over for one in found)
-    unanswered = sum(one.n_unanswered for one in found)
+def _words(groups: Sequence[BoundRatios]) -> str:
+    pairs, over = sum(group.n_pairs for group in groups), sum(group.n_over for group in groups)
+    unanswered = sum(group.n_unanswered for group in groups)
     verdict = (
         "Every pair is within its bound."
         if over + unanswered == 0
@@ -45,11 +45,11 @@ def _words(found: Sequence[BoundRatios]) -> str:
     )
 
 
-def _chart(found: Sequence[BoundRatios]) -> Chart:
+def _chart(groups: Sequence[BoundRatios]) -> Chart:
     return Chart(
         name="rungs-bounds",
         picture=Picture(
-            svg=figures.bounds(found),
+            svg=figures.bounds(groups),
             caption="Share of the pairs whose ratio of difference to bound exceeds a value. "
             f"Ratios below {power_of_ten(figures.LEAST_RATIO)} are drawn at "
             f"{power_of_ten(figures.LEAST_RATIO)}.",
@@ -58,7 +58,7 @@ def _chart(found: Sequence[BoundRatios]) -> Chart:
     )
 
 
-def _table(found: Sequence[BoundRatios]) -> Table:
+def _table(groups: Sequence[BoundRatios]) -> Table:
     return Table(
         caption="Difference of the two runs of a pair / sum of their bounds",
         columns=(
@@ -74,15 +74,15 @@ def _table(found: Sequence[BoundRatios]) -> Table:
         rows=tuple(
             TableRow(
                 cells=(
-                    one.kind.replace("mu", "μ"),
-                    str(one.n_pairs),
-                    str(one.ratios.size),
-                    *(small(float(value)) for value in np.percentile(one.ratios, (50, 99, 100))),
-                    str(one.n_over),
-                    str(one.n_unanswered),
+                    group.kind.replace("mu", "μ"),
+                    str(group.n_pairs),
+                    str(group.ratios.size),
+                    *(small(float(value)) for value in np.percentile(group.ratios, (50, 99, 100))),
+                    str(group.n_over),
+                    str(group.n_unanswered),
                 )
             )
-            for one in found
+            for group in groups
         ),
         kind="compact",
     )

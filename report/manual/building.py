@@ -15,14 +15,14 @@ from solver.verification.evidence import RoofComparison, RoofPrediction, Verific
 TITLE = "Roof motion computed from ground motion"
 
 
-def building(found: Verification) -> ManualSection:
+def building(verification: Verification) -> ManualSection:
     """Return a block for each building, the model building first."""
     return ManualSection(
         id="building",
         title=TITLE,
         blocks=(
-            Block(texts=(*_model(), _at_hand(found))),
-            *(_block(one) for one in found.roofs),
+            Block(texts=(*_model(), _at_hand(verification))),
+            *(_block(roof) for roof in verification.roofs),
         ),
     )
 
@@ -44,8 +44,8 @@ def _model() -> tuple[str, ...]:
     )
 
 
-def _at_hand(found: Verification) -> str:
-    real = [one.title for one in found.roofs if one.is_recorded]
+def _at_hand(verification: Verification) -> str:
+    real = [roof.title for roof in verification.roofs if roof.is_recorded]
     if real:
         return (
             f"Records of a real building were given: {'; '.join(real)}. They show how well a "
@@ -59,37 +59,39 @@ def _at_hand(found: Verification) -> str:
     )
 
 
-def _block(found: RoofComparison) -> Block:
+def _block(roof: RoofComparison) -> Block:
     return Block(
-        title=found.title,
-        texts=(found.description, *_results(found)),
-        top=(_properties(found),),
+        title=roof.title,
+        texts=(roof.description, *_results(roof)),
+        top=(_properties(roof),),
         charts=(
             Chart(
-                name=f"building-{slug(found.title)}",
+                name=f"building-{slug(roof.title)}",
                 picture=Picture(
-                    svg=figures.comparison(found),
-                    caption=_caption(found),
-                    alt=f"Response of the roof, {_reference(found)} and computed",
+                    svg=figures.comparison(roof),
+                    caption=_caption(roof),
+                    alt=f"Response of the roof, {_reference(roof)} and computed",
                 ),
             ),
         ),
-        tables=(_bands(found), _slips(found)),
+        tables=(_bands(roof), _slips(roof)),
     )
 
 
-def _caption(found: RoofComparison) -> str:
-    caption = f"{found.title}: response spectra of ground, roof and computed roof motions"
-    if found.is_recorded:
+def _caption(roof: RoofComparison) -> str:
+    caption = f"{roof.title}: response spectra of ground, roof and computed roof motions"
+    if roof.is_recorded:
         caption += f", and {figures.SHOWN_S:g} s of the roof acceleration"
     return f"{caption}."
 
 
-def _results(found: RoofComparison) -> tuple[str, ...]:
+def _results(roof: RoofComparison) -> tuple[str, ...]:
     """Return the least and the greatest ratio of PRD for each prediction, in words."""
-    if not found.is_recorded:
+    if not roof.is_recorded:
         return ()
-    words = [f"{one.name}: {_span(one, found)}" for one in figures.computed(found)]
+    words = [
+        f"{prediction.name}: {_span(prediction, roof)}" for prediction in figures.computed(roof)
+    ]
     return (
         "Ratio of PRD with the computed roof motion to PRD with the recorded one, range over the "
         f"cases below: {'; '.join(words)}. Damping, including radiation into the soil, causes most "
@@ -99,20 +101,20 @@ def _results(found: RoofComparison) -> tuple[str, ...]:
     )
 
 
-def _span(one: RoofPrediction, found: RoofComparison) -> str:
-    ratios = one.prd_m / found.prd_m
+def _span(prediction: RoofPrediction, roof: RoofComparison) -> str:
+    ratios = prediction.prd_m / roof.prd_m
     return f"{ratios.min():.2f} to {ratios.max():.2f}"
 
 
-def _reference(found: RoofComparison) -> str:
-    return "recorded" if found.is_recorded else "integrated directly"
+def _reference(roof: RoofComparison) -> str:
+    return "recorded" if roof.is_recorded else "integrated directly"
 
 
-def _properties(found: RoofComparison) -> Table:
+def _properties(roof: RoofComparison) -> Table:
     """Properties of each prediction, and its overall agreement."""
-    peak = float(np.abs(found.roof_mps2).max()) / G_MPS2
-    rows = [_property_row(one) for one in found.predictions]
-    cells = (_sentence(_reference(found)), "—", "—", "—", "—", "—", number(peak, 3), "—")
+    peak = float(np.abs(roof.roof_mps2).max()) / G_MPS2
+    rows = [_property_row(prediction) for prediction in roof.predictions]
+    cells = (_sentence(_reference(roof)), "—", "—", "—", "—", "—", number(peak, 3), "—")
     return Table(
         caption="Properties of the building and computed roof motion",
         columns=(
@@ -136,18 +138,18 @@ def _properties(found: RoofComparison) -> Table:
     )
 
 
-def _property_row(one: RoofPrediction) -> TableRow:
-    has_building = one.n_modes > 0
+def _property_row(prediction: RoofPrediction) -> TableRow:
+    has_building = prediction.n_modes > 0
     return TableRow(
         cells=(
-            _sentence(one.name),
-            number(one.period_s, 2),
-            number(100.0 * one.damping, 1),
-            number(one.alpha0, 1),
-            str(one.n_modes) if has_building else "—",
-            number(100.0 * one.left_out_share, 1) if has_building else "—",
-            number(one.peak_mps2 / G_MPS2, 3),
-            number(100.0 * one.unexplained, 1),
+            _sentence(prediction.name),
+            number(prediction.period_s, 2),
+            number(100.0 * prediction.damping, 1),
+            number(prediction.alpha0, 1),
+            str(prediction.n_modes) if has_building else "—",
+            number(100.0 * prediction.left_out_share, 1) if has_building else "—",
+            number(prediction.peak_mps2 / G_MPS2, 3),
+            number(100.0 * prediction.unexplained, 1),
         )
     )
 
@@ -156,73 +158,75 @@ def _sentence(name: str) -> str:
     return name[0].upper() + name[1:]
 
 
-def _bands(found: RoofComparison) -> Table:
+def _bands(roof: RoofComparison) -> Table:
     return Table(
         caption="Ratio of response spectra by period band, computed / reference",
         columns=(
             TableColumn(head="Building", align="left", share=3.2),
-            *(TableColumn(head=f"{low:g} to {high:g}", unit="s") for low, high in found.bands_s),
+            *(TableColumn(head=f"{low:g} to {high:g}", unit="s") for low, high in roof.bands_s),
         ),
         rows=tuple(
             TableRow(
                 cells=(
-                    _sentence(one.name),
+                    _sentence(prediction.name),
                     *(
                         f"{ratio:.2f} ({100.0 * scatter:.0f} %)"
-                        for ratio, scatter in zip(one.band_ratios, one.band_scatters, strict=True)
+                        for ratio, scatter in zip(
+                            prediction.band_ratios, prediction.band_scatters, strict=True
+                        )
                     ),
                 )
             )
-            for one in found.predictions
+            for prediction in roof.predictions
         ),
         notes=(
             "Geometric mean of the ratio in the band; in parentheses, the standard deviation of "
-            f"its natural logarithm. Reference: the roof motion {_reference(found)}.",
+            f"its natural logarithm. Reference: the roof motion {_reference(roof)}.",
         ),
     )
 
 
-def _slips(found: RoofComparison) -> Table:
-    peaks = (number(1e3 * m, 0) for m in found.prd_m)
+def _slips(roof: RoofComparison) -> Table:
+    peaks = (number(1e3 * m, 0) for m in roof.prd_m)
     return Table(
-        caption=f"PRD on a slope of {found.slope_deg:g}°; in parentheses, ratio to the reference "
+        caption=f"PRD on a slope of {roof.slope_deg:g}°; in parentheses, ratio to the reference "
         "(first row)",
         columns=(
             TableColumn(head="Roof motion", align="left", share=3.2),
-            *(TableColumn(head=f"μ = {mu:g}", unit="mm") for mu in found.mus),
+            *(TableColumn(head=f"μ = {mu:g}", unit="mm") for mu in roof.mus),
         ),
         rows=(
-            TableRow(cells=(_sentence(_reference(found)), *peaks), kind="total"),
+            TableRow(cells=(_sentence(_reference(roof)), *peaks), kind="total"),
             *(
                 TableRow(
                     cells=(
-                        _sentence(one.name),
+                        _sentence(prediction.name),
                         *(
                             f"{number(1e3 * m, 0)} ({m / r:.2f})"
-                            for m, r in zip(one.prd_m, found.prd_m, strict=True)
+                            for m, r in zip(prediction.prd_m, roof.prd_m, strict=True)
                         ),
                     )
                 )
-                for one in found.predictions
+                for prediction in roof.predictions
             ),
         ),
         notes=(
-            f"All motions are multiplied by {found.scale:.3g}, which scales the reference roof "
+            f"All motions are multiplied by {roof.scale:.3g}, which scales the reference roof "
             "motion to a peak of 1 g. The larger PRD of both signs of the slope is given. No "
             "vertical motion is applied.",
         ),
     )
 
 
-def answer(found: Verification) -> str:
+def answer(verification: Verification) -> str:
     """Return the summary's result for a recorded building; empty if none was given."""
-    for one in found.roofs:
-        if one.is_recorded:
-            best = one.predictions[0]
-            others = [p for p in one.predictions if p.name == BY_HEIGHT]
+    for roof in verification.roofs:
+        if roof.is_recorded:
+            best = roof.predictions[0]
+            others = [p for p in roof.predictions if p.name == BY_HEIGHT]
             return (
-                f"{best.name}: PRD {_span(best, one)} times that of the recorded roof motion, "
+                f"{best.name}: PRD {_span(best, roof)} times that of the recorded roof motion, "
                 f"{100.0 * best.unexplained:.0f} % of the motion unexplained"
-                + "".join(f"; {other.name}: PRD {_span(other, one)} times" for other in others)
+                + "".join(f"; {other.name}: PRD {_span(other, roof)} times" for other in others)
             )
     return ""

@@ -84,15 +84,15 @@ def _answers(verification: Verification) -> Iterator[tuple[str, str, str]]:
         yield "The paper's method with 64 sub-steps, same analysis cases", text, "5"
     lost = sum(math.isnan(p.seconds) for p in verification.work)
     yield "Failed runs, all methods", f"{lost} of {len(verification.work)}", "5"
-    cells = sum(one.failed.size for one in verification.maps)
+    cells = sum(sweep.failed.size for sweep in verification.maps)
     yield (
         "Failed cells of the stability maps, other methods",
-        f"{sum(int(one.failed.sum()) for one in verification.maps)} of {cells}",
+        f"{sum(int(sweep.failed.sum()) for sweep in verification.maps)} of {cells}",
         "6",
     )
     if verification.links:
-        worst = max(verification.links, key=lambda one: one.worst_percent)
-        mean = float(np.mean([one.mean_percent for one in verification.links]))
+        worst = max(verification.links, key=lambda comparison: comparison.worst_percent)
+        mean = float(np.mean([comparison.mean_percent for comparison in verification.links]))
         yield (
             "Difference in RRD from the link of the paper's SAP 2000 model",
             f"{percent(worst.worst_percent)} largest ({worst_mm(worst):.2g} mm), "
@@ -100,8 +100,8 @@ def _answers(verification: Verification) -> Iterator[tuple[str, str, str]]:
             f"{PAPER_MEAN_PERCENT} %",
             "8",
         )
-    runs = sum(one.runs for one in verification.curves)
-    took = sum(one.seconds for one in verification.curves)
+    runs = sum(study.runs for study in verification.curves)
+    took = sum(study.seconds for study in verification.curves)
     yield "The paper's parametric study", f"{runs:,} runs in {seconds(took)}", "9"
     if result := answer(verification):
         yield "Roof motion of a recorded building, computed from its ground motion", result, "11"
@@ -221,8 +221,8 @@ def _records(verification: Verification) -> Iterator[str]:
         f"{joined(verification.records)}. The program generates its own records from a fixed seed: "
         "motions matched to the AC156 spectrum at the roof, and a near-fault pulse."
     )
-    for one in verification.rungs:
-        study = one.study
+    for evidence in verification.rungs:
+        study = evidence.study
         made = len(study.motions) - study.n_recorded
         words = (
             f"{_count(len(study.motions), 'motion')} of three components, for section 12 and "
@@ -231,13 +231,13 @@ def _records(verification: Verification) -> Iterator[str]:
         if study.n_recorded:
             words += f"; {joined(study.motions[made:])}, recorded in earthquakes"
         yield words + "."
-    if buildings := [one.title for one in verification.roofs[1:]]:
+    if buildings := [roof.title for roof in verification.roofs[1:]]:
         yield f"Recorded buildings, for section 11: {joined(buildings)}."
 
 
 def extent(verification: Verification) -> str:
     """Return the number of records and buildings, in one line."""
-    motions = [name for one in verification.rungs for name in one.study.motions]
+    motions = [name for evidence in verification.rungs for name in evidence.study.motions]
     counts = [
         f"{_count(len(verification.records), 'record')} of one component",
         _count(len(motions), "motion") + " of three",

@@ -21,7 +21,7 @@ from solver.verification.evidence import Verification
 
 
 def files(
-    found: Verification, date: dt.date, on_stage: Callable[[str], None]
+    verification: Verification, date: dt.date, on_stage: Callable[[str], None]
 ) -> Mapping[str, bytes]:
     """Return the manual, its table and its charts by file name.
 
@@ -33,19 +33,19 @@ def files(
     machine = this_machine()
     load_fonts(TEMPLATES / "fonts")
     on_stage("Drawing the charts")
-    parts = sections(found, machine)
+    parts = sections(verification, machine)
     on_stage("Laying out the manual")
-    pdf = lay_out(manual_html(found, parts, machine, date))
+    pdf = lay_out(manual_html(verification, parts, machine, date))
     charts = [chart for part in parts for block in part.blocks for chart in block.charts]
     return {
         "verification.pdf": pdf,
-        "verification.csv": verification_csv(found),
+        "verification.csv": verification_csv(verification),
         **{f"charts/{chart.name}.svg": chart.picture.svg.encode() for chart in charts},
     }
 
 
 def manual_html(
-    found: Verification, parts: tuple[ManualSection, ...], machine: Machine, date: dt.date
+    verification: Verification, parts: tuple[ManualSection, ...], machine: Machine, date: dt.date
 ) -> str:
     """Return the manual as HTML, before layout."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -62,10 +62,10 @@ def manual_html(
         css=Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
         version=dict(machine.rows)["Roofslip"],
         date=date.isoformat(),
-        kind="quick" if found.quick else "full",
-        extent=extent(found),
-        verdict=verdict_line(found),
-        checks=passed(found.checks),
+        kind="quick" if verification.quick else "full",
+        extent=extent(verification),
+        verdict=verdict_line(verification),
+        checks=passed(verification.checks),
         machine=machine.line,
         libraries=", ".join(
             f"{name} {version}" for name, version in machine.rows[1:] if name in _ON_COVER

@@ -43,9 +43,9 @@ def stability(verification: Verification) -> ManualSection:
                     ),
                 ),
                 items=[
-                    f"({count}) {one.note} Failed: {int(one.failed.sum())} of "
-                    f"{one.failed.size} cells."
-                    for count, one in enumerate(
+                    f"({count}) {sweep.note} Failed: {int(sweep.failed.sum())} of "
+                    f"{sweep.failed.size} cells."
+                    for count, sweep in enumerate(
                         verification.maps[at : at + maps.MOST], start=at + 1
                     )
                 ],
@@ -82,10 +82,11 @@ def conditioning(verification: Verification) -> ManualSection:
                     ),
                 ),
                 items=[
-                    f"{one.title} (θ = {one.slope_deg:g}°, PPA = {one.ppa_g:g} g, {one.record}): "
-                    f"largest change {percent(float(np.nanmax(one.change_percent)))}, median "
-                    f"{percent(float(np.nanmedian(one.change_percent)))}. {one.note}"
-                    for one in verification.conditioning[at : at + 2]
+                    f"{case.title} (θ = {case.slope_deg:g}°, PPA = {case.ppa_g:g} g, "
+                    f"{case.record}): largest change "
+                    f"{percent(float(np.nanmax(case.change_percent)))}, median "
+                    f"{percent(float(np.nanmedian(case.change_percent)))}. {case.note}"
+                    for case in verification.conditioning[at : at + 2]
                 ],
             )
             for at in range(0, len(verification.conditioning), 2)

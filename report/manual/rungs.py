@@ -37,47 +37,47 @@ from solver.verification.rung_evidence import (
 )
 
 
-def rungs(found: Verification) -> ManualSection:
+def rungs(verification: Verification) -> ManualSection:
     """Return the comparison of the models."""
     return ManualSection(
         id="rungs",
         title="Models: one axis, two axes and rows of blocks",
-        blocks=tuple(block for one in found.rungs for block in _blocks(one)),
+        blocks=tuple(block for evidence in verification.rungs for block in _blocks(evidence)),
     )
 
 
-def _blocks(found: RungEvidence) -> tuple[Block, ...]:
+def _blocks(evidence: RungEvidence) -> tuple[Block, ...]:
     return (
         Block(texts=_ladder()),
         Block(
             title="Effect of each model on the PRD",
             texts=(
-                _scenes(found.study),
-                _underestimates(found.study),
-                _friction(found.study),
-                effect(found.study),
-                _rows(found.study),
+                _scenes(evidence.study),
+                _underestimates(evidence.study),
+                _friction(evidence.study),
+                effect(evidence.study),
+                _rows(evidence.study),
             ),
-            top=(_changes_table(found.study),),
-            charts=(_changes_chart(found.study),),
+            top=(_changes_table(evidence.study),),
+            charts=(_changes_chart(evidence.study),),
         ),
         Block(
             title="Run time of each model",
-            tables=(_times_table(found),),
+            tables=(_times_table(evidence),),
         ),
         Block(
             title="Accuracy against run time in two axes",
-            texts=(_work_words(found),),
-            charts=(_work_chart(found),),
-            tables=(_work_table(found.work),),
+            texts=(_work_words(evidence),),
+            charts=(_work_chart(evidence),),
+            tables=(_work_table(evidence.work),),
         ),
-        bounds.block(found.bounds),
+        bounds.block(evidence.bounds),
         Block(
             title="Behavior at a stop",
             texts=(_stop_words(),),
-            tables=(_stop_table(found.stops),),
+            tables=(_stop_table(evidence.stops),),
         ),
-        block(found.static),
+        block(evidence.static),
     )
 
 
@@ -125,22 +125,22 @@ def _list(values: Sequence[float]) -> str:
 
 def _underestimates(study: RungStudy) -> str:
     """Return the effect of the second component that one axis neglects, in words."""
-    one, worst = study.named(SECOND), study.named(WORST)
-    if not one.ratios.size or not worst.ratios.size:
+    second, worst = study.named(SECOND), study.named(WORST)
+    if not second.ratios.size or not worst.ratios.size:
         return f"No run slides {1e3 * LEAST_M:g} mm or more in both models."
     verdict = (
         "One axis underestimates the PRD."
-        if one.median > 1.0
+        if second.median > 1.0
         else "One axis does not underestimate the median PRD of these runs."
     )
     return (
         f"{verdict} Friction acts opposite to the total velocity; the part that resists "
         "cross-slope motion is not available along the slope. With the second "
-        f"component the PRD is {one.median:.2f} times that of one axis with the same heading "
-        f"(median; 10 to 90 % of the runs: {one.at(10.0):.2f} to {one.at(90.0):.2f}; largest "
-        f"{one.at(100.0):.1f}), and greater in {100.0 * one.share_above_one:.0f} % of the runs. "
-        "The largest PRD from each horizontal component run alone with both signs does not cover "
-        f"this effect: two axes give {worst.median:.2f} times that PRD (10 to 90 %: "
+        f"component the PRD is {second.median:.2f} times that of one axis with the same heading "
+        f"(median; 10 to 90 % of the runs: {second.at(10.0):.2f} to {second.at(90.0):.2f}; largest "
+        f"{second.at(100.0):.1f}), and greater in {100.0 * second.share_above_one:.0f} % of the "
+        "runs. The largest PRD from each horizontal component run alone with both signs does not "
+        f"cover this effect: two axes give {worst.median:.2f} times that PRD (10 to 90 %: "
         f"{worst.at(10.0):.2f} to {worst.at(90.0):.2f}; largest {worst.at(100.0):.1f})."
     )
 
@@ -202,7 +202,7 @@ def _changes_table(study: RungStudy) -> Table:
             TableColumn(head="Excluded", share=1.1),
             TableColumn(head="Largest change", unit="mm", share=1.3),
         ),
-        rows=tuple(_change_row(one) for one in study.changes),
+        rows=tuple(_change_row(change) for change in study.changes),
         notes=(
             f"Excluded: runs in which either PRD is less than {1e3 * LEAST_M:g} mm. Largest "
             "change: of all runs, including the excluded ones. Vertical: model 2 / model 1. Second "
@@ -216,27 +216,27 @@ def _changes_table(study: RungStudy) -> Table:
     )
 
 
-def _change_row(one: RungChange) -> TableRow:
+def _change_row(change: RungChange) -> TableRow:
     return TableRow(
         cells=(
-            one.name,
-            str(one.ratios.size),
-            *(number(one.at(at), 2) for at in (0.0, 10.0, 50.0, 90.0, 100.0)),
-            number(100.0 * one.share_above_one, 0),
-            str(one.n_small),
-            number(1e3 * one.most_m, 0),
+            change.name,
+            str(change.ratios.size),
+            *(number(change.at(at), 2) for at in (0.0, 10.0, 50.0, 90.0, 100.0)),
+            number(100.0 * change.share_above_one, 0),
+            str(change.n_small),
+            number(1e3 * change.most_m, 0),
         )
     )
 
 
-def _work_words(found: RungEvidence) -> str:
+def _work_words(evidence: RungEvidence) -> str:
     words = (
-        f"The analysis case is {found.work_scene}. Errors are measured against the power series "
+        f"The analysis case is {evidence.work_scene}. Errors are measured against the power series "
         "with the tightest tolerance, 10⁻¹⁰. The error of the power series is the largest at any "
         "sample; the errors of the other methods are those of the PRD. The fixed-step methods are "
         "compiled, as is the power series. "
     )
-    if any("SciPy" in one.method for one in found.work):
+    if any("SciPy" in point.method for point in evidence.work):
         return words + (
             "Section 3 compares that tolerance with SciPy's DOP853. The SciPy solvers evaluate the "
             "right-hand side in Python, so their number of evaluations, not their time, should be "
@@ -245,14 +245,14 @@ def _work_words(found: RungEvidence) -> str:
     return words + "SciPy is not installed here; its solvers are not shown."
 
 
-def _work_chart(found: RungEvidence) -> Chart:
+def _work_chart(evidence: RungEvidence) -> Chart:
     return Chart(
         name="rungs-work",
         picture=Picture(
-            svg=figures.work(found.work),
-            caption=f"Two axes, {found.work_scene}. Lower points are more accurate; points further "
-            "left are faster. The error of regularized friction has a floor set by v₀, whatever "
-            "the tolerance.",
+            svg=figures.work(evidence.work),
+            caption=f"Two axes, {evidence.work_scene}. Lower points are more accurate; points "
+            "further left are faster. The error of regularized friction has a floor set by v₀, "
+            "whatever the tolerance.",
             alt="Error against time per run, methods in two axes",
         ),
     )
@@ -260,20 +260,20 @@ def _work_chart(found: RungEvidence) -> Chart:
 
 def _work_table(points: Sequence[PlaneWork]) -> Table:
     rows = []
-    for name in dict.fromkeys(one.method for one in points):
-        own = [one for one in points if one.method == name]
+    for name in dict.fromkeys(point.method for point in points):
+        own = [point for point in points if point.method == name]
         shown = own[::2] if len(own) > 3 else own
         rows += [
             TableRow(
                 cells=(
                     lettered(name) if n == 0 else "",
-                    _setting(one.setting),
-                    str(one.steps),
-                    seconds(one.seconds),
-                    "failed" if math.isnan(one.seconds) else percent(one.error_percent),
+                    _setting(point.setting),
+                    str(point.steps),
+                    seconds(point.seconds),
+                    "failed" if math.isnan(point.seconds) else percent(point.error_percent),
                 )
             )
-            for n, one in enumerate(shown)
+            for n, point in enumerate(shown)
         ]
     return Table(
         caption="Two axes: steps (evaluations for SciPy), times and errors",
@@ -316,14 +316,14 @@ def _stop_table(points: Sequence[StopPoint]) -> Table:
         rows=tuple(
             TableRow(
                 cells=(
-                    lettered(one.method),
-                    _setting(one.setting),
-                    str(one.steps),
-                    "stalled" if math.isnan(one.error_m) else small(1e3 * one.error_m),
-                    small(1e3 * one.end_speed_mps),
+                    lettered(point.method),
+                    _setting(point.setting),
+                    str(point.steps),
+                    "stalled" if math.isnan(point.error_m) else small(1e3 * point.error_m),
+                    small(1e3 * point.end_speed_mps),
                 )
             )
-            for one in points
+            for point in points
         ),
         notes=("Steps of SciPy: evaluations of the right-hand side.",),
         kind="compact",
@@ -335,9 +335,9 @@ def _setting(words: str) -> str:
     return f"{name} {power_of_ten(float(value))}" if name == "tol." else words
 
 
-def _times_table(found: RungEvidence) -> Table:
+def _times_table(evidence: RungEvidence) -> Table:
     return Table(
-        caption=f"Time per run of each model, {found.times_motion}",
+        caption=f"Time per run of each model, {evidence.times_motion}",
         columns=(
             TableColumn(head="Model", align="left", share=3.0),
             TableColumn(head="Time per run", share=1.2),
@@ -346,12 +346,12 @@ def _times_table(found: RungEvidence) -> Table:
         rows=tuple(
             TableRow(
                 cells=(
-                    one.title,
-                    seconds(one.seconds),
-                    number(one.ratio, 0 if one.ratio >= 10.0 else 1),
+                    timing.title,
+                    seconds(timing.seconds),
+                    number(timing.ratio, 0 if timing.ratio >= 10.0 else 1),
                 )
             )
-            for one in found.times
+            for timing in evidence.times
         ),
         notes=(
             "Medians over three analysis cases, one thread, after compilation. Two axes are run "
@@ -361,11 +361,11 @@ def _times_table(found: RungEvidence) -> Table:
     )
 
 
-def answers(found: Verification) -> tuple[tuple[str, str], ...]:
+def answers(verification: Verification) -> tuple[tuple[str, str], ...]:
     """Return the summary's rows on two axes: quantity and result."""
     rows = []
-    for one in found.rungs:
-        second, worst = one.study.named(SECOND), one.study.named(WORST)
+    for evidence in verification.rungs:
+        second, worst = evidence.study.named(SECOND), evidence.study.named(WORST)
         if second.ratios.size and worst.ratios.size:
             text = (
                 f"{second.median:.2f} times (10 to 90 % of the runs: {second.at(10.0):.2f} to "

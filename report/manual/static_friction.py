@@ -37,16 +37,17 @@ def effect(study: RungStudy) -> str:
         f"coefficient, {1.0 / study.slow_share:.4g} μ, applies before the first slip and after "
         "every stop. "
     )
-    one, two, static = (study.named(name) for name in (HELD_ONE, HELD, OVER_STATIC))
-    if not (one.ratios.size and two.ratios.size and static.ratios.size):
+    one_axis, two_axes, static = (study.named(name) for name in (HELD_ONE, HELD, OVER_STATIC))
+    if not (one_axis.ratios.size and two_axes.ratios.size and static.ratios.size):
         return words
     return words + (
-        f"Relative to μ throughout, the PRD is {one.median:.2f} times in one axis (median; 10 to "
-        f"90 %: {one.at(10.0):.2f} to {one.at(90.0):.2f}) and {two.median:.2f} times in two axes "
-        f"({two.at(10.0):.2f} to {two.at(90.0):.2f}). It is greater in "
-        f"{100.0 * two.share_above_one:.0f} % of the runs in two axes, because static friction can "
-        "prevent a slip that would have returned the block toward its initial position. Relative "
-        f"to the static coefficient throughout, the PRD is {static.median:.2f} times (median)."
+        f"Relative to μ throughout, the PRD is {one_axis.median:.2f} times in one axis "
+        f"(median; 10 to 90 %: {one_axis.at(10.0):.2f} to {one_axis.at(90.0):.2f}) and "
+        f"{two_axes.median:.2f} times in two axes ({two_axes.at(10.0):.2f} to "
+        f"{two_axes.at(90.0):.2f}). It is greater in {100.0 * two_axes.share_above_one:.0f} % of "
+        "the runs in two axes, because static friction can prevent a slip that would have "
+        "returned the block toward its initial position. Relative to "
+        f"the static coefficient throughout, the PRD is {static.median:.2f} times (median)."
     )
 
 
@@ -131,7 +132,11 @@ def _fading_table(evidence: StaticEvidence) -> Table:
 
 
 def _middle_and_top(*changes: Floats) -> list[str]:
-    return [percent(100.0 * float(value)) for one in changes for value in (np.median(one), one[-1])]
+    return [
+        percent(100.0 * float(value))
+        for change in changes
+        for value in (np.median(change), change[-1])
+    ]
 
 
 def _pushed_table(evidence: StaticEvidence) -> Table:
@@ -145,7 +150,7 @@ def _pushed_table(evidence: StaticEvidence) -> Table:
             TableColumn(head="Error reported by the run", unit="mm", share=1.6),
             TableColumn(head="Distance, gradual decrease of μ", unit="mm", share=2.0),
         ),
-        rows=tuple(_pushed_row(one) for one in evidence.pushed),
+        rows=tuple(_pushed_row(point) for point in evidence.pushed),
         notes=(
             f"Tolerance {scientific(PUSHED_TOLERANCE)}. The error is the difference between the "
             "results at two tolerances. It shows the jump if the block stops at one tolerance and "
@@ -158,12 +163,12 @@ def _pushed_table(evidence: StaticEvidence) -> Table:
     )
 
 
-def _pushed_row(one: PushedPoint) -> TableRow:
+def _pushed_row(point: PushedPoint) -> TableRow:
     return TableRow(
         cells=(
-            digits(one.across_mps2),
-            number(1e3 * one.end_m, 2),
-            scientific(1e3 * one.error_m),
-            number(1e3 * one.falling_end_m, 2),
+            digits(point.across_mps2),
+            number(1e3 * point.end_m, 2),
+            scientific(1e3 * point.error_m),
+            number(1e3 * point.falling_end_m, 2),
         )
     )

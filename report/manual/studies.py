@@ -61,20 +61,20 @@ def convergence(verification: Verification) -> ManualSection:
                     )
                     for at in range(0, len(verification.convergence), 3)
                 ],
-                tables=[_convergence_table(one) for one in verification.convergence],
+                tables=[_convergence_table(study) for study in verification.convergence],
             ),
         ),
     )
 
 
-def _convergence_table(one: Convergence) -> Table:
+def _convergence_table(study: Convergence) -> Table:
     return Table(
-        caption=f"{one.record}: largest error in the residual, in percent of the residual and of "
+        caption=f"{study.record}: largest error in the residual, in percent of the residual and of "
         "the PRD",
         columns=(
             TableColumn(head="P", share=0.6),
             TableColumn(head="Against exact", share=1.2),
-            TableColumn(head=f"Against P = {one.substeps[-1]}", share=1.2),
+            TableColumn(head=f"Against P = {study.substeps[-1]}", share=1.2),
             TableColumn(head="Against exact, of the PRD", share=1.3),
             TableColumn(head="Longest time", share=1.0),
             TableColumn(head="Worst scenario", align="left", share=2.2),
@@ -83,14 +83,14 @@ def _convergence_table(one: Convergence) -> Table:
             TableRow(
                 cells=(
                     str(substeps),
-                    percent(float(one.largest_error_exact_percent[index])),
-                    percent(float(one.largest_error_p256_percent[index] or math.nan)),
-                    percent(float(one.largest_error_of_prd_percent[index])),
-                    seconds(float(one.longest_seconds[index])),
-                    lettered(one.worst_cases[index]),
+                    percent(float(study.largest_error_exact_percent[index])),
+                    percent(float(study.largest_error_p256_percent[index] or math.nan)),
+                    percent(float(study.largest_error_of_prd_percent[index])),
+                    seconds(float(study.longest_seconds[index])),
+                    lettered(study.worst_cases[index]),
                 )
             )
-            for index, substeps in enumerate(one.substeps)
+            for index, substeps in enumerate(study.substeps)
         ),
         kind="compact",
     )
@@ -100,7 +100,7 @@ def links(verification: Verification) -> ManualSection:
     """Return the paper's Figs. 6 to 9."""
     by_record = [
         (name, tuple(rows))
-        for name, rows in groupby(verification.links, key=lambda one: one.record)
+        for name, rows in groupby(verification.links, key=lambda comparison: comparison.record)
     ]
     return ManualSection(
         id="links",
@@ -138,16 +138,16 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
     rows = [
         TableRow(
             cells=(
-                one.record,
-                f"{one.slope_deg:g}°",
-                str(one.mus.size),
-                percent(one.worst_percent),
-                f"{one.history_mu:g}",
-                f"{worst_mm(one):.2g} mm",
-                percent(one.mean_percent),
+                comparison.record,
+                f"{comparison.slope_deg:g}°",
+                str(comparison.mus.size),
+                percent(comparison.worst_percent),
+                f"{comparison.history_mu:g}",
+                f"{worst_mm(comparison):.2g} mm",
+                percent(comparison.mean_percent),
             )
         )
-        for one in links
+        for comparison in links
     ]
     paper_row = TableRow(
         cells=(
@@ -176,34 +176,34 @@ def _link_table(links: Sequence[LinkComparison]) -> Table:
     )
 
 
-def worst_mm(one: LinkComparison) -> float:
+def worst_mm(comparison: LinkComparison) -> float:
     """Return the difference in RRD [mm] in the case where it is largest in percent."""
-    at = int(np.abs(one.mus - one.history_mu).argmin())
-    return 1e3 * abs(float(one.rrd_exact_m[at] - one.rrd_link_m[at]))
+    at = int(np.abs(comparison.mus - comparison.history_mu).argmin())
+    return 1e3 * abs(float(comparison.rrd_exact_m[at] - comparison.rrd_link_m[at]))
 
 
 def curves(verification: Verification) -> ManualSection:
     """Return the paper's Figs. 10 to 12."""
     charts = []
-    for one in verification.curves:
+    for study in verification.curves:
         charts += [
             Chart(
-                name=f"curves-{slug(one.record)}",
+                name=f"curves-{slug(study.record)}",
                 picture=Picture(
-                    svg=paper.curves(one),
-                    caption=f"{one.record}: PRD against PPA (Fig. 10) and against slope (Fig. 11); "
-                    "the larger of both signs of the slope.",
-                    alt=f"PRD against PPA and slope for {one.record}",
+                    svg=paper.curves(study),
+                    caption=f"{study.record}: PRD against PPA (Fig. 10) and against slope "
+                    "(Fig. 11); the larger of both signs of the slope.",
+                    alt=f"PRD against PPA and slope for {study.record}",
                 ),
             ),
             Chart(
-                name=f"contours-{slug(one.record)}",
+                name=f"contours-{slug(study.record)}",
                 picture=Picture(
-                    svg=paper.contours(one),
-                    caption=f"{one.record}: contours of PRD against μ and θ at PPA = "
+                    svg=paper.contours(study),
+                    caption=f"{study.record}: contours of PRD against μ and θ at PPA = "
                     f"{paper.FIG_12_PPA_G:g} g (Fig. 12). "
-                    f"{_read_off_words(verification, one.record)}",
-                    alt=f"Contours of PRD against friction and slope for {one.record}",
+                    f"{_read_off_words(verification, study.record)}",
+                    alt=f"Contours of PRD against friction and slope for {study.record}",
                 ),
             ),
         ]
@@ -226,9 +226,9 @@ def curves(verification: Verification) -> ManualSection:
 
 
 def _read_off_words(verification: Verification, record: str) -> str:
-    one = next(one for one in verification.curves if one.record == record)
+    study = next(study for study in verification.curves if study.record == record)
     slope, wanted = paper.READ_OFF
-    least = one.least_mu(slope, paper.FIG_12_PPA_G, wanted)
+    least = study.least_mu(slope, paper.FIG_12_PPA_G, wanted)
     if math.isnan(least):
         return f"No μ of the study limits the PRD to {1e3 * wanted:g} mm at θ = {slope:g}°."
     return (
@@ -240,17 +240,17 @@ def _read_off_words(verification: Verification, record: str) -> str:
 def _read_off_table(verification: Verification) -> Table:
     slope, wanted = paper.READ_OFF
     rows = []
-    for one in verification.curves:
-        prd = float(np.interp(0.5, one.mus, one.prd(4.0, paper.FIG_12_PPA_G)))
-        least = one.least_mu(slope, paper.FIG_12_PPA_G, wanted)
+    for study in verification.curves:
+        prd = float(np.interp(0.5, study.mus, study.prd(4.0, paper.FIG_12_PPA_G)))
+        least = study.least_mu(slope, paper.FIG_12_PPA_G, wanted)
         rows.append(
             TableRow(
                 cells=(
-                    one.record,
+                    study.record,
                     f"{1e3 * prd:.0f} mm",
                     "none in study" if math.isnan(least) else f"{least:.3f}",
-                    f"{one.runs:,}",
-                    seconds(one.seconds),
+                    f"{study.runs:,}",
+                    seconds(study.seconds),
                 )
             )
         )

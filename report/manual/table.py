@@ -8,10 +8,14 @@ from solver.verification.evidence import CheckRow, Verification, WorkPoint
 from solver.verification.rung_evidence import PlaneWork
 
 
-def verification_csv(found: Verification) -> bytes:
+def verification_csv(verification: Verification) -> bytes:
     """Return one table: checks, runs, runs in two axes; a cell that does not apply is empty."""
-    rows = [*map(_check, found.checks), *map(_run, found.work)]
-    rows += [_run_in_two_axes(one.work_scene, point) for one in found.rungs for point in one.work]
+    rows = [*map(_check, verification.checks), *map(_run, verification.work)]
+    rows += [
+        _run_in_two_axes(evidence.work_scene, point)
+        for evidence in verification.rungs
+        for point in evidence.work
+    ]
     text: str = pd.DataFrame(rows, columns=list(_COLUMNS)).to_csv(index=False, lineterminator="\n")
     return text.encode()
 

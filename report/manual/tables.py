@@ -28,15 +28,16 @@ from solver.verification.evidence import (
 )
 
 
-def checks(found: Verification) -> ManualSection:
+def checks(verification: Verification) -> ManualSection:
     """Return every check, a table for each section."""
-    names = dict.fromkeys(row.section for row in found.checks)
+    names = dict.fromkeys(row.section for row in verification.checks)
     return ManualSection(
         id="checks",
         title="Checks",
         blocks=[
             Block(
-                title=name, tables=(_check_table([r for r in found.checks if r.section == name]),)
+                title=name,
+                tables=(_check_table([r for r in verification.checks if r.section == name]),),
             )
             for name in names
         ],
@@ -167,23 +168,25 @@ def peers(peers: Sequence[PeerPoint]) -> ManualSection:
 
 def _peer_rows(peers: Sequence[PeerPoint]) -> Iterator[TableRow]:
     """Yield the runs of each program and model below a row that names them."""
-    named = [(f"{one.peer} {one.version}: {one.note}", one) for one in peers]
+    named = [(f"{peer.peer} {peer.version}: {peer.note}", peer) for peer in peers]
     for name in dict.fromkeys(name for name, _ in named):
         yield TableRow(cells=(Wide(name, 4),), kind="total")
-        for one in (one for other, one in named if other == name):
-            failed = math.isnan(one.prd_error_percent)
-            error = "failed" if failed else percent(one.prd_error_percent)
-            yield TableRow(cells=(one.record, lettered(one.scene), seconds(one.seconds), error))
+        for peer in (peer for other, peer in named if other == name):
+            failed = math.isnan(peer.prd_error_percent)
+            error = "failed" if failed else percent(peer.prd_error_percent)
+            yield TableRow(cells=(peer.record, lettered(peer.scene), seconds(peer.seconds), error))
 
 
-def _command(found: Verification) -> str:
-    words = "roofslip verify --quick" if found.quick else "roofslip verify"
-    if len(found.roofs) > 1 or any(one.study.n_recorded for one in found.rungs):
+def _command(verification: Verification) -> str:
+    words = "roofslip verify --quick" if verification.quick else "roofslip verify"
+    if len(verification.roofs) > 1 or any(
+        evidence.study.n_recorded for evidence in verification.rungs
+    ):
         words += " --records followed by the folder of the recorded motions of section 2"
     return words
 
 
-def software(found: Verification, machine: Machine) -> ManualSection:
+def software(verification: Verification, machine: Machine) -> ManualSection:
     """Return versions and the machine."""
     return ManualSection(
         id="software",
@@ -192,9 +195,9 @@ def software(found: Verification, machine: Machine) -> ManualSection:
             Block(
                 texts=(
                     "Run times were measured on this machine under its load at the time; errors "
-                    f"do not depend on the machine. Command to repeat: {_command(found)}. The file "
-                    "verification.csv lists all checks and all runs of the methods; the folder "
-                    "charts has the charts as files.",
+                    f"do not depend on the machine. Command to repeat: {_command(verification)}. "
+                    "The file verification.csv lists all checks and all runs of the methods; the "
+                    "folder charts has the charts as files.",
                 ),
                 tables=(
                     Table(

@@ -85,25 +85,25 @@ def read_components(book: OpenBook, index: int, row: Mapping[str, Any]) -> Compo
         units or time step, records are located but not read.
     """
     faults: list[Fault] = []
-    found: dict[str, Component] = {}
+    components: dict[str, Component] = {}
     read = cache(read_motion_file)
     for field in LABELS:
         if row.get(field):
             try:
-                for one in _read(book, row, field, read):
-                    found[field] = one
+                for component in _read(book, row, field, read):
+                    components[field] = component
             except InputError as error:
                 faults += _faults(index, field, error)
-    if "record" not in found:
+    if "record" not in components:
         return faults
     try:
-        records = _cut(found, row.get("to_s"))
+        records = _cut(components, row.get("to_s"))
     except InputError as error:
         return [*faults, *_faults(index, "record", error)]
     faults += [*_mismatches(index, records), *_unscalable(index, row, records)]
     if faults or any(name not in row for name in MotionInput.model_fields):
         return faults
-    return _processed(index, MotionInput(**row), found, records)
+    return _processed(index, MotionInput(**row), components, records)
 
 
 def _faults(index: int, field: str, error: InputError) -> list[Fault]:
@@ -121,16 +121,16 @@ def _read(book: OpenBook, row: Mapping[str, Any], field: str, read: Reader) -> I
         find_file(book, name)
 
 
-def _cut(found: Mapping[str, Component], to_s: float | None) -> dict[str, Record]:
+def _cut(components: Mapping[str, Component], to_s: float | None) -> dict[str, Record]:
     """Return the records up to the end time: components often differ slightly in length."""
     kept = Processing(to_s=math.inf if to_s is None else to_s)
-    return {field: process(component.record, kept) for field, component in found.items()}
+    return {field: process(component.record, kept) for field, component in components.items()}
 
 
-def _mismatches(index: int, found: Mapping[str, Record]) -> Iterator[Fault]:
+def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
     """Yield components that do not match the horizontal one in time step or length."""
-    horizontal = found["record"]
-    for field, record in found.items():
+    horizontal = records["record"]
+    for field, record in records.items():
         label, dt_s = f"{LABELS[field]} record", horizontal.dt_s
         if abs(record.dt_s - dt_s) > 1e-9 * dt_s:
             text = (
@@ -151,10 +151,12 @@ def _mismatches(index: int, found: Mapping[str, Record]) -> Iterator[Fault]:
 _TO_A_LEVEL = {Scaling.PPA: ("record",), Scaling.TARGET: ("record", "transverse")}
 
 
-def _unscalable(index: int, row: Mapping[str, Any], found: Mapping[str, Record]) -> Iterator[Fault]:
+def _unscalable(
+    index: int, row: Mapping[str, Any], records: Mapping[str, Record]
+) -> Iterator[Fault]:
     scaling = row.get("scaling")
     for field in _TO_A_LEVEL.get(scaling, ()) if scaling else ():
-        if field in found and not found[field].a_mps2.any():
+        if field in records and not records[field].a_mps2.any():
             goal = "a PPA" if scaling is Scaling.PPA else "a target spectrum"
             text = f"{LABELS[field]} record is all zeros and cannot be scaled to {goal}"
             yield Fault(Place("motions", index, field), f"{text}; change the record or scaling")
@@ -163,7 +165,7 @@ def _unscalable(index: int, row: Mapping[str, Any], found: Mapping[str, Record])
 def _processed(
     index: int,
     row: MotionInput,
-    found: Mapping[str, Component],
+    components: Mapping[str, Component],
     records: Mapping[str, Record],
 ) -> Components | list[Fault]:
     # Time steps that differ by rounding error are equal from here on.
@@ -176,15 +178,18 @@ def _processed(
         bare = process_together(raw, replace(processing, highpass_hz=0.0))
     except InputError as error:
         return _faults(index, "record", error)
-    kept = dict(zip(found, done, strict=True))
+    kept = dict(zip(components, done, strict=True))
     faults = list(_unscalable(index, {"scaling": row.scaling}, kept))
     if faults:
         return faults
     has_highpass = row.highpass_hz is not None
     return Components(
-        files=tuple(_file(row.id, field, getattr(row, field), one) for field, one in found.items()),
+        files=tuple(
+            _file(row.id, field, getattr(row, field), component)
+            for field, component in components.items()
+        ),
         records=kept,
-        unfiltered=dict(zip(found, bare, strict=True)) if has_highpass else {},
+        unfiltered=dict(zip(components, bare, strict=True)) if has_highpass else {},
     )
 
 
@@ -202,16 +207,16 @@ def processing_of(row: MotionInput) -> Processing:
     )
 
 
-def _file(motion_id: str, field: str, name: str, found: Component) -> RecordFile:
-    a = found.record.a_mps2
+def _file(motion_id: str, field: str, name: str, component: Component) -> RecordFile:
+    a = component.record.a_mps2
     return RecordFile(
         motion_id=motion_id,
         component=LABELS[field],
         name=name,
-        sha256=found.sha256,
-        format=found.format,
+        sha256=component.sha256,
+        format=component.format,
         npts=len(a),
-        dt_s=found.record.dt_s,
+        dt_s=component.record.dt_s,
         peak_g=float(np.abs(a).max() / G_MPS2),
-        notes=found.notes,
+        notes=component.notes,
     )

@@ -67,7 +67,7 @@ class PreparedMotion:
 
 
 def shake(
-    data: ProjectInput, found: Sequence[Components]
+    data: ProjectInput, by_motion: Sequence[Components]
 ) -> tuple[tuple[Motion, PreparedMotion], ...]:
     """Return the motions of a project as run, each with its processing and scaling.
 
@@ -75,19 +75,22 @@ def shake(
     ------
     InputError
     """
-    return tuple(_shake(data, row, one) for row, one in zip(data.motions, found, strict=True))
+    return tuple(
+        _shake(data, row, components)
+        for row, components in zip(data.motions, by_motion, strict=True)
+    )
 
 
 def _shake(
-    data: ProjectInput, row: MotionInput, found: Components
+    data: ProjectInput, row: MotionInput, components: Components
 ) -> tuple[Motion, PreparedMotion]:
-    scale = _scale(data, row, found.records)
-    motion, roof = _motion(data, row, found.records, scale)
+    scale = _scale(data, row, components.records)
+    motion, roof = _motion(data, row, components.records, scale)
     scaled = {
-        LABELS[field]: replace(one, name=row.id, a_mps2=_frozen(scale * one.a_mps2))
-        for field, one in found.records.items()
+        LABELS[field]: replace(record, name=row.id, a_mps2=_frozen(scale * record.a_mps2))
+        for field, record in components.records.items()
     }
-    bare = found.unfiltered
+    bare = components.unfiltered
     prepared = PreparedMotion(
         motion_id=row.id,
         recorded_at=row.recorded_at,
@@ -109,15 +112,17 @@ def _motion(
     dt_s, roof = records["record"].dt_s, {}
     if row.recorded_at is RecordedAt.GROUND:
         fields = [field for field in a if field != "vertical"]
-        found = shaking_to_roof(
+        shaking = shaking_to_roof(
             [a[field] for field in fields],
             a.get("vertical", _nothing()),
             dt_s,
             [_building(data, field) for field in fields],
             share=data.building.left_out_percent / 100.0,
         )
-        dt_s, roof = found.dt_s, dict(zip(fields, found.horizontal, strict=True))
-        a = {field: one.a_mps2 for field, one in roof.items()} | {"vertical": found.vertical_mps2}
+        dt_s, roof = shaking.dt_s, dict(zip(fields, shaking.horizontal, strict=True))
+        a = {field: response.a_mps2 for field, response in roof.items()} | {
+            "vertical": shaking.vertical_mps2
+        }
     motion = Motion(
         id=row.id,
         source=row.source,
@@ -128,7 +133,7 @@ def _motion(
         scale=scale,
         signs=SIGNS[row.polarity],
     )
-    return motion, {LABELS[field]: one for field, one in roof.items()}
+    return motion, {LABELS[field]: response for field, response in roof.items()}
 
 
 def _building(data: ProjectInput, field: str) -> Building:

@@ -42,20 +42,20 @@ def prepare(sheet: Sheet) -> Shaking:
     InputError
         With every problem of the workbook and of its records, in the order of the template.
     """
-    found: list[Components] = []
+    by_motion: list[Components] = []
     faults: list[Fault] = []
     for index, row in enumerate(sheet.draft["motions"]):
         match read_components(sheet.book, index, row):
             case Components() as components:
-                found.append(components)
+                by_motion.append(components)
             case wrong:
                 faults += wrong
     sheet.refuse(faults)
-    shaken = shake(sheet.project, found)
+    shaken = shake(sheet.project, by_motion)
     motions = tuple(motion for motion, _ in shaken)
     sheet.refuse(stiff_links(sheet.project, motions))
     return Shaking(
         motions=motions,
         prepared=tuple(prepared for _, prepared in shaken),
-        records=tuple(file for components in found for file in components.files),
+        records=tuple(file for components in by_motion for file in components.files),
     )

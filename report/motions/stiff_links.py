@@ -16,24 +16,24 @@ from solver.sliding.row import MOST_STEPS, BlockRow, least_steps
 
 def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault]:
     """Yield the rows whose runs together need more than `MOST_STEPS` steps."""
-    seconds = sum(len(one.headings) * one.dt_s * len(one.ax_mps2) for one in motions)
+    seconds = sum(len(motion.headings) * motion.dt_s * len(motion.ax_mps2) for motion in motions)
     weights = {array.id: array.weight_n for array in data.arrays}
-    for index, one in enumerate(data.links):
-        most = _stiffest(one, weights[one.array], seconds)
-        if one.stiffness_n_per_m > most:
+    for index, links in enumerate(data.links):
+        most = _stiffest(links, weights[links.array], seconds)
+        if links.stiffness_n_per_m > most:
             yield Fault(
                 Place("links", index, "stiffness_n_per_m"),
-                f"link stiffness is {_said(one.stiffness_n_per_m)}, too stiff to integrate in "
+                f"link stiffness is {_said(links.stiffness_n_per_m)}, too stiff to integrate in "
                 f"{MOST_STEPS:.0e} steps; give {_said(0.9 * most)} or less (a stiffer row moves as "
                 "one rigid block with the mean coefficient)",
             )
 
 
-def _stiffest(one: Links, weight_n: float, seconds: float) -> float:
+def _stiffest(links: Links, weight_n: float, seconds: float) -> float:
     """Return the stiffness [N/m] that needs `MOST_STEPS`; steps grow with its square root."""
-    soft = BlockRow(mus=one.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * one.damping_ratio)
+    soft = BlockRow(mus=links.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * links.damping_ratio)
     per_s2 = (MOST_STEPS / least_steps(soft, seconds)) ** 2
-    return per_s2 * weight_n / (len(one.mus) * G_MPS2)
+    return per_s2 * weight_n / (len(links.mus) * G_MPS2)
 
 
 def _said(stiffness: float) -> str:

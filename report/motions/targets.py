@@ -97,8 +97,8 @@ def _any_ground(data: ProjectInput) -> bool:
     return any(row.recorded_at is RecordedAt.GROUND for row in data.motions)
 
 
-def _ac156(found: RequiredSpectrum) -> TargetSpectrum:
-    return TargetSpectrum(name="AC156", at=found.at, from_s=0.0, to_s=1.0 / found.freq_hz[0])
+def _ac156(spectrum: RequiredSpectrum) -> TargetSpectrum:
+    return TargetSpectrum(name="AC156", at=spectrum.at, from_s=0.0, to_s=1.0 / spectrum.freq_hz[0])
 
 
 def _own(rows: Sequence[SpectrumPoint], sa_g: Sequence[float]) -> TargetSpectrum:

@@ -27,7 +27,7 @@ def pages(assessment: Assessment, evidence: Evidence) -> str:
             "sheet": front.sheet(package),
             "cover": front.cover(package),
             "parts": listed,
-            "below": {one.id: one for part in listed for one in part.parts},
+            "below": {subpart.id: subpart for part in listed for subpart in part.parts},
             "templates": {page.id: page.template for page in PAGES},
             "ref": package.part,
             "pictures": {**draw_assessment(package), **draw_evidence(package, evidence)},

@@ -177,7 +177,7 @@ def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
         rows=tuple(
             TableRow(
                 cells=(
-                    given.array.id,
+                    given.id,
                     number(given.array.mu, 3),
                     *_design_cells(package, less),
                     *_design_cells(package, given),
@@ -213,7 +213,7 @@ def _sentences(package: PackageData, accuracy: Accuracy) -> Iterator[str]:
     floored = [given for given, *others in three if _on_floor(given, *others)]
     yield from (_sentence(package, *arrays) for arrays in three if not _on_floor(*arrays))
     if floored:
-        names = ", ".join(given.array.id for given in floored)
+        names = ", ".join(given.id for given in floored)
         yield (
             f"Array{'s' if len(floored) > 1 else ''} {names}: ±{_PERCENT} friction does "
             "not change the design displacement, governed by the floor of "
@@ -228,7 +228,7 @@ def _on_floor(*arrays: ArrayAssessment) -> bool:
 def _sentence(
     package: PackageData, given: ArrayAssessment, less: ArrayAssessment, more: ArrayAssessment
 ) -> str:
-    start = f"Array {given.array.id}: "
+    start = f"Array {given.id}: "
     if any(math.isnan(array.design_m) for array in (given, less, more)):
         return f"{start}no design displacement, so no sensitivity to friction is given."
     ways = (

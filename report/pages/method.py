@@ -31,7 +31,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     """Return the equations with their numbers, for the governing array."""
     governing = package.governing
     return {
-        "array": governing.array.id,
+        "array": governing.id,
         "demand": demand_lines(package),
         "motion": motion_lines(package, governing),
         "prescriptive": prescriptive_line(package, governing),

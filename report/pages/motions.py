@@ -163,7 +163,7 @@ def beyond_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
     """Return the part of the slip caused by periods that a high-pass filter removes."""
     fmt = package.fmt
     return Table(
-        caption=f"Effect of the high-pass filter: PRD of array {package.governing.array.id}",
+        caption=f"Effect of the high-pass filter: PRD of array {package.governing.id}",
         columns=(
             TableColumn(head="Motion", align="left", share=1.2),
             TableColumn(head="Corner", unit="Hz"),

@@ -42,12 +42,12 @@ def write_peaks(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> Pea
         pages, sheet, 3, ("Array", "Motion", *(DIRECTION_HEADINGS[d] for d in Direction))
     )
     columns = {d: list(runs.columns).index(name) for d, name in _RUNS_COLUMNS.items()}
-    row, first, found = 4, 1, {}
+    row, first, ranges = 4, 1, {}
     for item in assessment.arrays:
         top = row
         for motion in item.motions:
             last = first + len(motion.runs) - 1
-            sheet.write_string(row, 0, item.array.id)
+            sheet.write_string(row, 0, item.id)
             sheet.write_string(row, 1, motion.motion.id)
             for column, direction in enumerate(Direction, start=2):
                 cells = _range("Runs", columns[direction], first, last)
@@ -58,8 +58,8 @@ def write_peaks(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> Pea
                     sheet.write_formula(row, column, f"=MAX({cells})", pages.numbers[2], value)
             row, first = row + 1, last + 1
         for column, direction in enumerate(Direction, start=2):
-            found[item.array.id, direction] = _range("Peaks", column, top, row - 1)
-    return found
+            ranges[item.id, direction] = _range("Peaks", column, top, row - 1)
+    return ranges
 
 
 def _range(sheet: str, column: int, first: int, last: int) -> str:
@@ -78,9 +78,9 @@ def write_directions(pages: Pages, assessment: Assessment, peaks: PeakRanges) ->
     row, cells = 4, {}
     for design_row, item in enumerate(assessment.arrays, start=5):
         for direction in Direction:
-            found = peaks[item.array.id, direction]
-            _write_row(pages, sheet, row, item, direction, found, design_row)
-            cells[item.array.id, direction] = f"Directions!$H${row + 1}"
+            peak_range = peaks[item.id, direction]
+            _write_row(pages, sheet, row, item, direction, peak_range, design_row)
+            cells[item.id, direction] = f"Directions!$H${row + 1}"
             row += 1
     return cells
 
@@ -94,20 +94,20 @@ def _write_row(
     peaks: str,
     design_row: int,
 ) -> None:
-    found, inch, r = item.directions[direction], INCH_M, row + 1
-    sheet.write_string(row, 0, item.array.id)
+    analysis, inch, r = item.directions[direction], INCH_M, row + 1
+    sheet.write_string(row, 0, item.id)
     sheet.write_string(row, 1, direction.value)
-    if math.isnan(found.value_m):
+    if math.isnan(analysis.value_m):
         for column in (2, 3, 5, 7):
             sheet.write_string(row, column, "no value")
         return
-    picked = "D" if found.basis is Basis.LARGEST_FACTORED else "C"
+    picked = "D" if analysis.basis is Basis.LARGEST_FACTORED else "C"
     design = item.design_toward_m(direction) / inch
     for column, formula, value in (
-        (2, f"=AVERAGE({peaks})", found.mean_m / inch),
-        (3, f"=MAX({peaks})", found.largest_m / inch),
-        (4, f"=Design!J{design_row}", found.factor),
-        (5, f"=E{r}*{picked}{r}", found.value_m / inch),
+        (2, f"=AVERAGE({peaks})", analysis.mean_m / inch),
+        (3, f"=MAX({peaks})", analysis.largest_m / inch),
+        (4, f"=Design!J{design_row}", analysis.factor),
+        (5, f"=E{r}*{picked}{r}", analysis.value_m / inch),
         (6, f"=Design!M{design_row}", item.floor_m / inch),
         (7, f"=MAX(F{r},G{r})", design),
         (9, f"=H{r}-I{r}", 0.0),

@@ -68,26 +68,26 @@ def _motion(motion: Motion, prepared: PreparedMotion) -> dict[str, Any]:
         "scale": motion.scale,
         "dt_s": motion.dt_s,
         "npts": len(motion.ax_mps2),
-        "components": {name: asdict(found) for name, found in prepared.measures.items()},
-        "building": {name: _roof(found) for name, found in prepared.roof.items()},
+        "components": {name: asdict(values) for name, values in prepared.measures.items()},
+        "building": {name: _roof(roof) for name, roof in prepared.roof.items()},
     }
 
 
-def _roof(found: RoofMotion) -> dict[str, Any]:
+def _roof(roof: RoofMotion) -> dict[str, Any]:
     return {
-        "words": found.building.words,
-        "n_modes": found.n_modes,
-        "next_mode_share": found.next_share,
-        "left_out_share": found.left_out_share,
-        "ground_peak_mps2": found.ground_peak_mps2,
-        "roof_peak_mps2": found.roof_peak_mps2,
-        "pad_s": found.pad_s,
+        "words": roof.building.words,
+        "n_modes": roof.n_modes,
+        "next_mode_share": roof.next_share,
+        "left_out_share": roof.left_out_share,
+        "ground_peak_mps2": roof.ground_peak_mps2,
+        "roof_peak_mps2": roof.roof_peak_mps2,
+        "pad_s": roof.pad_s,
     }
 
 
 def _array(item: ArrayAssessment) -> dict[str, Any]:
     return {
-        "id": item.array.id,
+        "id": item.id,
         "slope_rad": item.array.slope_rad,
         "mu": item.array.mu,
         "friction": asdict(item.array.friction),
@@ -105,13 +105,13 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
         "model_is_enough": item.is_model_enough,
         "directions": {
             direction: {
-                "mean_m": found.mean_m,
-                "largest_m": found.largest_m,
-                "computed_m": found.value_m,
+                "mean_m": analysis.mean_m,
+                "largest_m": analysis.largest_m,
+                "computed_m": analysis.value_m,
                 "design_m": item.design_toward_m(direction),
                 "design_by_chosen_model_m": item.chosen_toward_m(direction),
             }
-            for direction, found in item.directions.items()
+            for direction, analysis in item.directions.items()
         },
         "peaks": [
             {

@@ -34,7 +34,7 @@ def link_runs_table(assessment: Assessment) -> pd.DataFrame:
     """One row for each run of an array that is compared with a row of linked blocks."""
     return pd.DataFrame(
         {
-            "Array": found.design.id,
+            "Array": linked_array.design.id,
             "Motion": motion.motion.id,
             "Component along slope": run.heading.component,
             "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
@@ -43,13 +43,15 @@ def link_runs_table(assessment: Assessment) -> pd.DataFrame:
             "Block with largest PRD": "no value" if math.isnan(run.prd_m) else str(run.block),
             "PRD of blocks, from the upslope end [in]": _listed(run.row.prd_m),
             "Largest link elongation [in]": run.row.stretch_m / INCH_M,
-            "Largest link force [lb]": run.row.link_force * found.block_n / NEWTONS_PER_POUND,
+            "Largest link force [lb]": run.row.link_force
+            * linked_array.block_n
+            / NEWTONS_PER_POUND,
             "Error bound [in]": run.row.error_m / INCH_M,
             "Stops": run.row.n_stops,
             "Outcome": run.row.status.sentence,
         }
-        for found in assessment.linked
-        for motion in found.motions
+        for linked_array in assessment.linked
+        for motion in linked_array.motions
         for run in motion.runs
     )
 
@@ -76,9 +78,11 @@ def write_links(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> Non
     for column, heading in enumerate(("Array", "Motion", _RIGID, _ROW)):
         sheet.write_string(top - 1, column, heading, pages.head)
     ranges = _write_peaks(pages, sheet, top, assessment, runs)
-    ids = [item.array.id for item in assessment.arrays]
-    for row, (found, peaks) in enumerate(zip(assessment.linked, ranges, strict=True), start=4):
-        _write_row(pages, sheet, row, found, peaks, 5 + ids.index(found.design.id))
+    ids = [item.id for item in assessment.arrays]
+    for row, (linked_array, peaks) in enumerate(
+        zip(assessment.linked, ranges, strict=True), start=4
+    ):
+        _write_row(pages, sheet, row, linked_array, peaks, 5 + ids.index(linked_array.design.id))
 
 
 def _write_peaks(
@@ -86,11 +90,11 @@ def _write_peaks(
 ) -> Iterator[tuple[str, str]]:
     """Write the largest of all runs of each motion; yield the cells of each array."""
     columns, first = [list(runs.columns).index(name) for name in (_RIGID, _ROW)], 1
-    for found in assessment.linked:
+    for linked_array in assessment.linked:
         top = row
-        for motion in found.motions:
+        for motion in linked_array.motions:
             last = first + len(motion.runs) - 1
-            sheet.write_string(row, 0, found.design.id)
+            sheet.write_string(row, 0, linked_array.design.id)
             sheet.write_string(row, 1, motion.motion.id)
             for to, column, value in zip(
                 (2, 3), columns, (motion.rigid_m, motion.linked_m), strict=True
@@ -109,12 +113,13 @@ def _write_row(
     pages: Pages,
     sheet: Worksheet,
     row: int,
-    found: LinkedArray,
+    linked_array: LinkedArray,
     peaks: tuple[str, str],
     design_row: int,
 ) -> None:
     inch, r, d = INCH_M, row + 1, design_row
-    rigid, linked, design, estimated = found.rigid, found.linked, found.design, found.estimated_m
+    rigid, linked = linked_array.rigid, linked_array.linked
+    design, estimated = linked_array.design, linked_array.estimated_m
     sheet.write_string(row, 0, design.id)
     if not math.isfinite(estimated):
         sheet.write_string(row, 11, "no value")
@@ -131,8 +136,8 @@ def _write_row(
         (5, f"=Design!J{d}", rigid.factor),
         (6, f"=F{r}*{'C' if is_largest else 'B'}{r}", rigid.value_m / inch),
         (7, f"=F{r}*{'E' if is_largest else 'D'}{r}", linked.value_m / inch),
-        (8, ratio, found.ratio),
-        (9, _computed(found, d), found.value_m / inch),
+        (8, ratio, linked_array.ratio),
+        (9, _computed(linked_array, d), linked_array.value_m / inch),
         (10, f"=Design!M{d}", design.floor_m / inch),
         (11, f"=MAX(MAX(1,I{r})*J{r},K{r})", estimated / inch),
         (12, f"=Design!N{d}", design.design_m / inch),
@@ -141,17 +146,17 @@ def _write_row(
     ):
         _write(pages, sheet, row, column, formula, value, 4 if column == 16 else 3)
     sheet.write_number(row, 15, estimated / inch, pages.numbers[3])
-    if found.is_final:
-        verdict = "OK" if found.is_rigid_enough else "NG"
+    if linked_array.is_final:
+        verdict = "OK" if linked_array.is_rigid_enough else "NG"
         sheet.write_formula(row, 14, f'=IF(L{r}<=M{r}+N{r},"OK","NG")', pages.plain, verdict)
     else:
         sheet.write_string(row, 14, "NG")
 
 
-def _computed(found: LinkedArray, design_row: int) -> str:
+def _computed(linked_array: LinkedArray, design_row: int) -> str:
     """Return the value from analysis, as a number if it differs from the value for design."""
-    is_used = found.value_m == found.design.analysis.value_m
-    return f"=Design!K{design_row}" if is_used else f"={found.value_m / INCH_M!r}"
+    is_used = linked_array.value_m == linked_array.design.analysis.value_m
+    return f"=Design!K{design_row}" if is_used else f"={linked_array.value_m / INCH_M!r}"
 
 
 def _write(

@@ -65,7 +65,7 @@ def _runs_table(assessment: Assessment) -> pd.DataFrame:
     """One row for each array, motion and run, arrays together."""
     return pd.DataFrame(
         {
-            "Array": item.array.id,
+            "Array": item.id,
             "Motion": motion.motion.id,
             "Component along slope": run.heading.component,
             "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
@@ -128,23 +128,23 @@ def _motions_table(shaking: Shaking) -> pd.DataFrame:
             "Processing": prepared.done,
             "Scaling": prepared.scaling,
             "Factor": motion.scale,
-            "PGA [g]": found.pga_mps2 / G_MPS2,
-            "PGV [m/s]": found.pgv_mps,
-            "PGD [m]": found.pgd_m,
-            "Arias intensity [m/s]": found.arias_mps,
-            "Duration 5-95 % [s]": found.d5_95_s,
-            "Velocity at end [m/s]": found.final_velocity_mps,
-            "Displacement at end [m]": found.final_displacement_m,
+            "PGA [g]": values.pga_mps2 / G_MPS2,
+            "PGV [m/s]": values.pgv_mps,
+            "PGD [m]": values.pgd_m,
+            "Arias intensity [m/s]": values.arias_mps,
+            "Duration 5-95 % [s]": values.d5_95_s,
+            "Velocity at end [m/s]": values.final_velocity_mps,
+            "Displacement at end [m]": values.final_displacement_m,
         }
         for motion, prepared in zip(shaking.motions, shaking.prepared, strict=True)
-        for name, found in prepared.measures.items()
+        for name, values in prepared.measures.items()
     )
 
 
-def _spectra_table(found: Sequence[Spectra]) -> pd.DataFrame:
+def _spectra_table(spectra: Sequence[Spectra]) -> pd.DataFrame:
     """One row for each period; targets and motions in columns, by component."""
-    columns = {"Period [s]": found[0].periods_s}
-    for part in found:
+    columns = {"Period [s]": spectra[0].periods_s}
+    for part in spectra:
         columns[f"{part.title}, target [g]"] = part.target_g
         columns |= {
             f"{part.title}, {name} [g]": row for name, row in zip(part.ids, part.sa_g, strict=True)
@@ -182,8 +182,8 @@ def _write_design(pages: Pages, assessment: Assessment, peaks: PeakRanges) -> No
     )
     write_headings(pages, sheet, 3, _DESIGN_HEADINGS)
     for row, item in enumerate(assessment.arrays, start=4):
-        found = peaks[item.array.id, Direction.ANY]
-        _write_design_row(pages, sheet, row, assessment, item, found)
+        peak_range = peaks[item.id, Direction.ANY]
+        _write_design_row(pages, sheet, row, assessment, item, peak_range)
 
 
 def _write_design_row(
@@ -202,7 +202,7 @@ def _write_design_row(
     floor_share = 0.0 if assessment.project.options.peer_reviewed else rules["analysis_floor"]
     no_value = math.isnan(analysis.value_m)
     inch = INCH_M
-    sheet.write_string(row, 0, item.array.id)
+    sheet.write_string(row, 0, item.id)
     sheet.write_number(row, 1, assessment.project.site.s_ds, pages.numbers[4])
     # The constant value for SDC A, B and C replaces the formula.
     sheet.write_number(row, 2, 0.0 if flat else rules["prescriptive_factor_in"], pages.numbers[1])

@@ -123,13 +123,13 @@ def _document(
     records: Mapping[str, str],
     files: Mapping[str, bytes],
 ) -> dict[str, Any]:
-    one = suite[0].x
-    duration_s = (len(one.a_mps2) - 1) * one.dt_s
+    record = suite[0].x
+    duration_s = (len(record.a_mps2) - 1) * record.dt_s
     return {
         "roofslip_version": version("roofslip"),
         "seed": seed,
-        "seed_records": [{"file": name, "sha256": found} for name, found in records.items()],
-        "dt_s": one.dt_s,
+        "seed_records": [{"file": name, "sha256": digest} for name, digest in records.items()],
+        "dt_s": record.dt_s,
         "duration_s": duration_s,
         "envelope_s": [duration_s / 6.0, duration_s * 4.0 / 6.0, duration_s / 6.0],
         "damping": 0.05,

@@ -58,14 +58,14 @@ def summary(record: Record) -> dict[str, Any]:
 def table(channels: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return summaries as lines of a table, one channel per line, under a heading."""
     rows = [("", "channel", *(heading for heading, _, _ in _COLUMNS))]
-    rows += [(str(number), *_row(one)) for number, one in enumerate(channels, start=1)]
+    rows += [(str(number), *_row(record)) for number, record in enumerate(channels, start=1)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return [_aligned(row, widths) for row in rows]
 
 
 def spectra_g(records: Sequence[Record]) -> Floats:
     """Return the 5 % damped pseudo-accelerations [g] of each record over `PERIODS_S`."""
-    rows = [response_spectrum(one.a_mps2, one.dt_s, PERIODS_S) / G_MPS2 for one in records]
+    rows = [response_spectrum(record.a_mps2, record.dt_s, PERIODS_S) / G_MPS2 for record in records]
     return np.array(rows)
 
 

@@ -168,22 +168,22 @@ def read_seeds(names: Sequence[str], *, units: str, dt_s: float) -> Seeds:
         With the problems of every file.
     """
     groups: list[tuple[Record, ...]] = []
-    found: dict[str, MotionFile] = {}
+    by_path: dict[str, MotionFile] = {}
     problems: list[str] = []
     for name in names:
         paths = [Path(name)] if Path(name).exists() else [Path(part) for part in name.split(",")]
         try:
             files = {str(path): read_motion_file(path, units=units, dt_s=dt_s) for path in paths}
             groups.append(_group(name, files.values()))
-            found |= files
+            by_path |= files
         except InputError as error:
             problems += error.problems
     if problems:
         raise InputError(problems)
     return Seeds(
         groups=tuple(groups),
-        sha256={name: hashlib.sha256(Path(name).read_bytes()).hexdigest() for name in found},
-        notes=tuple(f"{name}: {note}" for name, file in found.items() for note in file.notes),
+        sha256={name: hashlib.sha256(Path(name).read_bytes()).hexdigest() for name in by_path},
+        notes=tuple(f"{name}: {note}" for name, file in by_path.items() for note in file.notes),
     )
 
 

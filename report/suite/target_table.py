@@ -90,15 +90,15 @@ class _Cell:
     """A cell, or a field of a CSV file, with its place for messages."""
 
     place: str
-    found: Found
+    content: Found
 
     @property
     def text(self) -> str:
-        return str(self.found.value or "").strip()
+        return str(self.content.value or "").strip()
 
     @property
     def is_blank(self) -> bool:
-        return self.found.is_blank
+        return self.content.is_blank
 
 
 _Rows = Sequence[Sequence[_Cell]]
@@ -132,7 +132,7 @@ def _split(named: str) -> tuple[Path, str]:
 
 
 def _title(book: OpenBook, sheet: str) -> str:
-    titles = [one.title for one in book.typed.worksheets]
+    titles = [worksheet.title for worksheet in book.typed.worksheets]
     if not sheet and len(titles) == 1:
         return titles[0]
     for title in titles:
@@ -159,8 +159,8 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
 
 
 def _cell_at(book: OpenBook, position: CellPosition) -> _Cell:
-    found = found_at(book, position)
-    return _Cell(found.address, found)
+    content = found_at(book, position)
+    return _Cell(content.address, content)
 
 
 def _text_rows(path: Path) -> _Rows:
@@ -256,8 +256,8 @@ def _value(row: Sequence[_Cell], column: int, kind: str, problems: list[str]) ->
         return float("nan")
     cell, wanted = row[column], f"give a number greater than 0 [{_SHOWN[kind]}]"
     try:
-        check_saved(cell.found)
-        value = number(cell.found, wanted)
+        check_saved(cell.content)
+        value = number(cell.content, wanted)
     except CellError as error:
         problems.append(f"{cell.place}: {kind} {error.problems[0]}")
         return float("nan")
@@ -274,8 +274,8 @@ def _frequencies(values: Mapping[str, Floats]) -> Floats:
 
 def _range_problems(source: str, freq_hz: Floats) -> Iterator[str]:
     if len(freq_hz) < 2:
-        found = "1 row" if len(freq_hz) else "no rows"
-        yield f"{source}: has {found} of numbers; give at least 2"
+        count = "1 row" if len(freq_hz) else "no rows"
+        yield f"{source}: has {count} of numbers; give at least 2"
         return
     apart = np.diff(np.sort(freq_hz)) > 1e-9 * np.sort(freq_hz)[1:]
     if not apart.all():

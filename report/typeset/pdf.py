@@ -66,9 +66,9 @@ def _clean_log() -> Iterator[None]:
         yield
     finally:
         logger.removeHandler(lines)
-    if lines.found:
+    if lines.messages:
         raise DefectError(
-            "the PDF renderer logged warnings:\n" + "\n".join(dict.fromkeys(lines.found))
+            "the PDF renderer logged warnings:\n" + "\n".join(dict.fromkeys(lines.messages))
         )
 
 
@@ -77,8 +77,8 @@ class _Lines(logging.Handler):
 
     def __init__(self, level: int) -> None:
         super().__init__(level)
-        self.found: list[str] = []
+        self.messages: list[str] = []
 
     def emit(self, record: logging.LogRecord) -> None:
         """Append one line."""
-        self.found.append(record.getMessage())
+        self.messages.append(record.getMessage())

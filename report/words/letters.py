@@ -30,7 +30,7 @@ def power_of_ten(exponent: int) -> str:
 
 def lettered(text: str) -> str:
     """Return a text with Greek letters, root signs, superscript twos and true minus signs."""
-    named = _NAMES.sub(lambda found: _LETTERS[found[1]], text)
+    named = _NAMES.sub(lambda match: _LETTERS[match[1]], text)
     for plain, set_well in _SIGNS.items():
         named = named.replace(plain, set_well)
     return re.sub(r"(?<![\w-])-(?=[\w.])", "−", named)
