@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import UNITS, Progress, input_errors
+from report.cli.terminal import Progress, UnitChoice, input_errors
 
 if TYPE_CHECKING:
     from report.suite.inputs import SuiteTargets
@@ -36,7 +36,7 @@ def motion() -> None:
 def _reading(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options for reading a file."""
     options = (
-        click.option("--units", type=click.Choice(UNITS),
+        click.option("--units", type=UnitChoice(),
                      help="Units, if the file does not state them."),
         click.option("--dt", "dt_s", type=float, default=math.nan, metavar="S",
                      help="Time step [s], if the file has none."),

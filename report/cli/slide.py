@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.cli.terminal import UNITS, input_errors
+from report.cli.terminal import UnitChoice, input_errors
 
 if TYPE_CHECKING:
     from solver.model import Scene
@@ -37,7 +37,7 @@ velocity-dependent friction."""
 )
 @click.option("--factor", type=float, help="Scale all components by this factor.")
 @click.option("--dt", type=float, help="Time step [s], if the record has no time column.")
-@click.option("--units", type=click.Choice(UNITS),
+@click.option("--units", type=UnitChoice(),
               help="Units of the records, if the files do not state them.")  # fmt: skip
 @click.option("--model", type=click.Choice(MODELS), help="Run this model instead of the simplest "
               "adequate one.")  # fmt: skip

@@ -11,13 +11,26 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import click
 
-UNITS = ("g", "m/s2", "cm/s2", "mm/s2", "gal")
-"""Equal to `solver.formats.UNIT_CHOICES`, which takes too long to import for `--help`."""
+
+class UnitChoice(click.Choice[str]):
+    """Units of acceleration of a file; `solver`, slow to import, is imported when they are used."""
+
+    def __init__(self) -> None:
+        self.case_sensitive = True
+
+    @cached_property
+    def choices(self) -> tuple[str, ...]:  # type: ignore[override]  # it is writable
+        """As in `solver.records.units`."""
+        from solver.records.units import UNIT_CHOICES
+
+        return UNIT_CHOICES
+
 
 _QUIET_SECONDS = 1.0
 

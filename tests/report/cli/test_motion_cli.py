@@ -9,7 +9,6 @@ from click.testing import CliRunner
 
 from places import ROOT
 from report.cli.main import main
-from report.cli.motion import UNITS
 from solver.formats import UNIT_CHOICES, read_record
 from solver.records.measures import measures
 
@@ -38,8 +37,9 @@ def three(tmp_path):
     return path
 
 
-def test_the_units_on_the_command_line_are_those_of_the_reader():
-    assert UNITS == UNIT_CHOICES
+@pytest.mark.parametrize("command", [("slide",), ("motion", "info"), ("motion", "suite")])
+def test_the_units_on_the_command_line_are_those_of_the_reader(command):
+    assert f"[{'|'.join(UNIT_CHOICES)}]" in CliRunner().invoke(main, [*command, "--help"]).output
 
 
 def test_info_lists_all_channels_or_the_one_that_is_named(three):
