@@ -39,26 +39,26 @@ def campaign(function, calls, limit_s=LIMIT_S, prepare=warm_up):
     `prepare` is called first, by each child. Results come in batches: those that a child had not
     sent when it was ended are made again.
     """
-    context, found = mp.get_context("spawn"), []
-    while len(found) < len(calls):
+    context, ended = mp.get_context("spawn"), []
+    while len(ended) < len(calls):
         at, (here, there) = context.Value("q", -1), context.Pipe(duplex=False)
-        left, before = calls[len(found) :], len(found)
+        left, before = calls[len(ended) :], len(ended)
         child = context.Process(
             target=_child, args=(prepare, function, left, at, there), daemon=True
         )
         child.start()
         there.close()
-        stuck = _receive(here, at, found, limit_s)
+        stuck = _receive(here, at, ended, limit_s)
         child.kill()
         child.join()
         if stuck >= 0:
-            lost = calls[len(found) : before + stuck]
-            found += campaign(function, lost, limit_s, prepare) if lost else []
-            found.append(Ended(calls[before + stuck], None, "hangs or dies"))
-    return found
+            lost = calls[len(ended) : before + stuck]
+            ended += campaign(function, lost, limit_s, prepare) if lost else []
+            ended.append(Ended(calls[before + stuck], None, "hangs or dies"))
+    return ended
 
 
-def _receive(here, at, found, limit_s):
+def _receive(here, at, ended, limit_s):
     """Receive results until the child is done (-1), or its call number n takes too long (n)."""
     last, since = -1, time.monotonic()
     while True:
@@ -69,7 +69,7 @@ def _receive(here, at, found, limit_s):
                 return max(at.value, 0)
             if batch is None:
                 return -1
-            found += batch
+            ended += batch
         if at.value != last:
             last, since = at.value, time.monotonic()
         elif time.monotonic() - since > (limit_s if last >= 0 else START_S):

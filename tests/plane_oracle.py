@@ -145,7 +145,7 @@ def _extremes(dense, before, solver, seen, cs):
     ):
         times = np.linspace(solver.t_old, solver.t, 9)
         values = [quantity(dense(t)) for t in times]
-        for a, b, one, other in zip(times[:-1], times[1:], values[:-1], values[1:], strict=True):
-            if one * other < 0.0:
+        for a, b, first, other in zip(times[:-1], times[1:], values[:-1], values[1:], strict=True):
+            if first * other < 0.0:
                 root = brentq(lambda t, q=quantity: q(dense(t)), a, b, xtol=1e-16)
                 seen.append(dense(root)[:2])

@@ -188,9 +188,9 @@ def problems(path: Path) -> tuple[str, ...]:
     return caught.value.problems
 
 
-def same(found: ProjectInput, wanted: ProjectInput) -> bool:
+def same(actual: ProjectInput, wanted: ProjectInput) -> bool:
     """Whether two inputs agree, numbers within the rounding error of a cell."""
-    return _same(found.model_dump(), wanted.model_dump())
+    return _same(actual.model_dump(), wanted.model_dump())
 
 
 def _same(a, b):

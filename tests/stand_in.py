@@ -196,15 +196,15 @@ class Made(Sheet):
         return self.made
 
 
-def book(data=None, found=None):
+def book(data=None, shaking=None):
     """What the reader and the preparation of motions give."""
     data = data or project()
-    found = found or motions()
+    shaking = shaking or motions()
     return Book(
         sheet(data),
         Shaking(
-            motions=found,
-            prepared=tuple(prepared(motion) for motion in found),
+            motions=shaking,
+            prepared=tuple(prepared(motion) for motion in shaking),
             records=tuple(
                 RecordFile(
                     motion_id=motion.id,
@@ -217,7 +217,7 @@ def book(data=None, found=None):
                     notes=(),
                     peak_g=float(np.abs(values).max() / G),
                 )
-                for motion in found
+                for motion in shaking
                 for component, values in (
                     ("horizontal", motion.ax_mps2),
                     ("transverse", motion.ay_mps2),
@@ -265,9 +265,9 @@ def _echo(data):
                 )
 
 
-def assess_input(data, found) -> Assessment:
+def assess_input(data, shaking) -> Assessment:
     """Assess an input under motions."""
-    return assessed(book(data, tuple(found)))
+    return assessed(book(data, tuple(shaking)))
 
 
 def assessed(made) -> Assessment:

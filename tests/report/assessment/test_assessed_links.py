@@ -17,7 +17,7 @@ G, LB, INCH = 9.80665, 4.4482216152605, 0.0254
 MOTIONS = stand_in.motions(3, seconds=12.0)
 
 
-def assessed(friction, lb_per_in, *, mu=0.45, found=MOTIONS, peer_reviewed=True, **changes):
+def assessed(friction, lb_per_in, *, mu=0.45, shaking=MOTIONS, peer_reviewed=True, **changes):
     """An array of two degrees as a row, with its assessment."""
     data = stand_in.project(
         arrays=[stand_in.array("A1", 2.0, mu=mu)],
@@ -26,7 +26,7 @@ def assessed(friction, lb_per_in, *, mu=0.45, found=MOTIONS, peer_reviewed=True,
         links=[stand_in.links("A1", friction, lb_per_in, **changes)],
         options={"peer_reviewed": peer_reviewed},
     )
-    done = stand_in.assess_input(data, found)
+    done = stand_in.assess_input(data, shaking)
     return done, done.linked[0]
 
 
@@ -59,8 +59,8 @@ def test_the_rows_are_those_of_the_solver():
         stiffness_per_s2=k / mass,
         damping_per_s=0.2 * math.sqrt(k * mass) / mass,
     )
-    for motion, found in zip(MOTIONS, item.motions, strict=True):
-        for a, run in zip(along(motion), found.runs, strict=True):
+    for motion, linked in zip(MOTIONS, item.motions, strict=True):
+        for a, run in zip(along(motion), linked.runs, strict=True):
             scene = Scene(
                 ax_mps2=readonly(a),
                 ay_mps2=np.empty(0),
@@ -75,10 +75,10 @@ def test_the_rows_are_those_of_the_solver():
             assert run.row.prd_m == pytest.approx(wanted.prd_m, rel=1e-9)
             assert run.row.link_force == pytest.approx(wanted.link_force, rel=1e-9)
             assert run.block == 1 + int(np.argmax(wanted.prd_m))
-    peaks = [max(run.prd_m for run in found.runs) for found in item.motions]
+    peaks = [max(run.prd_m for run in linked.runs) for linked in item.motions]
     assert item.linked.value_m == pytest.approx(1.1 * max(peaks))
     assert item.rigid.value_m == pytest.approx(rigid_value(0.45))
-    forces = [run.row.link_force for found in item.motions for run in found.runs]
+    forces = [run.row.link_force for linked in item.motions for run in linked.runs]
     assert item.link_force_n == pytest.approx(max(forces) * mass * G)
 
 
@@ -152,13 +152,13 @@ def test_a_difference_below_the_model_tolerance_is_allowed():
 
 def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
     shaking = (stand_in.motion("M", 0.25 * G * np.sin(np.arange(400) / 10.0)),) * 3
-    done, item = assessed("0.10, 0.50", 0.01, mu=0.3, found=shaking)
+    done, item = assessed("0.10, 0.50", 0.01, mu=0.3, shaking=shaking)
     assert item.rigid.value_m == 0.0
     assert item.linked.value_m > 0.01
     assert math.isinf(item.ratio)
     assert math.isinf(item.estimated_m)
     assert not done.ok
-    _, still = assessed("0.29, 0.50", 0.01, mu=0.3, found=shaking)
+    _, still = assessed("0.29, 0.50", 0.01, mu=0.3, shaking=shaking)
     assert (still.linked.value_m, still.ratio) == (0.0, 1.0)
     assert still.is_rigid_enough
 
@@ -167,7 +167,7 @@ def test_uplift_withholds_the_row_as_well():
     up = np.zeros(400)
     up[200:300] = -1.3 * G
     lifted = stand_in.motion("UP", np.zeros(400), up)
-    done, item = assessed("0.40, 0.50", 50, found=(*MOTIONS, lifted))
+    done, item = assessed("0.40, 0.50", 50, shaking=(*MOTIONS, lifted))
     assert item.farthest.row.status is Status.UPLIFT
     for value in (item.ratio, item.estimated_m, item.link_force_n, item.rigid_prd_m):
         assert math.isnan(value)
@@ -187,7 +187,7 @@ def test_a_row_that_cannot_be_followed_is_never_enough(monkeypatch):
 def test_a_row_that_still_slides_at_the_end_is_not_final():
     ax = np.concatenate([np.zeros(100), np.full(60, -4.0)])
     cut = (stand_in.motion("CUT", ax, signs=(1,)),) * 3
-    done, item = assessed("0.30, 0.60", 0.01, mu=0.6, found=cut)
+    done, item = assessed("0.30, 0.60", 0.01, mu=0.6, shaking=cut)
     assert item.design.motions[0].governing.result.status is Status.OK
     assert item.farthest.row.status is Status.SLIDING_AT_END
     assert not item.is_final
@@ -196,7 +196,7 @@ def test_a_row_that_still_slides_at_the_end_is_not_final():
 
 
 def test_too_few_motions_give_no_value():
-    _, item = assessed("0.40, 0.50", 50, found=MOTIONS[:2])
+    _, item = assessed("0.40, 0.50", 50, shaking=MOTIONS[:2])
     assert math.isnan(item.estimated_m)
     assert not item.is_rigid_enough
 

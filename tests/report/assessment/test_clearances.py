@@ -6,8 +6,8 @@ import stand_in
 from solver.rules.provisions import Neighbor
 
 
-def assessed(found=None, **changes):
-    return stand_in.assess_input(stand_in.project(**changes), found or stand_in.motions())
+def assessed(shaking=None, **changes):
+    return stand_in.assess_input(stand_in.project(**changes), shaking or stand_in.motions())
 
 
 def site(**changes):

@@ -17,8 +17,8 @@ from solver.sliding.least_model import Rung
 G = 9.80665
 
 
-def assessed(found=None, **changes):
-    return stand_in.assess_input(stand_in.project(**changes), found or stand_in.motions())
+def assessed(shaking=None, **changes):
+    return stand_in.assess_input(stand_in.project(**changes), shaking or stand_in.motions())
 
 
 def site(**changes):
@@ -74,19 +74,19 @@ def test_reversing_the_component_across_mirrors_the_motion_and_changes_no_displa
             (motion.ax_mps2, motion.ay_mps2),
             (-motion.ay_mps2, motion.ax_mps2),
         ):
-            one = slid(motion, along, across, 3.0, 0.4)
+            first = slid(motion, along, across, 3.0, 0.4)
             other = slid(motion, along, -across, 3.0, 0.4)
-            assert one.across_m > 0.0
+            assert first.across_m > 0.0
             for name in ("prd_m", "down_m", "up_m", "across_m", "residual_m", "t_prd_s"):
-                assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-11)
-            assert one.residual_across_m == pytest.approx(-other.residual_across_m, rel=1e-10)
+                assert getattr(first, name) == pytest.approx(getattr(other, name), rel=1e-11)
+            assert first.residual_across_m == pytest.approx(-other.residual_across_m, rel=1e-10)
 
 
 def test_each_direction_has_the_farthest_of_all_runs_of_each_motion(done):
     item = done.arrays[2]
-    found = [four(motion, 3.0, 0.55) for motion in stand_in.motions()]
+    by_motion = [four(motion, 3.0, 0.55) for motion in stand_in.motions()]
     for direction, name in (("down", "down_m"), ("up", "up_m"), ("across", "across_m")):
-        peaks = [max(getattr(r, name) for r in results) for results in found]
+        peaks = [max(getattr(r, name) for r in results) for results in by_motion]
         assert [m.peak_m(Direction(direction)) for m in item.motions] == peaks
         value = item.directions[Direction(direction)].value_m
         assert value == pytest.approx(1.1 * sum(peaks) / 7)
@@ -135,15 +135,15 @@ def test_friction_by_speed_reaches_the_solver():
 
 
 def test_a_fixed_polarity_runs_once():
-    one = replace(stand_in.motions()[0], signs=(-1,))
-    done = assessed((one,) * 3)
+    motion = replace(stand_in.motions()[0], signs=(-1,))
+    done = assessed((motion,) * 3)
     runs = done.arrays[0].motions[0].runs
     assert [run.heading.name for run in runs] == ["record −", "transverse −"]
 
 
 def test_without_a_transverse_component_the_record_alone_is_run():
-    one = replace(stand_in.motions()[0], ay_mps2=np.empty(0))
-    done = assessed((one,) * 3)
+    motion = replace(stand_in.motions()[0], ay_mps2=np.empty(0))
+    done = assessed((motion,) * 3)
     runs = done.arrays[0].motions[0].runs
     assert [run.heading.name for run in runs] == ["record +", "record −"]
 
@@ -151,8 +151,8 @@ def test_without_a_transverse_component_the_record_alone_is_run():
 def test_swapping_the_horizontal_components_changes_names_alone():
     given = stand_in.motions(3, seconds=8.0)
     swapped = [replace(m, ax_mps2=m.ay_mps2, ay_mps2=m.ax_mps2) for m in given]
-    one, other = assessed(given), assessed(swapped)
-    for a, b in zip(one.arrays[1].motions, other.arrays[1].motions, strict=True):
+    first, other = assessed(given), assessed(swapped)
+    for a, b in zip(first.arrays[1].motions, other.arrays[1].motions, strict=True):
         assert a.governing.result == b.governing.result
         assert a.governing.heading.swapped is not b.governing.heading.swapped
         assert np.array_equal(a.history().u_m, b.history().u_m)

@@ -16,12 +16,12 @@ G = 9.80665
 
 @pytest.fixture(scope="module")
 def assessment():
-    return stand_in.assessed(stand_in.book(found=stand_in.motions(3, seconds=8.0)))
+    return stand_in.assessed(stand_in.book(shaking=stand_in.motions(3, seconds=8.0)))
 
 
 def under(assessment, motions, places=()):
     """An assessment as if it were of other motions."""
-    book = stand_in.book(found=tuple(motions)).having(prepared=tuple(places))
+    book = stand_in.book(shaking=tuple(motions)).having(prepared=tuple(places))
     return replace(assessment, shaking=book.shaking)
 
 
@@ -31,21 +31,21 @@ def given():
 
 def test_all_three_components_are_taken_as_run(assessment):
     motions = given()
-    found = spectra(under(assessment, motions))
-    assert [part.title for part in found] == ["Horizontal", "Transverse", "Vertical"]
-    for part, name in zip(found, ("ax_mps2", "ay_mps2", "az_mps2"), strict=True):
+    parts = spectra(under(assessment, motions))
+    assert [part.title for part in parts] == ["Horizontal", "Transverse", "Vertical"]
+    for part, name in zip(parts, ("ax_mps2", "ay_mps2", "az_mps2"), strict=True):
         for motion, row in zip(motions, part.sa_g, strict=True):
             alone = response_spectrum(0.5 * getattr(motion, name), motion.dt_s, part.periods_s)
             assert row == pytest.approx(alone / G, rel=1e-12)
-    assert found[0].target is found[1].target is assessment.targets.roof
-    assert found[2].target is assessment.targets.vertical
+    assert parts[0].target is parts[1].target is assessment.targets.roof
+    assert parts[2].target is assessment.targets.vertical
 
 
 def test_motions_without_a_component_are_omitted_there(assessment):
     first, second, third = given()
     bare = [replace(first, ay_mps2=np.empty(0), az_mps2=np.empty(0)), second, third]
-    found = spectra(under(assessment, bare))
-    assert [part.ids for part in found] == [("M1", "M2", "M3"), ("M2", "M3"), ("M2", "M3")]
+    parts = spectra(under(assessment, bare))
+    assert [part.ids for part in parts] == [("M1", "M2", "M3"), ("M2", "M3"), ("M2", "M3")]
     assert [part.title for part in spectra(under(assessment, bare[:1]))] == ["Horizontal"]
 
 
@@ -115,7 +115,7 @@ def test_a_project_spectrum_of_long_periods_alone_gives_no_ratios_in_the_band():
 def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_target():
     motions = given()
     preparations = [stand_in.prepared(m, recorded_at=RecordedAt.GROUND) for m in motions]
-    done = stand_in.assessed(stand_in.book(found=motions))
+    done = stand_in.assessed(stand_in.book(shaking=motions))
     *_, across, transverse = spectra(under(done, motions, preparations))
     assert (across.title, transverse.title) == ("Ground, horizontal", "Ground, transverse")
     assert across.is_ground

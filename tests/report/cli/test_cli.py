@@ -105,9 +105,9 @@ def test_a_rigid_block_that_is_not_adequate_gives_a_warning(tmp_path):
     )
     (line,) = (text for text in done.output.splitlines() if text.startswith("A2 "))
     assert line.endswith("NG")
-    found = json.loads((tmp_path / "out" / "results.json").read_text())
-    assert found["ok"] is found["linked"][0]["rigid_is_enough"] is False
-    assert found["linked"][0]["estimated_m"] > found["linked"][0]["design_m"] > 0.0
+    results = json.loads((tmp_path / "out" / "results.json").read_text())
+    assert results["ok"] is results["linked"][0]["rigid_is_enough"] is False
+    assert results["linked"][0]["estimated_m"] > results["linked"][0]["design_m"] > 0.0
     pdf = PdfReader(tmp_path / "out" / "calc-package.pdf")
     text = " ".join(" ".join(page.extract_text() for page in pdf.pages).split())
     assert "Array A2: a row of linked blocks" in text
@@ -171,16 +171,16 @@ def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
         ax *= run_["polarity"]
         about = {"slope_rad": array["slope_rad"], "mu": array["mu"], "az_mps2": az}
         if array["id"] == "A1":  # the workbook asks for one axis
-            found = slide(ax, 0.005, **about)
+            outcome = slide(ax, 0.005, **about)
         elif array["id"] == "A2":
-            found = slide(ax, 0.005, ay_mps2=ay, **about)
+            outcome = slide(ax, 0.005, ay_mps2=ay, **about)
         else:
             by_speed = Friction(mu_slow=0.4, mu_fast=0.5, rate_s_per_m=20.0, mu_static=0.4)
             run = scene(ax, 0.005, ay_mps2=ay, **about)
-            found = run_in_two_axes(replace(run, friction=by_speed))
-        assert run_["prd_m"] == pytest.approx(found.prd_m, rel=1e-12)
-        assert run_["residual_m"] == pytest.approx(found.residual_m, rel=1e-12, abs=1e-15)
-        assert run_["status"] == found.status
+            outcome = run_in_two_axes(replace(run, friction=by_speed))
+        assert run_["prd_m"] == pytest.approx(outcome.prd_m, rel=1e-12)
+        assert run_["residual_m"] == pytest.approx(outcome.residual_m, rel=1e-12, abs=1e-15)
+        assert run_["status"] == outcome.status
     for array in document["arrays"]:
         peaks = [
             max(r["prd_m"] for r in array["runs"] if r["motion"] == f"RM{k}") for k in range(1, 8)

@@ -43,15 +43,15 @@ def test_the_units_on_the_command_line_are_those_of_the_reader(command):
 
 
 def test_info_lists_all_channels_or_the_one_that_is_named(three):
-    found = json.loads(run("info", three, "--json").output)
-    assert list(found) == ["file", "format", "notes", "channels"]
-    assert [one["name"] for one in found["channels"]] == ["HN1", "HN2", "HNZ"]
-    assert [one["pga_g"] for one in found["channels"]] == pytest.approx([0.1, 0.2, 0.3])
+    summary = json.loads(run("info", three, "--json").output)
+    assert list(summary) == ["file", "format", "notes", "channels"]
+    assert [channel["name"] for channel in summary["channels"]] == ["HN1", "HN2", "HNZ"]
+    assert [channel["pga_g"] for channel in summary["channels"]] == pytest.approx([0.1, 0.2, 0.3])
     for name in ("hnz", "3"):
         (only,) = json.loads(run("info", three, "--channel", name, "--json").output)["channels"]
         assert only["name"] == "HNZ"
     lines = run("info", three).output.splitlines()
-    assert lines[0] == f"{three}: {found['format']}"
+    assert lines[0] == f"{three}: {summary['format']}"
     assert [line.split()[:2] for line in lines[2:5]] == [["1", "HN1"], ["2", "HN2"], ["3", "HNZ"]]
 
 
@@ -99,10 +99,10 @@ def test_notes_of_the_reading_are_shown(tmp_path):
 def test_info_gives_sampling_length_and_peak():
     done = run("info", RECORD, "--json")
     assert done.exit_code == 0
-    found = json.loads(done.output)
+    summary = json.loads(done.output)
     record = read_record(RECORD)
-    assert found["file"] == str(RECORD)
-    (channel,) = found["channels"]
+    assert summary["file"] == str(RECORD)
+    (channel,) = summary["channels"]
     assert channel["dt_s"] == 0.005
     assert channel["npts"] == 6001
     assert channel["duration_s"] == pytest.approx(30.0, rel=1e-12)
@@ -111,14 +111,14 @@ def test_info_gives_sampling_length_and_peak():
 
 def test_info_gives_every_measure_in_si():
     (channel,) = json.loads(run("info", RECORD, "--json").output)["channels"]
-    found = measures(read_record(RECORD))
+    expected = measures(read_record(RECORD))
     assert {key: channel[key] for key in list(channel)[5:]} == {
-        "pgv_mps": found.pgv_mps,
-        "pgd_m": found.pgd_m,
-        "arias_mps": found.arias_mps,
-        "d5_95_s": found.d5_95_s,
-        "final_velocity_mps": found.final_velocity_mps,
-        "final_displacement_m": found.final_displacement_m,
+        "pgv_mps": expected.pgv_mps,
+        "pgd_m": expected.pgd_m,
+        "arias_mps": expected.arias_mps,
+        "d5_95_s": expected.d5_95_s,
+        "final_velocity_mps": expected.final_velocity_mps,
+        "final_displacement_m": expected.final_displacement_m,
     }
 
 

@@ -23,7 +23,7 @@ def run(*words):
     return CliRunner().invoke(main, [str(word) for word in words])
 
 
-def found(*words):
+def printed(*words):
     done = run("slide", *words, "--json")
     assert done.exit_code == 0, done.output
     return json.loads(done.output)
@@ -34,18 +34,18 @@ def test_slide_gives_what_the_solver_gives():
     assert done.exit_code == 0
     record = read_record(Path(RECORD), units="g")
     expected = slide(record.a_mps2, record.dt_s, slope_rad=math.radians(2), mu=0.5)
-    found = json.loads(done.output)
-    assert found["prd_m"] == expected.prd_m
-    assert found["residual_m"] == expected.residual_m
-    assert found["t_uplift_s"] is None
-    assert found["dt_s"] == 0.005
+    values = json.loads(done.output)
+    assert values["prd_m"] == expected.prd_m
+    assert values["residual_m"] == expected.residual_m
+    assert values["t_uplift_s"] is None
+    assert values["dt_s"] == 0.005
 
 
 def test_slide_scales_to_a_ppa_and_by_a_factor():
     peak = np.abs(read_record(Path(RECORD), units="g").a_mps2).max() / 9.80665
-    one = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--ppa-g", 2 * peak, "--json")
+    scaled = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--ppa-g", 2 * peak, "--json")
     two = run("slide", RECORD, "--slope-deg", 2, "--mu", 0.5, "--factor", 2, "--json")
-    assert json.loads(one.output)["prd_m"] == pytest.approx(json.loads(two.output)["prd_m"])
+    assert json.loads(scaled.output)["prd_m"] == pytest.approx(json.loads(two.output)["prd_m"])
 
 
 def test_slide_takes_a_vertical_record():
@@ -73,7 +73,7 @@ def test_slide_says_what_is_wrong_and_exits_2(arguments, message):
 
 
 def test_slide_takes_a_second_horizontal_record_and_names_the_model():
-    two = found(RECORD, *PLACE, "--transverse", ACROSS, "--vertical", UP)
+    two = printed(RECORD, *PLACE, "--transverse", ACROSS, "--vertical", UP)
     x, y, z = (read_record(Path(name), units="g").a_mps2 for name in (RECORD, ACROSS, UP))
     expected = slide(x, 0.005, slope_rad=math.radians(2), mu=0.5, ay_mps2=y, az_mps2=z)
     assert two["prd_m"] == expected.prd_m
@@ -94,11 +94,11 @@ def test_slide_takes_a_second_horizontal_record_and_names_the_model():
     ],
 )
 def test_the_model_is_the_simplest_adequate_one_or_the_requested_one(words, model):
-    assert found(RECORD, *PLACE, *words)["model"] == model
+    assert printed(RECORD, *PLACE, *words)["model"] == model
 
 
 def test_a_file_of_several_channels_gives_each_component():
-    by_name = found(
+    by_name = printed(
         f"{THREE} | 1", *PLACE, "--transverse", f"{THREE}|2", "--vertical", f"{THREE}|3"
     )
     assert by_name["dt_s"] > 0.0

@@ -53,21 +53,23 @@ def quick(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def found(quick):
+def verification(quick):
     """A quick verification; other programs, where some are installed, are tested apart."""
     return replace(quick[0], peers=())
 
 
 def test_the_quick_command_of_the_readme_passes(quick):
-    found, done, out = quick
+    verification, done, out = quick
     assert done.exit_code == 0, done.output
-    assert done.stdout.startswith(f"PASS: {len(found.checks)} of {len(found.checks)} checks")
+    assert done.stdout.startswith(
+        f"PASS: {len(verification.checks)} of {len(verification.checks)} checks"
+    )
     assert (out / "verification.pdf").read_bytes().startswith(b"%PDF")
 
 
 @pytest.fixture(scope="module")
-def made(found):
-    return files(found, DATE, lambda line: None)
+def made(verification):
+    return files(verification, DATE, lambda line: None)
 
 
 @pytest.fixture(scope="module")
@@ -86,22 +88,22 @@ def fonts():
     load_fonts(TEMPLATES / "fonts")
 
 
-def said(found):
+def said(verification):
     """The words of the manual, before they are laid out."""
     machine = this_machine()
-    html = manual_html(found, sections(found, machine), machine, DATE)
+    html = manual_html(verification, sections(verification, machine), machine, DATE)
     body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
     return " ".join(unescape(body).split())
 
 
 @pytest.fixture(scope="module")
-def words(found):
-    return said(found)
+def words(verification):
+    return said(verification)
 
 
 @pytest.fixture(scope="module")
-def broken(found):
-    return failing(found)
+def broken(verification):
+    return failing(verification)
 
 
 @pytest.fixture(scope="module")
@@ -109,9 +111,9 @@ def words_of_broken(broken):
     return said(broken)
 
 
-def failing(found):
+def failing(verification):
     """The same verification with its second check failed and some runs lost."""
-    wrong = replace(found.checks[1], computed=1.5, error=0.25, passed=False)
+    wrong = replace(verification.checks[1], computed=1.5, error=0.25, passed=False)
     nan = math.nan
     lost = [
         replace(
@@ -125,14 +127,18 @@ def failing(found):
         )
         if point.method == "penalty-explicit" and point.setting == 1e2
         else point
-        for point in found.work
+        for point in verification.work
     ]
-    return replace(found, checks=(found.checks[0], wrong, *found.checks[2:]), work=tuple(lost))
+    return replace(
+        verification,
+        checks=(verification.checks[0], wrong, *verification.checks[2:]),
+        work=tuple(lost),
+    )
 
 
-def test_the_manual_has_a_cover_contents_and_a_summary_of_one_page(texts, found):
+def test_the_manual_has_a_cover_contents_and_a_summary_of_one_page(texts, verification):
     assert 15 <= len(texts) <= 35
-    passed = f"PASS {len(found.checks)} of {len(found.checks)} checks passed."
+    passed = f"PASS {len(verification.checks)} of {len(verification.checks)} checks passed."
     assert passed in texts[0]
     assert "Verification manual" in texts[0]
     assert "2026-03-05" in texts[0]
@@ -156,8 +162,8 @@ def test_contents_name_the_sheet_of_each_section(texts):
         assert texts[int(sheet[1]) - 1].startswith(title)
 
 
-def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(found, words):
-    for row in found.checks:
+def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(verification, words):
+    for row in verification.checks:
         assert f"Source: {lettered(row.source)}" in words
         line = (
             f"{lettered(row.problem)} {row.quantity}"
@@ -168,15 +174,15 @@ def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(f
         assert line in words, line
 
 
-def test_the_papers_own_figures_stand_beside_those_found(words, found):
+def test_the_papers_own_figures_stand_beside_those_found(words, verification):
     assert "6.78 %" in words
     assert "1.69 %" in words
     assert "0.48 %" in words
     assert "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm" in words
-    for one in found.links:
-        assert blocks.percent(one.worst_percent) in words
-        assert blocks.percent(one.mean_percent) in words
-    curves = found.curves[0]
+    for comparison in verification.links:
+        assert blocks.percent(comparison.worst_percent) in words
+        assert blocks.percent(comparison.mean_percent) in words
+    curves = verification.curves[0]
     assert f"{curves.least_mu(2.0, 1.5, 0.5):.3f}" in words
 
 
@@ -203,18 +209,20 @@ def test_nothing_reads_nan_or_infinite(whole):
     assert not re.search(r"\b(nan|inf|None)\b", whole)
 
 
-def test_all_and_only_the_checks_and_runs_are_in_the_table(made, found):
+def test_all_and_only_the_checks_and_runs_are_in_the_table(made, verification):
     table = pd.read_csv(io.BytesIO(made["verification.csv"]))
     checks, runs = table[table["kind"] == "check"], table[table["kind"] == "run"]
-    assert len(checks) == len(found.checks)
-    assert len(runs) == len(found.work)
-    in_two_axes = sum(len(one.work) for one in found.rungs)
+    assert len(checks) == len(verification.checks)
+    assert len(runs) == len(verification.work)
+    in_two_axes = sum(len(evidence.work) for evidence in verification.rungs)
     assert len(table) == len(checks) + len(runs) + in_two_axes
-    assert checks["computed"].tolist() == [row.computed for row in found.checks]
-    assert checks["error [-]"].tolist() == [row.error for row in found.checks]
+    assert checks["computed"].tolist() == [row.computed for row in verification.checks]
+    assert checks["error [-]"].tolist() == [row.error for row in verification.checks]
     assert set(checks["passed"]) == {"yes"}
-    assert runs["time per run [s]"].tolist() == [point.seconds for point in found.work]
-    assert runs["PRD error [%]"].tolist() == [point.prd_error_percent for point in found.work]
+    assert runs["time per run [s]"].tolist() == [point.seconds for point in verification.work]
+    assert runs["PRD error [%]"].tolist() == [
+        point.prd_error_percent for point in verification.work
+    ]
     assert "substeps=64" in set(runs["parameters"])
     for column in ("time per run [s]", "PRD error [m]", "residual error [%]", "tolerance [-]"):
         assert column in table
@@ -232,18 +240,22 @@ def test_each_chart_is_a_file_too_with_text_in_the_shipped_font_only(made):
         assert set(re.findall(r"font: [^;]*?'([^']+)'", text)) <= {"Source Sans 3"}
 
 
-def test_the_exact_method_is_drawn_at_its_floor_and_said_to_be(made, found):
+def test_the_exact_method_is_drawn_at_its_floor_and_said_to_be(made, verification):
     assert ">exact: rounding error<" in made["charts/work-percent.svg"].decode()
     curve = next(
-        one for one in work.curves(found.work, "prd_error_percent", 1e-12) if one.method == "exact"
+        curve
+        for curve in work.curves(verification.work, "prd_error_percent", 1e-12)
+        if curve.method == "exact"
     )
     assert curve.median.tolist() == [1e-12]
 
 
-def test_curves_are_medians_with_the_envelope_over_the_scenes(found):
-    points = [p for p in found.work if p.method == "linear" and p.setting == 16]
+def test_curves_are_medians_with_the_envelope_over_the_scenes(verification):
+    points = [p for p in verification.work if p.method == "linear" and p.setting == 16]
     curve = next(
-        one for one in work.curves(found.work, "prd_error_percent", 0.0) if one.method == "linear"
+        curve
+        for curve in work.curves(verification.work, "prd_error_percent", 0.0)
+        if curve.method == "linear"
     )
     at = [1, 4, 16, 64, 256].index(16)
     errors = [p.prd_error_percent for p in points]
@@ -258,33 +270,33 @@ def test_failed_runs_are_counted_in_the_caption_and_not_drawn(broken, words_of_b
     assert f"{lost} of {len(broken.work)} runs failed and are not drawn" in words
     assert f"(penalty-explicit: {lost})" in words
     curve = next(
-        one
-        for one in work.curves(broken.work, "prd_error_percent", 0.0)
-        if one.method == "penalty-explicit"
+        curve
+        for curve in work.curves(broken.work, "prd_error_percent", 0.0)
+        if curve.method == "penalty-explicit"
     )
     assert np.isfinite(curve.median).all()
 
 
-def test_failed_cells_are_hatched_and_counted(made, found, words):
-    count = int(found.maps[0].failed.sum())
+def test_failed_cells_are_hatched_and_counted(made, verification, words):
+    count = int(verification.maps[0].failed.sum())
     assert count > 0
-    assert f"Failed: {count} of {found.maps[0].failed.size} cells." in words
+    assert f"Failed: {count} of {verification.maps[0].failed.size} cells." in words
     svg = made["charts/stability-1.svg"].decode()
     assert svg.count("fill: url(#") >= count
     for text in ("failed", "1 % contour", "10 % contour", "theoretical limit"):
         assert f">{text}<" in svg
 
 
-def test_a_failed_check_is_said_on_cover_summary_and_in_its_table(found, words_of_broken):
+def test_a_failed_check_is_said_on_cover_summary_and_in_its_table(verification, words_of_broken):
     words = words_of_broken
-    count = len(found.checks)
+    count = len(verification.checks)
     assert words.count(f"FAIL {count - 1} of {count} checks passed.") == 2
-    row = found.checks[1]
+    row = verification.checks[1]
     assert f"FAIL: {row.section}, {row.problem}, {row.quantity}" in words
     assert re.search(r" 1\.5 2\.5 × 10⁻¹ [^A-Z]* FAIL", words)
 
 
-def test_other_programs_have_a_section_where_there_are_any(found):
+def test_other_programs_have_a_section_where_there_are_any(verification):
     peer = PeerPoint(
         peer="Other",
         version="1.2",
@@ -295,7 +307,7 @@ def test_other_programs_have_a_section_where_there_are_any(found):
         note="as its example",
     )
     lost = replace(peer, seconds=math.nan, prd_error_percent=math.nan, note="did not converge")
-    words = said(replace(found, peers=(peer, lost)))
+    words = said(replace(verification, peers=(peer, lost)))
     assert "13 Other programs" in words
     assert "Other 1.2: as its example motion-01-x flat 500 ms 1.25 %" in words
     assert "Other 1.2: did not converge motion-01-x flat — failed" in words
@@ -305,21 +317,21 @@ def test_without_other_programs_there_is_no_such_section(words):
     assert "Other programs" not in words
 
 
-def command(monkeypatch, tmp_path, found, *more):
+def command(monkeypatch, tmp_path, verification, *more):
     """Run the command on what is found already; pictures and layout are tested above."""
     monkeypatch.setattr(
         solver.verification.run,
         "verify",
-        lambda records, *, quick, progress, buildings, motions: found,
+        lambda records, *, quick, progress, buildings, motions: verification,
     )
     monkeypatch.setattr(report.manual.render, "lay_out", str.encode)
     return CliRunner().invoke(main, ["verify", "--out", str(tmp_path / "v"), *more])
 
 
-def test_the_command_writes_everything_and_exits_0(monkeypatch, tmp_path, found):
-    done = command(monkeypatch, tmp_path, found, "--quick")
+def test_the_command_writes_everything_and_exits_0(monkeypatch, tmp_path, verification):
+    done = command(monkeypatch, tmp_path, verification, "--quick")
     assert done.exit_code == 0, done.output
-    count = len(found.checks)
+    count = len(verification.checks)
     assert done.stdout.startswith(f"PASS: {count} of {count} checks passed\n")
     for name in ("verification.pdf", "verification.csv", "charts/work-percent.svg"):
         assert str(tmp_path / "v" / name) in done.output
@@ -328,11 +340,11 @@ def test_the_command_writes_everything_and_exits_0(monkeypatch, tmp_path, found)
 
 
 def test_a_failed_check_is_named_and_exits_1_with_the_outputs_written(
-    monkeypatch, tmp_path, found, broken
+    monkeypatch, tmp_path, verification, broken
 ):
     done = command(monkeypatch, tmp_path, broken)
     assert done.exit_code == 1
-    row = found.checks[1]
+    row = verification.checks[1]
     assert done.stdout.startswith("FAIL: ")
     assert f"  {row.section}: {row.problem}, {row.quantity}: expected" in done.output
     assert "found 1.5 m, error 2.5e-01 exceeds" in done.output
@@ -340,9 +352,9 @@ def test_a_failed_check_is_named_and_exits_1_with_the_outputs_written(
     assert (table["passed"] == "no").sum() == 1
 
 
-def test_a_folder_that_cannot_be_written_exits_2(monkeypatch, tmp_path, found):
+def test_a_folder_that_cannot_be_written_exits_2(monkeypatch, tmp_path, verification):
     (tmp_path / "v").write_text("a file")
-    done = command(monkeypatch, tmp_path, found)
+    done = command(monkeypatch, tmp_path, verification)
     assert done.exit_code == 2
     assert "choose another folder" in done.output
 

@@ -17,7 +17,7 @@ def fonts():
 
 @pytest.fixture(scope="module")
 def book():
-    return stand_in.book(found=stand_in.motions(3, seconds=12.0))
+    return stand_in.book(shaking=stand_in.motions(3, seconds=12.0))
 
 
 @pytest.fixture(scope="module")
@@ -27,10 +27,10 @@ def assessment(book):
 
 def drawn(book, assessment):
     """Every chart of the package."""
-    found = spectra(assessment)
+    parts = spectra(assessment)
     return [
         figures.roof_plan(book.input, True),
-        figures.spectra(found),
+        figures.spectra(parts),
         histories(assessment.arrays[0]),
         figures.comparison(assessment.arrays, True),
         figures.clearances(assessment.clearances, True),
@@ -77,10 +77,10 @@ def test_a_short_record_is_drawn_as_it_is():
 
 
 def test_the_plan_shows_every_array_object_and_clearance(book):
-    found = words(figures.roof_plan(book.input, True))
+    printed = words(figures.roof_plan(book.input, True))
     for name in ("A1", "A2", "A3", "RTU-1", "T-1", "N edge", "S edge", "1", "2", "3", "4", "5"):
-        assert name in found
-    assert "x [ft]" in found
+        assert name in printed
+    assert "x [ft]" in printed
 
 
 def test_the_plan_does_without_objects_drawn():
@@ -97,21 +97,21 @@ def test_a_dollar_sign_in_a_name_is_a_dollar_sign(book):
 
 
 def test_each_history_states_its_prd_in_both_systems(assessment):
-    found = words(histories(assessment.arrays[1]))
-    assert sum(bool(re.fullmatch(r"PRD [\d.]+ in \(\d+ mm\)", text)) for text in found) == 3
-    found = words(histories(assessment.arrays[1], us_first=False))
-    assert sum(bool(re.fullmatch(r"PRD \d+ mm \([\d.]+ in\)", text)) for text in found) == 3
+    printed = words(histories(assessment.arrays[1]))
+    assert sum(bool(re.fullmatch(r"PRD [\d.]+ in \(\d+ mm\)", text)) for text in printed) == 3
+    printed = words(histories(assessment.arrays[1], us_first=False))
+    assert sum(bool(re.fullmatch(r"PRD \d+ mm \([\d.]+ in\)", text)) for text in printed) == 3
 
 
 def test_a_run_without_a_value_is_drawn_as_such():
     up = np.zeros(400)
     up[100:200] = -1.5 * stand_in.G
     still = stand_in.motion("M1", np.zeros(400), up, signs=(1,))
-    book = stand_in.book(found=(still,) * 3)
+    book = stand_in.book(shaking=(still,) * 3)
     assessment = stand_in.assessed(book)
-    found = words(histories(assessment.arrays[0]))
-    assert found.count("no value") == 3
-    assert found.count("PRD: no value") == 3
+    printed = words(histories(assessment.arrays[0]))
+    assert printed.count("no value") == 3
+    assert printed.count("PRD: no value") == 3
     assert "no value" in words(figures.comparison(assessment.arrays, True))
     assert words(figures.clearances(assessment.clearances, True)).count("no value: NG") == 5
 
@@ -122,6 +122,6 @@ def test_a_failed_clearance_is_marked(assessment):
 
 @pytest.mark.parametrize("us_first", [True, False])
 def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
-    found = words(figures.comparison(assessment.arrays, us_first))
-    assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in found
-    assert f"[{'mm' if us_first else 'in'}]" in found
+    printed = words(figures.comparison(assessment.arrays, us_first))
+    assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in printed
+    assert f"[{'mm' if us_first else 'in'}]" in printed

@@ -32,10 +32,10 @@ def size_in(svg):
 
 
 def test_spectra_are_those_of_each_record_in_g(channels):
-    found = spectra_g(channels[:2])
-    assert found.shape == (2, len(PERIODS_S))
+    spectra = spectra_g(channels[:2])
+    assert spectra.shape == (2, len(PERIODS_S))
     expected = response_spectrum(channels[1].a_mps2, 0.01, PERIODS_S) / G
-    assert np.array_equal(found[1], expected)
+    assert np.array_equal(spectra[1], expected)
 
 
 @pytest.mark.parametrize("count", [1, 3, 12])
@@ -55,8 +55,8 @@ def test_twelve_lines_look_different(channels):
 
 @pytest.mark.parametrize("size", [0.0, 1e-9, 1e3])
 def test_records_of_any_size_are_drawn_without_a_warning(noise, size):
-    one = [Record(name="r" * 200, dt_s=0.01, a_mps2=noise * size)]
-    png = figures.records_png(one, PERIODS_S, spectra_g(one))
+    records = [Record(name="r" * 200, dt_s=0.01, a_mps2=noise * size)]
+    png = figures.records_png(records, PERIODS_S, spectra_g(records))
     assert png.startswith(b"\x89PNG")
 
 

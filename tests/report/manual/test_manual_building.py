@@ -37,7 +37,7 @@ def made():
 
 
 @pytest.fixture(scope="module")
-def found(made):
+def comparison(made):
     return compare(made)
 
 
@@ -79,8 +79,8 @@ def texts(section):
 # What the verification finds
 
 
-def test_every_check_passes_and_no_two_are_alike(made, found):
-    rows = list(checks.building_checks(made, found))
+def test_every_check_passes_and_no_two_are_alike(made, comparison):
+    rows = list(checks.building_checks(made, comparison))
     assert all(row.passed for row in rows), [row for row in rows if not row.passed]
     assert len({(row.problem, row.quantity) for row in rows}) == len(rows)
 
@@ -95,16 +95,18 @@ def test_every_check_passes_and_no_two_are_alike(made, found):
         ("story_modes", lambda right: replace(right, factors=1.001 * right.factors)),
     ],
 )
-def test_what_is_wrong_fails_the_checks_that_see_it(made, found, monkeypatch, name, wrong):
+def test_what_is_wrong_fails_the_checks_that_see_it(made, comparison, monkeypatch, name, wrong):
     true = getattr(checks, name)
     monkeypatch.setattr(checks, name, lambda *given, **named: wrong(true(*given, **named)))
-    assert not all(row.passed for row in checks.building_checks(made, found))
+    assert not all(row.passed for row in checks.building_checks(made, comparison))
 
 
-def test_a_fit_that_is_off_fails_its_checks(made, found):
-    best = found.predictions[0]
+def test_a_fit_that_is_off_fails_its_checks(made, comparison):
+    best = comparison.predictions[0]
     for change in ({"period_s": 1.19}, {"damping": 0.05}, {"alpha0": 5.0}, {"unexplained": 0.1}):
-        off = replace(found, predictions=(replace(best, **change), *found.predictions[1:]))
+        off = replace(
+            comparison, predictions=(replace(best, **change), *comparison.predictions[1:])
+        )
         assert sum(not row.passed for row in checks.building_checks(made, off)) == 1
 
 
@@ -116,49 +118,49 @@ def test_a_beam_is_found_again_from_its_own_floors():
     )
     rigid = 1.0 - modes.factors.sum(axis=0)
     floors = histories @ modes.factors + ground.a_mps2[:, None] * rigid
-    found = identify(ground.a_mps2, ground.dt_s, (0.4, 1.0), floors, (0.4, 1.6))
-    assert found.period_s == pytest.approx(period_s, rel=5e-4)
-    assert found.damping == pytest.approx(zeta, rel=5e-3)
-    assert found.alpha0 == pytest.approx(3.0, rel=1e-2)
-    assert found.unexplained < 1e-5
+    fit = identify(ground.a_mps2, ground.dt_s, (0.4, 1.0), floors, (0.4, 1.6))
+    assert fit.period_s == pytest.approx(period_s, rel=5e-4)
+    assert fit.damping == pytest.approx(zeta, rel=5e-3)
+    assert fit.alpha0 == pytest.approx(3.0, rel=1e-2)
+    assert fit.unexplained < 1e-5
 
 
-def test_the_fit_is_the_same_every_time(made, found):
+def test_the_fit_is_the_same_every_time(made, comparison):
     again = compare(made)
-    for one, other in zip(found.predictions, again.predictions, strict=True):
-        assert one.unexplained == other.unexplained
-        np.testing.assert_array_equal(one.prd_m, other.prd_m)
+    for prediction, other in zip(comparison.predictions, again.predictions, strict=True):
+        assert prediction.unexplained == other.unexplained
+        np.testing.assert_array_equal(prediction.prd_m, other.prd_m)
 
 
 def test_predictions_are_what_their_parts_say(made, recorded):
-    assert [one.name for one in recorded.predictions] == [
+    assert [prediction.name for prediction in recorded.predictions] == [
         "fitted to the 12th and 24th floors",
         "fitted to the 12th floor",
         BY_HEIGHT,
         "first fit, but with 5 % damping",
         "ground motion applied at the roof, no building",
     ]
-    one = recorded.predictions[2]
-    model = building_of_periods([1.0], damping=[0.05], alpha0=one.alpha0)
+    prediction = recorded.predictions[2]
+    model = building_of_periods([1.0], damping=[0.05], alpha0=prediction.alpha0)
     roof = roof_motion(made.ground_mps2, made.dt_s, model)[: made.ground_mps2.size]
-    np.testing.assert_array_equal(one.a_mps2, roof)
-    assert one.unexplained == pytest.approx(
+    np.testing.assert_array_equal(prediction.a_mps2, roof)
+    assert prediction.unexplained == pytest.approx(
         ((roof - recorded.roof_mps2) ** 2).sum() / (recorded.roof_mps2**2).sum()
     )
     sa = response_spectrum(roof, made.dt_s, SPECTRUM_S)
     low, high = recorded.bands_s[3]
     ratios = (sa / recorded.roof_sa_mps2)[(low <= SPECTRUM_S) & (high >= SPECTRUM_S)]
-    assert one.band_ratios[3] == pytest.approx(np.prod(ratios) ** (1.0 / ratios.size))
+    assert prediction.band_ratios[3] == pytest.approx(np.prod(ratios) ** (1.0 / ratios.size))
     both = [
         slide(roof, made.dt_s, slope_rad=math.radians(d), mu=0.3, scale=recorded.scale).prd_m
         for d in (2.0, -2.0)
     ]
-    assert one.prd_m[2] == max(both)
+    assert prediction.prd_m[2] == max(both)
     assert np.abs(recorded.roof_mps2).max() * recorded.scale == pytest.approx(9.80665)
 
 
-def test_the_ground_itself_is_the_last_prediction_and_has_no_building(made, found):
-    last = found.predictions[-1]
+def test_the_ground_itself_is_the_last_prediction_and_has_no_building(made, comparison):
+    last = comparison.predictions[-1]
     np.testing.assert_array_equal(last.a_mps2, made.ground_mps2)
     assert last.n_modes == 0
     assert math.isnan(last.period_s)
@@ -177,8 +179,8 @@ def test_575_market_street_is_read_and_its_misfit_stays_what_it_was():
     assert peaks_g == pytest.approx([0.16549, 0.13491], abs=1e-5)
     # The ground's instrument points the other way: in the floors' direction motions rise together.
     assert np.corrcoef(np.roll(records.ground_mps2, 106), records.floors_mps2[:, 0])[0, 1] > 0.8
-    found = compare(records)
-    fitted, without_roof, by_height = found.predictions[:3]
+    comparison = compare(records)
+    fitted, without_roof, by_height = comparison.predictions[:3]
     assert fitted.period_s == pytest.approx(4.88, abs=0.02)
     assert fitted.damping == pytest.approx(0.126, abs=0.002)
     assert fitted.unexplained == pytest.approx(0.254, abs=0.005)
@@ -186,8 +188,8 @@ def test_575_market_street_is_read_and_its_misfit_stays_what_it_was():
     assert by_height.name == BY_HEIGHT
     assert by_height.period_s == pytest.approx(4.505, abs=1e-3)
     assert (np.abs(np.log(fitted.band_ratios)) < 0.2).all()
-    assert (fitted.prd_m / found.prd_m > 0.8).all()
-    assert (fitted.prd_m / found.prd_m < 1.2).all()
+    assert (fitted.prd_m / comparison.prd_m > 0.8).all()
+    assert (fitted.prd_m / comparison.prd_m < 1.2).all()
 
 
 def test_a_folder_without_a_known_building_is_refused(tmp_path):
@@ -225,16 +227,16 @@ def test_the_command_names_a_folder_without_records_and_exits_2(tmp_path):
 # What the manual prints
 
 
-def test_without_records_the_manual_says_that_no_real_building_was_compared(found):
-    section = building(verification(found))
+def test_without_records_the_manual_says_that_no_real_building_was_compared(comparison):
+    section = building(verification(comparison))
     assert "No records of a real building were given to this run" in texts(section)
     assert "does not show how well a uniform beam represents a real building" in texts(section)
-    assert [block.title for block in section.blocks] == ["", found.title]
-    assert answer(verification(found)) == ""
+    assert [block.title for block in section.blocks] == ["", comparison.title]
+    assert answer(verification(comparison)) == ""
 
 
-def test_with_records_the_manual_says_how_far_off_each_prediction_is(found, recorded):
-    both = verification(found, recorded)
+def test_with_records_the_manual_says_how_far_off_each_prediction_is(comparison, recorded):
+    both = verification(comparison, recorded)
     section = building(both)
     said = texts(section)
     assert "Records of a real building were given: A tower." in said
@@ -245,22 +247,22 @@ def test_with_records_the_manual_says_how_far_off_each_prediction_is(found, reco
     assert "One building in one earthquake does not establish a margin for another" in said
     tables = [*section.blocks[2].top, *section.blocks[2].tables]
     cells = [str(cell) for table in tables for row in table.rows for cell in row.cells]
-    for one in recorded.predictions:
-        assert cells.count(one.name[0].upper() + one.name[1:]) == 3
-        for ratio, scatter in zip(one.band_ratios, one.band_scatters, strict=True):
+    for prediction in recorded.predictions:
+        assert cells.count(prediction.name[0].upper() + prediction.name[1:]) == 3
+        for ratio, scatter in zip(prediction.band_ratios, prediction.band_scatters, strict=True):
             assert f"{ratio:.2f} ({100 * scatter:.0f} %)" in cells
-        for prd, true in zip(one.prd_m, recorded.prd_m, strict=True):
+        for prd, true in zip(prediction.prd_m, recorded.prd_m, strict=True):
             assert f"{1e3 * prd:.0f} ({prd / true:.2f})" in cells
     assert cells.count("Recorded") == 2
     assert not any("nan" in cell for cell in cells)
 
 
-def test_charts_name_each_line_and_only_records_have_a_history(found, recorded):
-    one, other = (building(verification(f)).blocks[1].charts[0] for f in (found, recorded))
-    assert one.name == "building-model-building-of-24-stories"
+def test_charts_name_each_line_and_only_records_have_a_history(comparison, recorded):
+    first, other = (building(verification(f)).blocks[1].charts[0] for f in (comparison, recorded))
+    assert first.name == "building-model-building-of-24-stories"
     for text in (">ground<", ">roof, integrated directly<", ">fitted to the 12th floor<"):
-        assert text in one.picture.svg
+        assert text in first.picture.svg
     for text in (">roof, recorded<", f">{BY_HEIGHT}<", ">Roof acceleration: recorded (solid)"):
         assert text in other.picture.svg
-    assert "Roof acceleration" not in one.picture.svg
+    assert "Roof acceleration" not in first.picture.svg
     assert "ground motion applied at the roof" not in other.picture.svg

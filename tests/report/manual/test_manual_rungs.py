@@ -67,10 +67,10 @@ def test_static_friction_is_told_beside_friction_by_speed(evidence):
 def test_the_distribution_of_error_over_bound_is_told(evidence):
     said = words(rungs(verification(evidence)))
     assert "Every pair is within its bound." in said
-    pairs = sum(one.n_pairs for one in evidence.bounds)
+    pairs = sum(group.n_pairs for group in evidence.bounds)
     assert f"{pairs:,} pairs of runs" in said
-    one = evidence.bounds[0]
-    broken = replace(one, ratios=np.array([0.5, 3.0]), n_unanswered=2)
+    group = evidence.bounds[0]
+    broken = replace(group, ratios=np.array([0.5, 3.0]), n_unanswered=2)
     said = words(rungs(verification(replace(evidence, bounds=(broken, *evidence.bounds[1:])))))
     assert "Pairs over their bounds: 1; without a result: 2." in said
 
@@ -89,24 +89,24 @@ def test_recorded_motions_and_lifted_runs_are_told(evidence):
 
 
 def test_where_nothing_slides_nothing_is_claimed(evidence):
-    none = [replace(one, ratios=np.empty(0)) for one in evidence.study.changes]
+    none = [replace(change, ratios=np.empty(0)) for change in evidence.study.changes]
     study = replace(evidence.study, changes=tuple(none))
     static = replace(evidence.static, n_scenes=0)
-    found = verification(replace(evidence, study=study, static=static))
-    assert "No run slides 5 mm or more" in words(rungs(found))
-    assert answers(found) == ()
+    still = verification(replace(evidence, study=study, static=static))
+    assert "No run slides 5 mm or more" in words(rungs(still))
+    assert answers(still) == ()
 
 
 def test_without_scipy_the_manual_says_so(evidence, monkeypatch):
     monkeypatch.setattr(plane_scipy, "is_installed", lambda: False)
-    work = tuple(one for one in evidence.work if "SciPy" not in one.method)
+    work = tuple(point for point in evidence.work if "SciPy" not in point.method)
     said = words(rungs(verification(replace(evidence, work=work))))
     assert "SciPy is not installed here" in said
 
 
 def test_the_charts_are_the_same_every_time(evidence):
-    one, other = (rungs(verification(evidence)) for _ in range(2))
-    charts = [[c.picture.svg for b in part.blocks for c in b.charts] for part in (one, other)]
+    first, other = (rungs(verification(evidence)) for _ in range(2))
+    charts = [[c.picture.svg for b in part.blocks for c in b.charts] for part in (first, other)]
     assert charts[0] == charts[1]
     assert len(charts[0]) == 3
 
@@ -115,6 +115,6 @@ def test_the_runs_are_in_the_table_of_the_verification(evidence):
     table = pd.read_csv(io.BytesIO(verification_csv(verification(evidence))))
     assert set(table["kind"]) == {"run in two axes"}
     assert list(table["PRD error [%]"]) == pytest.approx(
-        [one.error_percent for one in evidence.work], rel=1e-12
+        [point.error_percent for point in evidence.work], rel=1e-12
     )
     assert set(table["case"]) == {evidence.work_scene}

@@ -35,22 +35,22 @@ def records(count=3, seconds=6.0):
     }
 
 
-def prepared(found, unfiltered=None):
-    return Components(files=(), records=found, unfiltered=unfiltered or {})
+def prepared(records, unfiltered=None):
+    return Components(files=(), records=records, unfiltered=unfiltered or {})
 
 
-def shaken(found, data_changes=None, unfiltered=None, **changes):
+def shaken(records, data_changes=None, unfiltered=None, **changes):
     data = stand_in.project(motions=[row(**changes)], **(data_changes or {}))
-    (one,) = shake(data, [prepared(found, unfiltered)])
-    return one
+    (pair,) = shake(data, [prepared(records, unfiltered)])
+    return pair
 
 
 def test_as_recorded_nothing_is_changed():
-    found = records()
-    motion, prepared = shaken(found)
+    given = records()
+    motion, prepared = shaken(given)
     assert motion.scale == 1.0
     for a, record in zip(
-        (motion.ax_mps2, motion.ay_mps2, motion.az_mps2), found.values(), strict=True
+        (motion.ax_mps2, motion.ay_mps2, motion.az_mps2), given.values(), strict=True
     ):
         assert np.array_equal(a, record.a_mps2)
     assert (prepared.done, prepared.scaling, prepared.roof) == ("as recorded", "as recorded", {})
@@ -76,20 +76,20 @@ def log_ratio(motion, target, periods_s):
 def test_a_motion_scaled_to_the_target_matches_it_over_the_scaling_periods(start, end):
     data = {"target": {"from_s": start, "to_s": end}}
     motion, prepared = shaken(records(), data, scaling="target spectrum")
-    target = stand_in.assessed(stand_in.book(found=(motion,) * 3)).targets.roof
+    target = stand_in.assessed(stand_in.book(shaking=(motion,) * 3)).targets.roof
     assert log_ratio(motion, target, np.geomspace(start, end, 400)) == pytest.approx(0, abs=2e-3)
     assert prepared.scaling == f"target, {start:g} to {end:g} s"
 
 
 def test_a_ground_motion_goes_through_the_building_component_by_component():
-    found = records()
+    given = records()
     building = {"period_s": 0.62, "transverse_s": 0.5, "damping_percent": 3.0}
-    motion, prepared = shaken(found, {"building": building}, **GROUND)
+    motion, prepared = shaken(given, {"building": building}, **GROUND)
     buildings = [building_of_periods([t], damping=(0.03,), stories=1) for t in (0.62, 0.5)]
     wanted = shaking_to_roof(
-        [found["record"].a_mps2, found["transverse"].a_mps2],
-        found["vertical"].a_mps2,
-        found["record"].dt_s,
+        [given["record"].a_mps2, given["transverse"].a_mps2],
+        given["vertical"].a_mps2,
+        given["record"].dt_s,
         buildings,
     )
     assert motion.dt_s == wanted.dt_s
@@ -100,10 +100,10 @@ def test_a_ground_motion_goes_through_the_building_component_by_component():
 
 
 def test_a_ground_motion_is_scaled_where_it_was_recorded():
-    found = records()
+    given = records()
     building = {"building": {"period_s": 0.62}}
-    motion, prepared = shaken(found, building, scaling="PPA", scale_value=0.5, **GROUND)
-    peak = np.abs(found["record"].a_mps2).max()
+    motion, prepared = shaken(given, building, scaling="PPA", scale_value=0.5, **GROUND)
+    peak = np.abs(given["record"].a_mps2).max()
     assert motion.scale * peak == pytest.approx(0.5 * G)
     assert prepared.measures["horizontal"].pga_mps2 == pytest.approx(0.5 * G)
     assert prepared.roof["horizontal"].ground_peak_mps2 == pytest.approx(peak)
@@ -137,12 +137,12 @@ def test_drift_is_measured_after_scaling():
 
 
 def test_the_motion_without_its_high_pass_has_the_same_factor():
-    found = records()
-    cut = {field: replace(r, a_mps2=0.5 * r.a_mps2) for field, r in found.items()}
-    motion, prepared = shaken(cut, None, found, scaling="PPA", scale_value=1.0, highpass_hz=0.2)
+    given = records()
+    cut = {field: replace(r, a_mps2=0.5 * r.a_mps2) for field, r in given.items()}
+    motion, prepared = shaken(cut, None, given, scaling="PPA", scale_value=1.0, highpass_hz=0.2)
     (bare,) = prepared.unfiltered
     assert bare.scale == motion.scale
-    assert np.array_equal(bare.ax_mps2, found["record"].a_mps2)
+    assert np.array_equal(bare.ax_mps2, given["record"].a_mps2)
 
 
 def test_each_processing_cell_sets_its_parameter():

@@ -28,14 +28,14 @@ def own(*, with_vertical=True):
 
 
 def test_at_the_roof_the_target_is_that_of_the_rule_set():
-    found = targets(stand_in.project())
+    goals = targets(stand_in.project())
     rules = RULE_SETS["SEAOC PV1-2012"]
     across = ac156_horizontal(rules, s_ds_g=1.566, z_over_h=1.0)
     upward = ac156_vertical(s_ds_g=1.566)
     inside = PERIODS[PERIODS <= 10.0]
-    assert found.roof.name == "AC156"
-    assert np.array_equal(found.roof.ordinates(inside), across.at(1 / inside))
-    assert np.array_equal(found.vertical.ordinates(inside), upward.at(1 / inside))
+    assert goals.roof.name == "AC156"
+    assert np.array_equal(goals.roof.ordinates(inside), across.at(1 / inside))
+    assert np.array_equal(goals.vertical.ordinates(inside), upward.at(1 / inside))
 
 
 def test_the_tail_is_chosen_on_the_sheet():
@@ -47,11 +47,11 @@ def test_the_tail_is_chosen_on_the_sheet():
 
 
 def test_with_roof_motions_the_project_spectrum_applies_at_the_roof():
-    found = targets(stand_in.project(spectrum=own()))
-    assert found.roof.name == found.vertical.name == "project-specific"
+    goals = targets(stand_in.project(spectrum=own()))
+    assert goals.roof.name == goals.vertical.name == "project-specific"
     for t, across, upward in POINTS:
-        assert found.roof.ordinates(np.array([t])) == pytest.approx([across])
-        assert found.vertical.ordinates(np.array([t])) == pytest.approx([upward])
+        assert goals.roof.ordinates(np.array([t])) == pytest.approx([across])
+        assert goals.vertical.ordinates(np.array([t])) == pytest.approx([upward])
 
 
 def test_the_project_spectrum_is_interpolated_on_log_log_axes_and_undefined_beyond():
@@ -62,16 +62,16 @@ def test_the_project_spectrum_is_interpolated_on_log_log_axes_and_undefined_beyo
 
 
 def test_without_a_vertical_column_the_vertical_of_ac156_applies():
-    found = targets(stand_in.project(spectrum=own(with_vertical=False)))
-    assert (found.roof.name, found.vertical.name) == ("project-specific", "AC156")
+    goals = targets(stand_in.project(spectrum=own(with_vertical=False)))
+    assert (goals.roof.name, goals.vertical.name) == ("project-specific", "AC156")
 
 
 def test_with_ground_motions_the_project_spectrum_applies_at_the_ground():
     motions = [motion(recorded_at="ground")]
-    found = targets(stand_in.project(spectrum=own(), motions=motions))
-    assert (found.roof.name, found.ground.name) == ("AC156", "project-specific")
-    assert found.horizontal(RecordedAt.GROUND) is found.ground
-    assert found.horizontal(RecordedAt.ROOF) is found.roof
+    goals = targets(stand_in.project(spectrum=own(), motions=motions))
+    assert (goals.roof.name, goals.ground.name) == ("AC156", "project-specific")
+    assert goals.horizontal(RecordedAt.GROUND) is goals.ground
+    assert goals.horizontal(RecordedAt.ROOF) is goals.roof
 
 
 def test_on_the_ground_the_target_is_the_design_spectrum_of_asce_7():
@@ -85,10 +85,10 @@ def test_on_the_ground_the_target_is_the_design_spectrum_of_asce_7():
 
 @pytest.mark.parametrize("changes", [{}, {"target": {"t_l_s": 8.0}}, {"spectrum": own()}])
 def test_targets_can_be_pickled(changes):
-    found = targets(stand_in.project(motions=[motion(recorded_at="ground")], **changes))
-    handed = pickle.loads(pickle.dumps(found))
+    goals = targets(stand_in.project(motions=[motion(recorded_at="ground")], **changes))
+    handed = pickle.loads(pickle.dumps(goals))
     for name in ("roof", "vertical", "ground"):
-        here, there = getattr(found, name), getattr(handed, name)
+        here, there = getattr(goals, name), getattr(handed, name)
         assert np.array_equal(here.ordinates(PERIODS), there.ordinates(PERIODS), equal_nan=True)
 
 

@@ -30,9 +30,9 @@ def book():
 
 def test_the_workbook_has_the_project_of_the_script(make, book):
     expected = make.example().model_dump()
-    found = book.input.model_dump()
-    assert found.keys() == expected.keys()
-    assert dict(flatten(found)) == dict(flatten(expected))
+    project = book.input.model_dump()
+    assert project.keys() == expected.keys()
+    assert dict(flatten(project)) == dict(flatten(expected))
 
 
 def flatten(tree, path=""):
@@ -88,8 +88,8 @@ def test_every_record_matches_the_ac156_spectrum_at_the_roof(records, targets):
     freq = 0.3 * 2.0 ** (np.arange(82) / 12)
     for motion in records:
         for record, target in zip(motion, targets, strict=True):
-            found = response_spectrum(record.a_mps2, record.dt_s, 1 / freq) / 9.80665
-            ratio = found / target.at(freq)
+            spectrum = response_spectrum(record.a_mps2, record.dt_s, 1 / freq) / 9.80665
+            ratio = spectrum / target.at(freq)
             assert ratio.min() >= 0.90
             assert ratio.max() <= 1.30
             assert ratio.mean() == pytest.approx(1.0, abs=0.05)

@@ -32,8 +32,8 @@ GOLDEN_PARTS = (
 )
 
 
-def made(data=None, found=None):
-    return stand_in.package(stand_in.book(data, found))
+def made(data=None, shaking=None):
+    return stand_in.package(stand_in.book(data, shaking))
 
 
 def pages(pdf):
@@ -48,8 +48,8 @@ def flat(text):
 def said():
     """The words of a package before layout, in a tenth of the time."""
 
-    def words(data=None, found=None):
-        html = stand_in.html(stand_in.book(data, found))
+    def words(data=None, shaking=None):
+        html = stand_in.html(stand_in.book(data, shaking))
         body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
         return flat(unescape(body))
 
@@ -138,9 +138,9 @@ def test_only_shipped_fonts_are_used(pdf):
 def test_contents_name_the_sheet_of_each_part(texts):
     for title in ("1 Summary", "7 Comparison with the prescriptive displacement", "A Input echo"):
         number, words = title.split(" ", 1)
-        found = re.search(rf"{number}\s*{re.escape(words)}\s*\.*\s*(\d+)", texts[1])
-        assert found, title
-        assert title in flat(texts[int(found[1]) - 1])
+        match = re.search(rf"{number}\s*{re.escape(words)}\s*\.*\s*(\d+)", texts[1])
+        assert match, title
+        assert title in flat(texts[int(match[1]) - 1])
 
 
 def test_unverified_values_carry_a_dagger_and_confirmed_ones_do_not(whole):
@@ -187,15 +187,15 @@ def test_markup_in_a_field_is_printed_not_obeyed():
         objects=[edge],
         clearances=[stand_in.clearance("<b>" + "A" * 37, "E" * 40, 3.0)],
     )
-    found = pages(made(data, few()))
-    assert "<script>alert('x')</script>" in flat(found[0])
-    assert "<img src='file:///etc/hostname'>" in flat(found[0])
-    assert "{{ 7 * 7 }}" in flat(" ".join(found))
-    assert all(f"Sheet {n} of {len(found)}" in flat(text) for n, text in enumerate(found, 1))
+    printed = pages(made(data, few()))
+    assert "<script>alert('x')</script>" in flat(printed[0])
+    assert "<img src='file:///etc/hostname'>" in flat(printed[0])
+    assert "{{ 7 * 7 }}" in flat(" ".join(printed))
+    assert all(f"Sheet {n} of {len(printed)}" in flat(text) for n, text in enumerate(printed, 1))
 
 
 def test_too_few_motions_give_no_value_and_ng(said):
-    whole = said(found=few(2))
+    whole = said(shaking=few(2))
     summary = whole[whole.index("1 Summary Marked") if "1 Summary Marked" in whole else 0 :]
     for name in ("A1", "A2", "A3"):
         row = re.search(rf"{name} \d\.\d\d 0\.\d\d (no .*?) (OK|NG) no value NG", summary)
@@ -210,7 +210,7 @@ def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time(said):
     up = np.zeros(800)
     up[300:400] = -1.4 * stand_in.G
     lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
-    whole = said(found=(*few(), lifted))
+    whole = said(shaking=(*few(), lifted))
     assert "motion LIFT, record +: the normal force falls below zero" in whole
     assert re.search(r"LIFT (no value ){8}— −0\.40 uplift", whole)
     assert "3 of 3 arrays" in whole
@@ -221,8 +221,8 @@ def test_an_analysis_above_the_prescriptive_value_is_said_and_governs(said):
     arrays = [stand_in.array("A1", 3.0, mu=0.2)]
     data = stand_in.project(arrays=arrays, objects=[], clearances=[])
     whole = said(data, stand_in.motions(3, seconds=30.0))
-    found = re.search(r"by analysis is (\d\.\d\d) times the prescriptive displacement \(", whole)
-    assert float(found[1]) > 1.0
+    match = re.search(r"by analysis is (\d\.\d\d) times the prescriptive displacement \(", whole)
+    assert float(match[1]) > 1.0
     assert "(3 of 3 PRDs exceed it) and governs" in whole
 
 
@@ -244,8 +244,8 @@ def test_twelve_arrays_and_many_motions_have_room():
     arrays = [stand_in.array(f"A{k}", 0.25 * k, x=90 * (k % 4), y=70 * (k // 4)) for k in range(12)]
     clearances = [stand_in.clearance(f"A{k}", f"A{k + 1}", 3.0) for k in range(11)]
     data = stand_in.project(arrays=arrays, objects=[], clearances=clearances)
-    found = pages(made(data, few(3, seconds=4.0)))
-    assert sum("every motion in every run" in text for text in found) >= 12
+    printed = pages(made(data, few(3, seconds=4.0)))
+    assert sum("every motion in every run" in text for text in printed) >= 12
 
 
 def test_thirty_motions_have_room():
@@ -355,25 +355,25 @@ def test_drift_is_marked_above_ten_millimeters():
     base = stand_in.motions(1, seconds=8.0)[0]
     still = stand_in.prepared(base)
     for end_m, is_marked in ((0.0099, False), (-0.0101, True)):
-        found = replace(still.measures["horizontal"], final_displacement_m=end_m)
+        drifted = replace(still.measures["horizontal"], final_displacement_m=end_m)
         level = {name: replace(m, final_displacement_m=0.0) for name, m in still.measures.items()}
-        prepared = replace(still, measures=level | {"horizontal": found})
+        prepared = replace(still, measures=level | {"horizontal": drifted})
         assert drifts(prepared) is is_marked
 
 
 def still(given):
     """The prepared of a motion that ends at rest, without residual displacement."""
-    found = stand_in.prepared(given)
+    prepared = stand_in.prepared(given)
     level = {
-        name: replace(one, final_displacement_m=0.0, final_velocity_mps=0.0)
-        for name, one in found.measures.items()
+        name: replace(measures, final_displacement_m=0.0, final_velocity_mps=0.0)
+        for name, measures in prepared.measures.items()
     }
-    return replace(found, measures=level)
+    return replace(prepared, measures=level)
 
 
 @pytest.mark.parametrize("done", ["as recorded", "high-pass 0.1 Hz"])
 def test_what_was_done_is_one_sentence_where_nothing_was_done_and_a_table_else(done):
-    book = stand_in.book(found=few())
+    book = stand_in.book(shaking=few())
     first, *others = map(still, book.motions)
     preparations = (replace(first, done=done), *others)
     html = stand_in.html(book.having(prepared=preparations))
@@ -395,7 +395,7 @@ def test_a_project_specific_spectrum_replaces_that_of_ac156(said):
 
 
 def test_notes_of_the_reading_are_printed_once_for_a_motion():
-    book = stand_in.book(found=few())
+    book = stand_in.book(shaking=few())
     noted = tuple(replace(row, notes=("uneven times resampled",)) for row in book.records)
     html = stand_in.html(book.having(records=noted))
     assert html.count("<li>Motion M1: uneven times resampled.</li>") == 1

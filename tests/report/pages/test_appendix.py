@@ -16,13 +16,13 @@ def lines(*rows):
 
 
 def test_cells_left_blank_side_by_side_share_a_line_with_their_defaults():
-    found = lines(
+    printed = lines(
         row("B8", "ID", "M1", "M1"),
         row("C8", "Keep from"),
         row("D8", "Baseline", value="none (default)"),
         row("E8", "Filter order", value="4 (default)"),
     )
-    assert found == [
+    assert printed == [
         "B8 ID M1 M1",
         "C8:E8 Keep from to Filter order 3 cells left blank Baseline: none; Filter order: 4",
     ]
@@ -41,8 +41,8 @@ def test_two_blank_cells_keep_their_lines():
 
 
 def test_blank_cells_of_other_rows_and_columns_do_not_join():
-    found = lines(row("C8", "a"), row("D8", "b"), row("B9", "c"), row("C9", "d"))
-    assert len(found) == 4
+    printed = lines(row("C8", "a"), row("D8", "b"), row("B9", "c"), row("C9", "d"))
+    assert len(printed) == 4
     assert len(lines(row("B5", "a"), row("B6", "b"), row("B7", "c"))) == 1
 
 

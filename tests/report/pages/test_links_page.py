@@ -13,14 +13,14 @@ from report.pages.registry import package_data
 MATTERS = "1 mm (0.04 in) or 0.5 %"
 
 
-def scene(requested, found=None, **changes):
+def scene(requested, shaking=None, **changes):
     arrays = [stand_in.array("A1", 2.0, mu=0.45), stand_in.array("A2", 2.0, mu=0.40, x=120)]
     data = stand_in.project(
         **{"arrays": arrays, "options": {"peer_reviewed": True}, "links": requested}
         | {"objects": [], "clearances": []}
         | changes
     )
-    book = stand_in.book(data, found or stand_in.motions(3, seconds=12.0))
+    book = stand_in.book(data, shaking or stand_in.motions(3, seconds=12.0))
     return package_data(stand_in.assessed(book))
 
 
@@ -45,20 +45,20 @@ def test_the_inputs_list_the_rows_as_given(both):
 def test_each_array_has_its_row_and_its_effect_on_the_design(both):
     page = model.page(both)["links"]
     first, second = both.assessment.linked
-    for found, row, design in zip(
+    for linked, row, design in zip(
         (first, second), page["rows"].rows, page["design"].rows, strict=True
     ):
         shown, held = texts(row), texts(design)
-        assert shown[:6] == [found.design.id, "3", "0.400 to 0.500", "50", "8.8", "0.050"]
-        assert shown[6] == f"{found.rigid_prd_m / 0.0254:.1f}"
-        assert shown[8] == f"{found.farthest.prd_m / 0.0254:.1f}"
+        assert shown[:6] == [linked.design.id, "3", "0.400 to 0.500", "50", "8.8", "0.050"]
+        assert shown[6] == f"{linked.rigid_prd_m / 0.0254:.1f}"
+        assert shown[8] == f"{linked.farthest.prd_m / 0.0254:.1f}"
         assert shown[10] == "1"
-        assert shown[12] == f"{found.link_force_n / 1e3:.2f}"
-        assert held[1] == f"{found.rigid.value_m / 0.0254:.1f}"
-        assert held[3] == f"{found.linked.value_m / 0.0254:.1f}"
-        assert float(held[5]) == pytest.approx(found.ratio, abs=1e-3)
-        assert held[6] == f"{found.design.design_m / 0.0254:.1f}"
-        assert held[8] == f"{found.estimated_m / 0.0254:.1f}"
+        assert shown[12] == f"{linked.link_force_n / 1e3:.2f}"
+        assert held[1] == f"{linked.rigid.value_m / 0.0254:.1f}"
+        assert held[3] == f"{linked.linked.value_m / 0.0254:.1f}"
+        assert float(held[5]) == pytest.approx(linked.ratio, abs=1e-3)
+        assert held[6] == f"{linked.design.design_m / 0.0254:.1f}"
+        assert held[8] == f"{linked.estimated_m / 0.0254:.1f}"
     assert [texts(row)[-1] for row in page["design"].rows] == ["NG", "OK"]
     assert "1.1 × largest of the motions' PRDs" in page["design"].notes[0]
     assert MATTERS in page["design"].notes[0]
@@ -66,10 +66,10 @@ def test_each_array_has_its_row_and_its_effect_on_the_design(both):
 
 def test_the_equation_has_its_numbers(both):
     _, line = model.page(both)["links"]["lines"]
-    found = both.assessment.linked[0]
+    linked = both.assessment.linked[0]
     text, result = line.steps[0]
-    assert text.startswith(f"A1: max(max(1, {links._ratio(found.ratio)}) × ")
-    assert result == both.fmt.both(found.estimated_m)
+    assert text.startswith(f"A1: max(max(1, {links._ratio(linked.ratio)}) × ")
+    assert result == both.fmt.both(linked.estimated_m)
 
 
 def test_an_array_for_which_one_block_is_not_adequate_is_ng_everywhere(both):
@@ -88,12 +88,12 @@ def test_an_array_for_which_one_block_is_not_adequate_is_ng_everywhere(both):
 
 
 def test_nothing_is_printed_where_no_row_is_requested():
-    found = scene([])
-    page = model.page(found)
+    package = scene([])
+    page = model.page(package)
     assert not page["links"]["rows"].rows
     assert page["links"]["lines"] == ()
-    assert front.basis(found)["linked"] == ""
-    assert not inputs.inputs(found)["links"].rows
+    assert front.basis(package)["linked"] == ""
+    assert not inputs.inputs(package)["links"].rows
     assert page["neglected"].notes[0].endswith("the flexibility of the array (part 2).")
 
 
@@ -101,10 +101,10 @@ def test_a_row_without_a_displacement_says_so_and_is_ng():
     up = np.zeros(400)
     up[200:300] = -1.3 * stand_in.G
     lifted = stand_in.motion("UP", np.zeros(400), up, signs=(1,))
-    found = scene(
+    package = scene(
         [stand_in.links("A1", "0.40, 0.50", 50)], (*stand_in.motions(3, seconds=4.0), lifted)
     )
-    page = model.page(found)["links"]
+    page = model.page(package)["links"]
     shown, held = texts(page["rows"].rows[0]), texts(page["design"].rows[0])
     assert shown[6:] == ["no value"] * 7
     assert held[5:] == ["no value", "no value", "no value", "no value", "no value", "NG"]
@@ -115,17 +115,17 @@ def test_a_row_without_a_displacement_says_so_and_is_ng():
 def test_a_row_that_slides_where_one_block_does_not_has_no_limit():
     pushed = np.concatenate([0.25 * stand_in.G * np.sin(np.arange(400) / 10.0), np.zeros(600)])
     shaking = (stand_in.motion("M", pushed),) * 3
-    found = scene(
+    package = scene(
         [stand_in.links("A1", "0.30, 0.31, 0.10", 0.01)],
         shaking,
         arrays=[stand_in.array("A1", 2.0, mu=0.3)],
     )
-    page = model.page(found)["links"]
+    page = model.page(package)["links"]
     assert texts(page["design"].rows[0])[5:] == ["∞", "0.0", "0", "∞", "∞", "NG"]
     assert page["lines"][1].steps[0][1] == "no limit"
     assert "in one axis, one rigid block does not slide" in page["troubles"][0]
 
 
 def test_only_stiffer_links_help_where_the_array_has_the_least_coefficient_already(both):
-    found = both.assessment.linked[1]
-    assert links._remedy(found) == "Provide stiffer links."
+    linked = both.assessment.linked[1]
+    assert links._remedy(linked) == "Provide stiffer links."

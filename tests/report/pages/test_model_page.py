@@ -17,10 +17,10 @@ from solver.sliding.tipping import Supports, tipping
 from solver.sliding.uplift import uplift
 
 
-def scene(found=None, **changes):
+def scene(shaking=None, **changes):
     book = stand_in.book(
         stand_in.project(objects=[], clearances=[], **changes),
-        found or stand_in.motions(3, seconds=8.0),
+        shaking or stand_in.motions(3, seconds=8.0),
     )
     return package_data(stand_in.assessed(book))
 
@@ -64,8 +64,8 @@ def test_each_array_has_its_model_its_runs_and_its_reason(usual):
 
 
 def test_the_demand_is_the_largest_of_the_runs(usual):
-    for row, found in zip(model.page(usual)["table"].rows, usual.assessment.arrays, strict=True):
-        demands = [r.solution.friction_demand for m in found.motions for r in m.runs]
+    for row, array in zip(model.page(usual)["table"].rows, usual.assessment.arrays, strict=True):
+        demands = [r.solution.friction_demand for m in array.motions for r in m.runs]
         assert texts(row)[4] == f"{max(demands):.2f}"
 
 
@@ -87,17 +87,17 @@ def test_a_requested_model_is_compared_with_the_adequate_one(usual):
 
 
 def test_a_model_that_is_not_adequate_is_ng():
-    found = scene(
+    package = scene(
         stand_in.motions(3, seconds=12.0),
         arrays=[stand_in.array("A1", 2.0, mu=0.3, model="one axis")],
         options={"peer_reviewed": True},
     )
-    item = found.assessment.arrays[0]
+    item = package.assessment.arrays[0]
     assert item.chosen_toward_m(Direction.ANY) > 1.1 * item.design_m
-    (text,) = model.page(found)["troubles"]
+    (text,) = model.page(package)["troubles"]
     assert text.startswith("Array A1: the requested model, one axis, gives")
-    assert not found.assessment.ok
-    assert not found.assessment.array_ok(item)
+    assert not package.assessment.ok
+    assert not package.assessment.array_ok(item)
 
 
 def test_a_neglected_vertical_component_has_its_exact_effect():
@@ -106,12 +106,12 @@ def test_a_neglected_vertical_component_has_its_exact_effect():
     )
     for m in gentle:
         m.az_mps2.setflags(write=False)
-    found = scene(gentle, arrays=[stand_in.array("A1", 1.0, mu=0.5)])
-    item = found.assessment.arrays[0]
+    package = scene(gentle, arrays=[stand_in.array("A1", 1.0, mu=0.5)])
+    item = package.assessment.arrays[0]
     solutions = [run.solution for m in item.motions for run in m.runs]
-    assert {one.rung for one in solutions} == {Rung.ONE_AXIS}
-    (row,) = model.page(found)["neglected"].rows
-    effect = max(one.next_effect_m for one in solutions)
+    assert {solution.rung for solution in solutions} == {Rung.ONE_AXIS}
+    (row,) = model.page(package)["neglected"].rows
+    effect = max(solution.next_effect_m for solution in solutions)
     assert 0.0 < effect < 2e-3
     assert texts(row)[1] == "Vertical shaking"
     assert texts(row)[3] == f"{1e3 * effect:.0f}" or effect < 1e-3
@@ -122,10 +122,10 @@ def test_a_run_that_has_the_model_says_nothing_of_neglecting_it():
     gentle, full = alone(stand_in.motions(2, seconds=8.0))
     gentle = replace(gentle, az_mps2=gentle.az_mps2 * 1e-3)
     gentle.az_mps2.setflags(write=False)
-    found = scene((gentle, full, full), arrays=[stand_in.array("A1", 1.0, mu=0.5)])
-    rungs = {run.solution.rung for m in found.assessment.arrays[0].motions for run in m.runs}
+    package = scene((gentle, full, full), arrays=[stand_in.array("A1", 1.0, mu=0.5)])
+    rungs = {run.solution.rung for m in package.assessment.arrays[0].motions for run in m.runs}
     assert rungs == {Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL}
-    vertical = next(texts(row) for row in model.page(found)["neglected"].rows)
+    vertical = next(texts(row) for row in model.page(package)["neglected"].rows)
     assert float(vertical[2]) < 0.1
 
 
@@ -140,8 +140,8 @@ def test_the_eight_combinations_and_the_governing_one_are_named(usual):
     page = model.page(usual)
     assert "eight combinations" in page["combinations"]
     assert "four are run" in page["combinations"]
-    for found, text in zip(usual.assessment.arrays, page["sentences"][:3], strict=True):
-        worst = found.worst
+    for array, text in zip(usual.assessment.arrays, page["sentences"][:3], strict=True):
+        worst = array.worst
         assert f"{worst.motion.id}, {worst.governing.heading.name}, with PRD" in text
     tested = "0.500 at low velocity, 0.600 at high velocity, rate 10.0 s/m, 0.550 at rest"
     assert tested in page["sentences"][2]
@@ -166,17 +166,17 @@ def test_a_block_that_lifts_off_has_no_error_and_no_limit_of_demand():
 
 def test_a_stable_array_has_its_tipping_ratios(usual):
     rows = [texts(row) for row in model.page(usual)["stability"].rows]
-    for row, found in zip(rows[:2], usual.assessment.arrays[:2], strict=True):
-        capacity = 0.5 * found.array.support_spacing_m / found.array.cg_height_m
-        held = min(found.tipping.demand, found.array.mu) / capacity
-        assert found.tipping.at_rest_ratio == pytest.approx(held, rel=1e-12)
-        runs = [run for motion in found.motions for run in motion.runs]
-        assert found.tipping.demand == max(run.solution.friction_demand for run in runs)
-        assert found.uplift.n_min_g == min(uplift(run.scene).n_min_g for run in runs)
+    for row, array in zip(rows[:2], usual.assessment.arrays[:2], strict=True):
+        capacity = 0.5 * array.array.support_spacing_m / array.array.cg_height_m
+        held = min(array.tipping.demand, array.array.mu) / capacity
+        assert array.tipping.at_rest_ratio == pytest.approx(held, rel=1e-12)
+        runs = [run for motion in array.motions for run in motion.runs]
+        assert array.tipping.demand == max(run.solution.friction_demand for run in runs)
+        assert array.uplift.n_min_g == min(uplift(run.scene).n_min_g for run in runs)
         supports = Supports(
-            height_m=found.array.cg_height_m, spacing_m=found.array.support_spacing_m
+            height_m=array.array.cg_height_m, spacing_m=array.array.support_spacing_m
         )
-        assert found.tipping.ratio == max(tipping(run.scene, supports).ratio for run in runs)
+        assert array.tipping.ratio == max(tipping(run.scene, supports).ratio for run in runs)
         assert row[4] == f"{capacity:.2f}"
         assert row[2] == "none"
         assert ">OK<" in row[7]
@@ -186,12 +186,12 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     tall = stand_in.array("A1", 0.5, cg_height_m=0.9, support_spacing_m=0.5)
     data = stand_in.project(arrays=[tall], clearances=[])
     made = stand_in.book(data, stand_in.motions(3, seconds=6.0))
-    found = package_data(stand_in.assessed(made))
-    assert found.assessment.arrays[0].tipping.ratio > 1.0
-    assert not found.assessment.ok
-    assert not found.assessment.array_ok(found.assessment.arrays[0])
-    assert "begins to tip" in " ".join(troubles(found))
-    assert ">NG<" in texts(model.page(found)["stability"].rows[0])[7]
+    package = package_data(stand_in.assessed(made))
+    assert package.assessment.arrays[0].tipping.ratio > 1.0
+    assert not package.assessment.ok
+    assert not package.assessment.array_ok(package.assessment.arrays[0])
+    assert "begins to tip" in " ".join(troubles(package))
+    assert ">NG<" in texts(model.page(package)["stability"].rows[0])[7]
 
 
 def test_the_minimum_normal_force_includes_a_neglected_vertical_component(usual):

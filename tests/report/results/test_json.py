@@ -36,10 +36,10 @@ def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document
     assessment = stand_in.assessed(stand_in.book())
     array, item = document["arrays"][2], assessment.arrays[2]
     for direction in Direction:
-        found = array["directions"][direction]
-        assert found["design_m"] == item.design_toward_m(direction)
+        values = array["directions"][direction]
+        assert values["design_m"] == item.design_toward_m(direction)
         peaks = [motion[f"{direction}_m"] for motion in array["peaks"]]
-        assert found["mean_m"] == pytest.approx(sum(peaks) / len(peaks))
+        assert values["mean_m"] == pytest.approx(sum(peaks) / len(peaks))
     run, solution = array["runs"][0], item.motions[0].runs[0].solution
     assert (run["rung"], run["model"]) == (3, "two axes with vertical")
     assert (run["reason"], run["error_m"]) == (solution.reason, solution.result.error_m)
@@ -53,11 +53,11 @@ def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document
 def test_json_has_rows_of_linked_blocks_with_their_runs():
     data = stand_in.project(links=[stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)])
     book = stand_in.book(data, stand_in.motions(3, seconds=8.0))
-    found, document = (
+    assessment, document = (
         stand_in.assessed(book),
         json.loads(results_json(stand_in.assessed(book))),
     )
-    (item,), (row,) = found.linked, document["linked"]
+    (item,), (row,) = assessment.linked, document["linked"]
     assert (row["array"], row["mus"], row["damping_ratio"]) == ("A2", [0.4, 0.5], 0.05)
     assert (row["ratio"], row["estimated_m"]) == (item.ratio, item.estimated_m)
     assert row["design_m"] == document["arrays"][1]["design_m"]
@@ -97,7 +97,7 @@ def check_units(document):
 
 
 def test_a_missing_value_is_null_in_json():
-    book = stand_in.book(found=stand_in.motions(2))
+    book = stand_in.book(shaking=stand_in.motions(2))
     document = json.loads(results_json(stand_in.assessed(book)))
     assert document["arrays"][0]["design_m"] is None
     assert document["clearances"][0]["required_m"] is None

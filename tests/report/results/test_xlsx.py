@@ -79,10 +79,10 @@ def test_every_formula_gives_the_value_written_with_it(case):
             for cell in row:
                 if cell.data_type == "f":
                     cached = values[sheet.title][cell.coordinate].value
-                    found = compute(formulas, sheet.title, cell.coordinate)
+                    value = compute(formulas, sheet.title, cell.coordinate)
                     if not isinstance(cached, str):
                         cached = pytest.approx(cached, rel=1e-12, abs=1e-12)
-                    assert found == cached, cell
+                    assert value == cached, cell
                     checked += 1
     assert checked > 50
 
@@ -153,7 +153,7 @@ def test_the_model_of_every_run_is_listed():
 
 
 def test_without_a_value_the_workbook_states_no_value_and_ng():
-    _, values = made(stand_in.book(found=stand_in.motions(2)))
+    _, values = made(stand_in.book(shaking=stand_in.motions(2)))
     assert values["Design"]["N5"].value == "no value"
     assert values["Clearances"]["I5"].value == "no value"
     assert values["Clearances"]["M5"].value == "NG"

@@ -468,8 +468,8 @@ def test_a_duplicate_heading_is_reported(tmp_path):
     ],
 )
 def test_a_heading_must_have_a_valid_unit(tmp_path, cell, heading, line):
-    (found,) = problems(edit(make(tmp_path), typed({f"Arrays!{cell}": heading})))
-    assert found.startswith(f"Arrays!{cell}: {line}")
+    (problem,) = problems(edit(make(tmp_path), typed({f"Arrays!{cell}": heading})))
+    assert problem.startswith(f"Arrays!{cell}: {line}")
 
 
 def test_the_unit_of_a_single_field_must_be_valid(tmp_path):

@@ -34,10 +34,10 @@ def test_a_row_is_read_in_the_units_of_the_sheet(tmp_path):
         path = make(tmp_path / str(units), units, links=[links(damping_ratio=0.02)])
         cell = load_workbook(path)["Links"]["D8"].value
         assert cell == pytest.approx(5000 if units is UnitsFirst.US else 5 * LB / INCH)
-        (found,) = read_workbook(path).input.links
-        assert found.mus == (0.4, 0.45, 0.5)
-        assert found.stiffness_n_per_m == pytest.approx(5000 * LB / INCH)
-        assert found.damping_ratio == 0.02
+        (row,) = read_workbook(path).input.links
+        assert row.mus == (0.4, 0.45, 0.5)
+        assert row.stiffness_n_per_m == pytest.approx(5000 * LB / INCH)
+        assert row.damping_ratio == 0.02
 
 
 def test_a_workbook_without_the_sheet_requests_no_row(path):
@@ -54,15 +54,15 @@ def test_the_blocks_share_the_weight_and_the_damping_is_that_of_one_block_on_one
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
+    ("text", "mus"),
     [
         ("0.40, 0.45", (0.4, 0.45)),
         (" .4 ,0.45,1.5", (0.4, 0.45, 1.5)),
         (", ".join(["0.0"] * 20), (0.0,) * 20),
     ],
 )
-def test_coefficients_are_separated_by_commas(text, found):
-    assert coefficients(text) == found
+def test_coefficients_are_separated_by_commas(text, mus):
+    assert coefficients(text) == mus
 
 
 NO_LISTS = [
@@ -114,8 +114,8 @@ CELLS = [
 
 @pytest.mark.parametrize(("cell", "value", "line"), CELLS)
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
-    found = problems(edit(path, lambda book: book["Links"].__setitem__(cell, value)))
-    assert any(one.startswith(f"Links!{cell}: {line}") for one in found), found
+    reported = problems(edit(path, lambda book: book["Links"].__setitem__(cell, value)))
+    assert any(problem.startswith(f"Links!{cell}: {line}") for problem in reported), reported
 
 
 def test_all_errors_are_reported_together(path):
@@ -154,6 +154,6 @@ def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted
         edit(path, lambda book, cell=cell, most=most: book["Links"].__setitem__(cell, most))
     book = read_workbook(path)
     seconds = sum(len(m.headings) * m.dt_s * len(m.ax_mps2) for m in book.motions)
-    for one in book.input.links:
-        steps = least_steps(one.row(42000 * LB), seconds)
+    for row in book.input.links:
+        steps = least_steps(row.row(42000 * LB), seconds)
         assert 0.9 * MOST_STEPS < steps <= MOST_STEPS

@@ -527,9 +527,9 @@ def test_an_unnamed_or_missing_channel_is_reported_with_the_names(tmp_path):
 
 def test_units_that_neither_file_nor_sheet_states_are_requested(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("F8", "from file"))
-    found = problems(path)
-    assert [line.split(": ")[0] for line in found] == ["Motions!C8", "Motions!E8"]
-    assert all("give units, one of" in line for line in found)
+    reported = problems(path)
+    assert [line.split(": ")[0] for line in reported] == ["Motions!C8", "Motions!E8"]
+    assert all("give units, one of" in line for line in reported)
 
 
 def test_units_that_differ_between_file_and_sheet_are_reported(tmp_path):

@@ -48,10 +48,10 @@ def test_every_single_field_has_a_defined_name(blank):
 
 
 def test_every_table_has_its_name_and_twenty_blank_rows(blank):
-    found = tables(blank[1])
+    names = tables(blank[1])
     for section in SECTIONS:
         if section.is_table:
-            sheet, table = found[section.table_name]
+            sheet, table = names[section.table_name]
             left, top, right, bottom = range_boundaries(table.ref)
             assert bottom - top == 20
             cells = sheet.iter_rows(top + 1, bottom, left, right, values_only=True)

@@ -67,13 +67,13 @@ def test_the_files_agree_with_suite_json(made, document):
     assert document["seed"] == 5
     assert document["envelope_s"] == [5.0, 20.0, 5.0]
     for k, motion in enumerate(document["motions"], start=1):
-        found = records(made[0], k)
+        components = records(made[0], k)
         assert motion["id"] == f"motion-0{k}"
-        together = np.corrcoef([record.a_mps2 for record in found])
+        together = np.corrcoef([record.a_mps2 for record in components])
         said = [motion[f"correlation_{pair}"] for pair in ("xy", "xz", "yz")]
         assert said == pytest.approx([together[0, 1], together[0, 2], together[1, 2]], rel=1e-9)
         assert max(map(abs, said)) <= 0.3
-        for record, part in zip(found, motion["components"], strict=True):
+        for record, part in zip(components, motion["components"], strict=True):
             path = made[0] / part["file"]
             assert part["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
             corners = document["target"]["vertical" if part["component"] == "z" else "horizontal"]
@@ -181,10 +181,10 @@ def test_too_many_channels_and_every_unreadable_file_are_reported(tmp_path):
     path = columns(tmp_path / "many.csv", "time_s,a_g,b_g,c_g,d_g")
     with pytest.raises(InputError) as caught:
         read_seeds([str(path), "none.csv", "a.csv,b.csv"], units="g", dt_s=math.nan)
-    found = caught.value.problems
-    assert "many.csv: has 4 channels; give one, two or three" in found[0]
-    assert found[1].startswith("none.csv: no such file")
-    assert found[2].startswith("a.csv: no such file")
+    problems = caught.value.problems
+    assert "many.csv: has 4 channels; give one, two or three" in problems[0]
+    assert problems[1].startswith("none.csv: no such file")
+    assert problems[2].startswith("a.csv: no such file")
 
 
 def test_a_sheet_of_a_workbook_is_the_target(tmp_path):

@@ -43,14 +43,14 @@ def test_a_sheet_is_read_by_its_headings_in_any_order_of_rows_and_columns(tmp_pa
     title = ("Site-specific", None, None, None)
     rows = [title, ("note", "Vertical (g)", "T [s]", "SA [g]")]
     rows += [("x", row[2], row[0], row[1]) for row in ROWS[3:] + ROWS[1:3]]
-    found = read_target(f"{book(tmp_path, rows)}!target")
-    assert found.source == "spectra.xlsx!Target"
+    target = read_target(f"{book(tmp_path, rows)}!target")
+    assert target.source == "spectra.xlsx!Target"
     period = np.array([4.0, 1.0, 0.5, 0.1, 0.02])
-    assert found.freq_hz == pytest.approx(1.0 / period, rel=1e-12)
-    assert found.horizontal_g == pytest.approx(1.0 / (1.0 + period), rel=1e-12)
-    assert found.vertical_g.tolist() == [0.5] * 5
-    assert found.has_vertical
-    assert found.vertical[0] is found.horizontal[0]
+    assert target.freq_hz == pytest.approx(1.0 / period, rel=1e-12)
+    assert target.horizontal_g == pytest.approx(1.0 / (1.0 + period), rel=1e-12)
+    assert target.vertical_g.tolist() == [0.5] * 5
+    assert target.has_vertical
+    assert target.vertical[0] is target.horizontal[0]
 
 
 def test_the_only_sheet_needs_no_name(tmp_path):
@@ -61,10 +61,10 @@ def test_the_only_sheet_needs_no_name(tmp_path):
 def test_csv_of_frequencies_is_read_without_a_vertical(tmp_path, separator):
     lines = ["frequency_hz,horizontal_g", "0.1,0.2", "", "1.3,2", "33.3,1.2"]
     content = "\ufeff" + "\r\n".join(lines).replace(",", separator)
-    found = read_target(text(tmp_path, content))
-    assert found.freq_hz.tolist() == [0.1, 1.3, 33.3]
-    assert found.horizontal_g.tolist() == [0.2, 2.0, 1.2]
-    assert not found.has_vertical
+    target = read_target(text(tmp_path, content))
+    assert target.freq_hz.tolist() == [0.1, 1.3, 33.3]
+    assert target.horizontal_g.tolist() == [0.2, 2.0, 1.2]
+    assert not target.has_vertical
 
 
 def test_every_invalid_cell_is_reported_by_its_address(tmp_path):
@@ -103,8 +103,8 @@ def test_lines_of_csv_are_reported_by_their_number(tmp_path):
     ],
 )
 def test_ambiguous_headings_are_rejected(tmp_path, heading, expected):
-    found = problems(text(tmp_path, heading + "\n0.01,1,1\n5,1,1\n"))
-    assert any(expected in problem for problem in found)
+    reported = problems(text(tmp_path, heading + "\n0.01,1,1\n5,1,1\n"))
+    assert any(expected in problem for problem in reported)
 
 
 @pytest.mark.parametrize(
@@ -118,13 +118,13 @@ def test_ambiguous_headings_are_rejected(tmp_path, heading, expected):
     ],
 )
 def test_a_table_too_short_is_rejected(tmp_path, body, expected):
-    (found,) = problems(text(tmp_path, "frequency [Hz],horizontal [g]\n" + body))
-    assert expected in found
+    (problem,) = problems(text(tmp_path, "frequency [Hz],horizontal [g]\n" + body))
+    assert expected in problem
 
 
 def test_periods_printed_to_two_decimals_reach_the_band(tmp_path):
-    found = read_target(text(tmp_path, "period [s],horizontal [g]\n0.03,1\n3.33,0.3\n"))
-    assert found.freq_hz.tolist() == [1 / 3.33, 1 / 0.03]
+    target = read_target(text(tmp_path, "period [s],horizontal [g]\n0.03,1\n3.33,0.3\n"))
+    assert target.freq_hz.tolist() == [1 / 3.33, 1 / 0.03]
 
 
 @pytest.mark.parametrize(
@@ -136,22 +136,22 @@ def test_periods_printed_to_two_decimals_reach_the_band(tmp_path):
     ],
 )
 def test_a_sheet_that_is_not_there_is_reported(tmp_path, name, expected):
-    (found,) = problems(f"{book(tmp_path, ROWS)}{name}")
-    assert expected in found
+    (problem,) = problems(f"{book(tmp_path, ROWS)}{name}")
+    assert expected in problem
 
 
 def test_formulas_never_computed_are_reported(tmp_path):
     rows = [list(row) for row in ROWS]
     rows[1][1] = "=1+1"
-    (found,) = problems(f"{book(tmp_path, rows)}!Target")
-    assert found.startswith("Target!B2: horizontal ")
-    assert "=1+1" in found
+    (problem,) = problems(f"{book(tmp_path, rows)}!Target")
+    assert problem.startswith("Target!B2: horizontal ")
+    assert "=1+1" in problem
 
 
 def test_far_away_cells_and_long_files_are_rejected(tmp_path):
     path = book(tmp_path, [*ROWS, *[(None,)] * (MAX_ROWS + 10), (1.0,)])
-    (found,) = problems(f"{path}!Target")
-    assert f"Target!A{MAX_ROWS + 17}: contains data beyond row" in found
+    (problem,) = problems(f"{path}!Target")
+    assert f"Target!A{MAX_ROWS + 17}: contains data beyond row" in problem
     long = "period,sa\n" + "1,1\n" * (MAX_ROWS + 10)
     assert f"give at most {MAX_ROWS} rows" in problems(text(tmp_path, long))[0]
 
@@ -180,6 +180,6 @@ def test_a_file_that_is_not_a_workbook_is_reported(tmp_path):
 def test_a_target_is_interpolated_on_log_log_axes(tmp_path):
     from solver.synthesis import target_sa_g
 
-    found = read_target(text(tmp_path, "frequency,sa\n0.1,0.1\n100,10\n"))
-    between = target_sa_g(found.horizontal, np.array([math.sqrt(10.0)]))
+    target = read_target(text(tmp_path, "frequency,sa\n0.1,0.1\n100,10\n"))
+    between = target_sa_g(target.horizontal, np.array([math.sqrt(10.0)]))
     assert between == pytest.approx([1.0], rel=1e-12)
