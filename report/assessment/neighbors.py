@@ -129,7 +129,9 @@ def neighbors(assessment: Assessment) -> tuple[PlanNeighbor, ...]:
     of them (`unplaced`). An array without a design displacement reaches twice the prescriptive one.
     """
     return tuple(
-        found for found in _pairs(assessment) if found.given or found.gap_m <= found.reach_m
+        neighbor
+        for neighbor in _pairs(assessment)
+        if neighbor.given or neighbor.gap_m <= neighbor.reach_m
     )
 
 
@@ -200,53 +202,53 @@ def _pairs(assessment: Assessment) -> Iterator[PlanNeighbor]:
     table = addresses.get(Place("clearances"), "Clearances")
     for a, b in combinations(assessment.arrays, 2):
         yield PlanNeighbor(
-            array=a.array.id,
-            other=b.array.id,
+            array=a.id,
+            other=b.id,
             kind=NearbyKind.ARRAY,
             gap_m=gap_m(a.array.rectangle, b.array.rectangle),
             reach_m=max(_reach_m(a), _reach_m(b)),
-            given=rows.get(frozenset((a.array.id, b.array.id)), ()),
+            given=rows.get(frozenset((a.id, b.id)), ()),
             to_add=table,
         )
     edges = bare_edges(data)
-    for one in assessment.arrays:
-        yield from _objects_of(one, data, rows, table)
-        yield from _edges_of(one, edges, addresses.get(Place("objects"), "Objects"))
+    for array in assessment.arrays:
+        yield from _objects_of(array, data, rows, table)
+        yield from _edges_of(array, edges, addresses.get(Place("objects"), "Objects"))
 
 
 def _objects_of(
-    one: ArrayAssessment, data: ProjectInput, rows: Rows, table: str
+    array: ArrayAssessment, data: ProjectInput, rows: Rows, table: str
 ) -> Iterator[PlanNeighbor]:
     for item in data.objects:
         if item.rectangle is not None:
             yield PlanNeighbor(
-                array=one.array.id,
+                array=array.id,
                 other=item.id,
                 kind=NearbyKind.OBJECT,
-                gap_m=gap_m(one.array.rectangle, item.rectangle),
-                reach_m=_reach_m(one),
-                given=rows.get(frozenset((one.array.id, item.id)), ()),
+                gap_m=gap_m(array.array.rectangle, item.rectangle),
+                reach_m=_reach_m(array),
+                given=rows.get(frozenset((array.id, item.id)), ()),
                 to_add=table,
             )
 
 
 def _edges_of(
-    one: ArrayAssessment, edges: Sequence[BareEdge], table: str
+    array: ArrayAssessment, edges: Sequence[BareEdge], table: str
 ) -> Iterator[PlanNeighbor]:
     for edge in edges:
         yield PlanNeighbor(
-            array=one.array.id,
+            array=array.id,
             other=f"the {edge.name}",
             kind=NearbyKind.BARE_EDGE,
-            gap_m=gap_m(one.array.rectangle, edge.line),
-            reach_m=_reach_m(one),
+            gap_m=gap_m(array.array.rectangle, edge.line),
+            reach_m=_reach_m(array),
             given=(),
             to_add=table,
         )
 
 
-def _reach_m(found: ArrayAssessment) -> float:
-    moves = found.prescriptive.value_m if math.isnan(found.design_m) else found.design_m
+def _reach_m(array: ArrayAssessment) -> float:
+    moves = array.prescriptive.value_m if math.isnan(array.design_m) else array.design_m
     return REACH_FACTOR * moves
 
 

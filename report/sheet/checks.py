@@ -194,10 +194,10 @@ def _within(outline: Rectangle, draft: Draft, where: Where) -> Iterator[Fault]:
             value, edge, is_low = array.get(side), getattr(outline, side), "from" in side
             if value is None or (value >= edge if is_low else value <= edge):
                 continue
-            found, limit = (pair(at, Quantity.PLAN, _us_first(draft)) for at in (value, edge))
+            given, limit = (pair(at, Quantity.PLAN, _us_first(draft)) for at in (value, edge))
             label = side.removesuffix("_m").replace("_", " ")
             wanted = f"give {limit} or {'more' if is_low else 'less'}"
-            text = f"{label} is {found}, outside the roof; {wanted}, or correct the outline at"
+            text = f"{label} is {given}, outside the roof; {wanted}, or correct the outline at"
             yield Fault(Place("arrays", index, side), f"{text} {where(Place('roof', 0, side))}")
 
 

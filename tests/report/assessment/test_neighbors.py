@@ -29,51 +29,51 @@ def having(done, design_m=None, **changes):
     """The assessment with another input and, for each array, another design displacement."""
     data = ProjectInput.model_validate(done.project.model_dump() | changes)
     arrays = [
-        replace(one, array=array, design_m=one.design_m if design_m is None else design_m)
-        for one, array in zip(done.arrays, data.arrays, strict=False)
+        replace(assessed, array=array, design_m=assessed.design_m if design_m is None else design_m)
+        for assessed, array in zip(done.arrays, data.arrays, strict=False)
     ]
     return replace(done, project=data, arrays=tuple(arrays))
 
 
 def by_pair(done):
-    return {(one.array, one.other): one for one in neighbors(done)}
+    return {(neighbor.array, neighbor.other): neighbor for neighbor in neighbors(done)}
 
 
 def test_every_pair_with_a_clearance_is_listed_with_its_row(done):
-    found = by_pair(having(done, design_m=0.01))
-    assert list(found) == [
+    pairs = by_pair(having(done, design_m=0.01))
+    assert list(pairs) == [
         ("A1", "A3"), ("A1", "RTU-1"), ("A2", "S edge"), ("A3", "T-1"), ("A3", "N edge"),
     ]  # fmt: skip
-    assert not any(one.is_missing for one in found.values())
-    assert found["A1", "A3"].given[0].clearance == done.project.clearances[0]
+    assert not any(neighbor.is_missing for neighbor in pairs.values())
+    assert pairs["A1", "A3"].given[0].clearance == done.project.clearances[0]
 
 
 def test_a_clearance_from_the_other_side_covers_the_pair(done):
     rows = [stand_in.clearance("A3", "A1", 15 * FT)]
-    found = by_pair(having(done, design_m=10 * FT, clearances=rows))
-    assert found["A1", "A3"].given
-    assert not found["A1", "A3"].is_missing
+    pairs = by_pair(having(done, design_m=10 * FT, clearances=rows))
+    assert pairs["A1", "A3"].given
+    assert not pairs["A1", "A3"].is_missing
 
 
 @pytest.mark.parametrize(("design_ft", "is_near"), [(10.01, True), (9.99, False)])
 def test_a_neighbor_within_twice_the_design_displacement_is_missing(done, design_ft, is_near):
-    found = by_pair(having(done, design_m=design_ft * FT))
-    assert (("A1", "A2") in found) is is_near  # 20 ft apart
+    pairs = by_pair(having(done, design_m=design_ft * FT))
+    assert (("A1", "A2") in pairs) is is_near  # 20 ft apart
     if is_near:
-        assert found["A1", "A2"].is_missing
+        assert pairs["A1", "A2"].is_missing
 
 
 def test_the_larger_displacement_of_two_arrays_decides(done):
     quiet = having(done, design_m=0.01)
     moving = replace(quiet.arrays[1], design_m=11 * FT)
-    found = by_pair(replace(quiet, arrays=(quiet.arrays[0], moving, quiet.arrays[2])))
-    assert found["A1", "A2"].reach_m == pytest.approx(22 * FT)
+    pairs = by_pair(replace(quiet, arrays=(quiet.arrays[0], moving, quiet.arrays[2])))
+    assert pairs["A1", "A2"].reach_m == pytest.approx(22 * FT)
 
 
 def test_without_a_design_displacement_the_prescriptive_one_decides(done):
-    found = by_pair(having(done, design_m=math.nan))
+    pairs = by_pair(having(done, design_m=math.nan))
     expected = 2.0 * done.arrays[0].prescriptive.value_m
-    assert found["A1", "A3"].reach_m == expected
+    assert pairs["A1", "A3"].reach_m == expected
 
 
 @pytest.mark.parametrize(
@@ -83,18 +83,18 @@ def test_a_gap_of_the_plan_that_contradicts_the_clearance_by_an_inch_is_named(
     done, provided, is_named
 ):
     rows = [stand_in.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
-    found = by_pair(having(done, clearances=rows))["A1", "RTU-1"]
-    assert bool(found.contradictions) is is_named
-    assert len(found.shortcomings(True)) == is_named
+    neighbor = by_pair(having(done, clearances=rows))["A1", "RTU-1"]
+    assert bool(neighbor.contradictions) is is_named
+    assert len(neighbor.shortcomings(True)) == is_named
     if is_named:
-        (text,) = found.shortcomings(True)
+        (text,) = neighbor.shortcomings(True)
         assert f"provided clearance is {provided:.1f} in" in text
         assert "A1 and RTU-1 are 84.0 in (2134 mm) apart in plan" in text
 
 
 def test_a_missing_clearance_is_named_with_both_lengths_and_the_sheet(done):
-    found = by_pair(having(done, design_m=10.5 * FT))["A1", "A2"]
-    assert found.shortcomings(True) == (
+    neighbor = by_pair(having(done, design_m=10.5 * FT))["A1", "A2"]
+    assert neighbor.shortcomings(True) == (
         "Clearances: A1 and A2 are 240.0 in (6096 mm) apart in plan, within twice the design "
         "displacement (252.0 in (6401 mm)), and no clearance is given; add a row with their "
         "clearance",
@@ -103,12 +103,12 @@ def test_a_missing_clearance_is_named_with_both_lengths_and_the_sheet(done):
 
 def test_cells_are_those_of_the_workbook(tmp_path):
     sheet = read(make(tmp_path, clearances=[project().clearances[2].model_dump()]))
-    found = neighbors(assess(sheet, prepare(sheet)))
-    row = next(one for one in found if one.given)
+    listed = neighbors(assess(sheet, prepare(sheet)))
+    row = next(neighbor for neighbor in listed if neighbor.given)
     assert row.given[0].cell == "Clearances!E8"
-    assert {one.to_add for one in found if one.kind is not NearbyKind.BARE_EDGE} == {
-        "Clearances!B7"
-    }
+    assert {
+        neighbor.to_add for neighbor in listed if neighbor.kind is not NearbyKind.BARE_EDGE
+    } == {"Clearances!B7"}
 
 
 def test_an_object_that_is_nowhere_is_named_unless_a_clearance_covers_it():
@@ -119,14 +119,16 @@ def test_an_object_that_is_nowhere_is_named_unless_a_clearance_covers_it():
 
 def test_an_edge_of_the_roof_that_no_object_covers_is_a_neighbor(done):
     edge = having(done, design_m=10.5 * FT, roof=OUTLINE)
-    found = [one for one in neighbors(edge) if one.kind is NearbyKind.BARE_EDGE]
-    assert [(one.array, one.other) for one in found] == [
+    edges = [neighbor for neighbor in neighbors(edge) if neighbor.kind is NearbyKind.BARE_EDGE]
+    assert [(neighbor.array, neighbor.other) for neighbor in edges] == [
         ("A1", "the west edge of the roof"),
         ("A2", "the east edge of the roof"),
         ("A3", "the west edge of the roof"),
     ]
-    assert all(one.is_missing and one.gap_m == pytest.approx(20 * FT) for one in found)
-    (text,) = found[0].shortcomings(False)
+    assert all(
+        neighbor.is_missing and neighbor.gap_m == pytest.approx(20 * FT) for neighbor in edges
+    )
+    (text,) = edges[0].shortcomings(False)
     assert text.startswith("Objects: A1 and the west edge of the roof are 6096 mm (240.0 in) apart")
     assert text.endswith("add the edge as an object, and a clearance to it")
 
@@ -142,7 +144,9 @@ def test_an_edge_of_the_roof_that_no_object_covers_is_a_neighbor(done):
 )
 def test_edges_are_named_by_the_compass(north_deg, names):
     data = stand_in.project(roof=OUTLINE | {"north_deg": north_deg})
-    assert [one.name for one in bare_edges(data)] == [f"{name} edge of the roof" for name in names]
+    assert [edge.name for edge in bare_edges(data)] == [
+        f"{name} edge of the roof" for name in names
+    ]
 
 
 def test_without_an_outline_no_edge_is_known():
@@ -162,7 +166,7 @@ def test_bare_parts_and_strips_make_up_the_side(spans):
     roof = {"x_from_m": 0.0, "x_to_m": 50.0, "y_from_m": 0.0, "y_to_m": 40.0}
     data = stand_in.project(arrays=[stand_in.array("A1", 1.0)], objects=strips, clearances=[],
                             roof=roof)  # fmt: skip
-    south = [one.line for one in bare_edges(data) if one.name.startswith("south")]
+    south = [edge.line for edge in bare_edges(data) if edge.name.startswith("south")]
     for at in (0.25 + 0.5 * k for k in range(100)):
         covered = any(row["x_from_m"] <= at <= row["x_to_m"] for row in strips)
         bare = any(line.x_from_m <= at <= line.x_to_m for line in south)
@@ -188,7 +192,7 @@ def test_a_pair_is_listed_exactly_if_it_is_within_reach(design, size, x, y):
     done = one_array()
     item = {"id": "RTU-1", "kind": "fixed object", "x_from_m": x, "x_to_m": x + size,
             "y_from_m": y, "y_to_m": y + size}  # fmt: skip
-    found = by_pair(having(done, design_m=design, objects=[item], clearances=[]))
+    pairs = by_pair(having(done, design_m=design, objects=[item], clearances=[]))
     gap = gap_m(done.arrays[0].array.rectangle, Rectangle(x, x + size, y, y + size))
-    assert (("A1", "RTU-1") in found) is (gap <= 2.0 * design)
-    assert all(one.is_missing and not one.contradictions for one in found.values())
+    assert (("A1", "RTU-1") in pairs) is (gap <= 2.0 * design)
+    assert all(neighbor.is_missing and not neighbor.contradictions for neighbor in pairs.values())

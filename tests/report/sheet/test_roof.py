@@ -69,8 +69,8 @@ def test_sides_are_in_order(tmp_path):
 def column(path, heading):
     """The letter of a column of Arrays."""
     sheet = load_workbook(path)["Arrays"]
-    found = (cell for row in sheet.iter_rows() for cell in row if cell.value == heading)
-    return next(found).column_letter
+    headed = (cell for row in sheet.iter_rows() for cell in row if cell.value == heading)
+    return next(headed).column_letter
 
 
 def test_arrays_are_inside_the_outline(tmp_path):
