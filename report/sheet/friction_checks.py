@@ -20,14 +20,14 @@ MU_TOLERANCE = 0.005
 def friction_faults(draft: Draft, where: Where) -> Iterator[Fault]:
     """Yield runs given twice, and friction coefficients larger than those tested."""
     yield from _repeated(draft, where)
-    found = _tested(draft)
-    if not found:
+    tested = _tested(draft)
+    if not tested:
         return
     for index, array in enumerate(draft["arrays"]):
         law = _law(array)
         if law is not None:
-            one = governing(found, array.get("mu_report") or "")
-            yield from _beyond(index, law, one, _first(draft, one, where))
+            tests = governing(tested, array.get("mu_report") or "")
+            yield from _beyond(index, law, tests, _first(draft, tests, where))
 
 
 def _report(draft: Draft, row: DraftRow) -> str:
@@ -73,24 +73,24 @@ def _law(array: DraftRow) -> Friction | None:
     )
 
 
-def _first(draft: Draft, one: Series, where: Where) -> str:
+def _first(draft: Draft, tests: Series, where: Where) -> str:
     """Return the address of the first kinetic coefficient of a series."""
     for index, row in enumerate(draft["friction_runs"]):
-        if (_report(draft, row), row["surface"]) == (one.report, one.surface):
+        if (_report(draft, row), row["surface"]) == (tests.report, tests.surface):
             return where(Place("friction_runs", index, "mu"))
     return where(Place("friction_runs"))
 
 
-def _beyond(index: int, law: Friction, one: Series, at: str) -> Iterator[Fault]:
+def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Fault]:
     by_velocity = law.mu_fast != law.mu_slow
-    found, tested = one.mean_of(law), one.mean
-    if found > tested + MU_TOLERANCE:
-        says = f"averages {found:.3g} at the tested velocities" if by_velocity else f"is {found:g}"
-        text = f"friction coefficient {says}; the tests give {tested:.3g} ({one.surface}, mean of "
-        runs = f"{len(one.runs)} from {at})"
+    given, tested = tests.mean_of(law), tests.mean
+    if given > tested + MU_TOLERANCE:
+        says = f"averages {given:.3g} at the tested velocities" if by_velocity else f"is {given:g}"
+        text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
+        runs = f" of {len(tests.runs)} from {at})"
         wanted = "reduce it" if by_velocity else f"give {tested:.3g} or less"
         yield Fault(Place("arrays", index, "mu"), f"{text}{runs}; {wanted}")
-    if law.mu_static > law.mu_slow and law.mu_static > one.static_mean + MU_TOLERANCE:
-        text = f"static friction is {law.mu_static:g}; the tests give {one.static_mean:.3g}"
-        more = f"({one.surface}); give {one.static_mean:.3g} or less"
+    if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
+        text = f"static friction is {law.mu_static:g}; the tests give {tests.static_mean:.3g}"
+        more = f"({tests.surface}); give {tests.static_mean:.3g} or less"
         yield Fault(Place("arrays", index, "mu_static"), f"{text} {more}")

@@ -14,8 +14,8 @@ PEER = {"peer_reviewed": True}
 SHORT = stand_in.motions(3, seconds=8.0)
 
 
-def of(found, kind, clearance=1):
-    return [one for one in found if one.kind is kind and one.clearance == clearance]
+def of(listed, kind, clearance=1):
+    return [remedy for remedy in listed if remedy.kind is kind and remedy.clearance == clearance]
 
 
 def made(provided_m, *, arrays=None, options=PEER, motions=SHORT, near="A2", far="A3", **changes):
@@ -89,42 +89,42 @@ def failing():
 
 
 def test_the_least_friction_satisfies_there_and_beyond_and_not_below(failing):
-    found = of(remedies(failing), RemedyKind.FRICTION)
+    listed = of(remedies(failing), RemedyKind.FRICTION)
     gap = failing.clearances[0]
-    by_id = {one.array.id: one.array for one in failing.arrays}
-    assert found
-    for one in found:
-        array = by_id[one.array]
+    by_id = {array.array.id: array.array for array in failing.arrays}
+    assert listed
+    for remedy in listed:
+        array = by_id[remedy.array]
         allowed = gap.clearance.provided_m / gap.factor
 
         def design(mu, array=array):
             return 1.1 * max(peaks_m(array, SHORT, mu))
 
         assert design(array.mu) > allowed
-        assert one.value > array.mu == one.given
-        assert design(one.value) <= allowed
-        assert design(one.value - one.resolution) > allowed
-        for mu in np.arange(one.value, MOST_MU + 0.01, 0.07):
+        assert remedy.value > array.mu == remedy.given
+        assert design(remedy.value) <= allowed
+        assert design(remedy.value - remedy.resolution) > allowed
+        for mu in np.arange(remedy.value, MOST_MU + 0.01, 0.07):
             assert design(mu) <= allowed
-        assert one.verified == (one.value, MOST_MU)
-        assert one.n_values >= (MOST_MU - one.value) / 0.05
+        assert remedy.verified == (remedy.value, MOST_MU)
+        assert remedy.n_values >= (MOST_MU - remedy.value) / 0.05
 
 
 def test_the_separation_is_the_required_one(failing):
-    (one,) = of(remedies(failing), RemedyKind.SEPARATION)
-    assert one.value == failing.clearances[0].required_m
-    assert one.given == failing.clearances[0].clearance.provided_m
-    assert one.resolution == 0.0
+    (remedy,) = of(remedies(failing), RemedyKind.SEPARATION)
+    assert remedy.value == failing.clearances[0].required_m
+    assert remedy.given == failing.clearances[0].clearance.provided_m
+    assert remedy.resolution == 0.0
 
 
 @pytest.mark.parametrize("options", [PEER, {}])
 def test_the_largest_s_ds_satisfies_with_all_arrays_and_not_above(options):
     roomy = made(9.0, options=options)
     failing = made(0.6 * roomy.clearances[0].required_m, options=options)
-    (one,) = of(remedies(failing), RemedyKind.S_DS)
+    (remedy,) = of(remedies(failing), RemedyKind.S_DS)
     gap = failing.clearances[0]
     allowed = gap.clearance.provided_m / gap.factor
-    arrays = [found.array for found in failing.arrays if found.array.id in ("A2", "A3")]
+    arrays = [array.array for array in failing.arrays if array.array.id in ("A2", "A3")]
 
     def design(s_ds):
         floor = 0.0 if options else 0.5 * max(60 * 0.0254 * max(s_ds - 0.4, 0) ** 2, 6 * 0.0254)
@@ -132,30 +132,30 @@ def test_the_largest_s_ds_satisfies_with_all_arrays_and_not_above(options):
         return max(floor, *(1.1 * max(peaks_m(a, SHORT, a.mu, share)) for a in arrays))
 
     assert design(1.566) > allowed
-    assert one.value < one.given == 1.566
-    assert design(one.value) <= allowed < design(one.value + one.resolution)
-    assert ("floor" in one.basis) is not bool(options)
-    assert one.verified == (0.05, one.value)
+    assert remedy.value < remedy.given == 1.566
+    assert design(remedy.value) <= allowed < design(remedy.value + remedy.resolution)
+    assert ("floor" in remedy.basis) is not bool(options)
+    assert remedy.verified == (0.05, remedy.value)
 
 
 def test_a_floor_that_forbids_leaves_no_friction_but_an_s_ds():
     failing = made(0.1, options={})
-    found = remedies(failing)
-    for one in of(found, RemedyKind.FRICTION):
-        assert not one.exists
-        assert "floor alone" in one.basis
-        assert one.n_values == 0
-    (s_ds,) = of(found, RemedyKind.S_DS)
+    listed = remedies(failing)
+    for remedy in of(listed, RemedyKind.FRICTION):
+        assert not remedy.exists
+        assert "floor alone" in remedy.basis
+        assert remedy.n_values == 0
+    (s_ds,) = of(listed, RemedyKind.S_DS)
     assert s_ds.exists
 
 
 def test_a_minimum_separation_that_forbids_leaves_neither():
     site = stand_in.project().site.model_copy(update={"rule_set": RuleSetName("ASCE 7-16")})
     failing = made(0.2, near="A2", far="S edge", site=site)
-    found = remedies(failing)
-    (friction,) = of(found, RemedyKind.FRICTION)
+    listed = remedies(failing)
+    (friction,) = of(listed, RemedyKind.FRICTION)
     assert "minimum separation" in friction.basis
-    assert not any(one.exists for one in of(found, RemedyKind.S_DS))
+    assert not any(remedy.exists for remedy in of(listed, RemedyKind.S_DS))
 
 
 def test_a_friction_law_is_scaled_as_a_whole():
@@ -165,7 +165,7 @@ def test_a_friction_law_is_scaled_as_a_whole():
     ]
     roomy = made(9.0, arrays=arrays)
     failing = made(0.7 * roomy.clearances[0].required_m, arrays=arrays)
-    one = next(r for r in of(remedies(failing), RemedyKind.FRICTION) if r.array == "A2")
+    remedy = next(r for r in of(remedies(failing), RemedyKind.FRICTION) if r.array == "A2")
     gap = failing.clearances[0]
     array = failing.arrays[0].array
 
@@ -174,8 +174,8 @@ def test_a_friction_law_is_scaled_as_a_whole():
         return 1.1 * max(peaks_m(array, SHORT, law))
 
     allowed = gap.clearance.provided_m / gap.factor
-    assert design(one.value) <= allowed < design(one.value - 0.01)
-    assert "scaled as a whole" in one.basis
+    assert design(remedy.value) <= allowed < design(remedy.value - 0.01)
+    assert "scaled as a whole" in remedy.basis
 
 
 def test_an_array_that_slides_at_the_end_needs_friction_or_a_weaker_motion():
@@ -185,7 +185,7 @@ def test_an_array_that_slides_at_the_end_needs_friction_or_a_weaker_motion():
     arrays = [stand_in.array("B1", 1.0, mu=0.08)]
     data = stand_in.project(arrays=arrays, objects=[], clearances=[], options=PEER)
     failing = stand_in.assessed(stand_in.book(data, cut))
-    (one,) = of(remedies(failing), RemedyKind.FRICTION, clearance=0)
+    (remedy,) = of(remedies(failing), RemedyKind.FRICTION, clearance=0)
     (weaker,) = of(remedies(failing), RemedyKind.S_DS, clearance=0)
     slope_rad = failing.arrays[0].array.slope_rad
 
@@ -194,8 +194,8 @@ def test_an_array_that_slides_at_the_end_needs_friction_or_a_weaker_motion():
         return all(run.status is Status.OK for run in runs)
 
     assert not finishes(0.08)
-    assert finishes(one.value)
-    assert not finishes(one.value - 0.01)
+    assert finishes(remedy.value)
+    assert not finishes(remedy.value - 0.01)
     assert finishes(0.08, weaker.value / 1.566)
     assert not finishes(0.08, (weaker.value + 0.01) / 1.566)
 
@@ -213,12 +213,12 @@ def test_a_block_that_lifts_off_has_no_friction_that_helps():
     flat.setflags(write=False)
     lifted = tuple(stand_in.motion(f"L{k}", flat, up, signs=(1,)) for k in range(3))
     failing = made(0.5, motions=lifted)
-    found = remedies(failing)
-    frictions = of(found, RemedyKind.FRICTION)
+    listed = remedies(failing)
+    frictions = of(listed, RemedyKind.FRICTION)
     assert frictions
-    assert not any(one.exists for one in frictions)
+    assert not any(remedy.exists for remedy in frictions)
     assert "up to 1.5" in frictions[0].basis
-    (separation,) = of(found, RemedyKind.SEPARATION)
+    (separation,) = of(listed, RemedyKind.SEPARATION)
     assert not separation.exists
-    (s_ds,) = of(found, RemedyKind.S_DS)
+    (s_ds,) = of(listed, RemedyKind.S_DS)
     assert s_ds.value == pytest.approx(math.floor(156.6 / 1.4) / 100)

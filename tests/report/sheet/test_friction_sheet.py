@@ -50,20 +50,20 @@ def test_report_and_runs_are_read_in_the_units_of_the_sheet(tmp_path, units):
         "Surface", "Run", "Kinetic coefficient", "Static coefficient", "Report",
     ]  # fmt: skip
     assert sheet[f"E{TOP}"].value == pytest.approx(1.0 if units is UnitsFirst.US else 25.4)
-    found = read_workbook(path).input
-    assert found.friction_tests == FrictionTests(**REPORT)
-    one, *_, last = [row.run("FT-118") for row in found.friction_runs]
-    assert (one.report, one.surface, one.mu) == ("FT-118", "dry", 0.60)
-    assert one.velocity_mps == pytest.approx(INCH)
-    assert one.mu_static != one.mu_static
+    workbook = read_workbook(path).input
+    assert workbook.friction_tests == FrictionTests(**REPORT)
+    first, *_, last = [row.run("FT-118") for row in workbook.friction_runs]
+    assert (first.report, first.surface, first.mu) == ("FT-118", "dry", 0.60)
+    assert first.velocity_mps == pytest.approx(INCH)
+    assert first.mu_static != first.mu_static
     assert last.velocity_mps != last.velocity_mps
     assert last.mu_static == pytest.approx(0.51)
 
 
 def test_a_workbook_without_the_sheet_has_no_tests(path):
-    found = read_workbook(edit(path, lambda book: book.remove(book[SHEET]))).input
-    assert found.friction_tests == FrictionTests()
-    assert found.friction_runs == ()
+    workbook = read_workbook(edit(path, lambda book: book.remove(book[SHEET]))).input
+    assert workbook.friction_tests == FrictionTests()
+    assert workbook.friction_runs == ()
 
 
 def test_columns_beyond_those_of_the_block_are_as_wide_as_their_content(path):
@@ -86,9 +86,9 @@ CELLS = [
 
 @pytest.mark.parametrize(("cell", "value", "line"), CELLS)
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
-    found = problems(edit(path, lambda book: book[SHEET].__setitem__(cell, value)))
-    assert any(one.startswith(f"{SHEET}!{cell}: {line}") for one in found), found
-    assert len(found) == 1
+    reported = problems(edit(path, lambda book: book[SHEET].__setitem__(cell, value)))
+    assert any(problem.startswith(f"{SHEET}!{cell}: {line}") for problem in reported), reported
+    assert len(reported) == 1
 
 
 def test_a_coefficient_above_the_smaller_mean_is_reported_with_both_cells(tmp_path):
@@ -121,7 +121,7 @@ def test_an_array_that_names_a_report_is_compared_with_that_report(tmp_path):
     lines = problems(make(tmp_path / "none", **tests))
     assert len(lines) == 2
     assert all("the tests give 0.3 (wet" in line for line in lines)
-    named = [one | {"mu_report": "Report FT-118"} for one in arrays()]
+    named = [array | {"mu_report": "Report FT-118"} for array in arrays()]
     assert read_workbook(make(tmp_path / "named", arrays=named, **tests)).input
 
 
