@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from markupsafe import Markup
 
 from report.assessment.runs import RUNGS
+from report.pages import friction_tests
 from report.pages.model import friction
 from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.sheet.schema import Site
@@ -22,6 +23,7 @@ def below(_: PackageData) -> tuple[tuple[str, str], ...]:
     return (
         ("inputs-site", "Site and seismic parameters"),
         ("inputs-arrays", "Arrays and objects"),
+        ("inputs-friction", "Friction as tested"),
         ("inputs-plan", "Roof plan"),
     )
 
@@ -34,6 +36,7 @@ def inputs(package: PackageData) -> Mapping[str, object]:
         "sizes": _sizes(package),
         "links": _links(package),
         "objects": _objects(package),
+        "friction": friction_tests.page(package),
         "note": _s_ds_note(package.data.site),
     }
 

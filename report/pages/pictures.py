@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.spectra import Spectra
-from report.pages import accuracy
+from report.pages import accuracy, friction_tests, section
 from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
@@ -41,6 +41,8 @@ def draw_assessment(package: PackageData) -> Pictures:
                 alt="Roof plan with arrays, objects, edges and clearances",
             )
         ],
+        "inputs-friction": friction_tests.picture(package),
+        "method-motion": [section.picture(package)],
         "comparison": [
             Picture(
                 svg=figures.comparison(assessment.arrays[at : at + CHART_ROWS], us_first),

@@ -1,0 +1,128 @@
+"""Friction as tested: runs and means by velocity, with the laws of the arrays."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+
+from report.figures.base import ACCENT, ACROSS, GREY, INK, bare, framed, style, svg_text
+from report.sheet.schema import Array
+from report.words.units import Quantity, Unit, number
+from solver.friction_tests import FittedLaw, FrictionRun, Surface
+from solver.model import Friction
+
+TYPE_PT = 8.5
+_TYPE: Any = dict.fromkeys(
+    ("font.size", "axes.labelsize", "xtick.labelsize", "ytick.labelsize", "legend.fontsize"),
+    TYPE_PT,
+)
+_MARKS: Mapping[Surface, dict[str, Any]] = {
+    Surface.DRY: {"marker": "o", "markerfacecolor": "none", "markeredgecolor": ACROSS},
+    Surface.WET: {"marker": "^", "markerfacecolor": ACCENT, "markeredgecolor": ACCENT},
+}
+_FITS: Mapping[Surface, dict[str, Any]] = {
+    Surface.DRY: {"color": ACROSS, "linestyle": (0, (6, 1.5, 1, 1.5))},
+    Surface.WET: {"color": ACCENT, "linestyle": (0, (3, 1.5))},
+}
+_POINTS = 200
+_LABEL_GAP = 0.08  # least distance of two labels, as a share of the height
+
+
+def friction_by_velocity(
+    runs: Sequence[FrictionRun],
+    arrays: Sequence[Array],
+    fits: Mapping[Surface, FittedLaw],
+    us_first: bool,
+) -> str:
+    """Return the runs that report a velocity, the laws of the arrays, and fitted laws.
+
+    Parameters
+    ----------
+    runs : sequence of FrictionRun
+        At least one with a velocity.
+    fits : mapping of Surface to FittedLaw
+        Drawn as dashed lines.
+    """
+    unit = Quantity.VELOCITY.us if us_first else Quantity.VELOCITY.si
+    shown = [run for run in runs if not math.isnan(run.velocity_mps)]
+    most = 1.08 * max(run.velocity_mps for run in shown) or unit.si
+    v = np.linspace(0.0, most, _POINTS)
+    with style(), mpl.rc_context(_TYPE):
+        figure, axes = framed(2.6, 0.5, 1.2, 0.3, 0.45)
+        for surface, look in _MARKS.items():
+            those = [run for run in shown if run.surface is surface]
+            if those:
+                axes.plot(
+                    [run.velocity_mps / unit.si for run in those],
+                    [run.mu for run in those],
+                    linestyle="",
+                    markersize=5,
+                    label=f"{surface} runs",
+                    zorder=3,
+                    **look,
+                )
+        for surface, fit in fits.items():
+            curve = [fit.law.at(one) for one in v]
+            axes.plot(v / unit.si, curve, linewidth=1.0, label=f"fit, {surface}", **_FITS[surface])
+        laws = _laws(arrays)
+        for law in laws:
+            curve = [law.at(one) for one in v]
+            axes.plot(v / unit.si, curve, color=INK, linewidth=1.6)
+        axes.set_xlim(0.0, most / unit.si)
+        _mu_axis(axes, [run.mu for run in shown], [law.at(s) for law in laws for s in (0.0, most)])
+        _label_laws(axes, laws, most)
+        _finish(axes, unit)
+        return svg_text(figure)
+
+
+def _laws(arrays: Sequence[Array]) -> Mapping[Friction, str]:
+    """Return each law with the arrays that use it."""
+    found: dict[Friction, list[str]] = {}
+    for array in arrays:
+        found.setdefault(array.friction, []).append(array.id)
+    return {
+        law: ids[0] if len(ids) == 1 else f"{ids[0]} and {len(ids) - 1} more"
+        for law, ids in found.items()
+    }
+
+
+def _mu_axis(axes: Axes, runs: Sequence[float], laws: Sequence[float]) -> None:
+    """Show all values with their scatter, not the origin."""
+    low, high = min(*runs, *laws), max(*runs, *laws)
+    pad = max(0.12 * (high - low), 0.02)
+    axes.set_ylim(max(low - pad, 0.0), high + pad)
+
+
+def _label_laws(axes: Axes, laws: Mapping[Friction, str], most: float) -> None:
+    """Label each law at its end, moving labels apart upward."""
+    low, high = axes.get_ylim()
+    last = -math.inf
+    for law in sorted(laws, key=lambda one: one.at(most)):
+        end = (law.at(most) - low) / (high - low)
+        last = max(end, last + _LABEL_GAP)
+        mu = number(law.mu_slow, 3) if law.mu_fast == law.mu_slow else "μ(v)"
+        axes.annotate(
+            f"{laws[law]}: {mu}",
+            (1.0, end),
+            (1.03, last),
+            xycoords="axes fraction",
+            textcoords="axes fraction",
+            va="center",
+            arrowprops={"arrowstyle": "-", "linewidth": 0.5, "color": GREY, "shrinkB": 0},
+        )
+
+
+def _finish(axes: Axes, unit: Unit) -> None:
+    axes.set_xlabel(f"Sliding velocity [{unit.symbol}]")
+    axes.set_ylabel("Kinetic friction coefficient μ")
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    bare(axes)
+    axes.legend(
+        loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, handlelength=3.0, borderaxespad=0.0
+    )

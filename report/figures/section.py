@@ -1,0 +1,178 @@
+"""A section through an array on its roof, and its free body."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Arc, Polygon
+
+from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, style, svg_text
+from report.sheet.schema import Array
+from report.words.units import Quantity, number, pair
+
+DRAWN_DEG = (8.0, 15.0)
+"""Flatter roofs are drawn at the first slope, so that it shows; steeper ones at the second."""
+
+_HEIGHT_IN, _SPLIT_IN = 2.2, 3.75
+_TYPE: Any = {"font.size": 8.5}
+_ARROW = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0, "linewidth": 1.1}
+_LINE = {"arrowstyle": "<|-|>", "mutation_scale": 6, "shrinkA": 0, "shrinkB": 0, "linewidth": 0.6}
+
+
+class _Roof(NamedTuple):
+    """A sloping line on the page [in]: its upslope end and the drawn angle [rad]."""
+
+    x: float
+    y: float
+    angle: float
+
+    def at(self, s: float, n: float) -> tuple[float, float]:
+        """Return the point at a distance downslope and a height normal to the roof."""
+        c, d = math.cos(self.angle), math.sin(self.angle)
+        return self.x + s * c + n * d, self.y - s * d + n * c
+
+
+def array_section(array: Array, us_first: bool) -> str:
+    """Return the section with h, b, slope and friction, and the forces during downslope slip."""
+    drawn = math.radians(drawn_slope_deg(array))
+    with style(), mpl.rc_context(_TYPE):
+        figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN))
+        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        axes.set_xlim(0.0, WIDTH_IN)
+        axes.set_ylim(0.0, _HEIGHT_IN)
+        axes.set_axis_off()
+        rise = math.tan(drawn)
+        _section(axes, _Roof(0.15, 0.62 + 3.0 * rise, drawn), array, us_first)
+        _free_body(axes, _Roof(_SPLIT_IN + 0.45, 0.85 + 2.0 * rise, drawn))
+        for x, text in ((0.1, "Section, not to scale"), (_SPLIT_IN + 0.1, "Free body")):
+            axes.text(x, _HEIGHT_IN - 0.08, text, va="top", weight="semibold")
+        return svg_text(figure)
+
+
+def drawn_slope_deg(array: Array) -> float:
+    """Return the slope at which the roof is drawn [deg]."""
+    least, most = DRAWN_DEG
+    return min(max(math.degrees(array.slope_rad), least), most)
+
+
+def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
+    _roof_line(axes, roof, 3.2)
+    feet = (0.55, 1.25, 1.95)
+    for s in feet:
+        _block(axes, roof, (s - 0.05, s + 0.05), (0.0, 0.14), facecolor=INK)
+    _block(axes, roof, (0.4, 2.1), (0.14, 0.19), facecolor=PALE)
+    for s in (0.5, 1.35):
+        _block(axes, roof, (s + 0.2, s + 0.5), (0.19, 0.29), facecolor="white", hatch="////")
+        low, high = roof.at(s, 0.24), roof.at(s + 0.62, 0.46)
+        axes.plot(*zip(low, high, strict=True), color=ACCENT, linewidth=2.6)
+    center = roof.at(1.25, 0.36)
+    _center(axes, center)
+    _span(axes, roof.at(feet[0], -0.2), roof.at(feet[1], -0.2))
+    for s in feet[:2]:
+        _thin(axes, roof.at(s, -0.02), roof.at(s, -0.26))
+    size = Quantity.SIZE
+    x, y = roof.at(0.9, -0.3)
+    axes.text(x, y, f"b = {pair(array.support_spacing_m, size, us_first)}", ha="center", va="top")
+    _thin(axes, roof.at(1.33, 0.36), roof.at(2.47, 0.36))
+    _span(axes, roof.at(2.42, 0.0), roof.at(2.42, 0.36))
+    x, y = roof.at(2.48, 0.33)
+    axes.text(x, y, f"h = {pair(array.cg_height_m, size, us_first)}", ha="left", va="bottom")
+    weight = pair(array.weight_n, Quantity.WEIGHT, us_first)
+    top = (center[0], center[1] + 0.42)
+    axes.text(*top, f"W = {weight}", ha="left", va="bottom")
+    axes.annotate("", center, top, arrowprops={**_ARROW, "color": ACCENT})
+    axes.annotate(
+        f"μ = {_friction(array)}",
+        roof.at(1.95, 0.0),
+        _below(roof, 1.75, 0.42),
+        ha="center",
+        va="top",
+        arrowprops={"arrowstyle": "-", "linewidth": 0.6, "color": INK},
+    )
+    _slope(axes, roof, array)
+
+
+def _friction(array: Array) -> str:
+    law = array.friction
+    if law.mu_fast == law.mu_slow:
+        return number(law.mu_slow, 3)
+    return f"{number(law.mu_slow, 3)} to {number(law.mu_fast, 3)}"
+
+
+def _below(roof: _Roof, s: float, depth: float) -> tuple[float, float]:
+    x, y = roof.at(s, 0.0)
+    return x, y - depth
+
+
+def _slope(axes: Axes, roof: _Roof, array: Array) -> None:
+    """Draw the slope at the downslope end of the roof."""
+    end = roof.at(3.2, 0.0)
+    _thin(axes, end, (end[0] - 0.75, end[1]))
+    turn = math.degrees(roof.angle)
+    axes.add_patch(Arc(end, 1.3, 1.3, theta1=180.0 - turn, theta2=180.0, color=INK, linewidth=0.6))
+    degrees = number(math.degrees(array.slope_rad), 2)
+    axes.text(end[0], end[1] - 0.05, f"θ = {degrees}°", ha="right", va="top")
+
+
+def _free_body(axes: Axes, roof: _Roof) -> None:
+    _roof_line(axes, roof, 2.0, color=GREY)
+    _block(axes, roof, (0.45, 1.55), (0.0, 0.42), facecolor="#eef2f7")
+    center = roof.at(1.0, 0.24)
+    _center(axes, center)
+    _force(axes, center, (center[0], center[1] - 0.72))
+    _label(axes, (center[0] + 0.06, center[1] - 0.68), "W + m a", "v")
+    _force(axes, center, (center[0] + 0.95, center[1]))
+    _label(axes, (center[0] + 0.72, center[1] + 0.07), "−m a", "h")
+    low = roof.at(0.8, -0.62)
+    _force(axes, low, roof.at(0.8, 0.0))
+    axes.text(low[0] - 0.06, low[1] + 0.08, "N", ha="right", va="center")
+    start = roof.at(0.42, 0.045)
+    tip = roof.at(-0.2, 0.045)
+    _force(axes, start, tip)
+    axes.text(tip[0] + 0.02, tip[1] + 0.08, "μ N", ha="left", va="bottom")
+    axes.annotate(
+        "", roof.at(1.75, 0.72), roof.at(1.15, 0.72), arrowprops={**_ARROW, "color": GREY}
+    )
+    x, y = roof.at(1.1, 0.77)
+    axes.text(x, y, "downslope slip", ha="left", va="bottom", color=INK)
+
+
+def _roof_line(axes: Axes, roof: _Roof, length: float, color: str = INK) -> None:
+    ends = (roof.at(0.0, 0.0), roof.at(length, 0.0))
+    axes.plot(*zip(*ends, strict=True), color=color, linewidth=1.4)
+
+
+def _block(
+    axes: Axes, roof: _Roof, s: tuple[float, float], n: tuple[float, float], **look: Any
+) -> None:
+    corners = [roof.at(s[0], n[0]), roof.at(s[1], n[0]), roof.at(s[1], n[1]), roof.at(s[0], n[1])]
+    axes.add_patch(Polygon(corners, edgecolor=INK, linewidth=0.7, **look))
+
+
+def _center(axes: Axes, at: tuple[float, float]) -> None:
+    axes.plot(*at, marker="o", markersize=6, markerfacecolor="white", markeredgecolor=INK, zorder=4)
+    axes.plot(*at, marker="+", markersize=6, color=INK, zorder=5)
+
+
+def _thin(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
+    axes.plot(*zip(start, end, strict=True), color=GREY, linewidth=0.6)
+
+
+def _span(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
+    axes.annotate("", end, start, arrowprops={**_LINE, "color": INK})
+
+
+def _force(axes: Axes, start: tuple[float, float], tip: tuple[float, float]) -> None:
+    axes.annotate("", tip, start, arrowprops={**_ARROW, "color": ACCENT})
+
+
+def _label(axes: Axes, at: tuple[float, float], text: str, subscript: str) -> None:
+    """Write a symbol with its subscript; the font has no subscript letters."""
+    main = axes.text(*at, text, va="bottom", fontsize=10.0)
+    axes.annotate(
+        subscript, (1.0, 0.0), (0.5, -3.0), xycoords=main, textcoords="offset points", va="bottom"
+    )
