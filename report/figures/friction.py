@@ -53,7 +53,7 @@ def friction_by_velocity(
     most = 1.08 * max(run.velocity_mps for run in shown) or unit.si
     v = np.linspace(0.0, most, _POINTS)
     with style(), mpl.rc_context(_TYPE):
-        figure, axes = framed(2.6, 0.5, 1.2, 0.3, 0.45)
+        figure, axes = framed(2.6, 0.62, 1.2, 0.3, 0.45)
         for surface, look in _MARKS.items():
             those = [run for run in shown if run.surface is surface]
             if those:
