@@ -16,7 +16,7 @@ from report.words.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface
 from solver.model import Friction
 
-TYPE_PT = 8.5
+TYPE_PT = 9.0
 _TYPE: Any = dict.fromkeys(
     ("font.size", "axes.labelsize", "xtick.labelsize", "ytick.labelsize", "legend.fontsize"),
     TYPE_PT,
@@ -53,7 +53,7 @@ def friction_by_velocity(
     most = 1.08 * max(run.velocity_mps for run in shown) or unit.si
     v = np.linspace(0.0, most, _POINTS)
     with style(), mpl.rc_context(_TYPE):
-        figure, axes = framed(2.6, 0.62, 1.2, 0.3, 0.45)
+        figure, axes = framed(2.65, 0.62, 1.2, 0.3, 0.52)
         for surface, look in _MARKS.items():
             those = [run for run in shown if run.surface is surface]
             if those:

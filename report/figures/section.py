@@ -18,7 +18,7 @@ DRAWN_DEG = (8.0, 15.0)
 """Flatter roofs are drawn at the first slope, so that it shows; steeper ones at the second."""
 
 _HEIGHT_IN, _SPLIT_IN = 2.2, 3.75
-_TYPE: Any = {"font.size": 8.5}
+_TYPE: Any = {"font.size": 9.0}
 _ARROW = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0, "linewidth": 1.1}
 _LINE = {"arrowstyle": "<|-|>", "mutation_scale": 6, "shrinkA": 0, "shrinkB": 0, "linewidth": 0.6}
 
@@ -75,7 +75,7 @@ def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
     for s in feet[:2]:
         _thin(axes, roof.at(s, -0.02), roof.at(s, -0.26))
     size = Quantity.SIZE
-    x, y = roof.at(0.9, -0.3)
+    x, y = roof.at(0.9, -0.33)
     axes.text(x, y, f"b = {pair(array.support_spacing_m, size, us_first)}", ha="center", va="top")
     _thin(axes, roof.at(1.33, 0.36), roof.at(2.47, 0.36))
     _span(axes, roof.at(2.42, 0.0), roof.at(2.42, 0.36))

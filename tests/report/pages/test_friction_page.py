@@ -26,7 +26,7 @@ VELOCITIES = (0.0025, 0.0254, 0.0508, 0.1016)
 
 @pytest.fixture(scope="module")
 def assessment():
-    return stand_in.assessed(stand_in.book(found=stand_in.motions(3, seconds=8.0)))
+    return stand_in.assessed(stand_in.book(shaking=stand_in.motions(3, seconds=8.0)))
 
 
 @pytest.fixture
