@@ -35,7 +35,7 @@ def main() -> None:
     )
     for number, motion in enumerate(suite, start=1):
         for record, letter in zip(motion.components, "xyz", strict=True):
-            write_record(records / f"RM{number}-{letter}.csv", record)
+            write_record(records / f"RM{number}-{letter}.csv", record, hold_s=motion.hold_s)
     write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=example())
 
 

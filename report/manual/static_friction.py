@@ -68,7 +68,7 @@ def _words(evidence: StaticEvidence) -> str:
         f"The first two tables use {evidence.n_scenes} of the cases above: those that slide "
         f"{1e3 * LEAST_M:g} mm or more in one axis, in their first heading. As the difference of "
         "the coefficients decreases, one axis converges to the exact method, and two axes "
-        "converge to model 3. The largest change decreases with the power "
+        "converge to model 3. The median change decreases with the power "
         f"{_power(evidence)} of the difference (one axis and two axes), because a later onset of "
         "slip changes the velocity by the square of the delay. A small second component has a "
         "different effect. In one axis, a block that reverses comes to rest, and static friction "
@@ -86,11 +86,14 @@ def _farthest(changes: Floats) -> str:
 
 
 def _power(evidence: StaticEvidence) -> str:
-    """Observed order from the last two differences, in one axis and in two."""
+    """Observed order of the median from the last two differences, in one axis and in two.
+
+    The largest change is of a single case, whose terms of second and third order may still cancel.
+    """
     former, last = evidence.differences[-2:]
     step = math.log(former.excess / last.excess)
     pairs = (former.one_axis, last.one_axis), (former.two_axes, last.two_axes)
-    powers = [math.log(more[-1] / less[-1]) / step for more, less in pairs]
+    powers = [math.log(np.median(more) / np.median(less)) / step for more, less in pairs]
     return " and ".join(f"{power:.1f}" for power in powers)
 
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from report.figures.base import load_fonts
 from report.figures.suite import Panel, suite_png
+from report.suite.acceptance import acceptance_facts, acceptance_lines, suite_acceptance
 from report.suite.inputs import SuiteTargets
 from report.typeset.pdf import TEMPLATES
 from report.words.units import G_MPS2
@@ -25,14 +26,14 @@ from solver.records.measures import Measures, measures
 from solver.records.record import Record, record_csv
 from solver.synthesis import (
     BAND_HZ,
-    CORRELATION,
     SpectrumFit,
     SuiteMotion,
     Target,
+    lowest_hz,
     spectrum_fit,
 )
 
-LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.05
+LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
 """Limits on every component's ratios to its target, at 1/12 octave."""
 
 _DRAWN_HZ: Floats = np.geomspace(0.1, 50.0, 180)
@@ -107,7 +108,11 @@ def suite_files(
         The seed files, with their SHA-256.
     """
     parts = components(suite, targets)
-    files = {f"{part.record.name}.csv": record_csv(part.record).encode() for part in parts}
+    files = {
+        f"{record.name}.csv": record_csv(record, hold_s=motion.hold_s).encode()
+        for motion in suite
+        for record in motion.components
+    }
     document = _document(suite, targets, parts, seed, records, files)
     files["suite.json"] = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
     load_fonts(TEMPLATES / "fonts")
@@ -123,7 +128,7 @@ def _document(
     records: Mapping[str, str],
     files: Mapping[str, bytes],
 ) -> dict[str, Any]:
-    record = suite[0].x
+    record, hold_s = suite[0].x, suite[0].hold_s
     duration_s = (len(record.a_mps2) - 1) * record.dt_s
     return {
         "roofslip_version": version("roofslip"),
@@ -131,7 +136,7 @@ def _document(
         "seed_records": [{"file": name, "sha256": digest} for name, digest in records.items()],
         "dt_s": record.dt_s,
         "duration_s": duration_s,
-        "envelope_s": [duration_s / 6.0, duration_s * 4.0 / 6.0, duration_s / 6.0],
+        "envelope_s": [(duration_s - hold_s) / 2.0, hold_s, (duration_s - hold_s) / 2.0],
         "damping": 0.05,
         "target": {
             **targets.facts,
@@ -142,11 +147,10 @@ def _document(
             "least_ratio": LEAST,
             "greatest_ratio": GREATEST,
             "mean_ratio_off": MEAN_OFF,
-            "from_hz": BAND_HZ[0],
             "to_hz": BAND_HZ[1],
             "points_per_octave": 12,
-            "correlation": CORRELATION,
         },
+        "acceptance": acceptance_facts(suite_acceptance(suite, targets).rows),
         "motions": [
             _motion(motion, parts[3 * k : 3 * k + 3], files) for k, motion in enumerate(suite)
         ],
@@ -179,6 +183,7 @@ def _component(part: Component, files: Mapping[str, bytes]) -> dict[str, Any]:
         "sha256": hashlib.sha256(files[name]).hexdigest(),
         "grew_from": part.grew_from,
         "npts": len(part.record.a_mps2),
+        "from_hz": float(part.fit.freq_hz[0]),
         "least_ratio": part.fit.least,
         "greatest_ratio": part.fit.greatest,
         "mean_ratio": part.fit.mean,
@@ -196,7 +201,12 @@ def _panel(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> Pa
     records = [motion.components["xyz".index(name)] for motion in suite]
     fits = tuple(spectrum_fit(record, targets.of(name), _DRAWN_HZ) for record in records)
     kind = "vertical" if name == "z" else "horizontal"
-    return Panel(title=f"{name}, {kind}", fits=fits, band_hz=BAND_HZ, limits=(LEAST, GREATEST))
+    return Panel(
+        title=f"{name}, {kind}",
+        fits=fits,
+        band_hz=(lowest_hz(targets.of(name)), BAND_HZ[1]),
+        limits=(LEAST, GREATEST),
+    )
 
 
 _COLUMNS = (
@@ -217,7 +227,7 @@ _COLUMNS = (
 
 
 def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str]:
-    """Return the lines to print: targets, one line per component, and whether limits are met."""
+    """Return the lines to print: targets, components, their fit, and the acceptance."""
     parts = components(suite, targets)
     pairs = [
         f"{name} {value:+.2f}"
@@ -226,13 +236,15 @@ def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str
     ]
     rows = [tuple(name for name, _ in _COLUMNS)]
     rows += [_cells(part, pair) for part, pair in zip(parts, pairs, strict=True)]
+    lowest = " and ".join(f"{hz:.3g}" for hz in sorted({part.fit.freq_hz[0] for part in parts}))
     n_within = sum(part.is_within_limits for part in parts)
     return [
         *targets.lines,
         *_aligned(rows),
         f"{n_within} of {len(parts)} components have spectra of {LEAST:.2f} to {GREATEST:.2f} "
         f"times the target and a mean ratio within {100 * MEAN_OFF:g} % of 1 (1/12 octave, "
-        f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz, 5 % damping)",
+        f"from {lowest} Hz to {BAND_HZ[1]:g} Hz, 5 % damping)",
+        *acceptance_lines(suite_acceptance(suite, targets).rows),
     ]
 
 

@@ -5,6 +5,7 @@ Reads no files. Read `MotionFile.channel` first.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -29,12 +30,15 @@ class MotionFile:
         without a name has that of the file. All names are different.
     notes : tuple of str
         Notes for the user, such as that uneven times were resampled.
+    hold_s : float
+        Hold of the envelope [s], if the file says that it was generated; otherwise NaN.
     """
 
     name: str
     format: str
     channels: tuple[Record, ...]
     notes: tuple[str, ...]
+    hold_s: float = math.nan
 
     def channel(self, name: str = "") -> Record:
         """Return the channel with a name (ignoring case and blanks) or a number, counted from 1.

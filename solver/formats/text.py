@@ -11,7 +11,7 @@ import itertools
 import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -25,11 +25,13 @@ from solver.formats.numbers import field_problem, printed
 from solver.formats.source import Source, Stated
 from solver.formats.times import Sampled, is_even, sampled
 from solver.model import Floats, InputError
-from solver.records.record import BEYOND, raise_any, shown
+from solver.records.record import BEYOND, HOLD, raise_any, shown
 from solver.records.units import unit_size
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
+
+_HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
 
 _MAX_REMARKS = 200
 
@@ -88,7 +90,14 @@ def read(source: Source) -> MotionFile:
         for i, values in zip(taken, even.columns, strict=True)
     ]
     notes = [f"column {shown(text)} is ignored: it is not an acceleration" for text in left]
-    return motion_file(source, "text", channels, [*even.notes, *notes])
+    file = motion_file(source, "text", channels, [*even.notes, *notes])
+    return replace(file, hold_s=_hold_s(table))
+
+
+def _hold_s(table: _Table) -> float:
+    """Hold of the envelope [s] that a generated file states; NaN for none."""
+    stated = [found for _, line in table.remarks if (found := _HOLD.search(line))]
+    return float(stated[0][1]) if stated else math.nan
 
 
 def _is_other(table: _Table, column: int) -> bool:

@@ -45,6 +45,31 @@ class Measures:
     final_displacement_m: float
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Strength:
+    """Arias intensity [m/s] and significant duration [s] of a record, as in `Measures`."""
+
+    arias_mps: float
+    d5_95_s: float
+
+
+def strength(record: Record) -> Strength:
+    """Measure the Arias intensity and the significant duration of a record."""
+    a, dt = record.a_mps2, record.dt_s
+    cumulative = _cumulative(a, dt)
+    times = [_time_of(a, dt, cumulative, share * float(cumulative[-1])) for share in SIGNIFICANT]
+    return Strength(
+        arias_mps=float(0.5 * math.pi / G_MPS2 * cumulative[-1]), d5_95_s=times[1] - times[0]
+    )
+
+
+def correlation(record: Record, other: Record) -> float:
+    """Correlation coefficient of two records of equal step and length; 0 if either is constant."""
+    a, b = record.a_mps2 - record.a_mps2.mean(), other.a_mps2 - other.a_mps2.mean()
+    product = math.sqrt(float(a @ a) * float(b @ b))
+    return float(a @ b) / product if product > 0.0 else 0.0
+
+
 def measures(record: Record) -> Measures:
     """Measure a record as analyzed by the solver, with acceleration linear between samples.
 
@@ -55,14 +80,13 @@ def measures(record: Record) -> Measures:
     """
     a, dt = record.a_mps2, record.dt_s
     v, d = velocity_displacement(record)
-    cumulative = _cumulative(a, dt)
-    times = [_time_of(a, dt, cumulative, share * float(cumulative[-1])) for share in SIGNIFICANT]
+    strong = strength(record)
     return Measures(
         pga_mps2=float(np.abs(a).max()),
         pgv_mps=_greatest(v, _velocity_peaks(a, dt, v)),
         pgd_m=_greatest(d, _displacement_peaks(a, dt, v, d)),
-        arias_mps=float(0.5 * math.pi / G_MPS2 * cumulative[-1]),
-        d5_95_s=times[1] - times[0],
+        arias_mps=strong.arias_mps,
+        d5_95_s=strong.d5_95_s,
         final_velocity_mps=float(v[-1]),
         final_displacement_m=float(d[-1]),
     )

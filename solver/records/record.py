@@ -23,6 +23,9 @@ UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 DECIMALS = {"g": 5, "m/s2": 4, "cm/s2": 2, "mm/s2": 1}
 """Decimals that `write_record` prints, about 1e-5 g in every unit."""
 
+HOLD = "generated; hold of the envelope"
+"""Words of the comment that states the hold of the envelope of a generated record."""
+
 MAX_PROBLEMS = 10
 """Number of problems of one file or column that a message lists; the others are counted."""
 
@@ -76,18 +79,29 @@ def record_from_values(
     return _record(name, np.asarray(values, dtype=np.float64), units, dt_s)
 
 
-def write_record(path: Path, record: Record, units: str = "g", *, within: float = math.inf) -> None:
+def write_record(
+    path: Path,
+    record: Record,
+    units: str = "g",
+    *,
+    within: float = math.inf,
+    hold_s: float = math.nan,
+) -> None:
     """Write a record as csv of time [s] and acceleration, with a heading line.
+
+    A generated record states the hold of its envelope `hold_s` in a comment; NaN for none.
 
     The acceleration is printed to `DECIMALS`, or to more decimals if needed to keep the rounding of
     every sample `within` that fraction of the record's peak. A record already rounded to
     `DECIMALS`, such as those of `solver.synthesis` in g, is read back bit for bit.
     """
-    text = record_csv(record, units, within=within)
+    text = record_csv(record, units, within=within, hold_s=hold_s)
     path.write_text(text, encoding="utf-8", newline="\n")
 
 
-def record_csv(record: Record, units: str = "g", *, within: float = math.inf) -> str:
+def record_csv(
+    record: Record, units: str = "g", *, within: float = math.inf, hold_s: float = math.nan
+) -> str:
     """Return the text that `write_record` writes."""
     _check_arguments(record.name, units, record.dt_s)
     values = record.a_mps2 / UNITS[units]
@@ -95,7 +109,8 @@ def record_csv(record: Record, units: str = "g", *, within: float = math.inf) ->
     decimals = _decimals(values, DECIMALS[units], within)
     row = f"{{:.{places}f}},{{:z.{decimals}f}}\n".format
     body = "".join(row(i * record.dt_s, value) for i, value in enumerate(values.tolist()))
-    return f"time_s,acceleration_{units}\n{body}"
+    remark = "" if math.isnan(hold_s) else f"# {HOLD} {hold_s:g} s\n"
+    return f"{remark}time_s,acceleration_{units}\n{body}"
 
 
 def _decimals(values: Floats, least: int, within: float) -> int:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,18 +16,21 @@ from numpy.typing import NDArray
 from solver.kernels import oscillator
 from solver.model import Floats
 from solver.records.record import DECIMALS, UNITS
+from solver.records.spectrum_acceptance import POINTS_HZ
 from solver.synthesis.target import BAND_HZ, DAMPING, Target, target_sa_g
 
-# Target factor slightly above 1, so that another spectrum routine also finds a mean above 1.
-_AIM = 1.02
-_CLOSE = 0.05
+# Accepted ratios to the target, and the one at which a low peak is aimed. An interval instead of
+# one value, because corrections at neighboring frequencies conflict, most of all at long periods.
+_LEAST, _AIM, _MOST = 1.0, 1.02, 1.05
+# Mean ratio / smallest ratio at which matching stops: the mean excess of the motion when scaled so
+# that no peak is below the target.
+_CLOSE = 1.04
 _SHAPINGS = 6
 _MATCHINGS = 20
-_PER_OCTAVE = 24
-# Fraction of a correction applied in one iteration, and the regularization of the equations, which
-# handles conflicting corrections at neighboring frequencies.
-_RELAXATION = 0.7
-_RIDGE = 0.03
+_PER_OCTAVE = 18
+# Regularization of the equations: small for peaks outside the interval, larger for those inside,
+# which may move.
+_RIDGE_OUTSIDE, _RIDGE_INSIDE = 0.001, 0.2
 
 _Samples = NDArray[np.int64]
 
@@ -67,9 +71,7 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> Frame:
     n = round(duration_s / dt_s) + 1
     from_start = np.linspace(0.0, 1.0, n)
     envelope = np.minimum(1.0, 6.0 * np.minimum(from_start, from_start[::-1]))
-    high_hz = min(50.0, 0.4 / dt_s)
-    steps = round(_PER_OCTAVE * math.log2(high_hz / low_hz))
-    freq_hz = np.append(np.geomspace(low_hz, high_hz, steps + 1), 5.0 / dt_s)
+    freq_hz = np.append(_matched_hz(low_hz, min(50.0, 0.4 / dt_s)), 5.0 / dt_s)
     return Frame(
         dt_s=dt_s,
         envelope=envelope,
@@ -77,6 +79,21 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> Frame:
         freq_hz=freq_hz,
         pulses=_pulses(freq_hz * dt_s, n),
     )
+
+
+def _matched_hz(low_hz: float, high_hz: float) -> Floats:
+    """Frequencies to match: those of the acceptance, and points between them.
+
+    Spectra have sharp minima between the points, so the points of the acceptance are among them.
+    """
+    inside = POINTS_HZ[(low_hz < POINTS_HZ) & (high_hz > POINTS_HZ)]
+    knots = np.concatenate([[low_hz], inside, [high_hz]])
+    counts = np.ceil(_PER_OCTAVE * np.diff(np.log2(knots)) - 1e-9).astype(int)
+    parts = [
+        np.geomspace(start, end, count, endpoint=False)
+        for start, end, count in zip(knots[:-1], knots[1:], counts, strict=True)
+    ]
+    return np.append(np.concatenate(parts), high_hz)
 
 
 def _quiet(from_start: Floats, lowest_cycles: float) -> Floats:
@@ -108,21 +125,21 @@ def _pulses(cycles: Floats, n: int) -> Floats:
 
 def goal_mps2(frame: Frame, target: Target) -> Floats:
     """Target pseudo-accelerations [m/s2], one for each oscillator of the frame."""
-    return _AIM * _G * target_sa_g(target, frame.freq_hz)
+    return _G * target_sa_g(target, frame.freq_hz)
 
 
 def shaped(frame: Frame, start: Floats, target: Target, goal: Floats) -> Floats:
     """Enveloped motion whose Fourier amplitudes are corrected iteratively by goal / spectrum."""
     n = len(frame.envelope)
     padded = 1 << (n - 1).bit_length() + 1
-    spectrum = np.fft.rfft(frame.envelope * start, padded)
+    spectrum = np.fft.rfft(start, padded)
     freq_hz = np.maximum(np.fft.rfftfreq(padded, frame.dt_s), 1e-3)
     low, high = frame.freq_hz[0], frame.freq_hz[-2]
     gain = target_sa_g(target, freq_hz) / np.sqrt(freq_hz)
     gain /= (1.0 + (0.9 * low / freq_hz) ** 8) * (1.0 + (freq_hz / (1.2 * high)) ** 8)
     for _ in range(_SHAPINGS):
         a = _calmed(frame, frame.envelope * np.fft.irfft(spectrum * gain, padded)[:n])
-        ratio = np.log(goal / np.abs(_peaks(frame, a)[0]))
+        ratio = np.log(_AIM * goal / np.abs(_peaks(frame, a)[0]))
         gain *= np.exp(np.interp(np.log(freq_hz), np.log(frame.freq_hz), ratio))
     return a
 
@@ -143,27 +160,32 @@ def _peaks(frame: Frame, a: Floats) -> tuple[Floats, _Samples]:
 
 
 def matched(frame: Frame, a: Floats, goal: Floats) -> Floats:
-    """Iteratively corrected motion with the smallest maximum deviation from the goal."""
+    """Iteratively corrected motion with the smallest mean ratio / smallest ratio to the goal."""
     best, least = a, math.inf
     for _ in range(_MATCHINGS):
         peak, at = _peaks(frame, a)
-        farthest = float(np.abs(np.log(np.abs(peak) / goal)).max())
-        if farthest < least:
-            best, least = a, farthest
-        if farthest < _CLOSE:
+        ratio = np.abs(peak) / goal
+        outside = np.maximum(_LEAST - ratio, ratio - _MOST)
+        excess = float(ratio.mean() / ratio.min())
+        if excess < least:
+            best, least = a, excess
+        if excess <= _CLOSE:
             break
-        a = a + _correction(frame, a, (np.sign(peak) * goal - peak) / goal, at, goal)
+        moves = np.where(ratio < _LEAST, _AIM - ratio, np.minimum(_MOST - ratio, 0.0))
+        a = a + _correction(frame, a, _Moves(np.sign(peak) * moves, at, outside > 0.0), goal)
     return best
 
 
-def _correction(
-    frame: Frame,
-    a: Floats,
-    off: Floats,
-    at: _Samples,
-    goal: Floats,
-) -> Floats:
-    """Smallest change under the envelope that removes a fraction of the deviation of every peak.
+class _Moves(NamedTuple):
+    """Changes of the peaks, as fractions of the goal, at samples; and which are outside."""
+
+    of_goal: Floats
+    at: _Samples
+    outside: NDArray[np.bool_]
+
+
+def _correction(frame: Frame, a: Floats, moves: _Moves, goal: Floats) -> Floats:
+    """Smallest change under the envelope that makes the moves of the peaks.
 
     A peak is the sum of the samples before it, each multiplied by the pulse response after the
     time between them, which is the pulse response reversed in time. The quiet shapes stay exactly
@@ -171,14 +193,15 @@ def _correction(
     """
     m = len(goal)
     rows = np.zeros((m + len(frame.quiet), len(a)))
-    for row, pulse, k, unit in zip(rows, frame.pulses, at, goal, strict=False):
+    for row, pulse, k, unit in zip(rows, frame.pulses, moves.at, goal, strict=False):
         row[: k + 1] = pulse[k::-1] / unit
     rows[m:] = frame.quiet
-    moves = np.append(_RELAXATION * off, -frame.quiet @ a)
+    wanted = np.append(moves.of_goal, -frame.quiet @ a)
     rows *= frame.envelope
     products = rows @ rows.T
-    products[np.diag_indices(m)] *= 1.0 + _RIDGE
-    return frame.envelope * (rows.T @ np.linalg.solve(products, moves))
+    ridge = np.where(moves.outside, _RIDGE_OUTSIDE, _RIDGE_INSIDE)
+    products[np.diag_indices(m)] *= 1.0 + ridge
+    return frame.envelope * (rows.T @ np.linalg.solve(products, wanted))
 
 
 def rounded(a: Floats) -> Floats:

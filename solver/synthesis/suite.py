@@ -12,19 +12,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.model import InputError
+from solver.model import Floats, InputError
+from solver.records.acceptance import MOST_CORRELATION
+from solver.records.measures import correlation, strength
 from solver.records.record import Record
+from solver.records.spectrum_acceptance import POINTS_HZ, ratio_to_target
 from solver.synthesis.matching import Frame, goal_mps2, make_frame, matched, rounded, shaped
 from solver.synthesis.seeds import Seed, grown, noise_seed, seeds_of, strongest
-from solver.synthesis.target import Target, band, keeps, spectrum_fit, target_problems
-
-CORRELATION = 0.3
-"""Largest correlation coefficient of two components of one motion."""
+from solver.synthesis.target import (
+    Target,
+    band,
+    keeps,
+    spectrum_fit,
+    target_problems,
+    target_sa_g,
+)
 
 DRAWS = 20
 
-STRONG_SHARE = 0.6
-"""Minimum D5-95 (5 to 95 % of the energy) / duration; the envelope alone has 0.70."""
+HOLD_SHARE = 4.0 / 6.0
+"""Hold of the envelope / duration, and least D5-95 / duration; the envelope alone has 0.70."""
+
+# Ratio to the target to which the lowest point is scaled: above 1 by more than rounding changes it.
+_ABOVE = 1.0005
 
 # Minimum length of a seed record / duration: a shorter one says little about a motion.
 _SHORTEST_SHARE = 1.0 / 6.0
@@ -40,12 +50,15 @@ class SuiteMotion:
         Two horizontal components and the vertical component, with equal steps and lengths.
     seeds : tuple of str, length 3
         Seed of each: ``noise``, or the name of a record and how its phases were changed.
+    hold_s : float
+        Time at the full level of the envelope, its strong motion [s].
     """
 
     x: Record
     y: Record
     z: Record
     seeds: tuple[str, str, str]
+    hold_s: float
 
     @property
     def components(self) -> tuple[Record, Record, Record]:
@@ -58,11 +71,6 @@ class SuiteMotion:
         pairs = ((self.x, self.y), (self.x, self.z), (self.y, self.z))
         xy, xz, yz = (correlation(first, other) for first, other in pairs)
         return xy, xz, yz
-
-
-def correlation(record: Record, other: Record) -> float:
-    """Correlation coefficient of two records of equal step and length."""
-    return float(np.corrcoef(record.a_mps2, other.a_mps2)[0, 1])
 
 
 def make_suite(
@@ -78,9 +86,11 @@ def make_suite(
 ) -> list[SuiteMotion]:
     """Generate motions of two horizontal components and a vertical component each.
 
-    Motion k of a seed is the same for any count. A component is drawn again if it misses its
-    target, correlates with another one (`CORRELATION`) or has too short a strong phase
-    (`STRONG_SHARE`).
+    Motion k of a seed is the same for any count. Every component alone satisfies the rows of
+    `solver.records.acceptance` where its target is given and the duration has three cycles: its
+    spectrum is scaled to touch the target at its lowest point of the acceptance. It is drawn again
+    if it departs from its target between the points, correlates with another component
+    (`MOST_CORRELATION`) or has a significant duration shorter than the hold of the envelope.
 
     Records, if given, replace the noise. The phases of a record's strongest part are preserved, and
     with them its pulses and the order of its frequencies. The envelope replaces its level over a
@@ -126,7 +136,7 @@ def make_suite(
         _Wanted(target=target, frame=make_frame(target, dt_s, duration_s))
         for target in (horizontal_target, vertical_target)
     )
-    suite = []
+    suite, hold_s = [], HOLD_SHARE * duration_s
     for k, sequence in enumerate(np.random.SeedSequence(seed).spawn(count), start=1):
         progress(f"motion {k} of {count}")
         rng = np.random.Generator(np.random.PCG64(sequence))
@@ -135,7 +145,7 @@ def make_suite(
         x, from_x = _component(horizontal, seed_x, rng, f"motion-{k:02d}-x", ())
         z, from_z = _component(vertical, seed_z, rng, f"motion-{k:02d}-z", (x,))
         y, from_y = _component(horizontal, seed_y, rng, f"motion-{k:02d}-y", (x, z))
-        suite.append(SuiteMotion(x=x, y=y, z=z, seeds=(from_x, from_y, from_z)))
+        suite.append(SuiteMotion(x=x, y=y, z=z, seeds=(from_x, from_y, from_z), hold_s=hold_s))
     return suite
 
 
@@ -166,7 +176,8 @@ def synthesize(
         Sampling interval, 0.001 to 0.01 s, and time of the last sample, 10 s or more.
     name : str
     unlike : sequence of Record
-        Components of equal step and length with which this one must not correlate (`CORRELATION`).
+        Components of equal step and length with which this one must not correlate
+        (`MOST_CORRELATION`).
 
     Raises
     ------
@@ -192,29 +203,32 @@ def _component(
     """Return a component and the description of its seed."""
     target, frame = wanted.target, wanted.frame
     goal = goal_mps2(frame, target)
+    duration_s = frame.dt_s * (len(frame.envelope) - 1)
     nearest = math.inf, ""
     for draw in range(DRAWS):
         start = grown(seed, rng, len(frame.envelope), draw)
-        a = rounded(matched(frame, shaped(frame, start, target, goal), goal))
+        a = matched(frame, shaped(frame, start, target, goal), goal)
+        a = rounded(a * _ABOVE / _least_ratio(wanted, a))
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
-        alike = any(abs(correlation(record, other)) > CORRELATION for other in unlike)
-        fit = spectrum_fit(record, target, band(48))
-        if keeps(fit) and not alike and _strong_share(record) >= STRONG_SHARE:
+        alike = any(abs(correlation(record, other)) > MOST_CORRELATION for other in unlike)
+        is_strong = strength(record).d5_95_s >= HOLD_SHARE * duration_s
+        fit = spectrum_fit(record, target, band(48, frame.freq_hz[0]))
+        is_above = _least_ratio(wanted, a) >= 1.0
+        if keeps(fit) and is_above and is_strong and not alike:
             return record, seed.words(draw)
         reached = f"{fit.least:.2f} to {fit.greatest:.2f}"
         nearest = min(nearest, (max(1.0 / fit.least, fit.greatest), reached))
-    duration_s = frame.dt_s * (len(frame.envelope) - 1)
     raise InputError(
         f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum; the closest "
         f"has {nearest[1]} times the target; give a smoother target or a longer duration"
     )
 
 
-def _strong_share(record: Record) -> float:
-    """Fraction of the samples between 5 and 95 % of the energy."""
-    energy = np.cumsum(record.a_mps2**2)
-    first, last = np.searchsorted(energy, energy[-1] * np.array([0.05, 0.95]))
-    return float(last - first) / (len(energy) - 1)
+def _least_ratio(wanted: _Wanted, a: Floats) -> float:
+    """Smallest ratio to the target at the points of the acceptance that are matched."""
+    matched_points = wanted.frame.freq_hz[0] * (1.0 - 1e-9) <= POINTS_HZ
+    target_g = target_sa_g(wanted.target, POINTS_HZ)
+    return float(ratio_to_target(a, wanted.frame.dt_s, target_g)[matched_points].min())
 
 
 def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s: float) -> None:

@@ -20,13 +20,14 @@ Target = tuple[Floats, Floats]
 
 DAMPING = 0.05
 BAND_HZ = (0.3, 33.3)
-"""Band in which a motion must match its target; below it, down to the first corner, the match is
-approximate.
-"""
+"""Band over which a target must be given."""
 
-LEAST, GREATEST, MEAN_OFF = 0.92, 1.25, 0.04
-"""Accepted ratios to the target, at 1/48 octave over the band: smallest, largest, and largest
-difference of the mean from 1.
+LONGEST_HZ = 0.1
+"""Lowest frequency of the comparison with a target that is given to there."""
+
+LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.06
+"""Accepted ratios to the target, at 1/48 octave over the matched band: smallest, largest, and
+largest difference of the mean from 1.
 """
 
 
@@ -71,16 +72,21 @@ def target_sa_g(target: Target, freq_hz: Floats) -> Floats:
     return np.exp(np.interp(np.log(freq_hz), corners_hz, corners_g))
 
 
-def band(per_octave: int) -> Floats:
-    """Frequencies [Hz] over `BAND_HZ`, `per_octave` to an octave, including both ends."""
-    low, high = BAND_HZ
-    steps = np.arange(math.floor(per_octave * math.log2(high / low)) + 1)
-    return np.append(low * 2.0 ** (steps / per_octave), high)
+def lowest_hz(target: Target) -> float:
+    """Lowest frequency [Hz] of the comparison with a target: 0.1 Hz, or where it begins."""
+    return max(min(float(target[0][0]), BAND_HZ[0]), LONGEST_HZ)
+
+
+def band(per_octave: int, low_hz: float) -> Floats:
+    """Frequencies [Hz] from the lowest to 33.3 Hz, `per_octave` to an octave, with both ends."""
+    high_hz = BAND_HZ[1]
+    steps = np.arange(math.floor(per_octave * math.log2(high_hz / low_hz)) + 1)
+    return np.append(low_hz * 2.0 ** (steps / per_octave), high_hz)
 
 
 def spectrum_fit(record: Record, target: Target, freq_hz: Floats | None = None) -> SpectrumFit:
-    """Compare a record with its target, by default at 1/12 octave over `BAND_HZ`."""
-    freq_hz = band(12) if freq_hz is None else freq_hz
+    """Compare a record with its target, by default at 1/12 octave from `lowest_hz` to 33.3 Hz."""
+    freq_hz = band(12, lowest_hz(target)) if freq_hz is None else freq_hz
     achieved = response_spectrum(record.a_mps2, record.dt_s, 1.0 / freq_hz, DAMPING) / UNITS["g"]
     return SpectrumFit(freq_hz=freq_hz, target_g=target_sa_g(target, freq_hz), achieved_g=achieved)
 

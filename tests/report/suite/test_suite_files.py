@@ -14,7 +14,7 @@ from openpyxl import Workbook
 from report.cli.main import main
 from report.suite import files
 from report.suite.inputs import ac156_targets, read_seeds
-from solver.formats import read_record
+from solver.formats import read_motion_file, read_record
 from solver.model import InputError
 from solver.records.spectrum import response_spectrum
 from solver.rules.provisions import RULE_SETS
@@ -63,7 +63,7 @@ def test_every_file_is_written_and_nothing_else(made):
 
 
 def test_the_files_agree_with_suite_json(made, document):
-    freq_hz = 0.3 * 2.0 ** (np.arange(82) / 12.0)
+    freq_hz = 0.1 * 2.0 ** (np.arange(101) / 12.0)
     assert document["seed"] == 5
     assert document["envelope_s"] == [5.0, 20.0, 5.0]
     for k, motion in enumerate(document["motions"], start=1):
@@ -93,6 +93,39 @@ def test_the_files_agree_with_suite_json(made, document):
             assert part["grew_from"] == "noise"
 
 
+def test_the_rows_of_the_acceptance_are_stated(made, document, tmp_path):
+    rows = document["acceptance"]
+    assert len(rows) == 10
+    # Two motions are one too few; every other row is satisfied.
+    assert [row["title"] for row in rows if not row["satisfied"]] == ["Number of motions"]
+    assert "NG: Number of motions: 2, at least 3\n" in made[1]
+    assert made[1].count("\nOK: ") == 9
+    hold = "OK: Strong motion of generated motions: hold of the envelope: 20 s, at least 20 s"
+    assert hold in made[1]
+    ours = [row for row in rows if row["is_ours"]]
+    assert [row["limit"] for row in ours] == [0.9, 1.0]
+    assert made[1].count("limit of this program, in no code") == 2
+    points = np.geomspace(0.1, 1.3, 24)
+    corners = document["target"]["horizontal"]
+    target = np.exp(np.interp(np.log(points), np.log(corners["freq_hz"]), np.log(corners["sa_g"])))
+    for axis in (0, 1):
+        spectra = [
+            response_spectrum(record.a_mps2, record.dt_s, 1.0 / points) / G / target
+            for record in (records(made[0], k)[axis] for k in (1, 2))
+        ]
+        assert ours[0]["found"] <= np.min(spectra) * (1 + 1e-9)
+        assert ours[1]["found"] <= np.mean(spectra, axis=0).min() * (1 + 1e-9)
+
+
+def test_every_file_states_the_hold_of_its_envelope(made, tmp_path):
+    path = made[0] / "motion-01-x.csv"
+    assert path.read_text().startswith("# generated; hold of the envelope 20 s\ntime_s,")
+    assert read_motion_file(path).hold_s == 20.0
+    plain = tmp_path / "plain.csv"
+    plain.write_text(path.read_text().partition("\n")[2])
+    assert math.isnan(read_motion_file(plain).hold_s)
+
+
 def test_the_target_is_that_of_the_code(document):
     target = document["target"]
     across = ac156_horizontal(RULE_SETS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0)
@@ -110,8 +143,8 @@ def test_the_table_states_target_tail_seed_and_the_fit_of_each_component(made):
     assert len(rows) == 6
     assert all("noise" in row for row in rows)
     assert (
-        "6 of 6 components have spectra of 0.90 to 1.30 times the target and a mean ratio within 5"
-        " %" in made[1]
+        "6 of 6 components have spectra of 0.90 to 1.30 times the target and a mean ratio within 7"
+        " % of 1 (1/12 octave, from 0.1 Hz to 33.3 Hz, 5 % damping)" in made[1]
     )
     assert lines[-1].endswith("suite: 6 records, suite.json, suite.png; seed 5")
 
@@ -253,5 +286,6 @@ def test_a_component_outside_the_limits_is_counted(made, monkeypatch):
     from solver.synthesis import SuiteMotion
 
     x, y, z = records(made[0], 1)
-    motion = SuiteMotion(x=x, y=y, z=z, seeds=("noise",) * 3)
-    assert "0 of 3 components have spectra of 1.50" in files.suite_table([motion], targets)[-1]
+    motion = SuiteMotion(x=x, y=y, z=z, seeds=("noise",) * 3, hold_s=20.0)
+    lines = "\n".join(files.suite_table([motion], targets))
+    assert "0 of 3 components have spectra of 1.50" in lines

@@ -49,10 +49,10 @@ def test_every_component_keeps_to_its_target_and_is_strong_for_long(made: Any) -
             psa = response_spectrum(record.a_mps2, record.dt_s, 1.0 / BAND) / G
             ratio = psa / target_sa_g(wanted, BAND)
             assert 0.90 <= ratio.min() <= ratio.max() <= 1.30
-            assert 0.95 <= ratio.mean() <= 1.05
+            assert 1.0 <= ratio.mean() <= 1.07
             energy = np.cumsum(record.a_mps2**2)
             strong = np.searchsorted(energy, [0.05 * energy[-1], 0.95 * energy[-1]])
-            assert 0.005 * (strong[1] - strong[0]) >= 18.0
+            assert 0.005 * (strong[1] - strong[0]) >= 19.99
             assert abs(np.rint(record.a_mps2 / G * 1e5).sum()) == 0
         assert max(map(abs, motion.correlations)) <= 0.3
 

@@ -1,0 +1,72 @@
+"""The acceptance of a generated suite: its rows as text and as data.
+
+Computes nothing itself: `solver.records.acceptance` does. Read `suite_acceptance`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import Any
+
+from report.suite.inputs import SuiteTargets
+from solver.model import Motion
+from solver.records.acceptance import Acceptance, acceptance
+from solver.records.acceptance_row import AcceptanceRow
+from solver.synthesis import SuiteMotion, target_sa_g
+
+
+def suite_acceptance(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> Acceptance:
+    """Compare a suite with its targets as the motions of an analysis; motions count from 1."""
+    return acceptance(
+        [_motion(f"motion-{k:02d}", motion) for k, motion in enumerate(suite, start=1)],
+        [motion.hold_s for motion in suite],
+        partial(target_sa_g, targets.horizontal),
+        partial(target_sa_g, targets.vertical),
+    )
+
+
+def _motion(name: str, given: SuiteMotion) -> Motion:
+    return Motion(
+        id=name,
+        source="",
+        dt_s=given.x.dt_s,
+        ax_mps2=given.x.a_mps2,
+        ay_mps2=given.y.a_mps2,
+        az_mps2=given.z.a_mps2,
+        scale=1.0,
+        signs=(1, -1),
+    )
+
+
+def acceptance_lines(rows: Sequence[AcceptanceRow]) -> list[str]:
+    """Return a line for each row: OK or what follows, title, value found, limit, where."""
+    return [
+        f"{'OK' if row.satisfied else row.consequence.value}: {row.title}: "
+        f"{row.found:.4g}{_unit(row)}, {'at least' if row.is_at_least else 'at most'} "
+        f"{row.limit:.4g}{_unit(row)}{f' ({row.worst})' if row.worst else ''}"
+        f"{'; limit of this program, in no code' if row.is_ours else ''}"
+        for row in rows
+    ]
+
+
+def _unit(row: AcceptanceRow) -> str:
+    return " s" if row.unit == "s" else ""
+
+
+def acceptance_facts(rows: Sequence[AcceptanceRow]) -> list[dict[str, Any]]:
+    """Return the rows for suite.json."""
+    return [
+        {
+            "title": row.title,
+            "found": row.found,
+            "limit": row.limit,
+            "unit": row.unit,
+            "is_at_least": row.is_at_least,
+            "satisfied": row.satisfied,
+            "worst": row.worst,
+            "is_ours": row.is_ours,
+            "consequence": row.consequence.value,
+        }
+        for row in rows
+    ]

@@ -1,0 +1,193 @@
+"""Spectra of the motions of an analysis against their target, as rows with limits.
+
+Owns the frequencies at which spectra are compared. Knows no code spectrum (`solver.rules.spectra`).
+Read `spectrum_ratios`, then `spectrum_rows`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.model import Floats, Motion
+from solver.records.acceptance_row import AcceptanceRow
+from solver.records.record import UNITS
+from solver.records.spectrum import response_spectrum
+
+COMPONENTS = ("x", "y", "z")
+"""Names of the components of a motion: two horizontal ones and the vertical."""
+
+LEAST_RATIO = 0.90
+FULL_RATIO = 1.00
+MOST_IN_A_ROW = 1
+MOST_DIPS = 2
+
+_LOW, _KNEE, _PLATEAU, _HIGH = 0.1, 1.3, 8.3, 33.3
+
+# Less than 1/6 octave apart, so that both ends of each band are points.
+_N_SLIDING, _N_AC156 = 24, 30
+
+POINTS_HZ: Floats = np.concatenate(
+    [np.geomspace(_LOW, _KNEE, _N_SLIDING), np.geomspace(_KNEE, _HIGH, _N_AC156)[1:]]
+)
+"""Frequencies at which spectra are compared [Hz]: 24 from 0.1 to 1.3 Hz, 30 from there to 33.3."""
+
+_PLACE = np.arange(len(POINTS_HZ))
+_IS_SLIDING, _IS_AC156 = _PLACE < _N_SLIDING, _PLACE >= _N_SLIDING - 1
+_IS_SLOW = _IS_AC156 & (POINTS_HZ <= _PLATEAU)
+_IS_FAST = POINTS_HZ > _PLATEAU
+
+SpectrumAt = Callable[[Floats], Floats]
+"""Target acceleration [g] at frequencies [Hz], 5 % damping; NaN where there is no target."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpectrumRatio:
+    """Spectrum of one component over its target.
+
+    Attributes
+    ----------
+    motion, component : str
+    ratio : array, shape (53,)
+        At `POINTS_HZ`; NaN where there is no target.
+    """
+
+    motion: str
+    component: str
+    ratio: Floats
+
+    def among(self, points: NDArray[np.bool_]) -> tuple[Floats, Floats]:
+        """Return the frequencies [Hz] with a target among some points, and the ratios there."""
+        given = points & np.isfinite(self.ratio)
+        return POINTS_HZ[given], self.ratio[given]
+
+    def least(self, points: NDArray[np.bool_]) -> tuple[float, str]:
+        """Return the smallest ratio among some points, and where it is."""
+        freq_hz, ratio = self.among(points)
+        at = int(ratio.argmin())
+        return float(ratio[at]), self._at(freq_hz[at])
+
+    def dips(self, points: NDArray[np.bool_]) -> tuple[int, str]:
+        """Return the number of points below 1.00 among some, and where the lowest is."""
+        _, ratio = self.among(points)
+        return int((ratio < FULL_RATIO).sum()), self.least(points)[1]
+
+    def longest_dip(self, points: NDArray[np.bool_]) -> tuple[int, str]:
+        """Return the most neighboring points below 1.00 among some, and where they end."""
+        longest, length, where = 0, 0, ""
+        for freq_hz, ratio in zip(*self.among(points), strict=True):
+            length = length + 1 if ratio < FULL_RATIO else 0
+            if length > longest:
+                longest, where = length, self._at(freq_hz)
+        return longest, where
+
+    def _at(self, freq_hz: float) -> str:
+        return f"{self.motion} {self.component}, {freq_hz:.3g} Hz"
+
+
+def components_of(motion: Motion) -> Mapping[str, Floats]:
+    """Return the components that a motion has, by name, unscaled [m/s2]."""
+    arrays = (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
+    return {name: a for name, a in zip(COMPONENTS, arrays, strict=True) if len(a)}
+
+
+def spectrum_ratios(
+    motions: Sequence[Motion], horizontal: SpectrumAt, vertical: SpectrumAt
+) -> tuple[SpectrumRatio, ...]:
+    """Return the spectra of all components as run over their targets: of x and y, and of z."""
+    targets = zip(COMPONENTS, (horizontal, horizontal, vertical), strict=True)
+    goals = {name: np.asarray(target(POINTS_HZ)) for name, target in targets}
+    return tuple(
+        SpectrumRatio(
+            motion=motion.id,
+            component=name,
+            ratio=abs(motion.scale) * ratio_to_target(a, motion.dt_s, goals[name]),
+        )
+        for motion in motions
+        for name, a in components_of(motion).items()
+    )
+
+
+def ratio_to_target(a_mps2: Floats, dt_s: float, target_g: Floats) -> Floats:
+    """Return a component's spectrum over its target at `POINTS_HZ`, 5 % damping."""
+    spectrum = response_spectrum(a_mps2, dt_s, 1.0 / POINTS_HZ)
+    return np.asarray(spectrum / UNITS["g"] / target_g)
+
+
+def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[AcceptanceRow]:
+    """Yield the rows on spectra, each with its worst component; none without a target.
+
+    From 1.3 to 33.3 Hz the acceptance of AC156 as a test laboratory reads it: every point at 0.90
+    of the target or more, no two neighboring points below 1.00, at most two points below 1.00 to
+    8.3 Hz and two above. From 0.1 to 1.3 Hz, where sliding is driven, our own: every component at
+    0.90 of the target or more, the mean of the motions at 1.00 or more.
+    """
+    if found := _compared(ratios, _IS_AC156):
+        band = f"1.3 to 33.3 Hz{_extent(found, _IS_AC156)}"
+        yield _least(f"Spectrum / target, {band}, each component", found, _IS_AC156)
+        title = f"Neighboring points below 1.00 of the target, {band}"
+        yield _most(title, MOST_IN_A_ROW, [each.longest_dip(_IS_AC156) for each in found])
+    for points, band in ((_IS_SLOW, "1.3 to 8.3 Hz"), (_IS_FAST, "8.3 to 33.3 Hz")):
+        if found := _compared(ratios, points):
+            title = f"Points below 1.00 of the target, {band}{_extent(found, points)}"
+            yield _most(title, MOST_DIPS, [each.dips(points) for each in found])
+    if found := _compared(ratios, _IS_SLIDING):
+        band = f"0.1 to 1.3 Hz{_extent(found, _IS_SLIDING)}"
+        title = f"Spectrum / target, {band}, each component"
+        yield _least(title, found, _IS_SLIDING, is_ours=True)
+        title = f"Spectrum / target, {band}, mean of the motions"
+        yield _least(title, _means(found), _IS_SLIDING, FULL_RATIO, is_ours=True)
+
+
+def _compared(
+    ratios: Sequence[SpectrumRatio], points: NDArray[np.bool_]
+) -> Sequence[SpectrumRatio]:
+    """Return the components that have a target at any of the points."""
+    return [each for each in ratios if each.among(points)[0].size]
+
+
+def _extent(ratios: Sequence[SpectrumRatio], points: NDArray[np.bool_]) -> str:
+    """Say if the target is not given at all of the points."""
+    is_whole = all(np.isfinite(each.ratio[points]).all() for each in ratios)
+    return "" if is_whole else " as far as the target is given"
+
+
+def _least(
+    title: str,
+    ratios: Sequence[SpectrumRatio],
+    points: NDArray[np.bool_],
+    limit: float = LEAST_RATIO,
+    *,
+    is_ours: bool = False,
+) -> AcceptanceRow:
+    found, worst = min(each.least(points) for each in ratios)
+    return AcceptanceRow(
+        title=title, found=found, limit=limit, is_at_least=True, worst=worst, is_ours=is_ours
+    )
+
+
+def _most(title: str, limit: int, counts: Sequence[tuple[int, str]]) -> AcceptanceRow:
+    count, worst = max(counts, key=lambda found: found[0])
+    return AcceptanceRow(
+        title=title,
+        found=float(count),
+        limit=float(limit),
+        is_at_least=False,
+        worst=worst if count else "",
+        unit="count",
+    )
+
+
+def _means(ratios: Sequence[SpectrumRatio]) -> Sequence[SpectrumRatio]:
+    """Return the mean over the motions for each component that occurs."""
+    by_name = {
+        name: [each.ratio for each in ratios if each.component == name] for name in COMPONENTS
+    }
+    return [
+        SpectrumRatio(motion="mean of", component=name, ratio=np.mean(found, axis=0))
+        for name, found in by_name.items()
+        if found
+    ]

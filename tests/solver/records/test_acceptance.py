@@ -1,0 +1,264 @@
+"""Rows on motions. Oracles: a spectrum by complex modes, closed forms of energy and correlation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from solver.model import Floats, Motion
+from solver.records.acceptance import Acceptance, acceptance
+from solver.records.acceptance_row import AcceptanceRow, Consequence
+from solver.records.record import read_only
+from solver.records.spectrum_acceptance import POINTS_HZ, SpectrumAt
+
+G = 9.80665
+DT_S, N = 0.02, 301
+
+
+def motion(name: str = "M1", seed: int = 1, **changes: object) -> Motion:
+    draw = np.random.default_rng(seed)
+    x, y, z = (read_only(draw.standard_normal(N)) for _ in range(3))
+    made = Motion(
+        id=name,
+        source="",
+        dt_s=DT_S,
+        ax_mps2=x,
+        ay_mps2=y,
+        az_mps2=z,
+        scale=1.0,
+        signs=(1,),
+    )
+    return replace(made, **changes)  # type: ignore[arg-type]
+
+
+def modal_g(a_mps2: Floats) -> Floats:
+    """5 % damped spectrum at the points, by one complex mode per frequency, exact per step.
+
+    Peaks at 40 places of a period or more, and at 16 of a step at most, by powers of two.
+    """
+    found = []
+    for omega in 2.0 * np.pi * POINTS_HZ:
+        steps = 2 ** int(np.ceil(np.log2(np.clip(40.0 * DT_S * omega / (2.0 * np.pi), 1.0, 16.0))))
+        at = np.arange((N - 1) * steps + 1) / steps
+        a, h = np.interp(at, np.arange(N), a_mps2), DT_S / steps
+        damped = omega * math.sqrt(1.0 - 0.05**2)
+        s = -0.05 * omega + 1j * damped
+        turn = np.exp(s * h)
+        held = (turn - 1.0) / s
+        ramped = (held - h) / (s * h)
+        q, peak = 0j, 0.0
+        for now, then in pairwise(a.tolist()):
+            q = turn * q - now * held - (then - now) * ramped
+            peak = max(peak, abs(q.imag))
+        found.append(omega**2 * peak / damped / G)
+    return np.array(found)
+
+
+def below(spectrum_g: Floats, ratios: dict[int, float], usual: float = 1.2) -> SpectrumAt:
+    """Target that a spectrum is `usual` times, but other ratios at some of the points."""
+    ratio = np.array([ratios.get(k, usual) for k in range(len(POINTS_HZ))])
+
+    def at(freq_hz: Floats) -> Floats:
+        assert np.array_equal(freq_hz, POINTS_HZ)
+        return spectrum_g / ratio
+
+    return at
+
+
+def nothing(freq_hz: Floats) -> Floats:
+    return np.full(freq_hz.shape, math.nan)
+
+
+def only(found: Acceptance, words: str) -> AcceptanceRow:
+    (row,) = (row for row in found.rows if words in row.title)
+    return row
+
+
+@pytest.fixture(scope="module")
+def alone() -> Motion:
+    return motion(ay_mps2=np.empty(0), az_mps2=np.empty(0))
+
+
+@pytest.fixture(scope="module")
+def spectrum_g(alone: Motion) -> Floats:
+    return modal_g(alone.ax_mps2)
+
+
+class TestSpectrum:
+    def test_the_points_lie_less_than_a_sixth_of_an_octave_apart_from_end_to_end(self) -> None:
+        assert POINTS_HZ[[0, 23, -1]] == pytest.approx([0.1, 1.3, 33.3], rel=1e-12)
+        assert 0.15 < np.diff(np.log2(POINTS_HZ)).min() < np.diff(np.log2(POINTS_HZ)).max() < 1 / 6
+
+    def test_each_row_finds_its_worst_point(self, alone: Motion, spectrum_g: Floats) -> None:
+        # 23 is 1.3 Hz, which is a point of both bands; 39 is the last point below 8.3 Hz.
+        target = below(spectrum_g, {2: 0.93, 25: 0.95, 39: 0.97, 40: 0.91, 44: 0.99, 50: 0.98})
+        found = acceptance([alone], [math.nan], target, nothing)
+        low = only(found, "0.1 to 1.3 Hz, each component")
+        assert low.found == pytest.approx(0.93, rel=1e-9)
+        assert low.worst == f"M1 x, {POINTS_HZ[2]:.3g} Hz"
+        assert (low.satisfied, low.is_ours) == (True, True)
+        mean = only(found, "0.1 to 1.3 Hz, mean of the motions")
+        assert mean.found == pytest.approx(0.93, rel=1e-9)
+        assert not mean.satisfied
+        high = only(found, "1.3 to 33.3 Hz, each component")
+        assert high.found == pytest.approx(0.91, rel=1e-9)
+        assert (high.satisfied, high.is_ours) == (True, False)
+        neighbors = only(found, "Neighboring points")
+        assert (neighbors.found, neighbors.limit, neighbors.satisfied) == (2.0, 1.0, False)
+        assert neighbors.worst == f"M1 x, {POINTS_HZ[40]:.3g} Hz"
+        slow, fast = only(found, "1.3 to 8.3 Hz"), only(found, "8.3 to 33.3 Hz")
+        assert (slow.found, slow.satisfied) == (2.0, True)
+        assert (fast.found, fast.satisfied) == (3.0, False)
+        assert fast.worst == f"M1 x, {POINTS_HZ[40]:.3g} Hz"
+        spectral = [row for row in found.rows if "target" in row.title]
+        assert len(spectral) == 6
+        assert {row.consequence for row in spectral} == {Consequence.NG}
+
+    @pytest.mark.parametrize(("ratio", "ok"), [(0.899, False), (0.901, True)])
+    def test_a_single_point_may_fall_to_nine_tenths(
+        self, alone: Motion, spectrum_g: Floats, ratio: float, ok: bool
+    ) -> None:
+        found = acceptance([alone], [math.nan], below(spectrum_g, {30: ratio}), nothing)
+        assert only(found, "1.3 to 33.3 Hz, each").satisfied is ok
+        assert only(found, "Neighboring").satisfied
+        assert only(found, "1.3 to 8.3 Hz").found == 1.0
+
+    def test_one_motion_may_be_low_where_the_mean_is_not(self) -> None:
+        one, other = (motion(f"M{k}", k, ay_mps2=np.empty(0), az_mps2=np.empty(0)) for k in (1, 2))
+        # The other motion is scaled up, so that the mean at the point is (0.95 + r) / 2 or more.
+        target = below(modal_g(one.ax_mps2), {10: 0.95})
+        ratio = modal_g(other.ax_mps2) / target(POINTS_HZ)
+        scale = 1.06 / ratio[:24].min()
+        found = acceptance([one, replace(other, scale=scale)], [math.nan] * 2, target, nothing)
+        assert only(found, "0.1 to 1.3 Hz, each").found == pytest.approx(0.95, rel=1e-9)
+        mean = only(found, "mean of the motions")
+        each = np.mean([1.2 * np.ones(53), scale * ratio], axis=0)
+        each[10] = 0.5 * (0.95 + scale * ratio[10])
+        assert mean.found == pytest.approx(each[:24].min(), rel=1e-9)
+        assert mean.satisfied
+        assert mean.worst.startswith("mean of x")
+
+    def test_the_vertical_has_a_target_of_its_own(self, spectrum_g: Floats) -> None:
+        upward = motion(az_mps2=motion().ax_mps2, ay_mps2=np.empty(0))
+        target = below(spectrum_g, {})
+        found = acceptance([upward], [math.nan], target, below(spectrum_g, {30: 0.5}))
+        assert only(found, "1.3 to 33.3 Hz, each").worst == f"M1 z, {POINTS_HZ[30]:.3g} Hz"
+
+    def test_points_without_a_target_are_not_compared_and_the_row_says_so(
+        self, alone: Motion, spectrum_g: Floats
+    ) -> None:
+        full = below(spectrum_g, {1: 0.5, 8: 0.93})
+
+        def shorter(freq_hz: Floats) -> Floats:
+            return np.where(freq_hz >= 0.2, full(freq_hz), math.nan)
+
+        found = acceptance([alone], [math.nan], shorter, nothing)
+        low = only(found, "0.1 to 1.3 Hz as far as the target is given, each")
+        assert low.found == pytest.approx(0.93, rel=1e-9)
+        assert only(found, "1.3 to 33.3 Hz, each").satisfied
+        bare = acceptance([alone], [math.nan], nothing, nothing)
+        assert not any("target" in row.title for row in bare.rows)
+
+    @settings(max_examples=8, deadline=None)
+    @given(st.floats(0.1, 10.0))
+    def test_ratios_are_proportional_to_the_scale(self, scale: float) -> None:
+        lone = motion(ay_mps2=np.empty(0), az_mps2=np.empty(0))
+
+        def flat(freq_hz: Floats) -> Floats:
+            return np.ones(freq_hz.shape)
+
+        one = acceptance([lone], [20.0], flat, nothing)
+        other = acceptance([replace(lone, scale=scale)], [20.0], flat, nothing)
+        for before, after in zip(one.rows, other.rows, strict=True):
+            if before.title.startswith("Spectrum"):
+                assert after.found == pytest.approx(scale * before.found, rel=1e-12)
+        strong, scaled = one.motions[0].strengths["x"], other.motions[0].strengths["x"]
+        assert scaled.arias_mps == pytest.approx(scale**2 * strong.arias_mps, rel=1e-12)
+        assert scaled.d5_95_s == pytest.approx(strong.d5_95_s, rel=1e-9)
+
+
+class TestMotions:
+    def test_three_motions_are_enough_and_two_are_not(self) -> None:
+        several = [motion(f"M{k}", k) for k in (1, 2, 3)]
+        for count, ok in ((2, False), (3, True)):
+            found = acceptance(several[:count], [math.nan] * count, nothing, nothing)
+            row = only(found, "Number of motions")
+            assert (row.found, row.limit, row.satisfied) == (count, 3.0, ok)
+            assert row.consequence is Consequence.NG
+
+    def test_a_motion_that_lacks_components_is_named_with_them(self) -> None:
+        full = motion("M1")
+        for changes, words, count in (
+            ({}, "", 3),
+            ({"az_mps2": np.empty(0)}, "M2, no z", 2),
+            ({"ay_mps2": np.empty(0), "az_mps2": np.empty(0)}, "M2, no y and no z", 1),
+        ):
+            other = motion("M2", 2, **changes)
+            row = only(acceptance([full, other], [math.nan] * 2, nothing, nothing), "Components")
+            assert (row.found, row.worst, row.satisfied) == (count, words, count == 3)
+
+
+class TestStrongMotion:
+    def test_of_records_the_significant_duration_counts_and_a_miss_is_a_condition(self) -> None:
+        # A constant acceleration has nine tenths of its energy in nine tenths of its duration.
+        steady = read_only(np.full(N, 2.0))
+        record = motion(ax_mps2=steady, ay_mps2=steady, az_mps2=steady, dt_s=0.1)
+        found = acceptance([record], [math.nan], nothing, nothing)
+        row = only(found, "records")
+        assert row.found == pytest.approx(27.0, rel=1e-12)
+        assert row.satisfied
+        # pi / (2 g) times a^2 times the duration, 4 m2/s4 and 30 s.
+        strong = found.motions[0].strengths["x"]
+        assert strong.arias_mps == pytest.approx(math.pi / (2.0 * G) * 120.0, rel=1e-12)
+        short = acceptance([replace(record, dt_s=0.07)], [math.nan], nothing, nothing)
+        row = only(short, "records")
+        assert row.found == pytest.approx(18.9, rel=1e-12)
+        assert (row.satisfied, row.unit, row.consequence) == (False, "s", Consequence.CONDITION)
+        assert short.missed[-1] is row
+
+    @pytest.mark.parametrize(("hold_s", "ok"), [(20.0, True), (19.9, False)])
+    def test_of_generated_motions_the_hold_of_the_envelope_counts(
+        self, hold_s: float, ok: bool
+    ) -> None:
+        both = [motion("M1"), motion("M2", 2)]
+        found = acceptance(both, [30.0, hold_s], nothing, nothing)
+        row = only(found, "generated motions: hold")
+        assert (row.found, row.worst, row.satisfied) == (hold_s, "M2", ok)
+        assert row.consequence is Consequence.NG
+        assert not any("records" in row.title for row in found.rows)
+
+
+class TestCorrelation:
+    @pytest.mark.parametrize(("share", "ok"), [(0.29, True), (-0.29, True), (-0.31, False)])
+    def test_components_of_generated_motions_must_not_correlate(
+        self, share: float, ok: bool
+    ) -> None:
+        # Waves of whole cycles over the N samples are orthogonal and of zero mean.
+        turns = 2.0 * np.pi * np.arange(N) / N
+        one, other, third = (np.sin(k * turns) for k in (5, 7, 11))
+        mixed = share * one + math.sqrt(1.0 - share**2) * other
+        made = motion(ax_mps2=one, ay_mps2=third, az_mps2=mixed, scale=-3.0)
+        found = acceptance([made], [20.0], nothing, nothing)
+        assert found.motions[0].correlations == pytest.approx(
+            {"x-y": 0.0, "x-z": share, "y-z": 0.0}, abs=1e-12
+        )
+        row = only(found, "Correlation")
+        assert row.found == pytest.approx(abs(share), rel=1e-12)
+        assert (row.worst, row.satisfied, row.consequence) == ("M1 x-z", ok, Consequence.NG)
+
+    def test_correlations_of_records_are_measured_but_not_limited(self) -> None:
+        same = motion().ax_mps2
+        found = acceptance([motion(ay_mps2=same)], [math.nan], nothing, nothing)
+        assert found.motions[0].correlations["x-y"] == pytest.approx(1.0, rel=1e-12)
+        assert not any("Correlation" in row.title for row in found.rows)
+
+    def test_a_component_of_zeros_correlates_with_nothing(self) -> None:
+        silent = motion(ay_mps2=np.zeros(N))
+        found = acceptance([silent], [20.0], nothing, nothing)
+        assert found.motions[0].correlations["x-y"] == 0.0
