@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -215,6 +216,7 @@ def book(data=None, shaking=None):
                     npts=len(motion.ax_mps2),
                     dt_s=motion.dt_s,
                     notes=(),
+                    hold_s=math.nan,
                     peak_g=float(np.abs(values).max() / G),
                 )
                 for motion in shaking

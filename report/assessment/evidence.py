@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from report.assessment.acceptance import shaking_acceptance
 from report.assessment.highpass import Beyond, beyond_corners
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, accuracy
 from report.assessment.spectra import Spectra, spectra
 from solver.model import SlideHistory
+from solver.records.acceptance import Acceptance
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,12 +29,15 @@ class Evidence:
         The governing run by every method, and the design with changed friction.
     highpass : tuple of Beyond
         Effect of the high-pass of each motion on the slip of the governing array.
+    acceptance : Acceptance
+        Limits on the motions as run, at the roof.
     """
 
     spectra: tuple[Spectra, ...]
     histories: tuple[tuple[SlideHistory, ...], ...]
     accuracy: Accuracy
     highpass: tuple[Beyond, ...]
+    acceptance: Acceptance
 
 
 def support(assessment: Assessment) -> Evidence:
@@ -44,4 +49,5 @@ def support(assessment: Assessment) -> Evidence:
         ),
         accuracy=accuracy(assessment),
         highpass=beyond_corners(assessment),
+        acceptance=shaking_acceptance(assessment.shaking, assessment.targets),
     )

@@ -18,6 +18,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.spectra import Spectra
+from report.figures.accelerations import accelerations
 from report.figures.base import (
     ACCENT,
     FAMILY,
@@ -39,6 +40,7 @@ from report.words.units import Quantity, Unit
 __all__ = [
     "FAMILY",
     "MAX_POINTS",
+    "accelerations",
     "clearances",
     "comparison",
     "envelope",

@@ -41,6 +41,9 @@ class RecordFile:
     dt_s, peak_g : float
     notes : tuple of str
         Remarks on how the file was read.
+    hold_s : float
+        Hold of the envelope [s], if the file says that it was generated and is run from its first
+        to its last sample; otherwise NaN.
     """
 
     motion_id: str
@@ -52,6 +55,7 @@ class RecordFile:
     dt_s: float
     peak_g: float
     notes: tuple[str, ...]
+    hold_s: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,10 +188,7 @@ def _processed(
         return faults
     has_highpass = row.highpass_hz is not None
     return Components(
-        files=tuple(
-            _file(row.id, field, getattr(row, field), component)
-            for field, component in components.items()
-        ),
+        files=tuple(_file(row, field, component) for field, component in components.items()),
         records=kept,
         unfiltered=dict(zip(components, bare, strict=True)) if has_highpass else {},
     )
@@ -207,16 +208,18 @@ def processing_of(row: MotionInput) -> Processing:
     )
 
 
-def _file(motion_id: str, field: str, name: str, component: Component) -> RecordFile:
+def _file(row: MotionInput, field: str, component: Component) -> RecordFile:
     a = component.record.a_mps2
+    is_whole = row.from_s is None and row.to_s is None
     return RecordFile(
-        motion_id=motion_id,
+        motion_id=row.id,
         component=LABELS[field],
-        name=name,
+        name=getattr(row, field),
         sha256=component.sha256,
         format=component.format,
         npts=len(a),
         dt_s=component.record.dt_s,
         peak_g=float(np.abs(a).max() / G_MPS2),
         notes=component.notes,
+        hold_s=component.hold_s if is_whole else math.nan,
     )

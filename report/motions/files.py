@@ -46,12 +46,15 @@ class Component:
         Such as ``PEER AT2``, or ``pasted column``.
     notes : tuple of str
         Remarks on how the file was read.
+    hold_s : float
+        Hold of the envelope [s], if the file says that it was generated; otherwise NaN.
     """
 
     record: Record
     sha256: str
     format: str
     notes: tuple[str, ...]
+    hold_s: float
 
 
 def read_component(
@@ -81,6 +84,7 @@ def read_component(
         sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
         format=motion_file.format,
         notes=motion_file.notes,
+        hold_s=motion_file.hold_s,
     )
 
 
@@ -176,7 +180,11 @@ def _read_column(
     record = record_from_values(name, values, units=units, dt_s=float(dt_s or 0.0))
     data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()
     return Component(
-        record=record, sha256=hashlib.sha256(data).hexdigest(), format="pasted column", notes=()
+        record=record,
+        sha256=hashlib.sha256(data).hexdigest(),
+        format="pasted column",
+        notes=(),
+        hold_s=math.nan,
     )
 
 

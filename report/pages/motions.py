@@ -14,6 +14,7 @@ from report.assessment.spectra import PRINTED_S, Spectra
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.targets import OWN
+from report.pages.acceptance import acceptance_table, event_table, strength_table
 from report.pages.building import building_part
 from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.sheet.schema import RecordedAt
@@ -32,6 +33,7 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     ground = (("motions-building", "From ground to roof"),) if has_ground(package) else ()
     return (
         ("motions-list", "Motions"),
+        ("motions-limits", "Limits on the motions"),
         ("motions-processing", "Processing and drift"),
         *ground,
         ("motions-spectra", "Response spectra"),
@@ -323,4 +325,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "target": target_words(package),
         "achieved": achieved_table(spectra),
         "spectra": tuple(spectrum_table(part) for part in spectra),
+        "events": event_table(package.data.motions),
+        "acceptance": acceptance_table(evidence.acceptance),
+        "strength": strength_table(evidence.acceptance.motions),
     }

@@ -15,7 +15,7 @@ from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
 
-PANELS, CHART_ROWS = 12, 16  # maximum in one figure: it must fit on a page
+PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
 Pictures = Mapping[str, Sequence[Picture]]
 
 
@@ -32,6 +32,7 @@ def draw_assessment(package: PackageData) -> Pictures:
 
     load_charts()
     us_first, assessment = package.fmt.us_first, package.assessment
+    motions = assessment.shaking.motions
     return {
         "inputs-plan": [
             Picture(
@@ -43,6 +44,14 @@ def draw_assessment(package: PackageData) -> Pictures:
         ],
         "inputs-friction": friction_tests.picture(package),
         "method-motion": [section.picture(package)],
+        "motions-list": [
+            Picture(
+                svg=figures.accelerations(motions[at : at + ACCELERATION_ROWS]),
+                caption="Accelerations of the motions as run, after scaling, all at one scale.",
+                alt="Acceleration histories of the motions",
+            )
+            for at in range(0, len(motions), ACCELERATION_ROWS)
+        ],
         "comparison": [
             Picture(
                 svg=figures.comparison(assessment.arrays[at : at + CHART_ROWS], us_first),

@@ -325,8 +325,8 @@ def words_of(data, motion, prepared):
 def test_the_way_from_ground_to_roof_is_said_with_its_numbers():
     data, motion, prepared = ground()
     whole = words_of(data, motion, prepared)
-    assert "4.3 From ground to roof" in whole
-    assert "4.4 Response spectra" in whole
+    assert "4.4 From ground to roof" in whole
+    assert "4.5 Response spectra" in whole
     assert "one story; period 0.5 s; damping 5 % of critical." in whole
     assert "The mass of the array is neglected" in whole
     assert "The vertical motion at the roof is that of the ground" in whole

@@ -1,5 +1,7 @@
 """The echo of the input, and the list of records."""
 
+import math
+
 from report.motions.components import RecordFile
 from report.pages import appendix
 from report.sheet.read import EchoRow
@@ -56,6 +58,7 @@ def test_a_record_shows_its_format_and_what_was_noted():
         npts=100,
         dt_s=0.02,
         peak_g=0.25,
+        hold_s=math.nan,
         notes=("uneven times were resampled",),
     )
     text = " ".join(appendix.records([record]).split())

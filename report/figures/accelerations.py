@@ -1,0 +1,88 @@
+"""Accelerations of the motions as run: a row per motion, a column per component, one scale.
+
+Computes only the layout. Read `report.figures.base` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from report.figures.base import GREY, INK, WIDTH_IN, Broken, style, svg_text, tick_text
+from report.figures.history import envelope
+from report.words.units import G_MPS2
+from solver.model import Floats, Motion
+
+_ROW_IN, _TOP_IN, _BOTTOM_IN = 0.42, 0.22, 0.3
+_POINTS = 360  # in a history; with fewer the peaks stand apart as if the motion were slow
+_LABELS = 0.14  # width of the labels of the rows, in columns
+_COLUMNS = ("Record", "Transverse", "Vertical")
+
+
+def accelerations(motions: Sequence[Motion]) -> str:
+    """Return the scaled accelerations of the motions over time, all at one scale.
+
+    All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
+    """
+    scaled = [[m.scale / G_MPS2 * a for a in _components(m)] for m in motions]
+    reach = max(float(np.abs(a_g).max()) for row in scaled for a_g in row if a_g.size) or 1.0
+    seconds = max(m.dt_s * (len(m.ax_mps2) - 1) for m in motions)
+    height = _ROW_IN * len(motions) + _TOP_IN + _BOTTOM_IN
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, height))
+        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        axes.set_axis_off()
+        axes.set_xlim(-_LABELS, len(_COLUMNS))
+        axes.set_ylim(-len(motions) - _BOTTOM_IN / _ROW_IN, _TOP_IN / _ROW_IN)
+        _lines(axes, motions, scaled, reach, seconds)
+        _words(axes, motions, scaled)
+        _scales(axes, len(motions), reach, seconds)
+        return svg_text(figure)
+
+
+def _components(motion: Motion) -> tuple[Floats, Floats, Floats]:
+    return motion.ax_mps2, motion.ay_mps2, motion.az_mps2
+
+
+def _lines(
+    axes: Axes,
+    motions: Sequence[Motion],
+    scaled: Sequence[Sequence[Floats]],
+    reach: float,
+    seconds: float,
+) -> None:
+    """Draw all histories as one line with gaps, and the zeros as another."""
+    histories, zeros = Broken(), Broken()
+    for row, (motion, components) in enumerate(zip(motions, scaled, strict=True)):
+        for column, a_g in enumerate(components):
+            if a_g.size:
+                t_s = motion.dt_s * np.arange(a_g.size, dtype=np.float64)
+                times, values = envelope(t_s, a_g, _POINTS)
+                histories.add(column + 0.94 * times / seconds, -row - 0.5 + 0.46 * values / reach)
+                zeros.add([column, column + 0.94], [-row - 0.5] * 2)
+    axes.plot(zeros.x, zeros.y, color=GREY, linewidth=0.4)
+    axes.plot(histories.x, histories.y, color=INK, linewidth=0.4)
+
+
+def _words(axes: Axes, motions: Sequence[Motion], scaled: Sequence[Sequence[Floats]]) -> None:
+    for column, title in enumerate(_COLUMNS):
+        axes.text(column, 0.1, title, weight="semibold", va="bottom")
+    for row, (motion, components) in enumerate(zip(motions, scaled, strict=True)):
+        axes.text(-_LABELS, -row - 0.5, tick_text(motion.id), va="center")
+        for column, a_g in enumerate(components):
+            if not a_g.size:
+                axes.text(column + 0.47, -row - 0.5, "none", va="center", ha="center")
+
+
+def _scales(axes: Axes, rows: int, reach: float, seconds: float) -> None:
+    """Draw the scale of the accelerations and of the times below the panels."""
+    level = 10.0 ** math.floor(math.log10(reach))
+    low = -rows - 0.1
+    axes.plot([0.0, 0.0], [low, low - 0.46 * level / reach], color=INK, linewidth=1.0)
+    axes.text(0.02, low, f"{level:g} g", va="top")
+    axes.plot([1.0, 1.94], [low, low], color=INK, linewidth=1.0)
+    axes.text(1.47, low - 0.06, f"{seconds:g} s", va="top", ha="center")

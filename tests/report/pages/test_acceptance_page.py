@@ -1,0 +1,125 @@
+"""The part on motions states the limits on the motions, and what follows from a miss."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from openpyxl import Workbook
+
+import stand_in
+from report.assessment.acceptance import shaking_acceptance
+from report.motions.components import read_components
+from report.motions.prepare import Shaking
+from report.motions.targets import targets
+from report.pages.acceptance import acceptance_table, event_table, strength_table
+from report.sheet.archive import open_book
+from report.sheet.schema import MotionInput, RecordedAt
+from solver.records.acceptance import Acceptance
+from solver.records.acceptance_row import AcceptanceRow, Consequence
+from solver.records.record import Record, write_record
+
+MOTIONS = stand_in.motions(3, seconds=6.0)
+
+
+def found(motions, hold_s=math.nan, **changes):
+    """The acceptance of motions whose files state a hold."""
+    book = stand_in.book(stand_in.project(), tuple(motions))
+    files = tuple(replace(file, hold_s=hold_s) for file in book.shaking.records)
+    prepared = tuple(replace(given, **changes) for given in book.shaking.prepared)
+    shaking = Shaking(motions=tuple(motions), prepared=prepared, records=files)
+    return shaking_acceptance(shaking, targets(book.sheet.project))
+
+
+def cells(acceptance):
+    return {row.cells[0]: row.cells[1:] for row in acceptance_table(acceptance).rows}
+
+
+def test_a_file_that_states_its_hold_is_generated():
+    generated = found(MOTIONS, hold_s=20.0)
+    titles = [row.title for row in generated.rows]
+    assert "Strong motion of generated motions: hold of the envelope" in titles
+    assert any("Correlation" in title for title in titles)
+    assert not any("records" in title for title in titles)
+
+
+def test_the_response_of_a_building_has_no_longer_the_envelope_of_its_motion():
+    carried = found(MOTIONS, hold_s=20.0, recorded_at=RecordedAt.GROUND)
+    assert all(not motion.is_generated for motion in carried.motions)
+    assert any(row.title.startswith("Strong motion of records") for row in carried.rows)
+
+
+def test_one_file_without_a_hold_makes_the_motion_a_record():
+    book = stand_in.book(stand_in.project(), MOTIONS)
+    first, *others = book.shaking.records
+    files = (first, *(replace(file, hold_s=20.0) for file in others))
+    shaking = Shaking(motions=MOTIONS, prepared=book.shaking.prepared, records=files)
+    motions = shaking_acceptance(shaking, targets(book.sheet.project)).motions
+    assert [motion.is_generated for motion in motions] == [False, True, True]
+
+
+@pytest.mark.parametrize(("changes", "hold_s"), [({}, 20.0), ({"to_s": 5.0}, math.nan)])
+def test_a_part_of_a_record_has_no_longer_its_envelope(tmp_path, changes, hold_s):
+    values = np.sin(np.arange(2001) * 0.05)
+    record = Record(name="x", dt_s=0.005, a_mps2=values)
+    write_record(tmp_path / "x.csv", record, hold_s=20.0)
+    book = Workbook()
+    book.save(tmp_path / "book.xlsx")
+    row = MotionInput(id="M1", record="x.csv", **changes)
+    opened = open_book(tmp_path / "book.xlsx")
+    (file,) = read_components(opened, 0, row.model_dump()).files
+    assert file.hold_s == pytest.approx(hold_s, nan_ok=True)
+
+
+def test_a_short_record_is_a_condition_and_a_missing_component_is_ng():
+    bare = [replace(m, ay_mps2=np.empty(0)) for m in MOTIONS]
+    shown = cells(found(bare))
+    strong = shown["Strong motion of records: D5-95 of each component"]
+    assert strong[1] == "≥ 20.0 s"
+    assert "condition" in strong[3]
+    missing = shown["Components of each motion: two horizontal and the vertical together"]
+    assert missing[:3] == ("2", "≥ 3", f"{MOTIONS[0].id}, no y")
+    assert "NG" in missing[3]
+    assert shown["Number of motions"][:2] == ("3", "≥ 3")
+    assert "OK" in shown["Number of motions"][3]
+
+
+@pytest.mark.parametrize(
+    ("value", "printed", "word"),
+    [(0.8999, "0.8999", "NG"), (0.899999, "0.899999", "NG"), (0.9, "0.90", "OK")],
+)
+def test_a_miss_never_rounds_onto_its_limit(value, printed, word):
+    row = AcceptanceRow(title="Ratio", found=value, limit=0.9, is_at_least=True, worst="M1 x")
+    ((_, shown, limit, _, result),) = (
+        row.cells for row in acceptance_table(Acceptance(rows=(row,), motions=())).rows
+    )
+    assert (shown, limit) == (printed, "≥ 0.90")
+    assert word in result
+
+
+def test_only_limits_of_this_program_are_marked_as_such():
+    shown = found(MOTIONS)
+    marked = [row.cells[0] for row in acceptance_table(shown).rows if "*" in row.cells[0]]
+    assert len(marked) == 2
+    assert all("0.1 to 1.3 Hz" in title for title in marked)
+    assert "in no code" in acceptance_table(shown).notes[0]
+    assert {row.consequence for row in shown.rows} == {Consequence.NG, Consequence.CONDITION}
+
+
+def test_strong_motion_and_correlations_are_those_of_the_arrays():
+    row = strength_table(found(MOTIONS[:1]).motions).rows[0].cells
+    x, y = (a * MOTIONS[0].scale for a in (MOTIONS[0].ax_mps2, MOTIONS[0].ay_mps2))
+    # pi / (2 g) times the integral of the square of straight lines between samples.
+    squares = (x[:-1] ** 2 + x[:-1] * x[1:] + x[1:] ** 2) / 3.0
+    arias = math.pi / (2.0 * 9.80665) * MOTIONS[0].dt_s * squares.sum()
+    assert row[1] == f"{arias:.2f}"
+    assert float(row[7].replace("−", "-")) == pytest.approx(np.corrcoef(x, y)[0, 1], abs=0.005)
+    assert row[-1] == "record"
+
+
+def test_events_are_printed_where_the_workbook_gives_any():
+    plain = MotionInput(id="M1", record="x.csv")
+    assert event_table([plain]) == ()
+    given = MotionInput(id="M2", record="y.csv", event="Kobe 1995", magnitude=6.9, v_s30_mps=312.0)
+    (table,) = event_table([plain, given])
+    assert [row.cells for row in table.rows] == [("M2", "Kobe 1995", "6.9", "not given", "312")]
