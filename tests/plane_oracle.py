@@ -138,13 +138,14 @@ def _follow(span, t, state, law, seen, cs):
 
 def _extremes(dense, before, solver, seen, cs):
     seen.append(solver.y[:2].copy())
+    times = np.linspace(solver.t_old, solver.t, 9)
+    states = dense(times)
     for quantity in (
         lambda y: cs * cs * y[0] * y[2] + y[1] * y[3],
         lambda y: y[2],
         lambda y: y[3],
     ):
-        times = np.linspace(solver.t_old, solver.t, 9)
-        values = [quantity(dense(t)) for t in times]
+        values = quantity(states)
         for a, b, first, other in zip(times[:-1], times[1:], values[:-1], values[1:], strict=True):
             if first * other < 0.0:
                 root = brentq(lambda t, q=quantity: q(dense(t)), a, b, xtol=1e-16)
