@@ -6,6 +6,7 @@ import math
 import re
 from dataclasses import replace
 from html import unescape
+from types import SimpleNamespace
 
 import numba
 import numpy as np
@@ -14,16 +15,13 @@ import pytest
 from click.testing import CliRunner
 from pypdf import PdfReader
 
+import report.cli.verify
 import report.manual.render
 import solver.verification.run
 from report.cli.main import main
 from report.figures import work
-from report.figures.base import load_fonts
 from report.manual import blocks
-from report.manual.machine import this_machine
-from report.manual.render import files, manual_html
-from report.manual.sections import sections
-from report.typeset.pdf import TEMPLATES
+from report.typeset.pdf import lay_out
 from report.words.letters import lettered
 from solver.model import Status
 from solver.rivals.methods import METHODS
@@ -38,38 +36,53 @@ DATE = dt.date(2026, 3, 5)
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory):
-    """What `roofslip verify --quick` computes, and how the command ends."""
-    computed = []
+    """What `roofslip verify --quick` computes and lays out, how the command ends, and its folder.
+
+    Other programs, where some are installed, are tested apart.
+    """
+    computed, laid_out = [], []
     with pytest.MonkeyPatch.context() as patch:
 
         def kept(*arguments, **options):
-            computed.append(verify(*arguments, **options))
+            computed.append(replace(verify(*arguments, **options), peers=()))
             return computed[0]
 
+        def kept_html(html):
+            laid_out.append(html)
+            return lay_out(html)
+
         patch.setattr(solver.verification.run, "verify", kept)
-        out = tmp_path_factory.mktemp("quick")
+        patch.setattr(report.manual.render, "lay_out", kept_html)
+        today = SimpleNamespace(date=SimpleNamespace(today=lambda: DATE))
+        patch.setattr(report.cli.verify, "dt", today)
+        out = tmp_path_factory.mktemp("quick") / "v"
         done = CliRunner().invoke(main, ["verify", "--quick", "--out", str(out)])
-    return computed[0], done, out
+    assert done.exit_code == 0, done.output
+    return computed[0], laid_out[0], done, out
 
 
 @pytest.fixture(scope="module")
 def verification(quick):
-    """A quick verification; other programs, where some are installed, are tested apart."""
-    return replace(quick[0], peers=())
-
-
-def test_the_quick_command_of_the_readme_passes(quick):
-    verification, done, out = quick
-    assert done.exit_code == 0, done.output
-    assert done.stdout.startswith(
-        f"PASS: {len(verification.checks)} of {len(verification.checks)} checks"
-    )
-    assert (out / "verification.pdf").read_bytes().startswith(b"%PDF")
+    return quick[0]
 
 
 @pytest.fixture(scope="module")
-def made(verification):
-    return files(verification, DATE, lambda line: None)
+def made(quick):
+    """Every file that the command writes, by its name in the folder."""
+    out = quick[3]
+    written = (path for path in out.rglob("*") if path.is_file())
+    return {path.relative_to(out).as_posix(): path.read_bytes() for path in written}
+
+
+def test_the_quick_command_of_the_readme_passes_and_writes_everything(quick, made):
+    verification, _, done, out = quick
+    count = len(verification.checks)
+    assert done.stdout.startswith(f"PASS: {count} of {count} checks passed\n")
+    assert made["verification.pdf"].startswith(b"%PDF")
+    for name in ("verification.pdf", "verification.csv", "charts/work-percent.svg"):
+        assert str(out / name) in done.output
+        assert len(made[name]) > 1000
+    assert not list(out.glob(".roofslip-*"))
 
 
 @pytest.fixture(scope="module")
@@ -83,36 +96,20 @@ def whole(texts):
     return " ".join(texts)
 
 
-@pytest.fixture(scope="module", autouse=True)
-def fonts():
-    load_fonts(TEMPLATES / "fonts")
-
-
-def said(verification):
+def said(html):
     """The words of the manual, before they are laid out."""
-    machine = this_machine()
-    html = manual_html(verification, sections(verification, machine), machine, DATE)
     body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
     return " ".join(unescape(body).split())
 
 
 @pytest.fixture(scope="module")
-def words(verification):
-    return said(verification)
+def words(quick):
+    return said(quick[1])
 
 
 @pytest.fixture(scope="module")
 def broken(verification):
-    return failing(verification)
-
-
-@pytest.fixture(scope="module")
-def words_of_broken(broken):
-    return said(broken)
-
-
-def failing(verification):
-    """The same verification with its second check failed and some runs lost."""
+    """The same verification with its second check failed, some runs lost, and other programs."""
     wrong = replace(verification.checks[1], computed=1.5, error=0.25, passed=False)
     nan = math.nan
     lost = [
@@ -129,11 +126,34 @@ def failing(verification):
         else point
         for point in verification.work
     ]
-    return replace(
-        verification,
-        checks=(verification.checks[0], wrong, *verification.checks[2:]),
-        work=tuple(lost),
+    peer = PeerPoint(
+        peer="Other",
+        version="1.2",
+        record="motion-01-x",
+        scene="flat",
+        seconds=0.5,
+        prd_error_percent=1.25,
+        note="as its example",
     )
+    no_peer = replace(peer, seconds=nan, prd_error_percent=nan, note="did not converge")
+    checks = (verification.checks[0], wrong, *verification.checks[2:])
+    return replace(verification, checks=checks, work=tuple(lost), peers=(peer, no_peer))
+
+
+@pytest.fixture(scope="module")
+def failed(broken, tmp_path_factory):
+    """How the command ends for the broken verification, and its folder; layout is tested above."""
+    out = tmp_path_factory.mktemp("failed") / "v"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(solver.verification.run, "verify", lambda *_, **__: broken)
+        patch.setattr(report.manual.render, "lay_out", str.encode)
+        done = CliRunner().invoke(main, ["verify", "--out", str(out)])
+    return done, out
+
+
+@pytest.fixture(scope="module")
+def words_of_broken(failed):
+    return said((failed[1] / "verification.pdf").read_text())
 
 
 def test_the_manual_has_a_cover_contents_and_a_summary_of_one_page(texts, verification):
@@ -296,18 +316,8 @@ def test_a_failed_check_is_said_on_cover_summary_and_in_its_table(verification, 
     assert re.search(r" 1\.5 2\.5 × 10⁻¹ [^A-Z]* FAIL", words)
 
 
-def test_other_programs_have_a_section_where_there_are_any(verification):
-    peer = PeerPoint(
-        peer="Other",
-        version="1.2",
-        record="motion-01-x",
-        scene="flat",
-        seconds=0.5,
-        prd_error_percent=1.25,
-        note="as its example",
-    )
-    lost = replace(peer, seconds=math.nan, prd_error_percent=math.nan, note="did not converge")
-    words = said(replace(verification, peers=(peer, lost)))
+def test_other_programs_have_a_section_where_there_are_any(words_of_broken):
+    words = words_of_broken
     assert "13 Other programs" in words
     assert "Other 1.2: as its example motion-01-x flat 500 ms 1.25 %" in words
     assert "Other 1.2: did not converge motion-01-x flat — failed" in words
@@ -317,44 +327,22 @@ def test_without_other_programs_there_is_no_such_section(words):
     assert "Other programs" not in words
 
 
-def command(monkeypatch, tmp_path, verification, *more):
-    """Run the command on what is found already; pictures and layout are tested above."""
-    monkeypatch.setattr(
-        solver.verification.run,
-        "verify",
-        lambda records, *, quick, progress, buildings, motions: verification,
-    )
-    monkeypatch.setattr(report.manual.render, "lay_out", str.encode)
-    return CliRunner().invoke(main, ["verify", "--out", str(tmp_path / "v"), *more])
-
-
-def test_the_command_writes_everything_and_exits_0(monkeypatch, tmp_path, verification):
-    done = command(monkeypatch, tmp_path, verification, "--quick")
-    assert done.exit_code == 0, done.output
-    count = len(verification.checks)
-    assert done.stdout.startswith(f"PASS: {count} of {count} checks passed\n")
-    for name in ("verification.pdf", "verification.csv", "charts/work-percent.svg"):
-        assert str(tmp_path / "v" / name) in done.output
-        assert (tmp_path / "v" / name).stat().st_size > 1000
-    assert not list((tmp_path / "v").glob(".roofslip-*"))
-
-
-def test_a_failed_check_is_named_and_exits_1_with_the_outputs_written(
-    monkeypatch, tmp_path, verification, broken
-):
-    done = command(monkeypatch, tmp_path, broken)
+def test_a_failed_check_is_named_and_exits_1_with_the_outputs_written(failed, broken):
+    done, out = failed
     assert done.exit_code == 1
-    row = verification.checks[1]
+    row = broken.checks[1]
     assert done.stdout.startswith("FAIL: ")
     assert f"  {row.section}: {row.problem}, {row.quantity}: expected" in done.output
     assert "found 1.5 m, error 2.5e-01 exceeds" in done.output
-    table = pd.read_csv(tmp_path / "v" / "verification.csv")
+    table = pd.read_csv(out / "verification.csv")
     assert (table["passed"] == "no").sum() == 1
 
 
 def test_a_folder_that_cannot_be_written_exits_2(monkeypatch, tmp_path, verification):
+    monkeypatch.setattr(solver.verification.run, "verify", lambda *_, **__: verification)
+    monkeypatch.setattr(report.manual.render, "files", lambda *_: {"verification.csv": b"kind"})
     (tmp_path / "v").write_text("a file")
-    done = command(monkeypatch, tmp_path, verification)
+    done = CliRunner().invoke(main, ["verify", "--out", str(tmp_path / "v")])
     assert done.exit_code == 2
     assert "choose another folder" in done.output
 
