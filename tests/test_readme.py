@@ -1,14 +1,25 @@
-"""Every command and every line of Python in the README runs, in a separate folder."""
+"""Every command and every line of Python in the README runs, in a separate folder.
 
+The report of the example runs as by a script, the other commands in this process.
+"""
+
+import json
 import re
 import shlex
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 
+import numpy as np
 import pytest
+from click.testing import CliRunner
 
 from places import ROOT
+from report.cli.main import main
+from solver.model import Friction
+from solver.sliding.checked import scene, slide
+from solver.sliding.two_axes import run as run_in_two_axes
 
 README = (ROOT / "README.md").read_text()
 COMMANDS = [
@@ -19,7 +30,9 @@ COMMANDS = [
 ]
 
 
+REPORT = ["report", "projects/example"]
 ELSEWHERE = (
+    REPORT,  # run by `reported`
     ["test"],  # runs this test
     ["verify", "--quick"],  # run by tests/report/cli/test_verify.py
 )
@@ -34,6 +47,38 @@ def folder(tmp_path_factory):
     return top
 
 
+@pytest.fixture(scope="module")
+def reported(folder):
+    """The example's folder, and its report as by a script."""
+    assert shlex.join(["./roofslip", *REPORT]) in COMMANDS
+    done = subprocess.run(
+        [sys.executable, "-m", "report.cli", *REPORT],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder / "projects" / "example", done
+
+
+@pytest.fixture(scope="module")
+def commanded(folder):
+    """The folder after the other commands."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        for command in COMMANDS:
+            words = shlex.split(command)[1:]
+            if words in ELSEWHERE:
+                continue
+            done = CliRunner().invoke(main, words)
+            assert done.exit_code == 0, command + done.output
+            if words[0] == "new":
+                fill(folder)
+    return folder
+
+
 def fill(top):
     """Fill in the new project as a user would, here with the input of the example."""
     example, yours = (top / "projects" / name for name in ("example", "yours"))
@@ -42,25 +87,76 @@ def fill(top):
     shutil.copytree(example / "records", yours / "records", dirs_exist_ok=True)
 
 
-def test_every_command_of_the_readme_runs(folder):
+def test_every_command_of_the_readme_runs(commanded):
     assert {command.split()[1] for command in COMMANDS} >= {"report", "test", "new", "check"}
-    for command in COMMANDS:
-        words = shlex.split(command)[1:]
-        if words in ELSEWHERE:
-            continue
-        done = subprocess.run(
-            [sys.executable, "-m", "report.cli", *words],
-            cwd=folder,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-        )
-        assert done.returncode == 0, command + done.stdout + done.stderr
-        if words[0] == "new":
-            fill(folder)
-    for project in ("example", "yours"):
-        assert (folder / "projects" / project / "out" / "calc-package.pdf").is_file()
+    assert (commanded / "projects" / "yours" / "out" / "calc-package.pdf").is_file()
+
+
+def test_two_processes_write_the_same_bytes(reported, commanded):
+    for name in ("calc-package.pdf", "results.xlsx", "results.json"):
+        one, two = (top / "out" / name for top in (reported[0], commanded / "projects" / "yours"))
+        assert one.read_bytes() == two.read_bytes(), name
+
+
+def test_report_prints_each_array_and_where_the_files_are(reported):
+    job, done = reported
+    lines = done.stdout.splitlines()
+    assert lines[0].split("  ")[0] == "array"
+    assert [line.split()[0] for line in lines[1:4]] == ["A1", "A2", "A3"]
+    assert all("81.6 in (2070 mm)" in line for line in lines[1:4])
+    assert all(line.endswith("OK") for line in lines[1:4])
+    for name in ("calc-package.pdf", "results.xlsx", "results.json"):
+        assert f"projects/example/out/{name}" in lines
+        assert (job / "out" / name).stat().st_size > 1000
+
+
+def test_the_readme_shows_what_the_example_prints(reported):
+    _, done = reported
+    printed = "\n".join(done.stdout.splitlines()[:4])
+    assert f"```\n{printed}\n```" in README
+
+
+def test_progress_is_plain_lines_when_piped(reported):
+    _, done = reported
+    assert "\x1b" not in done.stderr
+    assert "\r" not in done.stderr
+    assert all(line.startswith("[") for line in done.stderr.splitlines())
+
+
+def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
+    job, _ = reported
+    document = json.loads((job / "out" / "results.json").read_text())
+    runs = [(array, run) for array in document["arrays"] for run in array["runs"]]
+    assert len(runs) == 3 * 7 * 4
+    for array, run_ in runs:
+        columns = [
+            np.loadtxt(
+                job / "records" / f"{run_['motion']}-{letter}.csv", delimiter=",", skiprows=1
+            )
+            for letter in ("xyz" if run_["along"] == "record" else "yxz")
+        ]
+        ax, ay, az = (9.80665 * column[:, 1] for column in columns)
+        ax *= run_["polarity"]
+        about = {"slope_rad": array["slope_rad"], "mu": array["mu"], "az_mps2": az}
+        if array["id"] == "A1":  # the workbook asks for one axis
+            outcome = slide(ax, 0.005, **about)
+        elif array["id"] == "A2":
+            outcome = slide(ax, 0.005, ay_mps2=ay, **about)
+        else:
+            by_speed = Friction(mu_slow=0.4, mu_fast=0.5, rate_s_per_m=20.0, mu_static=0.4)
+            run = scene(ax, 0.005, ay_mps2=ay, **about)
+            outcome = run_in_two_axes(replace(run, friction=by_speed))
+        assert run_["prd_m"] == pytest.approx(outcome.prd_m, rel=1e-12)
+        assert run_["residual_m"] == pytest.approx(outcome.residual_m, rel=1e-12, abs=1e-15)
+        assert run_["status"] == outcome.status
+    for array in document["arrays"]:
+        peaks = [
+            max(r["prd_m"] for r in array["runs"] if r["motion"] == f"RM{k}") for k in range(1, 8)
+        ]
+        computed = 1.1 * sum(peaks) / 7
+        floor = 0.5 * 60 * 0.0254 * (1.566 - 0.4) ** 2
+        assert array["computed_m"] == pytest.approx(computed, rel=1e-12)
+        assert array["design_m"] == pytest.approx(max(computed, floor), rel=1e-12)
 
 
 def test_the_python_of_the_readme_runs(folder, monkeypatch):

@@ -4,11 +4,8 @@ import json
 import shutil
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-import pytest
 from click.testing import CliRunner
 from pypdf import PdfReader
 
@@ -16,9 +13,6 @@ import report.package.html
 from places import ROOT
 from report.cli.main import main
 from sheets import make
-from solver.model import Friction
-from solver.sliding.checked import scene, slide
-from solver.sliding.two_axes import run as run_in_two_axes
 
 EXAMPLE = ROOT / "projects" / "example"
 RECORD = str(EXAMPLE / "records" / "RM1-x.csv")
@@ -112,80 +106,3 @@ def test_a_rigid_block_that_is_not_adequate_gives_a_warning(tmp_path):
     text = " ".join(" ".join(page.extract_text() for page in pdf.pages).split())
     assert "Array A2: a row of linked blocks" in text
     assert "One rigid block has not been shown to be adequate" in text
-
-
-@pytest.fixture(scope="module")
-def reported(tmp_path_factory):
-    """The example, reported from a folder of its own, as by a script."""
-    job = tmp_path_factory.mktemp("example") / "job"
-    shutil.copytree(EXAMPLE, job, ignore=shutil.ignore_patterns("out"))
-    done = subprocess.run(
-        [sys.executable, "-m", "report.cli", "report", str(job)],
-        capture_output=True,
-        text=True,
-        check=True,
-        cwd=ROOT,
-        timeout=120,
-    )
-    return job, done
-
-
-def test_report_prints_each_array_and_where_the_files_are(reported):
-    job, done = reported
-    lines = done.stdout.splitlines()
-    assert lines[0].split("  ")[0] == "array"
-    assert [line.split()[0] for line in lines[1:4]] == ["A1", "A2", "A3"]
-    assert all("81.6 in (2070 mm)" in line for line in lines[1:4])
-    assert all(line.endswith("OK") for line in lines[1:4])
-    for name in ("calc-package.pdf", "results.xlsx", "results.json"):
-        assert str(job / "out" / name) in lines
-        assert (job / "out" / name).stat().st_size > 1000
-
-
-def test_the_readme_shows_what_the_example_prints(reported):
-    _, done = reported
-    printed = "\n".join(done.stdout.splitlines()[:4])
-    assert f"```\n{printed}\n```" in (ROOT / "README.md").read_text()
-
-
-def test_progress_is_plain_lines_when_piped(reported):
-    _, done = reported
-    assert "\x1b" not in done.stderr
-    assert "\r" not in done.stderr
-    assert all(line.startswith("[") for line in done.stderr.splitlines())
-
-
-def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
-    job, _ = reported
-    document = json.loads((job / "out" / "results.json").read_text())
-    runs = [(array, run) for array in document["arrays"] for run in array["runs"]]
-    assert len(runs) == 3 * 7 * 4
-    for array, run_ in runs:
-        columns = [
-            np.loadtxt(
-                job / "records" / f"{run_['motion']}-{letter}.csv", delimiter=",", skiprows=1
-            )
-            for letter in ("xyz" if run_["along"] == "record" else "yxz")
-        ]
-        ax, ay, az = (9.80665 * column[:, 1] for column in columns)
-        ax *= run_["polarity"]
-        about = {"slope_rad": array["slope_rad"], "mu": array["mu"], "az_mps2": az}
-        if array["id"] == "A1":  # the workbook asks for one axis
-            outcome = slide(ax, 0.005, **about)
-        elif array["id"] == "A2":
-            outcome = slide(ax, 0.005, ay_mps2=ay, **about)
-        else:
-            by_speed = Friction(mu_slow=0.4, mu_fast=0.5, rate_s_per_m=20.0, mu_static=0.4)
-            run = scene(ax, 0.005, ay_mps2=ay, **about)
-            outcome = run_in_two_axes(replace(run, friction=by_speed))
-        assert run_["prd_m"] == pytest.approx(outcome.prd_m, rel=1e-12)
-        assert run_["residual_m"] == pytest.approx(outcome.residual_m, rel=1e-12, abs=1e-15)
-        assert run_["status"] == outcome.status
-    for array in document["arrays"]:
-        peaks = [
-            max(r["prd_m"] for r in array["runs"] if r["motion"] == f"RM{k}") for k in range(1, 8)
-        ]
-        computed = 1.1 * sum(peaks) / 7
-        floor = 0.5 * 60 * 0.0254 * (1.566 - 0.4) ** 2
-        assert array["computed_m"] == pytest.approx(computed, rel=1e-12)
-        assert array["design_m"] == pytest.approx(max(computed, floor), rel=1e-12)
