@@ -24,6 +24,11 @@ def made(book):
     return formulas, values
 
 
+@pytest.fixture(scope="module")
+def usual():
+    return made(stand_in.book())
+
+
 def compute(book, sheet, cell):
     """Evaluate a cell of a workbook: only what the result formulas use."""
     value = book[sheet][cell].value
@@ -105,8 +110,8 @@ def test_the_effect_of_links_follows_from_their_runs():
     assert sheet["L6"].value == pytest.approx(second.design.design_m / 0.0254)
 
 
-def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets():
-    formulas, _ = made(stand_in.book())
+def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets(usual):
+    formulas, _ = usual
     assert not {"Links", "LinkRuns"} & set(formulas.sheetnames)
 
 
@@ -116,8 +121,8 @@ def test_a_row_without_a_value_is_ng_in_the_workbook():
     assert [values["Links"][f"{c}5"].value for c in "ALO"] == ["A1", "no value", "NG"]
 
 
-def test_the_prescriptive_value_is_a_live_formula():
-    formulas, values = made(stand_in.book())
+def test_the_prescriptive_value_is_a_live_formula(usual):
+    formulas, values = usual
     assert formulas["Design"]["F5"].value == "=MAX(C5*D5*MAX(B5-0.4,0)^2,E5)"
     assert values["Design"]["F5"].value == pytest.approx(81.573, abs=5e-4)
 
@@ -144,8 +149,8 @@ def test_a_clearance_follows_from_the_runs_through_its_direction():
     assert formulas["Peaks"][f"D{peaks[1]}"].value.startswith("=MAX(Runs!")
 
 
-def test_the_model_of_every_run_is_listed():
-    _, values = made(stand_in.book())
+def test_the_model_of_every_run_is_listed(usual):
+    _, values = usual
     head, first, *_ = values["Runs"].iter_rows(values_only=True)
     assert first[head.index("Model")] == "3, two axes with vertical"
     assert "second horizontal component" in first[head.index("Reason")]
@@ -166,15 +171,15 @@ def test_text_that_looks_like_a_formula_stays_text():
         assert (formulas[sheet][cell].value, formulas[sheet][cell].data_type) == ("=1+1", "s")
 
 
-def test_every_run_is_listed():
-    _, values = made(stand_in.book())
+def test_every_run_is_listed(usual):
+    _, values = usual
     rows = list(values["Runs"].iter_rows(min_row=2, values_only=True))
     assert len(rows) == 3 * 7 * 4
     assert sum(row[4] == "yes" for row in rows) == 3 * 7
 
 
-def test_the_spectrum_of_every_motion_is_listed_by_component():
-    _, values = made(stand_in.book())
+def test_the_spectrum_of_every_motion_is_listed_by_component(usual):
+    _, values = usual
     head = [cell.value for cell in values["Spectra"][1]]
     assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
     assert len(head) == 1 + 3 * 8
@@ -189,8 +194,8 @@ def test_two_runs_give_the_same_bytes():
     assert created.date() == book.input.project.date
 
 
-def test_the_processing_of_each_component_is_listed():
-    _, values = made(stand_in.book())
+def test_the_processing_of_each_component_is_listed(usual):
+    _, values = usual
     head, *rows = values["Motions"].iter_rows(values_only=True)
     assert len(rows) == 7 * 3
     assert rows[1][:5] == ("M1", "transverse", "roof", "as recorded", "as recorded")
