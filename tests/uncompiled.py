@@ -20,7 +20,7 @@ def assert_every_line_runs(module, test_file, folder):
         done = subprocess.run(
             command,
             cwd=ROOT,
-            env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+            env=os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
             capture_output=True,
             text=True,
             check=False,
