@@ -8,8 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from report.assessment.acceptance import shaking_acceptance
+from report.assessment.certainty import Certainty, certainty
 from report.assessment.highpass import Beyond, beyond_corners
 from report.assessment.project import Assessment
+from report.assessment.remedies import Remedy, remedies
 from report.assessment.sensitivity import Accuracy, accuracy
 from report.assessment.spectra import Spectra, spectra
 from solver.model import SlideHistory
@@ -31,6 +33,10 @@ class Evidence:
         Effect of the high-pass of each motion on the slip of the governing array.
     acceptance : Acceptance
         Limits on the motions as run, at the roof.
+    remedies : tuple of Remedy
+        What would satisfy each clearance and array marked NG.
+    certainty : Certainty
+        Effects of friction, slope and directions of shaking that are not run.
     """
 
     spectra: tuple[Spectra, ...]
@@ -38,6 +44,8 @@ class Evidence:
     accuracy: Accuracy
     highpass: tuple[Beyond, ...]
     acceptance: Acceptance
+    remedies: tuple[Remedy, ...]
+    certainty: Certainty
 
 
 def support(assessment: Assessment) -> Evidence:
@@ -50,4 +58,6 @@ def support(assessment: Assessment) -> Evidence:
         accuracy=accuracy(assessment),
         highpass=beyond_corners(assessment),
         acceptance=shaking_acceptance(assessment.shaking, assessment.targets),
+        remedies=remedies(assessment),
+        certainty=certainty(assessment),
     )

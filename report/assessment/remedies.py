@@ -37,6 +37,11 @@ LEAST_S_DS_G = 0.05
 """Smallest S_DS tried [g]."""
 
 
+S_DS_STRIDES = (20, 5, 1)
+"""Hundredths of g between the values of each pass. Displacements fall with growing acceleration in
+0.03 % of steps, with falling friction in 0.3 %: S_DS takes a coarser first pass."""
+
+
 class RemedyKind(StrEnum):
     """Quantity that would have to change."""
 
@@ -91,29 +96,29 @@ def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
 
 
 def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
-    trials = {found.array.id: Trials(given, found, pool) for found in given.arrays}
+    trials = {array.id: Trials(given, array, pool) for array in given.arrays}
     for number, gap in enumerate(given.clearances, start=1):
         if gap.ok:
             continue
-        here = [trials[found.array.id] for found in involved(given, gap.clearance)]
-        short = [one for one in here if not _holds(one.found, given, gap.clearance)]
+        here = [trials[array.id] for array in involved(given, gap.clearance)]
+        short = [one for one in here if not _holds(one.array, given, gap.clearance)]
         yield from (_friction(one, number, gap.clearance) for one in short)
         yield _separation(given, number, gap)
         if short:
             yield _s_ds(short, number, gap.clearance)
-    for found in given.arrays:
-        if not is_final(found):
-            yield _friction(trials[found.array.id], 0, None)
-            yield _s_ds([trials[found.array.id]], 0, None)
+    for array in given.arrays:
+        if not is_final(array):
+            yield _friction(trials[array.id], 0, None)
+            yield _s_ds([trials[array.id]], 0, None)
 
 
-def _holds(found: ArrayAssessment, given: Assessment, row: Clearance) -> bool:
-    return is_final(found) and alone(given, given.project, found, row).ok
+def _holds(array: ArrayAssessment, given: Assessment, row: Clearance) -> bool:
+    return is_final(array) and alone(given, given.project, array, row).ok
 
 
 def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
     """Return the least friction coefficient with which an array satisfies."""
-    array = trials.found.array
+    array = trials.array.array
     start, end = hundredths(MOST_MU), above(array.mu)
     reason = _in_vain(trials, row)
     held: tuple[int, ...] = ()
@@ -140,18 +145,18 @@ def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
 
 def _in_vain(trials: Trials, row: Clearance | None) -> str:
     """Return why no friction can satisfy, if so: found without a run."""
-    given, found = trials.given, trials.found
-    if few := _too_few(found):
+    given, array = trials.given, trials.array
+    if few := _too_few(array):
         return few
-    if row is None or alone(given, given.project, displaced(found, 0.0, found.floor_m), row).ok:
+    if row is None or alone(given, given.project, displaced(array, 0.0, array.floor_m), row).ok:
         return ""
-    if alone(given, given.project, displaced(found, 0.0, 0.0), row).ok:
+    if alone(given, given.project, displaced(array, 0.0, 0.0), row).ok:
         return "the floor alone requires more than is provided"
     return "the minimum separation of the rule set is more than is provided"
 
 
-def _too_few(found: ArrayAssessment) -> str:
-    few = found.analysis.basis is Basis.TOO_FEW
+def _too_few(array: ArrayAssessment) -> str:
+    few = array.analysis.basis is Basis.TOO_FEW
     return "there are too few motions for the requested statistic" if few else ""
 
 
@@ -175,12 +180,14 @@ def _separation(given: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
 
 def _s_ds(trials: Sequence[Trials], number: int, row: Clearance | None) -> Remedy:
     """Return the largest S_DS with which all arrays of a clearance satisfy."""
-    found, given = trials[0].found, trials[0].given
+    array, given = trials[0].array, trials[0].given
     site, start = given.project.site, hundredths(LEAST_S_DS_G)
     end = below(site.s_ds)
     held: tuple[int, ...] = ()
-    if found.analysis.basis is not Basis.TOO_FEW and end >= start:
-        held = reach(lambda s_ds: all(one.holds(row, s_ds=s_ds) for one in trials), start, end)
+    if array.analysis.basis is not Basis.TOO_FEW and end >= start:
+        held = reach(
+            lambda s_ds: all(one.holds(row, s_ds=s_ds) for one in trials), start, end, S_DS_STRIDES
+        )
     most = held[-1] / 100 if held else math.nan
     floor = "" if given.project.options.peer_reviewed else " and the floor"
     scaled = (
@@ -191,11 +198,11 @@ def _s_ds(trials: Sequence[Trials], number: int, row: Clearance | None) -> Remed
     return Remedy(
         kind=RemedyKind.S_DS,
         clearance=number,
-        array=found.array.id,
+        array=array.id,
         given=site.s_ds,
         value=most,
         resolution=HUNDREDTH,
         verified=(LEAST_S_DS_G if held else math.nan, most),
         n_values=len(held),
-        basis=scaled if held else _too_few(found) or none,
+        basis=scaled if held else _too_few(array) or none,
     )

@@ -22,8 +22,8 @@ from solver.model import Status
 HUNDREDTH = 0.01
 """Resolution of the searches, in friction coefficient and in S_DS [g]."""
 
-STRIDE = 5
-"""Hundredths between the values of the first pass of a search."""
+STRIDES = (5, 1)
+"""Hundredths between the values of each pass of a search."""
 
 
 def hundredths(value: float) -> int:
@@ -61,12 +61,13 @@ def with_mu(array: Array, mu: float) -> Array:
     return array.model_copy(update={**dict.fromkeys(names), "mu": mu})
 
 
-def reach(holds: Callable[[int], bool], start: int, end: int) -> tuple[int, ...]:
+def reach(
+    holds: Callable[[int], bool], start: int, end: int, strides: Sequence[int] = STRIDES
+) -> tuple[int, ...]:
     """Walk from one value toward another, and return those before the first failure, in order.
 
-    The first pass goes in steps of `STRIDE`, the second in steps of one from the last value of the
-    first: no value tried between the start and the last one returned fails. Empty if the start
-    fails.
+    Each pass goes on from the last value of the one before, in smaller steps: no value tried
+    between the start and the last one returned fails. Empty if the start fails.
 
     Parameters
     ----------
@@ -77,7 +78,7 @@ def reach(holds: Callable[[int], bool], start: int, end: int) -> tuple[int, ...]
         return ()
     way = 1 if end >= start else -1
     held = [start]
-    for step in (STRIDE, 1):
+    for step in strides:
         while (following := held[-1] + way * step) * way <= end * way and holds(following):
             held.append(following)
     return tuple(held)
@@ -91,9 +92,9 @@ class Trials:
     the same ones.
     """
 
-    def __init__(self, given: Assessment, found: ArrayAssessment, pool: Executor) -> None:
+    def __init__(self, given: Assessment, array: ArrayAssessment, pool: Executor) -> None:
         self.given = given
-        self.found = found
+        self.array = array
         self._pool = pool
         self._governing: dict[tuple[int, int], ArrayAssessment] = {}
         self._all: dict[tuple[int, int], ArrayAssessment] = {}
@@ -122,9 +123,9 @@ class Trials:
     def governing(self, mu: int, s_ds: int) -> ArrayAssessment:
         """Return the array with the governing heading of each motion only."""
         if (mu, s_ds) not in self._governing:
-            array, share = self._array(mu), self._share(s_ds)
-            runs = self._pool.map(partial(_first_run, array, share), self.found.motions)
-            self._governing[mu, s_ds] = self._assessed(array, s_ds, tuple(runs))
+            changed, share = self._changed(mu), self._share(s_ds)
+            runs = self._pool.map(partial(_first_run, changed, share), self.array.motions)
+            self._governing[mu, s_ds] = self._assessed(changed, s_ds, tuple(runs))
         return self._governing[mu, s_ds]
 
     def complete(self, mu: int, s_ds: int) -> ArrayAssessment:
@@ -132,7 +133,7 @@ class Trials:
         if (mu, s_ds) not in self._all:
             first = self.governing(mu, s_ds)
             runs = self._pool.map(
-                partial(_other_runs, first.array), self.found.motions, first.motions
+                partial(_other_runs, first.array), self.array.motions, first.motions
             )
             self._all[mu, s_ds] = self._assessed(first.array, s_ds, tuple(runs))
         return self._all[mu, s_ds]
@@ -142,9 +143,8 @@ class Trials:
             return False
         return row is None or alone(self.given, self._data(s_ds), trial, row).ok
 
-    def _array(self, mu: int) -> Array:
-        array = self.found.array
-        return with_mu(array, mu / 100) if mu else array
+    def _changed(self, mu: int) -> Array:
+        return with_mu(self.array.array, mu / 100) if mu else self.array.array
 
     def _share(self, s_ds: int) -> float:
         return s_ds / 100 / self.given.project.site.s_ds if s_ds else 1.0
@@ -173,10 +173,10 @@ def with_s_ds(data: ProjectInput, s_ds_g: float) -> ProjectInput:
     return data.model_copy(update={"site": data.site.model_copy(update={"s_ds_g": s_ds_g})})
 
 
-def is_final(found: ArrayAssessment) -> bool:
+def is_final(array: ArrayAssessment) -> bool:
     """Whether an array has a design value and every run ended at rest."""
-    statuses = {run.result.status for motion in found.motions for run in motion.runs}
-    return statuses == {Status.OK} and not math.isnan(found.design_m)
+    statuses = {run.result.status for motion in array.motions for run in motion.runs}
+    return statuses == {Status.OK} and not math.isnan(array.design_m)
 
 
 def alone(
@@ -184,18 +184,17 @@ def alone(
 ) -> ClearanceCheck:
     """Return a clearance with one array as tried and all others at rest."""
     arrays = tuple(
-        trial if one.array.id == trial.array.id else displaced(one, 0.0, 0.0)
-        for one in given.arrays
+        trial if array.id == trial.id else displaced(array, 0.0, 0.0) for array in given.arrays
     )
     return check_clearance(data, given.rules, arrays, row)
 
 
-def displaced(found: ArrayAssessment, analysis_m: float, floor_m: float) -> ArrayAssessment:
+def displaced(array: ArrayAssessment, analysis_m: float, floor_m: float) -> ArrayAssessment:
     """Return an array with one value from analysis in every direction, and a floor [m]."""
-    ways = {way: replace(value, value_m=analysis_m) for way, value in found.directions.items()}
+    ways = {way: replace(value, value_m=analysis_m) for way, value in array.directions.items()}
     return replace(
-        found,
-        analysis=replace(found.analysis, value_m=analysis_m),
+        array,
+        analysis=replace(array.analysis, value_m=analysis_m),
         directions=ways,
         floor_m=floor_m,
         design_m=max(analysis_m, floor_m),
@@ -204,4 +203,4 @@ def displaced(found: ArrayAssessment, analysis_m: float, floor_m: float) -> Arra
 
 def involved(given: Assessment, row: Clearance) -> Sequence[ArrayAssessment]:
     """Return the arrays on both sides of a clearance."""
-    return [one for one in given.arrays if one.array.id in (row.array, row.object)]
+    return [array for array in given.arrays if array.id in (row.array, row.object)]

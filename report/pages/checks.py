@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from markupsafe import Markup, escape
 
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.remedies import Remedy
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
@@ -20,6 +21,7 @@ from report.pages.parts import (
     dagger,
     verdict,
 )
+from report.pages.remedies import table
 from report.typeset.equations import symbol
 from report.words.units import Quantity, number, ratio
 from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
@@ -167,7 +169,7 @@ def check_table(
     )
 
 
-def clearances(package: PackageData) -> Mapping[str, object]:
+def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
     parapets = [gap for gap in package.assessment.clearances if "parapet" in gap.neighbor.value]
     notes = [
@@ -193,7 +195,11 @@ def clearances(package: PackageData) -> Mapping[str, object]:
             f"{package.fmt.both(package.assessment.rules.length_m('separation_edge_min_in'))}"
             f"{package.mark('separation_edge_min_in')}."
         )
-    return {"table": clearance_table(package, brief=False), "notes": tuple(notes)}
+    return {
+        "table": clearance_table(package, brief=False),
+        "notes": tuple(notes),
+        "remedies": table(package, remedies) if remedies else None,
+    }
 
 
 def limits(package: PackageData) -> Mapping[str, object]:

@@ -8,6 +8,9 @@ from collections.abc import Mapping, Sequence
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.certainty import Certainty
+from report.assessment.remedies import Remedy
+from report.pages.certainty import reversed_words, turned_words
 from report.pages.checks import all_checks, clearance_table, troubles
 from report.pages.parts import (
     PackageData,
@@ -18,6 +21,7 @@ from report.pages.parts import (
     statistic,
     verdict,
 )
+from report.pages.remedies import sentences
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
 from report.words.units import number, ratio
@@ -73,7 +77,7 @@ def cover(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def summary(package: PackageData) -> Mapping[str, object]:
+def summary(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, object]:
     """Return the summary page: governing numbers and all verdicts."""
     return {
         "verdict": verdict(package.assessment.ok),
@@ -82,6 +86,7 @@ def summary(package: PackageData) -> Mapping[str, object]:
         "arrays": _array_table(package),
         "clearances": clearance_table(package, brief=True),
         "troubles": troubles(package),
+        "answers": sentences(package, remedies),
     }
 
 
@@ -180,7 +185,7 @@ def _array_row(package: PackageData, array: ArrayAssessment) -> TableRow:
     )
 
 
-def basis(package: PackageData) -> Mapping[str, object]:
+def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
     """Return the computed texts of the page on basis and limits."""
     motions = [run.motion for run in package.governing.motions]
     return {
@@ -198,8 +203,26 @@ def basis(package: PackageData) -> Mapping[str, object]:
         if package.data.options.peer_reviewed
         else "is not stated to be peer reviewed",
         "floor": "does not apply" if package.data.options.peer_reviewed else "applies",
+        "angles": _angles(package, certainty),
         "failed": troubles(package),
     }
+
+
+def _angles(package: PackageData, certainty: Certainty) -> str:
+    """Return what directions of shaking that are not run would give, as computed."""
+    motion = certainty.motion.motion
+    angles = (
+        f"{len(certainty.turned)} more angles of the horizontal pair give "
+        f"{turned_words(package, certainty)}"
+        if certainty.turned
+        else "there is one horizontal component, and no other angle"
+    )
+    return (
+        "Other horizontal orientations of the record and a reversed vertical component are not "
+        f"part of the design value. For array {package.governing.id} under its governing motion, "
+        f"{motion.id}: {angles}. {reversed_words(package, certainty)} See "
+        f"{package.part('how-sure')}."
+    )
 
 
 def _components(motions: Sequence[Motion]) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.spectra import Spectra
-from report.pages import accuracy, friction_tests, section
+from report.pages import accuracy, certainty, friction_tests, section
 from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
@@ -93,6 +93,7 @@ def draw_evidence(package: PackageData, evidence: Evidence) -> Pictures:
             if evidence.accuracy.rivals.runs
             else []
         ),
+        "how-sure": certainty.pictures(package, evidence.certainty.surface),
     }
     runs = zip(package.assessment.arrays, evidence.histories, strict=True)
     for count, (array, followed) in enumerate(runs, start=1):

@@ -15,6 +15,7 @@ from report.assessment.project import Assessment
 from report.pages import (
     accuracy,
     appendix,
+    certainty,
     checks,
     front,
     inputs,
@@ -63,13 +64,13 @@ PAGES = (
     Page(
         id="summary",
         title="Summary",
-        fill=lambda package, _: front.summary(package),
+        fill=lambda package, evidence: front.summary(package, evidence.remedies),
         template="summary.html",
     ),
     Page(
         id="basis",
         title="Basis and limits of the method",
-        fill=lambda package, _: front.basis(package),
+        fill=lambda package, evidence: front.basis(package, evidence.certainty),
         template="basis.html",
     ),
     Page(
@@ -109,7 +110,7 @@ PAGES = (
     Page(
         id="clearances",
         title="Clearances",
-        fill=lambda package, _: checks.clearances(package),
+        fill=lambda package, evidence: checks.clearances(package, evidence.remedies),
         template="clearances.html",
     ),
     Page(
@@ -134,6 +135,12 @@ PAGES = (
         title="Accuracy and sensitivity",
         fill=lambda package, evidence: accuracy.page(package, evidence.accuracy),
         template="accuracy.html",
+    ),
+    Page(
+        id="how-sure",
+        title="How sure",
+        fill=lambda package, evidence: certainty.page(package, evidence.certainty),
+        template="how-sure.html",
     ),
     Page(
         id="echo",

@@ -1,0 +1,280 @@
+"""How sure the design values are: friction, slope, and directions of shaking that are not run.
+
+Runs the solver and collects numbers; `report.pages.certainty` prints them and
+`report.figures.certainty` plots them. Read `certainty`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.project import THREADS, Assessment
+from report.assessment.runs import MotionRun, nan_is_worst, run_heading, run_motion
+from report.assessment.trials import (
+    Trials,
+    alone,
+    below,
+    involved,
+    is_final,
+    reach,
+    with_mu,
+)
+from report.sheet.schema import Array
+from solver.model import Floats, Heading, Motion, Scene, SlideResult, Status
+from solver.sliding import one_axis, two_axes
+
+N_MUS, N_SLOPES = 8, 6
+"""Points of the grid over friction and slope."""
+
+TOLERANCE = 1e-3
+"""Tolerance of the runs on the grid, relative to the PRD."""
+
+LOWEST_SHARE = 0.5
+"""Fraction of the given friction coefficient down to which the margins are searched."""
+
+ANGLES_DEG = tuple(k * 22.5 for k in range(16) if k % 4)
+"""Angles of the horizontal pair that the design runs do not have, which are multiples of 90."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surface:
+    """Mean PRD of the motions over friction and slope, each in its governing heading.
+
+    Attributes
+    ----------
+    array : ArrayAssessment
+        The governing array: its headings, and its friction law scaled as a whole.
+    mus : array, shape (q,)
+        Low-velocity friction coefficients, that of the array among them.
+    slopes_rad : array, shape (p,)
+        Slopes [rad], that of the array among them.
+    mean_m : array, shape (p, q)
+        Mean PRD [m]; NaN where a run gives no displacement.
+    n_unfinished, n_runs : int
+        Runs that are still sliding at the end of their record, and all runs.
+    others : tuple of str
+        Ids of arrays whose friction law is not that of the governing array, scaled.
+    """
+
+    array: ArrayAssessment
+    mus: Floats
+    slopes_rad: Floats
+    mean_m: Floats
+    n_unfinished: int
+    n_runs: int
+    others: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Margin:
+    """How far the friction of one array may fall before a clearance is not satisfied.
+
+    Attributes
+    ----------
+    number : int
+        Of the clearance in the workbook, from 1.
+    least_mu : float
+        Smallest coefficient at which all runs satisfy; NaN if the one given does not.
+    required_m : float
+        Required separation at it, for this array alone [m].
+    lowest_tried : float
+        Where the search ends.
+    """
+
+    number: int
+    gap: ClearanceCheck
+    array: ArrayAssessment
+    least_mu: float
+    required_m: float
+    lowest_tried: float
+
+    @property
+    def is_beyond(self) -> bool:
+        """Whether the search ended before the clearance failed."""
+        return self.least_mu == self.lowest_tried
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Turned:
+    """The governing motion with its horizontal pair turned in plan, from the record's own axes."""
+
+    angle_deg: float
+    result: SlideResult
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Certainty:
+    """How sure the design values are.
+
+    Attributes
+    ----------
+    motion : MotionRun
+        The governing motion of the governing array, as run for the package.
+    turned : tuple of Turned
+        Empty for a motion with one horizontal component.
+    reversed_m : float
+        Largest PRD with the vertical component reversed, over the headings of the package [m]; NaN
+        without a vertical component or without a displacement.
+    margins : tuple of Margin
+        For each clearance, one for each array that it involves.
+    """
+
+    surface: Surface
+    margins: tuple[Margin, ...]
+    motion: MotionRun
+    turned: tuple[Turned, ...]
+    reversed_m: float
+
+    @property
+    def used_m(self) -> float:
+        """PRD of the governing motion in the package [m]."""
+        return self.motion.governing.result.prd_m
+
+    @property
+    def worst(self) -> Turned:
+        """The turned run with the largest PRD; there must be one."""
+        return max(self.turned, key=lambda run: nan_is_worst(run.result.prd_m))
+
+
+def certainty(given: Assessment) -> Certainty:
+    """Return how the governing array and every clearance react to what is not known exactly."""
+    governing = given.governing
+    motion = governing.worst
+    with ThreadPoolExecutor(THREADS) as pool:
+        return Certainty(
+            surface=_surface(given, pool),
+            margins=tuple(_margins(given, pool)),
+            motion=motion,
+            turned=tuple(pool.map(partial(_turned, governing), _angles(motion.motion))),
+            reversed_m=_reversed_m(governing),
+        )
+
+
+def _surface(given: Assessment, pool: Executor) -> Surface:
+    governing, arrays = given.governing, [array.array for array in given.arrays]
+    mus = _axis([array.mu for array in arrays], governing.array.mu, N_MUS, unit=0.01, room=0.05)
+    degrees = _axis(
+        [math.degrees(array.slope_rad) for array in arrays],
+        math.degrees(governing.array.slope_rad),
+        N_SLOPES,
+        unit=0.5,
+        room=1.0,
+    )
+    slopes = np.radians(degrees)
+    cells = [(slope, mu) for slope in slopes.tolist() for mu in mus.tolist()]
+    results = list(pool.map(partial(_cell, governing), cells))
+    means = [sum(run.prd_m for run in cell) / len(cell) for cell in results]
+    statuses = [run.status for cell in results for run in cell]
+    return Surface(
+        array=governing,
+        mus=mus,
+        slopes_rad=slopes,
+        mean_m=np.reshape(means, (slopes.size, mus.size)),
+        n_unfinished=statuses.count(Status.SLIDING_AT_END),
+        n_runs=len(statuses),
+        others=tuple(array.id for array in arrays if not _is_like(array, governing.array)),
+    )
+
+
+def _axis(
+    values: Sequence[float], wanted: float, count: int, *, unit: float, room: float
+) -> Floats:
+    """Return evenly spaced values around those of the arrays, the nearest replaced by one."""
+    low = unit * math.floor(0.8 * min(values) / unit)
+    high = 1.25 * max(values) + room
+    step = unit * math.ceil((high - low) / (count - 1) / unit)
+    axis = np.array([low + k * step for k in range(count)])
+    axis[np.argmin(np.abs(axis - wanted))] = wanted
+    return axis
+
+
+def _cell(array: ArrayAssessment, cell: tuple[float, float]) -> list[SlideResult]:
+    slope, mu = cell
+    friction = with_mu(array.array, mu).friction
+    scenes = (run.governing.scene for run in array.motions)
+    return [_slid(replace(scene, slope_rad=slope, friction=friction)) for scene in scenes]
+
+
+def _slid(scene: Scene) -> SlideResult:
+    """Slide with every component of the scene, to the tolerance of the grid."""
+    if scene.friction.is_constant and not scene.ay_mps2.any():
+        return one_axis.run(scene)
+    return two_axes.run(scene, TOLERANCE)
+
+
+def _is_like(one: Array, other: Array) -> bool:
+    """Whether the friction of two arrays differs by a factor only."""
+
+    def law(array: Array) -> tuple[float, ...]:
+        f = array.friction
+        if f.is_constant or f.mu_slow == 0.0:
+            return (1.0, 1.0, 0.0)
+        return (f.mu_fast / f.mu_slow, f.mu_static / f.mu_slow, f.rate_s_per_m)
+
+    return all(math.isclose(a, b, rel_tol=1e-9) for a, b in zip(law(one), law(other), strict=True))
+
+
+def _margins(given: Assessment, pool: Executor) -> Iterator[Margin]:
+    trials = {array.id: Trials(given, array, pool) for array in given.arrays}
+    for number, gap in enumerate(given.clearances, start=1):
+        for array in involved(given, gap.clearance):
+            yield _margin(trials[array.id], number, gap)
+
+
+def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
+    """Walk down in the governing headings; accept the first value that all runs confirm."""
+    row, array = gap.clearance, trials.array
+    as_given = alone(trials.given, trials.given.project, array, row)
+    least, required, mu = math.nan, math.nan, array.array.mu
+    lowest = math.ceil(100.0 * LOWEST_SHARE * mu - 1e-6)
+    if as_given.ok and is_final(array):
+        least, required = mu, as_given.required_m
+        start = below(mu)
+        held = (
+            reach(lambda k: trials.may_hold(row, mu=k), start, lowest)
+            if start >= lowest > 0
+            else ()
+        )
+        confirmed = next((k for k in reversed(held) if trials.holds(row, mu=k)), 0)
+        if confirmed:
+            least, required = confirmed / 100, trials.required_m(row, mu=confirmed)
+    return Margin(
+        number=number,
+        gap=gap,
+        array=array,
+        least_mu=least,
+        required_m=required,
+        lowest_tried=lowest / 100,
+    )
+
+
+def _angles(motion: Motion) -> tuple[float, ...]:
+    return ANGLES_DEG if motion.has_transverse else ()
+
+
+def _turned(array: ArrayAssessment, angle_deg: float) -> Turned:
+    motion, angle = array.worst.motion, math.radians(angle_deg)
+    cs, sn = math.cos(angle), math.sin(angle)
+    along = cs * motion.ax_mps2 - sn * motion.ay_mps2
+    across = sn * motion.ax_mps2 + cs * motion.ay_mps2
+    across.setflags(write=False)
+    turned = replace(motion, ax_mps2=along, ay_mps2=across)
+    run = run_heading(array.array, turned, Heading(swapped=False, sign=1))
+    return Turned(angle_deg=angle_deg, result=run.result)
+
+
+def _reversed_m(array: ArrayAssessment) -> float:
+    motion = array.worst.motion
+    if not motion.has_vertical:
+        return math.nan
+    down = -motion.az_mps2
+    down.setflags(write=False)
+    return run_motion(array.array, replace(motion, az_mps2=down)).governing.result.prd_m

@@ -1,0 +1,116 @@
+"""Contours of the mean PRD over friction and slope, with the arrays as dots.
+
+Computes only the levels and the layout; legible in gray: black lines with their values on them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.certainty import Surface
+from report.figures.base import GREY, INK, bare, framed, style, svg_text, tick_text
+from report.words.units import Quantity
+from solver.model import Floats
+
+TYPE_PT = 8.5
+LEAST_M = 1e-4
+"""Displacement below which no contour is drawn [m]."""
+
+MOST_LEVELS = 9
+
+
+def levels(mean: Sequence[float]) -> list[float]:
+    """Return round values within a range of positive ones, at most `MOST_LEVELS`."""
+    low, high = min(mean), max(mean)
+    for steps in ((1, 1.5, 2, 3, 5, 7), (1, 2, 3, 5), (1, 2, 5), (1, 3), (1,)):
+        decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+        values = [step * 10.0**exponent for exponent in decades for step in steps]
+        inside = [value for value in values if 1.1 * low < value < high / 1.1]
+        if len(inside) <= MOST_LEVELS:
+            break
+    return inside
+
+
+def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
+    """Return the contours in the primary unit; hollow dots have another friction law."""
+    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
+    degrees = np.degrees(surface.slopes_rad)
+    mean = np.maximum(surface.mean_m, LEAST_M) / unit.si
+    with style():
+        figure, axes = framed(2.45, 0.5, 0.1, 0.08, 0.5)
+        grid_mu, grid_deg = np.meshgrid(surface.mus, degrees)
+        lost = np.isnan(mean)
+        axes.plot(grid_mu[~lost], grid_deg[~lost], "+", color=GREY, markersize=3.5)
+        axes.plot(grid_mu[lost], grid_deg[lost], "x", color=INK, markersize=6)
+        _lines(axes, surface, mean)
+        for array in arrays:
+            _dot(axes, array, hollow=array.id in surface.others)
+        axes.set_xlabel("Friction coefficient μ at low velocity", fontsize=TYPE_PT)
+        axes.set_ylabel("Slope [deg]", fontsize=TYPE_PT)
+        axes.tick_params(labelsize=TYPE_PT)
+        _edges(axes.set_xlim, surface.mus)
+        _edges(axes.set_ylim, degrees)
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.2f}"))
+        bare(axes)
+        return svg_text(figure)
+
+
+def _edges(limit: Callable[[float, float], object], values: Floats) -> None:
+    """Leave room for the labels of the outermost contours."""
+    room = 0.03 * (values[-1] - values[0])
+    limit(values[0] - room, values[-1] + room)
+
+
+def _lines(axes: Axes, surface: Surface, mean: Floats) -> None:
+    seen = mean[~np.isnan(mean)]
+    if not seen.size:
+        return
+    drawn = levels(seen.tolist())
+    if not drawn:
+        return
+    # Contours of the logarithm: displacements grow by factors over friction and slope.
+    lines = axes.contour(
+        surface.mus,
+        np.degrees(surface.slopes_rad),
+        np.log10(mean),
+        [math.log10(level) for level in drawn],
+        colors=INK,
+        linewidths=[1.4 if _is_decade(level) else 0.8 for level in drawn],
+        linestyles="solid",
+    )
+    names = {math.log10(level): f"{level:g}" for level in drawn}
+    axes.clabel(lines, fmt=names, fontsize=TYPE_PT, inline_spacing=3)
+
+
+def _is_decade(level: float) -> bool:
+    return math.isclose(math.log10(level), round(math.log10(level)), abs_tol=1e-9)
+
+
+def _dot(axes: Axes, array: ArrayAssessment, *, hollow: bool) -> None:
+    mu, degrees = array.array.mu, math.degrees(array.array.slope_rad)
+    axes.plot(
+        [mu],
+        [degrees],
+        "o",
+        markersize=7,
+        markerfacecolor="white" if hollow else INK,
+        markeredgecolor=INK,
+        markeredgewidth=1.3,
+        zorder=5,
+    )
+    axes.annotate(
+        tick_text(array.id),
+        (mu, degrees),
+        (7, 5),
+        textcoords="offset points",
+        fontsize=TYPE_PT,
+        weight="semibold",
+        zorder=6,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6},
+    )

@@ -1,0 +1,288 @@
+"""How sure: friction and slope, the margin of each clearance, directions of shaking not run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from report.assessment.certainty import TOLERANCE, Certainty, Margin, Surface, Turned
+from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
+from report.words.letters import power_of_ten
+from report.words.units import Quantity, number
+
+GROUPS = 3  # of angles side by side
+
+
+def page(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
+    """Return the page without its chart."""
+    return {
+        "surface": _surface(package, certainty.surface),
+        "margin": _margin(package, certainty.margins),
+        "margins": _margin_table(package, certainty.margins) if certainty.margins else None,
+        "angles": " ".join(_angles(package, certainty)),
+        "turned": _turned_table(package, certainty) if certainty.turned else None,
+    }
+
+
+def pictures(package: PackageData, surface: Surface) -> Sequence[Picture]:
+    """Return the contours; none where nothing slides on the whole grid."""
+    from report.figures.certainty import contours
+
+    if not (surface.mean_m > 0.0).any():
+        return ()
+    array, unit = surface.array, package.fmt.units()[0].symbol
+    return (
+        Picture(
+            svg=contours(surface, package.assessment.arrays, package.fmt.us_first),
+            caption=f"Mean PRD [{unit}] of the {len(array.motions)} motions over friction "
+            f"coefficient and slope, each motion in its governing heading for array {array.id}. "
+            f"Crosses: the grid, μ = {_listed(surface.mus.tolist(), 2)} by slope = "
+            f"{_listed([math.degrees(s) for s in surface.slopes_rad.tolist()], 1)} deg; contours "
+            f"interpolate its logarithm. Tolerance of a run: {power_of_ten(_exponent(TOLERANCE))} "
+            f"of its PRD.{_dots(surface)}",
+            alt="Contours of the mean PRD over friction coefficient and slope",
+        ),
+    )
+
+
+def coefficient(mu: float) -> str:
+    """Return a friction coefficient with two decimals, or three where it has them."""
+    return number(mu, 2 if math.isclose(mu, round(mu, 2), abs_tol=1e-9) else 3)
+
+
+def _exponent(value: float) -> int:
+    return round(math.log10(value))
+
+
+def _listed(values: Sequence[float], decimals: int) -> str:
+    return ", ".join(number(value, decimals) for value in values)
+
+
+def _dots(surface: Surface) -> str:
+    if not surface.others:
+        return " Dots: the arrays."
+    law = "constant" if surface.array.array.friction.is_constant else "velocity-dependent"
+    return (
+        f" Dots: the arrays; hollow ({', '.join(surface.others)}): its friction is not of the kind "
+        f"shown, that of {surface.array.id} ({law}), scaled as a whole."
+    )
+
+
+def _surface(package: PackageData, surface: Surface) -> str:
+    """Return the grid at the governing array and one step beside it, in words."""
+    array, fmt = surface.array, package.fmt
+    row = _nearest(surface.slopes_rad.tolist(), array.array.slope_rad)
+    column = _nearest(surface.mus.tolist(), array.array.mu)
+    here = float(surface.mean_m[row, column])
+    lost = int((surface.mean_m != surface.mean_m).sum())
+    sentences = [
+        f"Array {array.id} (μ = {coefficient(array.array.mu)}, slope "
+        f"{number(math.degrees(array.array.slope_rad), 2)}°): the mean PRD on the grid is "
+        f"{fmt.both(here)}; the runs of this package, in all headings, give "
+        f"{fmt.both(array.analysis.mean_m)}."
+    ]
+    if here > 0.0:
+        sentences += _steps(package, surface, row, column, here)
+    elif not (surface.mean_m > 0.0).any() and not lost:
+        sentences.append("Nothing slides on the whole grid: no contours are drawn.")
+    if lost:
+        sentences.append(
+            f"{lost} of {surface.mean_m.size} points have no value: a run there gives no "
+            "displacement."
+        )
+    if surface.n_unfinished:
+        sentences.append(
+            f"{surface.n_unfinished} of {surface.n_runs} runs on the grid are still sliding at the "
+            "end of their record: their PRD is not final."
+        )
+    return " ".join(sentences)
+
+
+def _nearest(values: Sequence[float], wanted: float) -> int:
+    return min(range(len(values)), key=lambda k: abs(values[k] - wanted))
+
+
+def _steps(
+    package: PackageData, surface: Surface, row: int, column: int, here: float
+) -> Iterator[str]:
+    beside = []
+    if column > 0:
+        less = float(surface.mean_m[row, column - 1])
+        beside.append(
+            f"with μ = {number(float(surface.mus[column - 1]), 2)} it is {_times(less, here)}"
+        )
+    if row + 1 < surface.slopes_rad.size:
+        steeper = float(surface.mean_m[row + 1, column])
+        slope = math.degrees(float(surface.slopes_rad[row + 1]))
+        beside.append(f"with a slope of {number(slope, 1)}° {_times(steeper, here)}")
+    if beside:
+        text = ", ".join(beside)
+        yield f"{text[0].upper()}{text[1:]}."
+
+
+def _times(value: float, base: float) -> str:
+    return NO_VALUE if math.isnan(value) else f"{number(value / base, 2)} times that"
+
+
+def _margin(package: PackageData, margins: Sequence[Margin]) -> str:
+    """Return the smallest margin, and the clearances that have none, in words."""
+    if not margins:
+        return "The workbook lists no clearances: there is no margin to state."
+    have = [margin for margin in margins if not math.isnan(margin.least_mu)]
+    without = sorted({margin.number for margin in margins} - {m.number for m in have if m.gap.ok})
+    sentences = []
+    if have and not all(margin.is_beyond for margin in have):
+        least = max(have, key=lambda margin: _share(margin))
+        mu = coefficient(least.array.array.mu)
+        start = (
+            f"The smallest margin of a satisfied clearance is that of No. {least.number}, "
+            f"{least.gap.clearance.array} to {least.gap.clearance.object}: "
+        )
+        if least.least_mu == least.array.array.mu:
+            sentences.append(f"{start}0.01 less than the {mu} of {least.array.id} breaks it.")
+        else:
+            sentences.append(
+                f"{start}μ of {least.array.id} may fall from {mu} to {number(least.least_mu, 2)}, "
+                f"{number(100.0 * (1.0 - _share(least)), 1)} % less."
+            )
+    elif have:
+        sentences.append(
+            "With half of the given friction all clearances that are satisfied remain satisfied."
+        )
+    if without:
+        names = ", ".join(map(str, without))
+        plural = "s" if len(without) > 1 else ""
+        verb = "are" if plural else "is"
+        sentences.append(
+            f"Clearance{plural} {names} {verb} not satisfied as given; "
+            f"{package.part('clearances')} states what would do."
+        )
+    return " ".join(sentences)
+
+
+def _share(margin: Margin) -> float:
+    mu = margin.array.array.mu
+    return margin.least_mu / mu if mu > 0.0 else 1.0
+
+
+def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
+    fmt = package.fmt
+    return Table(
+        caption="Friction coefficient to which each array may fall, all else as given",
+        columns=(
+            TableColumn(head="No.", share=0.5),
+            TableColumn(head="From", align="left", share=1.0),
+            TableColumn(head="To", align="left", share=1.2),
+            TableColumn(head="Friction of", align="left", share=1.0),
+            TableColumn(head="μ", unit="given", share=0.8),
+            TableColumn(head="μ", unit="may fall to", share=1.1),
+            TableColumn(head="Change", unit="%", share=0.9),
+            *fmt.columns("Required there", share=0.9),
+            *fmt.columns("Provided", share=0.9),
+        ),
+        rows=tuple(_margin_row(package, margin) for margin in margins),
+        notes=(
+            "Searched down to half of the given coefficient in steps of 0.05, then of 0.01, in the "
+            "governing heading of each motion; the value shown satisfies in all runs, and 0.01 "
+            "less does not, unless marked ≤ (the lowest value tried). Required there: for this "
+            "array alone. A friction law is scaled as a whole and named by its low-velocity "
+            "coefficient.",
+        ),
+        kind="compact",
+    )
+
+
+def _margin_row(package: PackageData, margin: Margin) -> TableRow:
+    fmt, row, mu = package.fmt, margin.gap.clearance, margin.array.array.mu
+    none = math.isnan(margin.least_mu)
+    least = "none" if none else coefficient(margin.least_mu)
+    return TableRow(
+        cells=(
+            str(margin.number),
+            row.array,
+            row.object,
+            margin.array.id,
+            coefficient(mu),
+            f"≤ {least}" if margin.is_beyond and not none else least,
+            "—" if none else number(100.0 * (_share(margin) - 1.0), 1),
+            *(("—", "—") if none else fmt.cells(margin.required_m)),
+            *fmt.cells(row.provided_m, Quantity.SIZE),
+        )
+    )
+
+
+def _angles(package: PackageData, certainty: Certainty) -> Iterator[str]:
+    """Yield what the runs in other directions give."""
+    run, used = certainty.motion, certainty.used_m
+    array = package.governing.id
+    yield (
+        f"PRD used for array {array} under its governing motion, {run.motion.id}: "
+        f"{package.fmt.both(used)}. The runs below are not part of the design value."
+    )
+    if not certainty.turned:
+        yield f"Motion {run.motion.id} has one horizontal component: it has no other angles."
+    else:
+        yield (
+            f"{len(certainty.turned)} more angles of the horizontal pair give "
+            f"{turned_words(package, certainty)}."
+        )
+    yield reversed_words(package, certainty)
+
+
+def turned_words(package: PackageData, certainty: Certainty) -> str:
+    """Return the range of the PRDs at other angles, as a clause."""
+    used, worst = certainty.used_m, certainty.worst
+    if math.isnan(worst.result.prd_m):
+        return f"no displacement at {number(worst.angle_deg, 1)}°: {worst.result.status.sentence}"
+    if not used > 0.0:
+        return f"PRDs up to {package.fmt.both(worst.result.prd_m)}"
+    least = min(run.result.prd_m for run in certainty.turned)
+    return (
+        f"{number(least / used, 2)} to {number(worst.result.prd_m / used, 2)} times that PRD, the "
+        f"largest at {number(worst.angle_deg, 1)}°"
+    )
+
+
+def reversed_words(package: PackageData, certainty: Certainty) -> str:
+    """Return what the reversed vertical component gives, as a sentence."""
+    motion, used = certainty.motion.motion, certainty.used_m
+    if not motion.has_vertical:
+        return f"Motion {motion.id} has no vertical component to reverse."
+    start = "The vertical component reversed, in the headings of this package, gives"
+    if math.isnan(certainty.reversed_m):
+        return f"{start} no displacement."
+    if not used > 0.0:
+        return f"{start} a PRD of {package.fmt.both(certainty.reversed_m)}."
+    return (
+        f"{start} {package.fmt.both(certainty.reversed_m)}, "
+        f"{number(certainty.reversed_m / used, 2)} times that PRD."
+    )
+
+
+def _turned_table(package: PackageData, certainty: Certainty) -> Table:
+    fmt, runs = package.fmt, certainty.turned
+    group = (
+        TableColumn(head="Angle", unit="deg", share=0.8),
+        *fmt.columns("PRD"),
+        TableColumn(head="PRD / used", share=0.9),
+    )
+    count = math.ceil(len(runs) / GROUPS)
+    rows = zip(*(runs[at : at + count] for at in range(0, len(runs), count)), strict=True)
+    return Table(
+        caption=f"Array {package.governing.id} under motion {certainty.motion.motion.id}, its "
+        "horizontal pair turned counterclockwise; at 0° the record acts downslope",
+        columns=group * GROUPS,
+        rows=tuple(
+            TableRow(
+                cells=tuple(cell for run in row for cell in _turned_cells(package, run, certainty))
+            )
+            for row in rows
+        ),
+        kind="compact",
+    )
+
+
+def _turned_cells(package: PackageData, run: Turned, certainty: Certainty) -> tuple[str, ...]:
+    prd, used = run.result.prd_m, certainty.used_m
+    share = number(prd / used, 2) if used > 0.0 else "—"
+    return (number(run.angle_deg, 1), *package.fmt.cells(prd), share)

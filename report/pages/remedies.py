@@ -1,0 +1,154 @@
+"""What would satisfy each clearance and array marked NG, in words and as a table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import groupby
+
+from report.assessment.remedies import Remedy, RemedyKind
+from report.pages.certainty import coefficient
+from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
+from report.words.units import Quantity, Unit, number
+
+
+def sentences(package: PackageData, remedies: Sequence[Remedy]) -> Sequence[str]:
+    """Return a sentence for each clearance and array marked NG, and what was varied for it."""
+    groups = groupby(remedies, key=lambda remedy: (remedy.clearance, _of_array(remedy)))
+    texts = [_sentence(package, list(group)) for _, group in groups]
+    return [*texts, *bases(remedies)]
+
+
+def _of_array(remedy: Remedy) -> str:
+    return "" if remedy.clearance else remedy.array
+
+
+def _sentence(package: PackageData, remedies: Sequence[Remedy]) -> str:
+    first = remedies[0]
+    if first.clearance:
+        row = package.assessment.clearances[first.clearance - 1].clearance
+        start = f"Clearance {first.clearance}, {row.array} to {row.object}, would be satisfied"
+    else:
+        start = f"Array {first.array} would have final values"
+    frictions = [remedy for remedy in remedies if remedy.kind is RemedyKind.FRICTION]
+    others = [remedy for remedy in remedies if remedy.kind is not RemedyKind.FRICTION]
+    enough = [_friction(frictions)] if all(remedy.exists for remedy in frictions) else []
+    enough += [_other(package, remedy) for remedy in others if remedy.exists]
+    reasons = {
+        f"No {remedy.kind.value} would do: {remedy.basis}."
+        for remedy in remedies
+        if not remedy.exists
+    }
+    words = [f"{start} with {_any_of(enough)}."] if enough else [f"{start} by none of these."]
+    return " ".join([*words, *sorted(reasons)])
+
+
+def _any_of(texts: Sequence[str]) -> str:
+    """Join alternatives."""
+    return texts[0] if len(texts) == 1 else f"{', with '.join(texts[:-1])}, or with {texts[-1]}"
+
+
+def _friction(remedies: Sequence[Remedy]) -> str:
+    return "μ of at least " + " and ".join(
+        f"{number(one.value, 2)} for {one.array} (given {coefficient(one.given)})"
+        for one in remedies
+    )
+
+
+def _other(package: PackageData, remedy: Remedy) -> str:
+    if remedy.kind is RemedyKind.S_DS:
+        return f"S_DS of at most {number(remedy.value, 2)} g (given {number(remedy.given, 3)} g)"
+    given = package.fmt.both(remedy.given, Quantity.SIZE)
+    first, second = (
+        f"{raised(remedy.value, unit)} {unit.symbol}" for unit in package.fmt.units(Quantity.SIZE)
+    )
+    return f"{first} ({second}) provided (given {given})"
+
+
+def raised(value_si: float, unit: Unit) -> str:
+    """Return a value rounded up, so that the separation printed is enough."""
+    tens = 10.0**unit.decimals
+    return number(math.ceil(value_si / unit.si * tens - 1e-6) / tens, unit.decimals)
+
+
+def table(package: PackageData, remedies: Sequence[Remedy]) -> Table:
+    """Return what would do, with the resolution and what was verified."""
+    return Table(
+        caption="What would do, each by itself",
+        columns=(
+            TableColumn(head="No.", share=0.5),
+            TableColumn(head="Quantity", align="left", share=1.9),
+            TableColumn(head="Given", align="left", share=1.9),
+            TableColumn(head="Would do", align="left", share=2.1),
+            TableColumn(head="Resolution", align="left", share=1.1),
+            TableColumn(head="Verified by all runs", align="left", share=2.2),
+        ),
+        rows=tuple(_row(package, remedy) for remedy in remedies),
+        notes=(
+            "Friction is searched from 1.5 down in steps of 0.05 and 0.01, S_DS from 0.05 g up in "
+            "steps of 0.20, 0.05 and 0.01 g, to the first value at which a run leaves the "
+            "clearance not satisfied. All values tried from there to the start of the search "
+            f"satisfy. {' '.join(bases(remedies))}",
+        ),
+        kind="compact",
+    )
+
+
+def bases(remedies: Sequence[Remedy]) -> Sequence[str]:
+    """Return what was varied for each quantity, each basis once."""
+    texts = (
+        f"{_sentence_case(remedy)}: {remedy.basis}."
+        for remedy in remedies
+        if remedy.exists and remedy.kind is not RemedyKind.SEPARATION
+    )
+    return list(dict.fromkeys(texts))
+
+
+def _row(package: PackageData, remedy: Remedy) -> TableRow:
+    found = (
+        (_value(package, remedy), f"{remedy.resolution:g}" if remedy.resolution else "exact")
+        if remedy.exists
+        else ()
+    )
+    return TableRow(
+        cells=(
+            str(remedy.clearance) if remedy.clearance else "—",
+            f"μ of {remedy.array}"
+            if remedy.kind is RemedyKind.FRICTION
+            else _sentence_case(remedy),
+            _given(package, remedy),
+            *((*found, _verified(remedy)) if found else (Wide(f"none: {remedy.basis}", 3),)),
+        )
+    )
+
+
+def _sentence_case(remedy: Remedy) -> str:
+    name = remedy.kind.value
+    return name[0].upper() + name[1:]
+
+
+def _given(package: PackageData, remedy: Remedy) -> str:
+    if remedy.kind is RemedyKind.SEPARATION:
+        return package.fmt.both(remedy.given, Quantity.SIZE)
+    if remedy.kind is RemedyKind.S_DS:
+        return f"{number(remedy.given, 3)} g"
+    return coefficient(remedy.given)
+
+
+def _value(package: PackageData, remedy: Remedy) -> str:
+    if remedy.kind is RemedyKind.SEPARATION:
+        first, second = package.fmt.units(Quantity.SIZE)
+        return (
+            f"≥ {raised(remedy.value, first)} {first.symbol} "
+            f"({raised(remedy.value, second)} {second.symbol})"
+        )
+    if remedy.kind is RemedyKind.S_DS:
+        return f"≤ {number(remedy.value, 2)} g"
+    return f"≥ {number(remedy.value, 2)}"
+
+
+def _verified(remedy: Remedy) -> str:
+    if remedy.kind is RemedyKind.SEPARATION:
+        return "the runs of this package"
+    low, high = remedy.verified
+    return f"{number(low, 2)} to {number(high, 2)}, {remedy.n_values} values"
