@@ -43,7 +43,7 @@ def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool
     degrees = np.degrees(surface.slopes_rad)
     mean = np.maximum(surface.mean_m, LEAST_M) / unit.si
     with style():
-        figure, axes = framed(2.45, 0.5, 0.1, 0.08, 0.5)
+        figure, axes = framed(2.25, 0.5, 0.1, 0.08, 0.5)
         grid_mu, grid_deg = np.meshgrid(surface.mus, degrees)
         lost = np.isnan(mean)
         axes.plot(grid_mu[~lost], grid_deg[~lost], "+", color=GREY, markersize=3.5)

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from report.assessment.certainty import TOLERANCE, Certainty, Margin, Surface, Turned
+from report.assessment.certainty import TOLERANCE, Certainty, Margin, Surface
 from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
 from report.words.letters import power_of_ten
 from report.words.units import Quantity, number
-
-GROUPS = 3  # of angles side by side
 
 
 def page(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
@@ -219,14 +217,19 @@ def _angles(package: PackageData, certainty: Certainty) -> Iterator[str]:
         f"PRD used for array {array} under its governing motion, {run.motion.id}: "
         f"{package.fmt.both(used)}. The runs below are not part of the design value."
     )
-    if not certainty.turned:
-        yield f"Motion {run.motion.id} has one horizontal component: it has no other angles."
-    else:
-        yield (
-            f"{len(certainty.turned)} more angles of the horizontal pair give "
-            f"{turned_words(package, certainty)}."
-        )
-    yield reversed_words(package, certainty)
+    yield f"{directions(package, certainty)}."
+
+
+def directions(package: PackageData, certainty: Certainty) -> str:
+    """Return what other angles and a reversed vertical component give, as a clause."""
+    angles = (
+        f"{len(certainty.turned)} more angles of the horizontal pair give "
+        f"{turned_words(package, certainty)}"
+        if certainty.turned
+        else "there is one horizontal component, and no other angle"
+    )
+    text = f"{angles}; {reversed_words(package, certainty)}"
+    return text[0].upper() + text[1:]
 
 
 def turned_words(package: PackageData, certainty: Certainty) -> str:
@@ -244,45 +247,29 @@ def turned_words(package: PackageData, certainty: Certainty) -> str:
 
 
 def reversed_words(package: PackageData, certainty: Certainty) -> str:
-    """Return what the reversed vertical component gives, as a sentence."""
-    motion, used = certainty.motion.motion, certainty.used_m
-    if not motion.has_vertical:
-        return f"Motion {motion.id} has no vertical component to reverse."
-    start = "The vertical component reversed, in the headings of this package, gives"
-    if math.isnan(certainty.reversed_m):
-        return f"{start} no displacement."
-    if not used > 0.0:
-        return f"{start} a PRD of {package.fmt.both(certainty.reversed_m)}."
-    return (
-        f"{start} {package.fmt.both(certainty.reversed_m)}, "
-        f"{number(certainty.reversed_m / used, 2)} times that PRD."
-    )
+    """Return what the reversed vertical component gives, as a clause."""
+    value, used = certainty.reversed_m, certainty.used_m
+    if not certainty.motion.motion.has_vertical:
+        return "there is no vertical component to reverse"
+    if math.isnan(value):
+        return "a reversed vertical component gives no displacement"
+    times = f", {number(value / used, 2)} times that PRD" if used > 0.0 else ""
+    return f"a reversed vertical component gives {package.fmt.both(value)}{times}"
 
 
 def _turned_table(package: PackageData, certainty: Certainty) -> Table:
-    fmt, runs = package.fmt, certainty.turned
-    group = (
-        TableColumn(head="Angle", unit="deg", share=0.8),
-        *fmt.columns("PRD"),
-        TableColumn(head="PRD / used", share=0.9),
-    )
-    count = math.ceil(len(runs) / GROUPS)
-    rows = zip(*(runs[at : at + count] for at in range(0, len(runs), count)), strict=True)
+    runs, used = certainty.turned, certainty.used_m
+    values = [package.fmt.cells(run.result.prd_m) for run in runs]
+    shares = [number(run.result.prd_m / used, 2) if used > 0.0 else "—" for run in runs]
+    units = [f"PRD [{unit.symbol}]" for unit in package.fmt.units()]
+    rows = zip((*units, "PRD / used"), (*zip(*values, strict=True), shares), strict=True)
     return Table(
         caption=f"Array {package.governing.id} under motion {certainty.motion.motion.id}, its "
         "horizontal pair turned counterclockwise; at 0° the record acts downslope",
-        columns=group * GROUPS,
-        rows=tuple(
-            TableRow(
-                cells=tuple(cell for run in row for cell in _turned_cells(package, run, certainty))
-            )
-            for row in rows
+        columns=(
+            TableColumn(head="Angle", align="left", share=1.7),
+            *(TableColumn(head=f"{number(run.angle_deg, 1)}°") for run in runs),
         ),
+        rows=tuple(TableRow(cells=(name, *cells)) for name, cells in rows),
         kind="compact",
     )
-
-
-def _turned_cells(package: PackageData, run: Turned, certainty: Certainty) -> tuple[str, ...]:
-    prd, used = run.result.prd_m, certainty.used_m
-    share = number(prd / used, 2) if used > 0.0 else "—"
-    return (number(run.angle_deg, 1), *package.fmt.cells(prd), share)

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Certainty
 from report.assessment.remedies import Remedy
-from report.pages.certainty import reversed_words, turned_words
+from report.pages.certainty import directions
 from report.pages.checks import all_checks, clearance_table, troubles
 from report.pages.parts import (
     PackageData,
@@ -210,18 +210,12 @@ def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
 
 def _angles(package: PackageData, certainty: Certainty) -> str:
     """Return what directions of shaking that are not run would give, as computed."""
-    motion = certainty.motion.motion
-    angles = (
-        f"{len(certainty.turned)} more angles of the horizontal pair give "
-        f"{turned_words(package, certainty)}"
-        if certainty.turned
-        else "there is one horizontal component, and no other angle"
-    )
+    text = directions(package, certainty)
     return (
-        "Other horizontal orientations of the record and a reversed vertical component are not "
-        f"part of the design value. For array {package.governing.id} under its governing motion, "
-        f"{motion.id}: {angles}. {reversed_words(package, certainty)} See "
-        f"{package.part('how-sure')}."
+        "Other orientations of the horizontal pair and a reversed vertical component: not part of "
+        f"the design value. For array {package.governing.id}, motion {certainty.motion.motion.id}, "
+        f"PRD {package.fmt.both(certainty.used_m)}: {text[0].lower()}{text[1:]} "
+        f"({package.part('how-sure')})."
     )
 
 
