@@ -233,7 +233,7 @@ def test_two_charts_are_the_same_bytes_and_name_every_method(usual):
 def test_the_page_is_in_the_package():
     book = stand_in.book(shaking=stand_in.motions(3, seconds=8.0))
     html = unescape(stand_in.html(book))
-    section = html[html.index('<h1 id="accuracy">') : html.index('<h1 id="echo">')]
+    section = html[html.index('<h1 id="accuracy">') : html.index('<h1 id="how-sure">')]
     assert "Governing run: array A" in section
     assert "The governing run along the slope alone, by every method" in section
     assert "Design displacement with changed friction" in section

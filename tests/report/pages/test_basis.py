@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 import stand_in
+from report.assessment.certainty import certainty
 from report.pages.front import basis
 from report.pages.registry import package_data
 
@@ -13,7 +14,8 @@ MOTIONS = stand_in.motions(3, seconds=6.0)
 
 def said(motions):
     data = stand_in.project(arrays=[stand_in.array("A1", 1.0)], objects=[], clearances=[])
-    return basis(package_data(stand_in.assess_input(data, motions)))
+    assessment = stand_in.assess_input(data, motions)
+    return basis(package_data(assessment), certainty(assessment))
 
 
 def test_motions_of_three_components_act_together():

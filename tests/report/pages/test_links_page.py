@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import stand_in
+from report.assessment.certainty import certainty
 from report.pages import front, inputs, links, model
 from report.pages.checks import troubles
 from report.pages.registry import package_data
@@ -83,8 +84,11 @@ def test_an_array_for_which_one_block_is_not_adequate_is_ng_everywhere(both):
         "Enter 0.400, the smallest value of its blocks, as its friction coefficient, or provide"
         " stiffer links."
     )
-    assert front.summary(both)["sentence"] == "Marked NG: 1 of 2 arrays."
-    assert "(part 11 compares A1, A2 with a row" in front.basis(both)["linked"]
+    assert front.summary(both, ())["sentence"] == "Marked NG: 1 of 2 arrays."
+    assert (
+        "(part 11 compares A1, A2 with a row"
+        in front.basis(both, certainty(both.assessment))["linked"]
+    )
 
 
 def test_nothing_is_printed_where_no_row_is_requested():
@@ -92,7 +96,7 @@ def test_nothing_is_printed_where_no_row_is_requested():
     page = model.page(package)
     assert not page["links"]["rows"].rows
     assert page["links"]["lines"] == ()
-    assert front.basis(package)["linked"] == ""
+    assert front.basis(package, certainty(package.assessment))["linked"] == ""
     assert not inputs.inputs(package)["links"].rows
     assert page["neglected"].notes[0].endswith("the flexibility of the array (part 2).")
 
