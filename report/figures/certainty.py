@@ -18,7 +18,7 @@ from report.figures.base import GREY, INK, bare, framed, style, svg_text, tick_t
 from report.words.units import Quantity
 from solver.model import Floats
 
-TYPE_PT = 8.5
+TYPE_PT = 9.0  # at smaller sizes the renderer clips the first letter of a label
 LEAST_M = 1e-4
 """Displacement below which no contour is drawn [m]."""
 
@@ -85,7 +85,8 @@ def _lines(axes: Axes, surface: Surface, mean: Floats) -> None:
         linestyles="solid",
     )
     names = {math.log10(level): f"{level:g}" for level in drawn}
-    axes.clabel(lines, fmt=names, fontsize=TYPE_PT, inline_spacing=3)
+    for label in axes.clabel(lines, fmt=names, fontsize=TYPE_PT, inline_spacing=3):
+        label.set(zorder=4, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3})
 
 
 def _is_decade(level: float) -> bool:
