@@ -221,7 +221,7 @@ def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -
             for count, gap in enumerate(gaps, start=start)
         ]
         figure, axes = framed(
-            1.3 + _row_in(len(gaps)) * len(gaps), _label_in(names), 0.1, 0.48, 0.75
+            1.3 + min(_row_in(len(gaps)), 0.34) * len(gaps), _label_in(names), 0.1, 0.48, 0.75
         )
         axes.barh(
             rows - 0.18,
