@@ -131,7 +131,7 @@ def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
     for array, run_ in runs:
         columns = [
             np.loadtxt(
-                job / "records" / f"{run_['motion']}-{letter}.csv", delimiter=",", skiprows=1
+                job / "records" / f"{run_['motion']}-{letter}.csv", delimiter=",", skiprows=2
             )
             for letter in ("xyz" if run_["along"] == "record" else "yxz")
         ]
