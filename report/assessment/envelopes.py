@@ -1,0 +1,143 @@
+"""Where an array may come to lie in plan: by its design displacement, and in its runs.
+
+Geometry only; checks nothing (`report.assessment.clearances`). Points are in plan [m],
+counterclockwise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.project import Assessment
+from report.assessment.runs import HeadingRun
+from report.sheet.schema import Direction, Rectangle
+from solver.rules import provisions
+from solver.rules.provisions import Neighbor
+
+Point = tuple[float, float]
+Outline = tuple[Point, ...]
+
+ARC_STEPS = 6
+"""Chords in a quarter of a circle."""
+
+
+def corners(rectangle: Rectangle) -> Outline:
+    """Return the corners of a rectangle."""
+    x0, x1 = rectangle.x_from_m, rectangle.x_to_m
+    y0, y1 = rectangle.y_from_m, rectangle.y_to_m
+    return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+
+
+def closest(a: Rectangle, b: Rectangle) -> tuple[Point, Point]:
+    """Return a point of each rectangle at their smallest distance, midway along facing sides."""
+    xa, xb = _nearest((a.x_from_m, a.x_to_m), (b.x_from_m, b.x_to_m))
+    ya, yb = _nearest((a.y_from_m, a.y_to_m), (b.y_from_m, b.y_to_m))
+    return (xa, ya), (xb, yb)
+
+
+def _nearest(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
+    """Return the closest points of two ranges; the middle of the overlap if they overlap."""
+    if a[1] <= b[0]:
+        return a[1], b[0]
+    if b[1] <= a[0]:
+        return a[0], b[1]
+    middle = (max(a[0], b[0]) + min(a[1], b[1])) / 2
+    return middle, middle
+
+
+def design_envelope(array: ArrayAssessment) -> Outline:
+    """Return the outline of an array moved by its design displacement in any direction.
+
+    Empty without a design displacement. Arcs are circumscribed: no point is left out.
+    """
+    if math.isnan(array.design_m):
+        return ()
+    return _swept(array.array.rectangle, _circle(array.design_m))
+
+
+def runs_envelope(array: ArrayAssessment) -> Outline:
+    """Return the convex hull of an array in all of its runs, by their largest excursions.
+
+    A run is within its excursions downslope, upslope and cross-slope, and within its PRD. Empty if
+    a run has no displacement.
+    """
+    moves = [point for motion in array.motions for run in motion.runs for point in _region(run)]
+    if any(math.isnan(along + across) for along, across in moves):
+        return ()
+    downslope = math.radians(array.array.downslope_deg)
+    cos, sin = math.cos(downslope), math.sin(downslope)
+    turned = [(along * cos - across * sin, along * sin + across * cos) for along, across in moves]
+    return _swept(array.array.rectangle, hull(turned))
+
+
+def _region(run: HeadingRun) -> Outline:
+    """Return a region (downslope, cross-slope) that contains the path of a run.
+
+    A circle about the PRD, cut at the largest excursions.
+    """
+    down, up, across, prd = (run.excursion_m(direction) for direction in Direction)
+    region = _circle(prd)
+    for x, y, limit in ((1, 0, down), (-1, 0, up), (0, 1, across), (0, -1, across)):
+        region = _cut(region, (x, y), limit)
+    return region
+
+
+def _circle(radius_m: float) -> Outline:
+    """Return a polygon circumscribed about a circle."""
+    step = 0.5 * math.pi / ARC_STEPS
+    reach = radius_m / math.cos(0.5 * step)
+    angles = [(k + 0.5) * step for k in range(4 * ARC_STEPS)]
+    return tuple((reach * math.cos(a), reach * math.sin(a)) for a in angles)
+
+
+def _cut(region: Outline, normal: Point, limit: float) -> Outline:
+    """Return the part of a convex region up to a limit along a normal."""
+    kept: list[Point] = []
+    for (x0, y0), (x1, y1) in zip(region, (*region[1:], *region[:1]), strict=True):
+        over0 = x0 * normal[0] + y0 * normal[1] - limit
+        over1 = x1 * normal[0] + y1 * normal[1] - limit
+        if not over0 > 0.0:
+            kept.append((x0, y0))
+        if over0 * over1 < 0.0:
+            share = over0 / (over0 - over1)
+            kept.append((x0 + share * (x1 - x0), y0 + share * (y1 - y0)))
+    return tuple(kept)
+
+
+def _swept(rectangle: Rectangle, moves: Sequence[Point]) -> Outline:
+    """Return the convex hull of a rectangle at all displacements."""
+    return hull((x + dx, y + dy) for x, y in corners(rectangle) for dx, dy in moves)
+
+
+def hull(points: Iterable[Point]) -> Outline:
+    """Return the convex hull of points (Andrew's monotone chain)."""
+    ordered = sorted(set(points))
+    if len(ordered) < 3:
+        return tuple(ordered)
+    lower, upper = _chain(ordered), _chain(ordered[::-1])
+    return (*lower[:-1], *upper[:-1])
+
+
+def _chain(ordered: Sequence[Point]) -> list[Point]:
+    chain: list[Point] = []
+    for point in ordered:
+        while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0.0:
+            chain.pop()
+        chain.append(point)
+    return chain
+
+
+def _turn(a: Point, b: Point, c: Point) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
+    """Return the separation of an array from any fixed object [m]; NaN without a displacement."""
+    return provisions.required_separation(
+        assessment.rules,
+        Neighbor.FIXED,
+        design_m=array.design_m,
+        importance=assessment.project.site.i_e,
+    )

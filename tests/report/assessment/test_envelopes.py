@@ -1,0 +1,102 @@
+"""Envelopes of an array in plan: nothing that a run does is outside of them."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import stand_in
+from report.assessment.envelopes import (
+    closest,
+    corners,
+    design_envelope,
+    hull,
+    keep_clear_m,
+    runs_envelope,
+)
+from report.sheet.checks import gap_m
+from report.sheet.schema import Rectangle
+
+
+@pytest.fixture(scope="module")
+def done():
+    arrays = [stand_in.array("A1", 2.0, downslope_deg=205.0), stand_in.array("A2", 3.0, x=120)]
+    data = stand_in.project(arrays=arrays, clearances=[])
+    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
+
+
+def margins(outline, points):
+    """Distances [m] of points inside each side of a convex outline; negative outside."""
+    p, x = np.array(outline), np.array(points)
+    side = np.roll(p, -1, axis=0) - p
+    inward = np.column_stack((-side[:, 1], side[:, 0])) / np.hypot(*side.T)[:, None]
+    return np.min(inward @ x.T - np.sum(inward * p, axis=1)[:, None], axis=0)
+
+
+def test_every_governing_run_stays_in_the_envelope_of_the_runs(done):
+    for array in done.arrays:
+        outline = runs_envelope(array)
+        turn = math.radians(array.array.downslope_deg)
+        for motion in array.motions:
+            path = motion.history()
+            along, across = np.asarray(path.u_m), np.asarray(path.across_m)
+            x = along * math.cos(turn) - across * math.sin(turn)
+            y = along * math.sin(turn) + across * math.cos(turn)
+            for corner in corners(array.array.rectangle):
+                points = np.column_stack((corner[0] + x, corner[1] + y))
+                assert margins(outline, points).min() > -1e-6
+
+
+def test_the_envelope_of_the_runs_reaches_no_farther_than_their_largest_prd(done):
+    for array in done.arrays:
+        largest = max(run.result.prd_m for m in array.motions for run in m.runs)
+        reach = [point_gap(array.array.rectangle, point) for point in runs_envelope(array)]
+        # The circumscribed polygon of 24 sides is 0.9 % outside of its circle.
+        assert max(reach) <= largest / math.cos(math.pi / 24) + 1e-12
+
+
+def point_gap(rectangle, point):
+    return max(gap_m(rectangle, Rectangle(point[0], point[0], point[1], point[1])), 0.0)
+
+
+def test_the_design_envelope_contains_the_offset_and_is_close_to_it(done):
+    for array in done.arrays:
+        reach = [point_gap(array.array.rectangle, point) for point in design_envelope(array)]
+        assert max(reach) == pytest.approx(array.design_m, rel=0.009)
+        for corner in corners(array.array.rectangle):
+            circle = np.linspace(0.0, 2.0 * np.pi, 100)
+            points = array.design_m * np.column_stack((np.cos(circle), np.sin(circle))) + corner
+            assert margins(design_envelope(array), points).min() > -1e-9
+
+
+def test_without_a_displacement_there_is_no_envelope(done):
+    assert design_envelope(replace(done.arrays[0], design_m=math.nan)) == ()
+
+
+def test_keep_clear_is_the_separation_from_a_fixed_object(done):
+    assert keep_clear_m(done, done.arrays[0]) == done.arrays[0].design_m  # factor 1.0, I_e = 1.0
+
+
+number = st.floats(-50.0, 50.0)
+rectangles = st.tuples(number, st.floats(0.01, 20.0), number, st.floats(0.01, 20.0)).map(
+    lambda r: Rectangle(r[0], r[0] + r[1], r[2], r[2] + r[3])
+)
+
+
+@given(rectangles, rectangles)
+def test_closest_points_are_as_far_apart_as_the_gap(a, b):
+    (xa, ya), (xb, yb) = closest(a, b)
+    assert math.hypot(xa - xb, ya - yb) == pytest.approx(max(gap_m(a, b), 0.0), abs=1e-9)
+    assert point_gap(a, (xa, ya)) == pytest.approx(0.0, abs=1e-9)
+    assert point_gap(b, (xb, yb)) == pytest.approx(0.0, abs=1e-9)
+
+
+@given(st.lists(st.tuples(st.integers(-20, 20), st.integers(-20, 20)), min_size=3, max_size=40))
+def test_a_hull_contains_its_points_and_is_convex(points):
+    outline = hull((float(x), float(y)) for x, y in points)
+    assert set(outline) <= {(float(x), float(y)) for x, y in points}
+    if len(outline) > 2:
+        assert margins(outline, points).min() > -1e-9
