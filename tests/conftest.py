@@ -19,7 +19,7 @@ SLOW = (
     "test_one_axis_kernel", "test_fixed_steps", "test_row_kernel", "test_rivals_kernel",
     "test_cache", "test_seeds", "test_manual_building", "test_manual_rungs", "test_packaging",
     "test_rung_study", "test_static_study", "test_rungs", "test_read", "test_faults", "test_xlsx",
-    "test_plane_scipy", "test_neighbors", "test_roof",
+    "test_plane_scipy", "test_neighbors", "test_roof", "test_plan",
 )  # fmt: skip
 
 

@@ -73,7 +73,7 @@ def check(source: Path) -> None:
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--out", type=SOURCE, help="Output folder; default: out/ beside the input.")
 def report(source: Path, out: Path | None) -> None:
-    """Write calc-package.pdf, results.xlsx and results.json, and print a summary."""
+    """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary."""
     with input_errors(source), Progress() as progress, no_collections():
         assessment, folder, files = make(source, out, progress)
     _print_summary(assessment)
@@ -86,8 +86,13 @@ def make(
     source: Path, out: Path | None, progress: Callable[[str], None]
 ) -> tuple[Assessment, Path, Mapping[str, bytes]]:
     """Read a workbook, run its motions, and write the package and the tables."""
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
     from report.assessment.evidence import support
     from report.assessment.project import assess
+    from report.drawing.dxf import write_dxf
+    from report.drawing.plan import plan_drawing
     from report.motions.prepare import prepare
     from report.package.html import pages
     from report.results.publish import publish
@@ -104,15 +109,21 @@ def make(
     progress("writing the pages")
     html = pages(assessment, evidence)
     progress("laying out the package")
-    pdf = lay_out(html)
+    # The library for DXF takes 0.8 s to load, on the core that the layout leaves idle.
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as beside:
+        plan = beside.submit(write_dxf, plan_drawing(assessment))
+        pdf = lay_out(html)
+        files = {"calc-package.pdf": pdf, "plan.dxf": plan.result()}
     progress("writing the result tables")
-    files = {"calc-package.pdf": pdf, **tables(assessment, evidence)}
+    files |= tables(assessment, evidence)
     folder = out or sheet.path.parent / "out"
     publish(files, folder)
     return assessment, folder, files
 
 
 def _print_summary(assessment: Assessment) -> None:
+    from report.pages.registry import package_data
+
     us_first = assessment.project.project.units_first == "US"
     columns = ("array", "computed", "prescriptive", "design", "governing clearance", "D/C", "")
     rows = [_summary_row(assessment, item, us_first) for item in assessment.arrays]
@@ -122,12 +133,13 @@ def _print_summary(assessment: Assessment) -> None:
         click.echo("  ".join(cells).rstrip())
     for warning in assessment.warnings:
         click.echo(f"warning: {warning}")
+    see = f"see {package_data(assessment).part('model')} of the package"
     for item in assessment.arrays:
         if not item.tipping.is_ok:
-            click.echo(f"warning: array {item.id} starts to tip; see part 11 of the package")
+            click.echo(f"warning: array {item.id} starts to tip; {see}")
     for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
         text = f"one rigid block has not been shown to be adequate for array {name}"
-        click.echo(f"warning: {text}; see part 11 of the package")
+        click.echo(f"warning: {text}; {see}")
     checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]
     for failed in (c for c in checks if not c.ok):
         click.echo(f"warning: {failed.provision.clause} is not satisfied: {failed.title}")

@@ -34,17 +34,21 @@ from report.figures.base import (
     tick_text,
 )
 from report.figures.history import MAX_POINTS, envelope, histories
-from report.figures.plan import roof_plan
+from report.figures.plan import LANDSCAPE, PORTRAIT, SMALL, is_wide, roof_plan
 from report.words.units import Quantity, Unit
 
 __all__ = [
     "FAMILY",
+    "LANDSCAPE",
     "MAX_POINTS",
+    "PORTRAIT",
+    "SMALL",
     "accelerations",
     "clearances",
     "comparison",
     "envelope",
     "histories",
+    "is_wide",
     "load_fonts",
     "roof_plan",
     "spectra",

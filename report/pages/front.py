@@ -90,6 +90,13 @@ def summary(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, ob
     }
 
 
+def plan(package: PackageData) -> Mapping[str, object]:
+    """Return how the page of the roof plan lies."""
+    from report.figures.plan import is_wide  # loads the plotting library
+
+    return {"page": "landscape" if is_wide(package.assessment) else "portrait"}
+
+
 def _sentence(package: PackageData) -> str:
     if package.assessment.ok:
         return "All limits and clearances are satisfied; every run reached a final value."

@@ -24,12 +24,11 @@ def below(_: PackageData) -> tuple[tuple[str, str], ...]:
         ("inputs-site", "Site and seismic parameters"),
         ("inputs-arrays", "Arrays and objects"),
         ("inputs-friction", "Friction as tested"),
-        ("inputs-plan", "Roof plan"),
     )
 
 
 def inputs(package: PackageData) -> Mapping[str, object]:
-    """Return the part on inputs, without the roof plan."""
+    """Return the part on inputs."""
     return {
         "site": _site(package),
         "arrays": _arrays(package),

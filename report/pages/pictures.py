@@ -6,16 +6,18 @@ Gives each picture its caption; `report.figures` draws it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.spectra import Spectra
-from report.pages import accuracy, certainty, friction_tests, section
+from report.pages import accuracy, certainty, checks, friction_tests, section
 from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
+LEAST_PLAN_IN = 1.6  # a plan of less height shows nothing
 Pictures = Mapping[str, Sequence[Picture]]
 
 
@@ -34,14 +36,7 @@ def draw_assessment(package: PackageData) -> Pictures:
     us_first, assessment = package.fmt.us_first, package.assessment
     motions = assessment.shaking.motions
     return {
-        "inputs-plan": [
-            Picture(
-                svg=figures.roof_plan(package.data, us_first),
-                caption="Roof plan to scale: arrays with downslope direction and slope, objects, "
-                f"roof edges, and clearances, numbered as in {package.part('clearances')}.",
-                alt="Roof plan with arrays, objects, edges and clearances",
-            )
-        ],
+        "summary": list(_small_plan(package)),
         "inputs-friction": friction_tests.picture(package),
         "method-motion": [section.picture(package)],
         "motions-list": [
@@ -51,6 +46,18 @@ def draw_assessment(package: PackageData) -> Pictures:
                 alt="Acceleration histories of the motions",
             )
             for at in range(0, len(motions), ACCELERATION_ROWS)
+        ],
+        "plan": [
+            Picture(
+                svg=figures.roof_plan(
+                    assessment,
+                    figures.LANDSCAPE if figures.is_wide(assessment) else figures.PORTRAIT,
+                ),
+                caption="Roof plan to the scale stated, where printed at full size. Provided and "
+                "required separations are those of "
+                f"{package.part('clearances')}. The same plan is in the file plan.dxf.",
+                alt="Roof plan with displacement envelopes, clearances and field notes",
+            )
         ],
         "comparison": [
             Picture(
@@ -72,6 +79,32 @@ def draw_assessment(package: PackageData) -> Pictures:
             for at in range(0, len(assessment.clearances), CHART_ROWS)
         ],
     }
+
+
+def _small_plan(package: PackageData) -> Iterator[Picture]:
+    """Yield the plan for the summary in the room that its tables leave; none on a full sheet."""
+    from report.figures import charts as figures
+
+    tall = min(_summary_room_in(package), figures.SMALL.tall)
+    if tall < LEAST_PLAN_IN:
+        return
+    yield Picture(
+        svg=figures.roof_plan(package.assessment, replace(figures.SMALL, tall=tall)),
+        caption="Roof plan to scale. Clearances are numbered as in "
+        f"{package.part('clearances')}; {package.part('plan')} is the plan in full.",
+        alt="Roof plan with arrays, objects, edges and clearances",
+    )
+
+
+def _summary_room_in(package: PackageData) -> float:
+    """Return what the tables and sentences of the summary leave of its sheet [in], at least."""
+    assessment, sentences = package.assessment, checks.troubles(package)
+    failed = sum(not gap.ok for gap in assessment.clearances)
+    edges = sum("edge" in gap.neighbor.value for gap in assessment.clearances)  # two lines each
+    rows = len(assessment.arrays) + len(assessment.clearances)
+    answers = 0.7 + 0.45 * failed if failed else 0.0
+    troubles = 0.3 + 0.33 * len(sentences) if sentences else 0.0
+    return 5.1 - 0.2 * rows - 0.15 * edges - answers - troubles
 
 
 def draw_evidence(package: PackageData, evidence: Evidence) -> Pictures:

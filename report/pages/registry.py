@@ -68,6 +68,12 @@ PAGES = (
         template="summary.html",
     ),
     Page(
+        id="plan",
+        title="Roof plan",
+        fill=lambda package, _: front.plan(package),
+        template="plan.html",
+    ),
+    Page(
         id="basis",
         title="Basis and limits of the method",
         fill=lambda package, evidence: front.basis(package, evidence.certainty),

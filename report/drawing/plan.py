@@ -1,0 +1,177 @@
+"""The roof plan as lines and texts on layers, in the plan unit of the workbook.
+
+Pure data from an assessment, with no file format (`report.drawing.dxf`). Read `plan_drawing` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from report.assessment.envelopes import (
+    Outline,
+    Point,
+    closest,
+    corners,
+    design_envelope,
+    keep_clear_m,
+    runs_envelope,
+)
+from report.assessment.neighbors import bare_edges
+from report.assessment.project import Assessment
+from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
+from report.sheet.schema import ObjectKind, Rectangle, RoofObject
+from report.words.units import Quantity, Unit, number, pair
+
+TEXT_SHARE = 1.0 / 120.0
+"""Height of texts, as a share of the larger side of the plan."""
+
+
+def plan_drawing(assessment: Assessment) -> PlanDrawing:
+    """Return the plan of an assessment."""
+    is_feet = assessment.project.project.units_first == "US"
+    unit = Quantity.PLAN.us if is_feet else Quantity.PLAN.si
+    lines = tuple(_in_unit(line, unit) for line in _lines(assessment))
+    points = [point for line in lines for point in line.points]
+    spans = [max(axis) - min(axis) for axis in zip(*points, strict=True)]
+    height = max(spans) * TEXT_SHARE
+    texts = (*_texts(assessment, unit, height, is_feet),)
+    return PlanDrawing(is_feet=is_feet, lines=lines + _north(assessment, points, height),
+                       texts=(*texts, _north_text(assessment, points, height)))  # fmt: skip
+
+
+def _in_unit(line: PlanLine, unit: Unit) -> PlanLine:
+    points = tuple((x / unit.si, y / unit.si) for x, y in line.points)
+    return PlanLine(layer=line.layer, name=line.name, points=points, is_closed=line.is_closed)
+
+
+def _closed(layer: Layer, name: str, points: Outline) -> PlanLine:
+    return PlanLine(layer=layer, name=name, points=points, is_closed=True)
+
+
+def _lines(assessment: Assessment) -> Iterator[PlanLine]:
+    """Yield the lines, in m."""
+    data = assessment.project
+    if data.roof.outline is not None:
+        yield _closed(Layer.OUTLINE, "roof", corners(data.roof.outline))
+    for edge in bare_edges(data):
+        line = edge.line
+        ends = ((line.x_from_m, line.y_from_m), (line.x_to_m, line.y_to_m))
+        yield PlanLine(layer=Layer.BARE_EDGE, name=edge.name, points=ends, is_closed=False)
+    for item in data.objects:
+        if item.rectangle is not None:
+            yield _closed(_layer(item), item.id, corners(item.rectangle))
+    for array in assessment.arrays:
+        yield _closed(Layer.ARRAY, array.id, corners(array.array.rectangle))
+        for layer, outline in (
+            (Layer.DESIGN, design_envelope(array)),
+            (Layer.RUNS, runs_envelope(array)),
+        ):
+            if outline:
+                yield _closed(layer, array.id, outline)
+    for gap in gap_lines(assessment):
+        yield PlanLine(layer=gap.layer, name=gap.name, points=gap.ends, is_closed=False)
+
+
+def _layer(item: RoofObject) -> Layer:
+    edges = {
+        ObjectKind.EDGE_WITH_PARAPET: Layer.PARAPET,
+        ObjectKind.EDGE_WITHOUT_PARAPET: Layer.EDGE,
+    }
+    return edges.get(item.kind, Layer.OBJECT)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GapLine:
+    """A clearance on the plan: its ends [m], and what it says in both systems of units."""
+
+    layer: Layer
+    name: str
+    ends: tuple[Point, Point]
+    words: str
+
+
+def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
+    """Yield the clearances between rectangles, numbered as in the workbook."""
+    data = assessment.project
+    us_first = data.project.units_first == "US"
+    shapes: dict[str, Rectangle | None] = {item.id: item.rectangle for item in data.objects}
+    shapes |= {array.id: array.rectangle for array in data.arrays}
+    for count, gap in enumerate(assessment.clearances, start=1):
+        near, far = shapes[gap.clearance.array], shapes[gap.clearance.object]
+        if near is None or far is None:
+            continue
+        provided = pair(gap.clearance.provided_m, Quantity.SIZE, us_first)
+        required = "no value"
+        if not math.isnan(gap.required_m):
+            required = pair(gap.required_m, Quantity.SIZE, us_first)
+        verdict = "OK" if gap.ok else "NG"
+        yield GapLine(
+            layer=Layer.CLEARANCE if gap.ok else Layer.CLEARANCE_NG,
+            name=f"{gap.clearance.array} to {gap.clearance.object}",
+            ends=closest(near, far),
+            words=f"{count}: provided {provided}, required {required}, {verdict}",
+        )
+
+
+def _texts(assessment: Assessment, unit: Unit, height: float, us_first: bool) -> Iterator[PlanText]:
+    for item in assessment.project.objects:
+        if item.rectangle is not None:
+            words = item.id if item.height_m is None else (
+                f"{item.id}, height {pair(item.height_m, Quantity.SIZE, us_first)}"
+            )  # fmt: skip
+            at = _middle(corners(item.rectangle), unit)
+            yield PlanText(layer=_layer(item), words=words, at=at, height=height)
+    for array in assessment.arrays:
+        x, y = _middle(corners(array.array.rectangle), unit)
+        yield PlanText(layer=Layer.ARRAY, words=array.id, at=(x, y), height=height)
+        for count, words in enumerate(_array_notes(assessment, array.id, us_first), start=1):
+            at = (x, y - 1.6 * height * count)
+            yield PlanText(layer=Layer.NOTES, words=words, at=at, height=height)
+    for gap in gap_lines(assessment):
+        at = _middle(gap.ends, unit)
+        yield PlanText(layer=gap.layer, words=gap.words, at=at, height=0.7 * height)
+
+
+def _array_notes(assessment: Assessment, name: str, us_first: bool) -> Iterator[str]:
+    array = next(array for array in assessment.arrays if array.id == name)
+    if math.isnan(array.design_m):
+        yield "design displacement: no value"
+        return
+    yield f"design displacement {pair(array.design_m, Quantity.SIZE, us_first)}"
+    yield f"keep clear {pair(keep_clear_m(assessment, array), Quantity.SIZE, us_first)}; no conduit"
+    slope = number(math.degrees(array.array.slope_rad), 2).replace("−", "-")
+    yield f"slope {slope} deg, downslope {array.array.downslope_deg:.0f} deg"
+
+
+def _middle(points: Sequence[Point], unit: Unit) -> Point:
+    x, y = (sum(axis) / len(axis) / unit.si for axis in zip(*points, strict=True))
+    return x, y
+
+
+def _north_point(points: Sequence[Point], height: float) -> Point:
+    """Return the foot of the arrow: to the right of the plan, at the top."""
+    return max(x for x, _ in points) + 12.0 * height, max(y for _, y in points) - 8.0 * height
+
+
+def _north(assessment: Assessment, points: Sequence[Point], height: float) -> tuple[PlanLine, ...]:
+    x, y = _north_point(points, height)
+    dx, dy = _towards_north(assessment, 8.0 * height)
+    tip = (x + dx, y + dy)
+    barbs = [(x + 0.7 * dx - side * 0.15 * dy, y + 0.7 * dy + side * 0.15 * dx) for side in (1, -1)]
+    return tuple(
+        PlanLine(layer=Layer.NORTH, name="north", points=ends, is_closed=False)
+        for ends in (((x, y), tip), (barbs[0], tip, barbs[1]))
+    )
+
+
+def _north_text(assessment: Assessment, points: Sequence[Point], height: float) -> PlanText:
+    x, y = _north_point(points, height)
+    dx, dy = _towards_north(assessment, 10.0 * height)
+    return PlanText(layer=Layer.NORTH, words="N", at=(x + dx, y + dy), height=height)
+
+
+def _towards_north(assessment: Assessment, length: float) -> Point:
+    north = math.radians(assessment.project.roof.north_deg)
+    return length * math.cos(north), length * math.sin(north)

@@ -1,0 +1,115 @@
+"""The plan as DXF: read back as it was written, clean, and the same every time."""
+
+import io
+import math
+from dataclasses import replace
+
+import ezdxf
+import pytest
+
+import stand_in
+from report.assessment.envelopes import corners, design_envelope
+from report.drawing.dxf import APPLICATION, write_dxf
+from report.drawing.layers import Layer
+from report.drawing.plan import plan_drawing
+from sheets import FT
+
+OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 * FT}
+
+
+@pytest.fixture(scope="module")
+def done():
+    data = stand_in.project(roof=OUTLINE | {"north_deg": 30.0})
+    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
+
+
+def in_si(done):
+    project = done.project.project.model_copy(update={"units_first": "SI"})
+    return replace(done, project=done.project.model_copy(update={"project": project}))
+
+
+def read(data):
+    return ezdxf.read(io.StringIO(data.decode("utf-8")))
+
+
+def test_the_same_plan_gives_the_same_bytes(done):
+    assert write_dxf(plan_drawing(done)) == write_dxf(plan_drawing(done))
+
+
+@pytest.mark.parametrize("us_first", [True, False])
+def test_the_auditor_finds_nothing_and_the_unit_is_that_of_the_workbook(done, us_first):
+    document = read(write_dxf(plan_drawing(done if us_first else in_si(done))))
+    auditor = document.audit()
+    assert not auditor.errors
+    assert not auditor.fixes
+    assert document.header["$INSUNITS"] == (2 if us_first else 6)  # feet, meters
+
+
+@pytest.mark.parametrize("us_first", [True, False])
+def test_lines_are_read_back_to_the_same_coordinates(done, us_first):
+    plan = plan_drawing(done if us_first else in_si(done))
+    found = read(write_dxf(plan)).modelspace().query("LWPOLYLINE")
+    assert len(found) == len(plan.lines)
+    for line, drawn in zip(plan.lines, found, strict=True):
+        assert drawn.dxf.layer == line.layer.title
+        assert drawn.closed is line.is_closed
+        assert drawn.get_xdata(APPLICATION)[0].value == line.name
+        for point, wanted in zip(drawn.get_points("xy"), line.points, strict=True):
+            assert point == pytest.approx(wanted, abs=1e-6)
+
+
+@pytest.mark.parametrize(("us_first", "unit_m"), [(True, FT), (False, 1.0)])
+def test_outlines_are_the_rectangles_of_the_workbook(done, us_first, unit_m):
+    space = read(write_dxf(plan_drawing(done if us_first else in_si(done)))).modelspace()
+    shapes = {array.id: array.rectangle for array in done.project.arrays}
+    shapes |= {item.id: item.rectangle for item in done.project.objects}
+    kinds = {"ARRAY", "OBJECT", "ROOF-PARAPET", "ROOF-EDGE"}
+    drawn = {
+        line.get_xdata(APPLICATION)[0].value: line.get_points("xy")
+        for line in space.query("LWPOLYLINE")
+        if line.dxf.layer in kinds
+    }
+    assert drawn.keys() == shapes.keys()
+    for name, shape in shapes.items():
+        for point, corner in zip(drawn[name], corners(shape), strict=True):
+            assert point == pytest.approx([at / unit_m for at in corner], abs=1e-6)
+
+
+def test_texts_are_read_back(done):
+    plan = plan_drawing(done)
+    found = read(write_dxf(plan)).modelspace().query("TEXT")
+    assert [text.dxf.text for text in found] == [text.words for text in plan.texts]
+    said = [text.words for text in plan.texts]
+    assert {"A1", "A2", "A3", "RTU-1, height 42.0 in (1067 mm)", "T-1", "S edge", "N"} <= set(said)
+    gap = done.clearances[4]
+    assert any(
+        words.startswith("5: provided 78.0 in (1981 mm), required 81.6 in") and words.endswith("NG")
+        for words in said
+    )
+    assert not gap.ok
+
+
+def test_each_kind_has_its_layer(done):
+    document = read(write_dxf(plan_drawing(done)))
+    assert {layer.title for layer in Layer} <= {layer.dxf.name for layer in document.layers}
+    used = {entity.dxf.layer for entity in document.modelspace()}
+    assert used == {layer.title for layer in Layer}
+
+
+def test_a_clearance_that_is_not_satisfied_is_on_a_layer_of_its_own(done):
+    lines = [line for line in plan_drawing(done).lines if line.layer is Layer.CLEARANCE_NG]
+    assert [line.name for line in lines] == ["A2 to S edge"]
+
+
+def test_the_envelope_is_that_of_the_design_displacement(done):
+    line = next(line for line in plan_drawing(done).lines if line.layer is Layer.DESIGN)
+    wanted = [(x / FT, y / FT) for x, y in design_envelope(done.arrays[0])]
+    assert line.points == tuple(wanted)
+
+
+def test_without_a_displacement_there_is_no_envelope(done):
+    lost = replace(done, arrays=tuple(replace(a, design_m=math.nan) for a in done.arrays))
+    plan = plan_drawing(lost)
+    assert not [line for line in plan.lines if line.layer is Layer.DESIGN]
+    assert [text.words for text in plan.texts].count("design displacement: no value") == 3
+    assert not read(write_dxf(plan)).audit().errors

@@ -1,0 +1,225 @@
+"""The roof plan: at true scale, complete, and no label on another."""
+
+import itertools
+import math
+import re
+from dataclasses import replace
+
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+import stand_in
+from report.figures.base import load_fonts, style
+from report.figures.labels import TYPE_PT, width_in
+from report.figures.paper_plan import FOOT_M, nice_length, round_scale, wrapped
+from report.figures.plan import (
+    LANDSCAPE,
+    PORTRAIT,
+    SMALL,
+    is_wide,
+    keep_clear_words,
+    plan_figure,
+    roof_plan,
+)
+from report.sheet.schema import Roof
+from report.typeset.pdf import TEMPLATES
+from solver.model import INCH_M
+from stand_in import FOOT
+
+SIZES = [SMALL, LANDSCAPE, PORTRAIT]
+INCHES = ("provided {:.1f} in", "required {:.1f} in")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def fonts():
+    load_fonts(TEMPLATES / "fonts")
+
+
+@pytest.fixture(scope="module")
+def done():
+    return stand_in.assess_input(stand_in.project(), stand_in.motions(3, seconds=12.0))
+
+
+@pytest.fixture(scope="module")
+def crowded():
+    """Twelve arrays, twelve units in narrow aisles, 29 clearances, of which 12 are too small."""
+    arrays, units, rows = [], [], []
+    for column, row in itertools.product(range(3), range(4)):
+        name, x, y = f"A{4 * column + row + 1}", 15 + 90 * column, 15 + 66 * row
+        arrays.append(stand_in.array(name, 2.0, x=x, y=y))
+        units.append(
+            stand_in.roof_object(f"RTU-{name}", "fixed object", x + 82, x + 86, y + 20, y + 25)
+        )
+        rows.append(stand_in.clearance(name, f"RTU-{name}", 2 * FOOT))
+        if row:
+            rows.append(stand_in.clearance(name, f"A{4 * column + row}", 4 * FOOT))
+        if column:
+            rows.append(stand_in.clearance(name, f"A{4 * column + row - 3}", 8 * FOOT))
+    data = stand_in.project(arrays=arrays, objects=units, clearances=rows, roof=outline(300, 290))
+    return stand_in.assess_input(data, stand_in.motions(3, seconds=8.0))
+
+
+def outline(x_to, y_to, **more):
+    return {"x_from_m": 0.0, "x_to_m": x_to * FOOT, "y_from_m": 0.0, "y_to_m": y_to * FOOT} | more
+
+
+def words(svg):
+    return re.findall(r"<text[^>]*>([^<]*)</text>", svg)
+
+
+def figure(done, size):
+    with style():
+        drawn = plan_figure(done, size)
+        drawn.set_dpi(400)  # extents are rounded to pixels
+        FigureCanvasAgg(drawn)
+    return drawn
+
+
+def extents(drawn):
+    """The texts and their extents on paper [in]."""
+    renderer = drawn.canvas.get_renderer()
+    boxes = [(text, text.get_window_extent(renderer)) for text in drawn.axes[0].texts]
+    return [(text, box.transformed(drawn.dpi_scale_trans.inverted())) for text, box in boxes]
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("name", ["done", "crowded"])
+def test_no_label_touches_another_or_leaves_the_sheet(request, name, size):
+    drawn = figure(request.getfixturevalue(name), size)
+    found = extents(drawn)
+    wide, tall = drawn.get_size_inches()
+    for text, box in found:
+        assert 0.0 <= box.x0 < box.x1 <= wide, text
+        assert 0.0 <= box.y0 < box.y1 <= tall, text
+    for (a, box), (b, other) in itertools.combinations(found, 2):
+        apart_x = max(box.x0, other.x0) - min(box.x1, other.x1)
+        apart_y = max(box.y0, other.y0) - min(box.y1, other.y1)
+        assert max(apart_x, apart_y) > 0.0, (a.get_text(), b.get_text())
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_no_type_is_smaller_than_eight_and_a_half_points(done, size):
+    assert min(text.get_fontsize() for text in figure(done, size).axes[0].texts) >= 8.5
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_picture_is_at_the_scale_that_it_states(done, size):
+    drawn = figure(done, size)
+    patches = {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
+    stated = next(t.get_text() for t in drawn.axes[0].texts if t.get_text().startswith("1 in ="))
+    feet_per_inch = int(re.fullmatch(r"1 in = (\d+) ft", stated).group(1))
+    for name, wide, tall in (("A1", 80, 60), ("T-1", 53, 30)):
+        box = patches[name]
+        assert box.get_width() * feet_per_inch == pytest.approx(wide)
+        assert box.get_height() * feet_per_inch == pytest.approx(tall)
+    svg = roof_plan(done, size)
+    points = float(re.search(r'width="([\d.]+)pt"', svg).group(1))
+    assert points == pytest.approx(72.0 * size.wide)
+    assert drawn.get_size_inches()[1] <= size.tall + 1e-9
+
+
+def test_every_array_object_and_clearance_is_on_the_large_plan(done):
+    found = words(roof_plan(done, LANDSCAPE))
+    for name in ("A1", "A2", "A3", "RTU-1", "T-1", "1", "2", "3", "4", "5", "N", "x [ft]"):
+        assert name in found
+    assert "N edge: parapet 30.0 in (762 mm)" in found
+    assert "S edge: no parapet" in found
+    for gap in done.clearances:
+        for template, value in zip(INCHES, (gap.clearance.provided_m, gap.required_m), strict=True):
+            assert template.format(value / INCH_M) in found
+
+
+def test_a_clearance_that_is_not_satisfied_is_hatched_and_marked(done):
+    marked = sum(not gap.ok for gap in done.clearances)
+    assert marked == 1
+    for size in SIZES:
+        drawn = figure(done, size)
+        shown = marked + size.is_full  # with the legend
+        assert [t.get_text() for t in drawn.axes[0].texts].count("NG") == shown
+        heavy = [p for p in drawn.axes[0].patches if (p.get_hatch() or "").startswith("xxx")]
+        assert len(heavy) == shown
+    satisfied = replace(done, clearances=tuple(gap for gap in done.clearances if gap.ok))
+    assert "NG" not in words(roof_plan(satisfied, LANDSCAPE))
+
+
+def test_what_has_no_room_is_named_in_the_notes(crowded):
+    found = " ".join(words(roof_plan(crowded, PORTRAIT)))
+    notes = found[found.index("Keep clear") :]
+    shown = words(roof_plan(crowded, PORTRAIT))
+    for item in crowded.project.objects:
+        assert item.id in shown or item.id in notes or " more" in notes
+
+
+def test_neighbors_without_a_clearance_are_named(crowded):
+    assert "No clearance is given: A5 to" in " ".join(words(roof_plan(crowded, PORTRAIT)))
+
+
+def test_without_a_design_displacement_the_plan_says_so(done):
+    lost = replace(done, arrays=tuple(replace(a, design_m=math.nan) for a in done.arrays))
+    found = words(roof_plan(lost, LANDSCAPE))
+    assert found.count("no value") == 3
+    assert not any("keep clear 4" in text for text in found)
+
+
+def test_the_plan_does_without_objects_drawn():
+    data = stand_in.project(
+        objects=[{"id": "RTU-1", "kind": "fixed object"}],
+        clearances=[stand_in.clearance("A1", "RTU-1", 2.0)],
+    )
+    done = stand_in.assess_input(data, stand_in.motions(3, seconds=8.0))
+    assert "A1" in words(roof_plan(done, SMALL))
+    found = " ".join(words(roof_plan(done, LANDSCAPE)))
+    assert "Not drawn, because a rectangle is not given: clearance 1." in found
+
+
+def test_a_dollar_sign_in_a_name_is_a_dollar_sign():
+    data = stand_in.project(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
+    done = stand_in.assess_input(data, stand_in.motions(3, seconds=8.0))
+    assert "$x_1$" in words(roof_plan(done, SMALL))
+
+
+def test_a_roof_that_is_wide_lies_on_its_side(done):
+    assert is_wide(done)
+    tall = done.project.model_copy(update={"roof": Roof.model_validate(outline(220, 500))})
+    assert not is_wide(replace(done, project=tall))
+
+
+@pytest.mark.parametrize(
+    ("feet", "name"),
+    [(3.0, 10), (10.0, 10), (10.1, 20), (60.5, 80), (80.1, 100), (101.0, 150), (151.0, 200)],
+)
+def test_scales_are_those_of_an_engineers_ruler(feet, name):
+    scale = round_scale(feet * FOOT_M, us_first=True)
+    assert (scale.name, scale.m_per_in) == (f"1 in = {name} ft", pytest.approx(name * FOOT))
+
+
+@pytest.mark.parametrize(("ratio", "name"), [(99.0, 100), (201.0, 250), (500.0, 500), (760, 1000)])
+def test_metric_scales_are_round(ratio, name):
+    assert round_scale(ratio * INCH_M, us_first=False).name == f"1:{name}"
+
+
+@pytest.mark.parametrize(
+    ("inches", "us", "si"), [(40.0, "41", "1020"), (40.8, "41", "1040"), (41.0, "41", "1050")]
+)
+def test_keep_clear_is_never_rounded_down(inches, us, si):
+    inches = 40.0 + 1e-6 if inches == 40.0 else inches
+    assert keep_clear_words(inches * INCH_M, True) == f"keep clear {us} in"
+    assert keep_clear_words(inches * INCH_M, False) == f"keep clear {si} mm"
+
+
+def test_lengths_of_bars_are_nice():
+    assert [nice_length(most) for most in (0.9, 1.0, 4.9, 26.0)] == [0.5, 1.0, 2.0, 20.0]
+
+
+def test_text_is_as_wide_as_it_is_drawn(done):
+    for text, box in extents(figure(done, LANDSCAPE)):
+        if text.get_rotation() == 0 and text.get_fontsize() == TYPE_PT and text.get_text() != "N":
+            weight = "semibold" if text.get_weight() == "semibold" else "regular"
+            assert width_in(text.get_text(), weight) == pytest.approx(box.width, abs=0.02)
+
+
+def test_wrapped_lines_keep_every_word():
+    lines = wrapped("Keep clear 41 in of A1, A2 on all sides: no conduit or equipment.", 1.5)
+    assert len(lines) > 2
+    assert " ".join(lines) == "Keep clear 41 in of A1, A2 on all sides: no conduit or equipment."
+    assert all(width_in(line) <= 1.5 for line in lines)
