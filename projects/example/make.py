@@ -11,6 +11,7 @@ from pathlib import Path
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.template import write_template
 from solver.records.record import write_record
+from solver.rules.hazard import EDITIONS
 from solver.rules.provisions import RULE_SETS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis import make_suite
@@ -28,7 +29,7 @@ def main() -> None:
     records = HERE / "records"
     records.mkdir(exist_ok=True)
     rules = RULE_SETS["SEAOC PV1-2012"]
-    across = ac156_horizontal(rules, s_ds_g=S_DS_G, z_over_h=1.0)
+    across = ac156_horizontal(EDITIONS[rules.edition], s_ds_g=S_DS_G, z_over_h=1.0)
     upward = ac156_vertical(s_ds_g=S_DS_G)
     suite = make_suite(
         (across.freq_hz, across.sa_g), (upward.freq_hz, upward.sa_g), count=COUNT, seed=SEED

@@ -25,7 +25,15 @@ class DesignBasis(StrEnum):
 
     ANALYSIS = "analysis"
     FLOOR = "floor"
-    NO_VALUE = "no value"
+    PRESCRIPTIVE = "prescriptive"
+    NO_VALUE = "none"
+
+
+class Route(StrEnum):
+    """Route to the design displacement."""
+
+    ANALYSIS = "analysis"
+    PRESCRIPTIVE = "prescriptive"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,9 +44,14 @@ class ArrayAssessment:
     ----------
     floor_m : float
         Minimum design displacement without peer review [m]; 0 with peer review.
+    route : Route
+        By which the design displacement is obtained.
     design_m : float
-        Design displacement [m]: the larger of the value from analysis and the floor. NaN where
-        there is no value from analysis.
+        Design displacement [m]. By analysis: the larger of the value from analysis and the floor.
+        By the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where
+        a run has no final displacement, or neither route gives a value.
+    by_direction : bool
+        Whether clearances take the displacement toward them, a departure from the rule sets.
     directions : mapping
         Value from analysis of the excursions in each direction; `analysis` is that for any.
     chosen : mapping
@@ -48,9 +61,11 @@ class ArrayAssessment:
     tipping, uplift : Tipping, Uplift
         For the run nearest to tipping, and for the run with the smallest normal force.
     checks : tuple of Check
-        Limits of the analysis route.
-    prescriptive_checks : tuple of Check
-        Limits of the prescriptive route.
+        Limits that apply to both routes.
+    analysis_checks, prescriptive_checks : tuple of Check
+        Limits of each route.
+    interconnection_n : float
+        Required strength between the parts of the array [N].
     """
 
     array: Array
@@ -61,10 +76,13 @@ class ArrayAssessment:
     needed: tuple[MotionRun, ...]
     prescriptive: Prescriptive
     floor_m: float
+    route: Route
     design_m: float
+    by_direction: bool
     tipping: Tipping
     uplift: Uplift
     checks: tuple[Check, ...]
+    analysis_checks: tuple[Check, ...]
     prescriptive_checks: tuple[Check, ...]
     interconnection_n: float
 
@@ -78,15 +96,38 @@ class ArrayAssessment:
         """Source of the design displacement."""
         if math.isnan(self.design_m):
             return DesignBasis.NO_VALUE
+        if self.route is Route.PRESCRIPTIVE:
+            return DesignBasis.PRESCRIPTIVE
         return DesignBasis.FLOOR if self.floor_m > self.analysis.value_m else DesignBasis.ANALYSIS
 
+    @property
+    def limits(self) -> tuple[Check, ...]:
+        """Every limit that must be satisfied on the route taken."""
+        of_route = {
+            Route.ANALYSIS: self.analysis_checks,
+            Route.PRESCRIPTIVE: self.prescriptive_checks,
+        }
+        return (*self.checks, *of_route[self.route])
+
     def design_toward_m(self, direction: Direction) -> float:
-        """Return the design displacement in a direction [m], not less than the floor."""
-        return self._floored(self.directions[direction])
+        """Return the design displacement for a clearance in a direction [m].
+
+        The full one, unless the workbook departs from the rule sets and takes the value from
+        analysis in the direction, not less than the floor.
+        """
+        if not self.by_direction or self.route is Route.PRESCRIPTIVE:
+            return self.design_m
+        return self.floored_m(direction)
 
     def chosen_toward_m(self, direction: Direction) -> float:
         """Return the same with the adequate models [m]."""
-        return self._floored(self.chosen[direction])
+        if self.route is Route.PRESCRIPTIVE:
+            return self.design_m
+        return self._floored(self.chosen[direction if self.by_direction else Direction.ANY])
+
+    def floored_m(self, direction: Direction) -> float:
+        """Return the value from analysis in a direction [m], not less than the floor."""
+        return self._floored(self.directions[direction])
 
     def _floored(self, analysis: AnalysisValue) -> float:
         return math.nan if math.isnan(analysis.value_m) else max(analysis.value_m, self.floor_m)
@@ -110,7 +151,7 @@ class ArrayAssessment:
     @property
     def variation(self) -> float:
         """Coefficient of variation of the motions' PRDs; NaN for one motion."""
-        peaks = [run.governing.result.prd_m for run in self.motions]
+        peaks = [run.governing.prd_m for run in self.motions]
         mean = self.analysis.mean_m
         if len(peaks) < 2 or not mean > 0.0:
             return math.nan
@@ -119,7 +160,7 @@ class ArrayAssessment:
     @property
     def worst(self) -> MotionRun:
         """The motion with the largest PRD."""
-        return max(self.motions, key=lambda run: nan_is_worst(run.governing.result.prd_m))
+        return max(self.motions, key=lambda run: nan_is_worst(run.governing.prd_m))
 
 
 def by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
@@ -133,6 +174,8 @@ def assess_array(
     array: Array,
     runs: tuple[MotionRun, ...],
     needed: tuple[MotionRun, ...],
+    *,
+    motions_qualify: bool,
 ) -> ArrayAssessment:
     """Return an array checked against the rule set.
 
@@ -142,49 +185,85 @@ def assess_array(
         With the model of the array, one for each motion.
     needed : tuple of MotionRun
         With the adequate models; `runs` itself where no model is requested.
+    motions_qualify : bool
+        Whether the motions satisfy what the rule set requires for a value from analysis.
     """
-    site = data.site
+    site, is_reviewed = data.site, data.options.peer_reviewed
     prescriptive = provisions.prescriptive_displacement(
         rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
     )
     asked = data.options.statistic
     basis = None if asked is Statistic.RULE_SET else Basis(asked.value)
     directions = _by_direction(rules, runs, basis)
-    analysis = directions[Direction.ANY]
-    floor = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
-    no_value = math.isnan(analysis.value_m)
+    floor_m = 0.0 if is_reviewed else rules["analysis_floor"] * prescriptive.value_m
     scenes = [run.scene for motion in runs for run in motion.runs]
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
+    analysis_checks = provisions.analysis_checks(
+        rules,
+        slope_rad=array.slope_rad,
+        n_motions=len(runs),
+        sdc=site.sdc,
+        is_reviewed=is_reviewed,
+    )
+    prescriptive_checks = provisions.prescriptive_checks(
+        rules, slope_rad=array.slope_rad, mu=array.least_mu
+    )
+    has_value = motions_qualify and directions[Direction.ANY].basis is not Basis.TOO_FEW
+    route = _route(has_value, analysis_checks, prescriptive_checks)
     return ArrayAssessment(
         array=array,
         motions=runs,
-        analysis=analysis,
+        analysis=directions[Direction.ANY],
         directions=directions,
         chosen=directions if needed is runs else _by_direction(rules, needed, basis),
         needed=needed,
         prescriptive=prescriptive,
-        floor_m=floor,
-        design_m=math.nan if no_value else max(analysis.value_m, floor),
+        floor_m=floor_m,
+        route=route,
+        design_m=_design_m(route, runs, directions[Direction.ANY], prescriptive, floor_m),
+        by_direction=data.options.directional,
         tipping=max(
             (tipping(scene, supports) for scene in scenes), key=lambda t: (t.ratio, t.demand)
         ),
         uplift=min(map(uplift, scenes), key=lambda u: u.n_min_g),
-        checks=(
-            *provisions.array_checks(
-                rules,
-                cg_height_m=array.cg_height_m,
-                support_spacing_m=array.support_spacing_m,
-            ),
-            *provisions.analysis_checks(rules, slope_rad=array.slope_rad, n_motions=len(runs)),
+        checks=provisions.array_checks(
+            rules,
+            cg_height_m=array.cg_height_m,
+            support_spacing_m=array.support_spacing_m,
+            base_m=array.base_dimension_m,
+            slope_rad=array.slope_rad,
         ),
-        prescriptive_checks=provisions.prescriptive_checks(
-            rules, slope_rad=array.slope_rad, mu=array.least_mu
-        ),
+        analysis_checks=analysis_checks,
+        prescriptive_checks=prescriptive_checks,
         # The lighter side of a section is at most half of the array.
         interconnection_n=provisions.interconnection_strength_n(
             rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
         ),
     )
+
+
+def _route(has_value: bool, analysis: Sequence[Check], prescriptive: Sequence[Check]) -> Route:
+    """Return the analysis route, unless it alone is not permitted."""
+    by_analysis = has_value and all(check.ok for check in analysis)
+    by_prescription = all(check.ok for check in prescriptive)
+    return Route.PRESCRIPTIVE if by_prescription and not by_analysis else Route.ANALYSIS
+
+
+def _design_m(
+    route: Route,
+    runs: Sequence[MotionRun],
+    analysis: AnalysisValue,
+    prescriptive: Prescriptive,
+    floor_m: float,
+) -> float:
+    """Return the design displacement of a route [m]; NaN where a run has no final value."""
+    largest_m = max((run.governing.prd_m for run in runs), key=nan_is_worst)
+    if math.isnan(largest_m):
+        return math.nan
+    if route is Route.PRESCRIPTIVE:
+        return max(prescriptive.value_m, largest_m)
+    # NaN first: max would drop it.
+    return max(analysis.value_m, floor_m)
 
 
 def _by_direction(

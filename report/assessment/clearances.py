@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.runs import nan_is_worst
+from report.assessment.verdict import Verdict
 from report.sheet.schema import (
     Array,
     Clearance,
@@ -24,6 +25,9 @@ from solver.rules.provisions import Neighbor, RuleSet
 
 ALIKE_DEG = 1.0
 """Tolerance [deg] within which two downslope directions are the same."""
+
+ALIKE_SLOPE_RAD = 1e-6
+"""Tolerance [rad] within which two slopes are the same: they may be typed in different units."""
 
 _KINDS = {
     ObjectKind.FIXED: Neighbor.FIXED,
@@ -42,12 +46,17 @@ class ClearanceCheck:
     governing_array, governing_direction : str, Direction
         Array and direction of the governing design displacement: the larger of the two between
         arrays.
+    importance : float
+        I_e or I_p, as the rule set takes it; 1 where the displacement includes it.
+    factor : float
+        Separation / design displacement, with the importance factor.
     least_m : float
         Minimum separation of the rule set for this neighbor [m]; 0 for none.
     """
 
     clearance: Clearance
     neighbor: Neighbor
+    importance: float
     governing_array: str
     governing_direction: Direction
     design_m: float
@@ -76,6 +85,11 @@ class ClearanceCheck:
         """Whether the separation is sufficient; False without a design displacement."""
         return self.required_m <= self.clearance.provided_m
 
+    @property
+    def verdict(self) -> Verdict:
+        """OK or NG."""
+        return Verdict.OK if self.ok else Verdict.NG
+
 
 def check_clearance(
     data: ProjectInput,
@@ -90,30 +104,56 @@ def check_clearance(
     facing += [
         (other, facing_direction(near.array, other.array, row.direction)) for other in others
     ]
+    if not data.options.directional:  # the rule sets know no direction
+        facing = [(array, Direction.ANY) for array, _ in facing]
     governing, direction = max(facing, key=lambda a: nan_is_worst(a[0].design_toward_m(a[1])))
     design_m = governing.design_toward_m(direction)
     if others:
-        alike = near.array.construction.casefold() == others[0].array.construction.casefold()
-        neighbor = Neighbor.LIKE if alike else Neighbor.UNLIKE
+        # As entered: a trial with other friction on one side does not make them unlike.
+        entered = {array.id: array for array in data.arrays}
+        is_like = are_alike(entered[row.array], entered[row.object])
+        neighbor = Neighbor.LIKE if is_like else Neighbor.UNLIKE
+        i_p = max(near.array.i_p, others[0].array.i_p)
     else:
         obstacle = next(item for item in data.objects if item.id == row.object)
         neighbor = _neighbor(rules, obstacle, near.array)
-    required = provisions.required_separation(
-        rules, neighbor, design_m=design_m, importance=data.site.i_e
-    )
-    factor = rules[provisions.SEPARATION_KEYS[neighbor]]
-    if rules.importance_in_separation:
-        factor *= data.site.i_e
+        i_p = max(near.array.i_p, obstacle.i_p)
+    importance = _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
     return ClearanceCheck(
         clearance=row,
         neighbor=neighbor,
+        importance=importance,
         governing_array=governing.id,
         governing_direction=direction,
         design_m=design_m,
-        factor=factor,
+        factor=rules[provisions.SEPARATION_KEYS[neighbor]] * importance,
         least_m=provisions.least_separation_m(rules, neighbor),
-        required_m=required,
+        required_m=provisions.required_separation(
+            rules, neighbor, design_m=design_m, importance=importance
+        ),
     )
+
+
+def _importance(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: float) -> float:
+    """Return the importance factor of a separation: I_e at edges, the larger I_p elsewhere."""
+    if not rules.importance_in_separation:
+        return 1.0
+    return i_e if neighbor.is_edge else i_p
+
+
+def are_alike(one: Array, other: Array) -> bool:
+    """Whether two arrays slide alike: construction, slope, friction and downslope direction."""
+    return (
+        one.construction.casefold() == other.construction.casefold()
+        and math.isclose(one.slope_rad, other.slope_rad, abs_tol=ALIKE_SLOPE_RAD)
+        and one.friction == other.friction
+        and _is_parallel(one, other)
+    )
+
+
+def _is_parallel(one: Array, other: Array) -> bool:
+    turn = (one.downslope_deg - other.downslope_deg) % 360.0
+    return min(turn, 360.0 - turn) <= ALIKE_DEG
 
 
 def facing_direction(near: Array, other: Array, direction: Direction) -> Direction:
@@ -121,8 +161,7 @@ def facing_direction(near: Array, other: Array, direction: Direction) -> Directi
 
     Any where the two arrays have different downslope directions.
     """
-    turn = (near.downslope_deg - other.downslope_deg) % 360.0
-    if min(turn, 360.0 - turn) > ALIKE_DEG:
+    if not _is_parallel(near, other):
         return Direction.ANY
     return _OPPOSITE.get(direction, direction)
 

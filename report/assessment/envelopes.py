@@ -134,10 +134,14 @@ def _turn(a: Point, b: Point, c: Point) -> float:
 
 
 def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
-    """Return the separation of an array from any fixed object [m]; NaN without a displacement."""
+    """Return the separation of an array from any fixed object [m]; NaN without a displacement.
+
+    Any object that may come: its I_p is taken as that of the array.
+    """
+    rules = assessment.rules
     return provisions.required_separation(
-        assessment.rules,
+        rules,
         Neighbor.FIXED,
         design_m=array.design_m,
-        importance=assessment.project.site.i_e,
+        importance=array.array.i_p if rules.importance_in_separation else 1.0,
     )

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from report.assessment.acceptance import shaking_acceptance
 from report.assessment.certainty import Certainty, certainty
 from report.assessment.highpass import Beyond, beyond_corners
 from report.assessment.project import Assessment
@@ -15,7 +14,6 @@ from report.assessment.remedies import Remedy, remedies
 from report.assessment.sensitivity import Accuracy, accuracy
 from report.assessment.spectra import Spectra, spectra
 from solver.model import SlideHistory
-from solver.records.acceptance import Acceptance
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,8 +29,6 @@ class Evidence:
         The governing run by every method, and the design with changed friction.
     highpass : tuple of Beyond
         Effect of the high-pass of each motion on the slip of the governing array.
-    acceptance : Acceptance
-        Limits on the motions as run, at the roof.
     remedies : tuple of Remedy
         What would satisfy each clearance and array marked NG.
     certainty : Certainty
@@ -43,7 +39,6 @@ class Evidence:
     histories: tuple[tuple[SlideHistory, ...], ...]
     accuracy: Accuracy
     highpass: tuple[Beyond, ...]
-    acceptance: Acceptance
     remedies: tuple[Remedy, ...]
     certainty: Certainty
 
@@ -57,7 +52,6 @@ def support(assessment: Assessment) -> Evidence:
         ),
         accuracy=accuracy(assessment),
         highpass=beyond_corners(assessment),
-        acceptance=shaking_acceptance(assessment.shaking, assessment.targets),
         remedies=remedies(assessment),
         certainty=certainty(assessment),
     )

@@ -39,7 +39,7 @@ def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
             motion_id=bare.id,
             corner_hz=corners[bare.id],
             filtered_m=_prd_m(governing, bare.id),
-            unfiltered_m=run_motion(governing.array, bare).governing.result.prd_m,
+            unfiltered_m=run_motion(governing.array, bare).governing.prd_m,
         )
         for prepared in assessment.shaking.prepared
         for bare in prepared.unfiltered
@@ -48,4 +48,4 @@ def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
 
 def _prd_m(array: ArrayAssessment, motion_id: str) -> float:
     run = next(run for run in array.motions if run.motion.id == motion_id)
-    return run.governing.result.prd_m
+    return run.governing.prd_m

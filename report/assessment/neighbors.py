@@ -12,7 +12,6 @@ from enum import StrEnum
 from itertools import combinations
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.project import Assessment
 from report.sheet.checks import gap_m
 from report.sheet.fields import Place
 from report.sheet.schema import Clearance, ObjectKind, ProjectInput, Rectangle
@@ -122,7 +121,9 @@ class PlanNeighbor:
         )
 
 
-def neighbors(assessment: Assessment) -> tuple[PlanNeighbor, ...]:
+def neighbors(
+    data: ProjectInput, arrays: Sequence[ArrayAssessment], addresses: Mapping[Place, str]
+) -> tuple[PlanNeighbor, ...]:
     """Return each pair of arrays, array and object, array and bare roof edge of the plan.
 
     Of those, the pairs within reach or with a clearance. An object without a rectangle is in none
@@ -130,7 +131,7 @@ def neighbors(assessment: Assessment) -> tuple[PlanNeighbor, ...]:
     """
     return tuple(
         neighbor
-        for neighbor in _pairs(assessment)
+        for neighbor in _pairs(data, arrays, addresses)
         if neighbor.given or neighbor.gap_m <= neighbor.reach_m
     )
 
@@ -196,11 +197,12 @@ Rows = Mapping[frozenset[str], tuple[GivenGap, ...]]
 """Clearances of the workbook by the two ids that they are between."""
 
 
-def _pairs(assessment: Assessment) -> Iterator[PlanNeighbor]:
-    data, addresses = assessment.project, assessment.sheet.addresses
+def _pairs(
+    data: ProjectInput, arrays: Sequence[ArrayAssessment], addresses: Mapping[Place, str]
+) -> Iterator[PlanNeighbor]:
     rows = _rows(data, addresses)
     table = addresses.get(Place("clearances"), "Clearances")
-    for a, b in combinations(assessment.arrays, 2):
+    for a, b in combinations(arrays, 2):
         yield PlanNeighbor(
             array=a.id,
             other=b.id,
@@ -211,7 +213,7 @@ def _pairs(assessment: Assessment) -> Iterator[PlanNeighbor]:
             to_add=table,
         )
     edges = bare_edges(data)
-    for array in assessment.arrays:
+    for array in arrays:
         yield from _objects_of(array, data, rows, table)
         yield from _edges_of(array, edges, addresses.get(Place("objects"), "Objects"))
 

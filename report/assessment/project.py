@@ -14,15 +14,28 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, assess_array, by_id
+from report.assessment.acceptance import shaking_acceptance
+from report.assessment.arrays import ArrayAssessment, Route, assess_array, by_id
 from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.conditions import (
+    array_rows,
+    friction_row,
+    friction_test_rows,
+    motion_rows,
+    plan_rows,
+    project_rows,
+)
+from report.assessment.friction import SHIFT, with_friction
 from report.assessment.links import LinkedArray, assess_linked
+from report.assessment.neighbors import PlanNeighbor, neighbors
 from report.assessment.runs import MotionRun, nan_is_worst, run_motion
+from report.assessment.verdict import Row, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
 from report.sheet.read import Sheet
 from report.sheet.schema import Array, Model, ProjectInput
 from solver.model import Motion, SlideResult, Status
+from solver.records.acceptance import Acceptance
 from solver.rules import provisions
 from solver.rules.provisions import Check, RuleSet
 from solver.rules.spectra import RequiredSpectrum
@@ -46,6 +59,14 @@ class Assessment:
         Target spectra of the motions: AC156 or project-specific.
     linked : tuple of LinkedArray
         The arrays for which the workbook requests a check of the rigid-block model.
+    neighbors : tuple of PlanNeighbor
+        What the plan shows near each array, with its clearances.
+    acceptance : Acceptance
+        Limits on the motions as run, at the roof.
+    rows : tuple of Row
+        Requirements beside the numeric limits, of the project, its motions and its arrays.
+    less : Assessment or None
+        The same with less friction; None in that one itself.
     """
 
     sheet: Sheet
@@ -59,6 +80,10 @@ class Assessment:
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
     linked: tuple[LinkedArray, ...]
+    neighbors: tuple[PlanNeighbor, ...]
+    acceptance: Acceptance
+    rows: tuple[Row, ...]
+    less: Assessment | None
     solver_seconds: float
 
     @property
@@ -67,23 +92,44 @@ class Assessment:
         return max(self.arrays, key=lambda array: nan_is_worst(array.design_m))
 
     @property
-    def ok(self) -> bool:
-        """Whether all limits and clearances are satisfied and each array has a final value."""
-        building_ok = all(check.ok for check in self.building_checks)
-        arrays_ok = all(map(self.array_ok, self.arrays))
-        return building_ok and arrays_ok and all(gap.ok for gap in self.clearances)
-
-    def array_ok(self, array: ArrayAssessment) -> bool:
-        """Whether an array has final values and satisfies its limits and clearances."""
-        return (
-            not math.isnan(array.design_m)
-            and array.is_model_enough
-            and array.tipping.is_ok
-            and all(linked.is_rigid_enough for linked in self.linked_of(array))
-            and all(check.ok for check in array.checks)
-            and all(gap.ok for gap in self.gaps_of(array.id))
-            and all(run.result.status is Status.OK for m in array.motions for run in m.runs)
+    def verdict(self) -> Verdict:
+        """Verdict on the project: the worst of its limits, arrays, clearances and rows."""
+        return worst(
+            [
+                *(_verdict(check.ok) for check in self.building_checks),
+                *(self.array_verdict(item) for item in self.arrays),
+                *(gap.verdict for gap in self.clearances),
+                *(row.verdict for row in self.rows),
+            ]
         )
+
+    def array_verdict(self, item: ArrayAssessment) -> Verdict:
+        """Return the verdict on an array: its values, limits, rows and clearances."""
+        is_sound = (
+            not math.isnan(item.design_m)
+            and item.is_model_enough
+            and item.tipping.is_ok
+            and all(linked.is_rigid_enough for linked in self.linked_of(item))
+            and all(check.ok for check in item.limits)
+            and (item.route is Route.PRESCRIPTIVE or self.acceptance.qualifies)
+            and all(run.result.status is Status.OK for m in item.motions for run in m.runs)
+        )
+        return worst(
+            [
+                _verdict(is_sound),
+                *(gap.verdict for gap in self.gaps_of(item.array.id)),
+                *(row.verdict for row in self.rows_of(item.array.id)),
+            ]
+        )
+
+    @property
+    def conditions(self) -> tuple[Row, ...]:
+        """The rows that are not satisfied, whatever follows from them."""
+        return tuple(row for row in self.rows if not row.is_satisfied)
+
+    def rows_of(self, subject: str) -> Sequence[Row]:
+        """Return the rows about an array or a motion."""
+        return [row for row in self.rows if row.subject == subject]
 
     def linked_of(self, array: ArrayAssessment) -> Sequence[LinkedArray]:
         """Return an array as a row of linked blocks, where the workbook requests it."""
@@ -140,24 +186,31 @@ def assess(sheet: Sheet, shaking: Shaking) -> Assessment:
     InputError
         For an override of a provision that the rule set does not have.
     """
-    return _assess(sheet, shaking, sheet.project, check_models=True)
+    data = sheet.project
+    acceptance = shaking_acceptance(shaking, targets(data))
+    return _assess(sheet, shaking, data, acceptance, check_models=True)
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:
     """Assess another input under the same motions, with its own models only."""
-    return _assess(given.sheet, given.shaking, project, check_models=False)
+    return _assess(given.sheet, given.shaking, project, given.acceptance, check_models=False)
 
 
 def _assess(
-    sheet: Sheet, shaking: Shaking, data: ProjectInput, *, check_models: bool
+    sheet: Sheet,
+    shaking: Shaking,
+    data: ProjectInput,
+    acceptance: Acceptance,
+    *,
+    check_models: bool,
 ) -> Assessment:
     """Assess an input.
 
     Parameters
     ----------
     check_models : bool
-        Whether requested models are compared with the adequate ones, and one rigid block with a
-        row of linked blocks.
+        Whether requested models are compared with the adequate ones, one rigid block with a row
+        of linked blocks, and the verdicts with those for less friction.
     """
     site = data.site
     rules = provisions.RULE_SETS[site.rule_set].overridden(
@@ -169,11 +222,15 @@ def _assess(
         runs = [_runs(pool, array, shaking.motions, check_models) for array in data.arrays]
         seconds = time.perf_counter() - started
         arrays = tuple(
-            assess_array(data, rules, array, *pair)
+            assess_array(data, rules, array, *pair, motions_qualify=acceptance.qualifies)
             for array, pair in zip(data.arrays, runs, strict=True)
         )
         links = data.links if check_models else ()
         linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
+    softer = with_friction(data, 1.0 - SHIFT)
+    less = _assess(sheet, shaking, softer, acceptance, check_models=False) if check_models else None
+    clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
+    nearby = neighbors(data, arrays, sheet.addresses)
     return Assessment(
         sheet=sheet,
         shaking=shaking,
@@ -188,10 +245,32 @@ def _assess(
             stories=site.stories,
         ),
         arrays=arrays,
-        clearances=tuple(check_clearance(data, rules, arrays, row) for row in data.clearances),
+        clearances=clearances,
         linked=linked,
+        neighbors=nearby,
+        acceptance=acceptance,
+        rows=(
+            *project_rows(data, shaking.prepared),
+            *friction_test_rows(data),
+            *motion_rows(acceptance, arrays),
+            *(row for item in arrays for row in array_rows(data, item)),
+            *plan_rows(data, nearby),
+            *(_friction_rows(clearances, less) if less else ()),
+        ),
+        less=less,
         solver_seconds=seconds,
     )
+
+
+def _friction_rows(given: Sequence[ClearanceCheck], less: Assessment) -> Sequence[Row]:
+    """Return the clearances whose verdict less friction changes."""
+    pairs = zip(given, less.clearances, strict=True)
+    rows = (friction_row(before, after, SHIFT) for before, after in pairs)
+    return [row for row in rows if not row.is_satisfied]
+
+
+def _verdict(is_ok: bool) -> Verdict:
+    return Verdict.OK if is_ok else Verdict.NG
 
 
 def _runs(

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from report.sheet.schema import Array, Direction, Model
-from solver.model import Heading, Motion, Scene, SlideHistory, SlideResult
+from solver.model import Heading, Motion, Scene, SlideHistory, SlideResult, Status
 from solver.sliding import least_model
 from solver.sliding.least_model import Rung, Settings, Solution
 
@@ -37,6 +37,11 @@ class HeadingRun:
         return self.solution.result
 
     @property
+    def prd_m(self) -> float:
+        """PRD [m]; NaN where the run has no final displacement."""
+        return self.result.prd_m if self.result.status is Status.OK else math.nan
+
+    @property
     def has_across(self) -> bool:
         """Whether cross-slope motion was modeled, or shown to be zero."""
         return self.solution.rung is Rung.NO_SLIP or self.solution.rung >= Rung.TWO_AXES
@@ -44,9 +49,12 @@ class HeadingRun:
     def excursion_m(self, direction: Direction) -> float:
         """Return the largest excursion of the array in a direction [m].
 
-        Where cross-slope motion was not modeled, the PRD is used for it.
+        Where cross-slope motion was not modeled, the PRD is used for it. NaN where the run has no
+        final displacement: lifted off, still sliding at its end, or without a result.
         """
         result = self.result
+        if result.status is not Status.OK:
+            return math.nan
         return {
             Direction.DOWN: result.down_m,
             Direction.UP: result.up_m,
@@ -96,7 +104,7 @@ def run_motion(array: Array, motion: Motion, model: Model | None = None) -> Moti
 
 def motion_run(motion: Motion, runs: Sequence[HeadingRun]) -> MotionRun:
     """Return the runs of a motion with the governing one."""
-    worst = max(runs, key=lambda run: nan_is_worst(run.result.prd_m))
+    worst = max(runs, key=lambda run: nan_is_worst(run.prd_m))
     return MotionRun(motion=motion, runs=tuple(runs), governing=worst)
 
 

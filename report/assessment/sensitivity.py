@@ -16,15 +16,13 @@ import numpy as np
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.friction import SHIFT, with_friction
 from report.assessment.project import Assessment, reassess
 from report.assessment.runs import MotionRun
-from report.assessment.trials import with_friction
-from report.sheet.schema import ProjectInput
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, SlideResult, Status
 from solver.rivals.methods import METHODS, Method
 from solver.sliding.checked import slide
 
-SHIFT = 0.05
 """Fraction by which the friction coefficient is decreased and increased."""
 
 MOST_STEPS = 64
@@ -137,9 +135,9 @@ def accuracy(given: Assessment) -> Accuracy:
     """Run the governing motion by every method, and all arrays with changed friction."""
     return Accuracy(
         rivals=rivals(given.governing),
-        less=reassess(given, _with_friction(given.project, 1.0 - SHIFT)),
+        less=given.less or reassess(given, with_friction(given.project, 1.0 - SHIFT)),
         given=given,
-        more=reassess(given, _with_friction(given.project, 1.0 + SHIFT)),
+        more=reassess(given, with_friction(given.project, 1.0 + SHIFT)),
     )
 
 
@@ -151,11 +149,6 @@ def _seconds(scene: dict[str, Any]) -> float:
         slide(**scene)
         times.append(time.perf_counter() - started)
     return min(times)
-
-
-def _with_friction(data: ProjectInput, factor: float) -> ProjectInput:
-    changed = [with_friction(array, factor) for array in data.arrays]
-    return data.model_copy(update={"arrays": type(data.arrays)(changed)})
 
 
 def _scene(run: MotionRun) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from functools import partial
 
 from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.friction import array_with_friction
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun, motion_run, run_heading
 from report.sheet.schema import Array, Clearance, ProjectInput
@@ -41,22 +42,13 @@ def below(value: float) -> int:
     return math.ceil(100.0 * value - 1e-6) - 1
 
 
-def with_friction(array: Array, factor: float) -> Array:
-    """Return an array with all of its friction coefficients multiplied by a factor."""
-    names = ("mu", "mu_fast", "mu_static")
-    given = {name: getattr(array, name) for name in names}
-    return array.model_copy(
-        update={name: mu * factor for name, mu in given.items() if mu is not None}
-    )
-
-
 def with_mu(array: Array, mu: float) -> Array:
     """Return an array with another low-velocity coefficient, its friction law scaled as a whole.
 
     A law that starts from zero has no factor: the coefficient is then one at every velocity.
     """
     if array.mu > 0.0:
-        return with_friction(array, mu / array.mu).model_copy(update={"mu": mu})
+        return array_with_friction(array, mu / array.mu).model_copy(update={"mu": mu})
     names = ("mu_fast", "mu_rate_s_per_m", "mu_static")
     return array.model_copy(update={**dict.fromkeys(names), "mu": mu})
 
@@ -153,7 +145,14 @@ class Trials:
         return with_s_ds(self.given.project, s_ds / 100) if s_ds else self.given.project
 
     def _assessed(self, array: Array, s_ds: int, runs: tuple[MotionRun, ...]) -> ArrayAssessment:
-        return assess_array(self._data(s_ds), self.given.rules, array, runs, runs)
+        return assess_array(
+            self._data(s_ds),
+            self.given.rules,
+            array,
+            runs,
+            runs,
+            motions_qualify=self.given.acceptance.qualifies,
+        )
 
 
 def _first_run(array: Array, share: float, run: MotionRun) -> MotionRun:

@@ -150,7 +150,7 @@ def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) 
 
     def shown(value_m: float) -> str:
         if value_m != value_m:
-            return "no value"
+            return "none"
         return pair(value_m, Quantity.DISPLACEMENT, us_first)
 
     gap = assessment.governing_clearance(item.id)
@@ -161,5 +161,5 @@ def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) 
         shown(item.prescriptive.value_m),
         shown(item.design_m),
         *(clearance or ("none given", "")),
-        "OK" if assessment.array_ok(item) else "NG",
+        assessment.array_verdict(item).value,
     )

@@ -189,7 +189,7 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labele
             linewidth=1.2,
             label=text("floor"),
         )
-    peaks = np.array([run.governing.result.prd_m for run in array.motions]) / unit.si
+    peaks = np.array([run.governing.prd_m for run in array.motions]) / unit.si
     axes.plot(
         peaks,
         np.full(peaks.shape, float(row)),
@@ -210,7 +210,7 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labele
         [design], [row], linestyle="", marker="D", markersize=6, color=INK, label=text("design")
     )
     if math.isnan(array.design_m):
-        axes.text(prescriptive / 2, row, "no value", ha="center", va="center")
+        axes.text(prescriptive / 2, row, "none", ha="center", va="center")
 
 
 def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -> str:
@@ -249,7 +249,7 @@ def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -
         axes.set_yticks(rows, names)
         axes.set_ylim(len(gaps) - 0.45, -0.55)
         for row, gap in zip(rows, gaps, strict=True):
-            text = "no value: NG" if math.isnan(gap.required_m) else "OK" if gap.ok else "NG"
+            text = "none: NG" if math.isnan(gap.required_m) else "OK" if gap.ok else "NG"
             reach = np.nanmax([provided[int(row)], required[int(row)]])
             axes.annotate(
                 text,

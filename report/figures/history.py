@@ -123,7 +123,7 @@ def _traces(axes: Axes, grid: _Grid) -> None:
     for index, history in enumerate(grid.followed):
         if history is None:
             middle = grid.y(index, (grid.low + grid.high) / 2)
-            axes.text(grid.x(index, grid.seconds / 2), middle, "no value", ha="center", va="center")
+            axes.text(grid.x(index, grid.seconds / 2), middle, "none", ha="center", va="center")
             continue
         for line, values in ((across, history.across_m), (down, history.u_m)):
             if values.size:
@@ -151,9 +151,9 @@ def _short(run: MotionRun) -> str:
 
 
 def _prd_text(run: MotionRun, us_first: bool) -> str:
-    prd_m = run.governing.result.prd_m
+    prd_m = run.governing.prd_m
     if math.isnan(prd_m):
-        return "PRD: no value"
+        return "PRD: none"
     return f"PRD {pair(prd_m, Quantity.DISPLACEMENT, us_first)}"
 
 

@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.envelopes import closest, design_envelope, keep_clear_m, runs_envelope
-from report.assessment.neighbors import bare_edges, neighbors
+from report.assessment.neighbors import bare_edges
 from report.assessment.project import Assessment
 from report.figures.base import GREY, INK, style, svg_text, tick_text
 from report.figures.labels import LINE_IN, Frame, centered, width_in
@@ -517,7 +517,7 @@ def _notes(plan: _Plan) -> Iterator[str]:
     for words, ids in distances.items() if len(distances) <= 3 else ():
         of = ", ".join(ids) if len(distances) > 1 else "all arrays"
         yield f"{words.capitalize()} of {of}, on all sides: no conduit or equipment."
-    missing = [pair for pair in neighbors(plan.assessment) if pair.is_missing]
+    missing = [pair for pair in plan.assessment.neighbors if pair.is_missing]
     if missing:
         names = _some([f"{pair.array} to {pair.other}" for pair in missing])
         yield f"No clearance is given: {names}."

@@ -97,7 +97,7 @@ def seconds(value: float) -> str:
 def digits(value: float) -> str:
     """Return a value with ten digits."""
     if value != value:
-        return "no value"
+        return "none"
     if 0.0 < abs(value) < 1e-4:
         return scientific(value)
     return f"{value:.10g}".replace("-", "−")

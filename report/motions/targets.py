@@ -15,7 +15,6 @@ import numpy as np
 from report.sheet.schema import ProjectInput, RecordedAt, SpectrumPoint
 from solver.model import Floats
 from solver.records.scaling import Target, corner_points, design_spectrum
-from solver.rules.provisions import RULE_SETS
 from solver.rules.spectra import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical
 
 OWN = "project-specific"
@@ -85,7 +84,7 @@ def ac156(data: ProjectInput) -> tuple[RequiredSpectrum, RequiredSpectrum]:
     """Return the AC156 spectra at the roof, horizontal and vertical."""
     site, tail = data.site, Tail(data.target.tail)
     horizontal = ac156_horizontal(
-        RULE_SETS[site.rule_set],
+        site.edition,
         s_ds_g=site.s_ds,
         z_over_h=site.roof_height_m / site.structure_height_m,
         tail=tail,
@@ -114,8 +113,7 @@ def _own(rows: Sequence[SpectrumPoint], sa_g: Sequence[float]) -> TargetSpectrum
 
 def _design(data: ProjectInput) -> TargetSpectrum:
     site, t_l_s = data.site, data.target.t_l_s
-    if site.s_1_g is None or site.f_v is None or t_l_s is None:
+    if site.s_d1 is None or t_l_s is None:
         return NO_TARGET
-    s_d1_g = 2.0 / 3.0 * site.f_v * site.s_1_g
-    at = design_spectrum(s_ds_g=site.s_ds, s_d1_g=s_d1_g, t_l_s=t_l_s)
+    at = design_spectrum(s_ds_g=site.s_ds, s_d1_g=site.s_d1, t_l_s=t_l_s)
     return TargetSpectrum(name="ASCE 7 design spectrum", at=at, from_s=0.0, to_s=math.inf)

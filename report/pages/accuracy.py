@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.friction import SHIFT
 from report.assessment.project import Assessment
-from report.assessment.sensitivity import SHIFT, Accuracy, MethodRun, Rivals
+from report.assessment.sensitivity import Accuracy, MethodRun, Rivals
 from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered, power_of_ten
 from report.words.units import number
@@ -50,7 +51,7 @@ def _run(package: PackageData, rivals: Rivals) -> str:
     return (
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
         f"μ = {number(array.mu, 3)}) under motion {rivals.motion.motion.id}, {run.heading.name}, "
-        f"{vertical} vertical shaking. PRD {package.fmt.both(run.result.prd_m)}, model "
+        f"{vertical} vertical shaking. PRD {package.fmt.both(run.prd_m)}, model "
         f"{int(run.solution.rung)} of {package.part('model')}, {run.solution.rung.title}."
     )
 
@@ -58,7 +59,7 @@ def _run(package: PackageData, rivals: Rivals) -> str:
 def _plane(package: PackageData, rivals: Rivals) -> str:
     """Return the error of a run in two axes and the scope of the comparison; or nothing."""
     run = rivals.motion.governing
-    if run.solution.rung < Rung.TWO_AXES or math.isnan(run.result.prd_m):
+    if run.solution.rung < Rung.TWO_AXES or math.isnan(run.prd_m):
         return ""
     kind = "a bound" if run.scene.friction.is_monotone else "from two tolerances"
     slow = "" if run.scene.friction.is_constant else ", and with the low-velocity friction"

@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup, escape
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.remedies import Remedy
+from report.assessment.verdict import Row
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
@@ -17,8 +19,10 @@ from report.pages.parts import (
     Table,
     TableColumn,
     TableRow,
+    UnitFormat,
     check_value,
     dagger,
+    stamp,
     verdict,
 )
 from report.pages.remedies import table
@@ -89,7 +93,7 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
             *fmt.cells(gap.required_m, mark=least),
             *fmt.cells(row.provided_m, Quantity.SIZE),
             ratio(gap.demand_capacity),
-            verdict(gap.ok),
+            stamp(gap.verdict),
         )
     )
 
@@ -100,7 +104,7 @@ def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
     arrays = [
         (f"Array {array.id}", check)
         for array in package.assessment.arrays
-        for check in array.checks
+        for check in array.limits
     ]
     return [*building, *arrays]
 
@@ -132,6 +136,50 @@ def troubles(package: PackageData) -> Sequence[str]:
         *link_troubles(package),
         *failed_limits(package),
     ]
+
+
+def conditions(package: PackageData) -> Sequence[str]:
+    """Return every requirement that is not satisfied, with what must be done."""
+    return [
+        f"{row.verdict.value}: {_subject(package, row)}{row.title}: {row.found}; required: "
+        f"{row.limit}. {row.remedy}"
+        for row in package.assessment.conditions
+    ]
+
+
+def _subject(package: PackageData, row: Row) -> str:
+    if not row.subject:
+        return ""
+    is_array = any(array.id == row.subject for array in package.data.arrays)
+    return f"{'array' if is_array else 'motion'} {row.subject}, "
+
+
+def requirements(package: PackageData) -> Table:
+    """Return the requirements beside the numeric limits, each with its verdict."""
+    return Table(
+        caption="Requirements beside the numeric limits",
+        columns=(
+            TableColumn(head="Item", align="left", share=0.9),
+            TableColumn(head="Requirement", align="left", share=2.8),
+            TableColumn(head="Found", align="left", share=2.0),
+            TableColumn(head="Required", align="left", share=2.0),
+            TableColumn(head="Basis", align="left", share=1.5),
+            TableColumn(head="Verdict", align="center", share=1.5),
+        ),
+        rows=tuple(
+            TableRow(
+                cells=(
+                    row.subject or "Project",
+                    row.title,
+                    row.found,
+                    row.limit,
+                    row.basis,
+                    stamp(row.verdict),
+                )
+            )
+            for row in package.assessment.rows
+        ),
+    )
 
 
 def check_table(
@@ -173,10 +221,9 @@ def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str,
     """Return the part on clearances, without its chart."""
     parapets = [gap for gap in package.assessment.clearances if "parapet" in gap.neighbor.value]
     notes = [
-        "Displ. is the design displacement of the array in the next column, in the direction "
-        "shown (down, up, across either way, or any), from the largest of all runs of each motion "
-        f"({package.part('results')}) and not less than the floor. Between two arrays the larger "
-        "of the two displacements governs, each in its own direction."
+        "Displ. is the design displacement of the array in the next column "
+        f"({package.part('comparison')}). " + _direction_note(package),
+        "Between two arrays the larger of the two displacements governs.",
     ]
     if parapets:
         notes.append(
@@ -202,12 +249,26 @@ def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str,
     }
 
 
+def _direction_note(package: PackageData) -> str:
+    """Return which part of the displacement a clearance takes."""
+    if package.data.options.directional:
+        return (
+            "It is taken in the direction shown, not less than the floor: a departure from the "
+            f"rule set ({package.part('provisions')})."
+        )
+    return "It is taken in full in every direction."
+
+
 def limits(package: PackageData) -> Mapping[str, object]:
     """Return the part on limits and interconnection strength."""
     limits = "Limits of the analysis route and of the building"
     return {
         "texts": (),
-        "tables": (check_table(limits, package, all_checks(package)), _interconnection(package)),
+        "tables": (
+            check_table(limits, package, all_checks(package)),
+            requirements(package),
+            _interconnection(package),
+        ),
     }
 
 
@@ -219,7 +280,9 @@ def _interconnection(package: PackageData) -> Table:
             TableColumn(head="Array", align="left", share=1.2),
             *fmt.columns("Weight W", Quantity.WEIGHT),
             *fmt.columns(Markup("Lighter part {} = W/2").format(symbol("W_1")), Quantity.WEIGHT),
-            *fmt.columns("Strength required", Quantity.WEIGHT),
+            *fmt.columns("Required", Quantity.WEIGHT),
+            *fmt.columns("Provided", Quantity.WEIGHT),
+            TableColumn(head="D/C", share=0.8),
             TableColumn(head="Clause", align="left", share=1.4),
         ),
         rows=tuple(
@@ -233,6 +296,7 @@ def _interconnection(package: PackageData) -> Table:
                         Quantity.WEIGHT,
                         mark=package.mark("interconnection_sds"),
                     ),
+                    *_provided(fmt, array),
                     package.clause("interconnection_sds"),
                 )
             )
@@ -240,6 +304,15 @@ def _interconnection(package: PackageData) -> Table:
         ),
         notes=("The lighter part on either side of a section is at most half of the array.",),
     )
+
+
+def _provided(fmt: UnitFormat, array: ArrayAssessment) -> tuple[str, str, str]:
+    """Return the strength provided in both systems, and required / provided."""
+    provided = array.array.interconnection_n
+    if provided is None:
+        return "not given", "not given", "—"
+    first, second = fmt.cells(provided, Quantity.WEIGHT)
+    return first, second, ratio(array.interconnection_n / provided)
 
 
 def provisions(package: PackageData) -> Mapping[str, object]:

@@ -40,7 +40,7 @@ def _ac156(package: PackageData) -> Iterator[Line]:
     site, goals = package.data.site, package.assessment.targets
     horizontal, vertical = package.assessment.horizontal_target, package.assessment.vertical_target
     s_ds, height = number(site.s_ds, 3), number(site.roof_height_m / site.structure_height_m, 3)
-    amplification = package.assessment.rules.amplification
+    amplification = package.data.site.edition.amplification
     is_above_grade = site.roof_height_m > 0.0  # at grade there is no reduction
     slope = f"{amplification.slope:g}"
     reduction = f"{amplification.reduction:g}" if is_above_grade else "1"

@@ -10,14 +10,16 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Certainty
 from report.assessment.remedies import Remedy
+from report.assessment.verdict import Verdict
 from report.pages.certainty import directions
-from report.pages.checks import all_checks, clearance_table, troubles
+from report.pages.checks import all_checks, clearance_table, conditions, troubles
 from report.pages.parts import (
     PackageData,
     Table,
     TableColumn,
     TableRow,
     shortened,
+    stamp,
     statistic,
     verdict,
 )
@@ -80,7 +82,8 @@ def cover(package: PackageData) -> Mapping[str, object]:
 def summary(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, object]:
     """Return the summary page: governing numbers and all verdicts."""
     return {
-        "verdict": verdict(package.assessment.ok),
+        "verdict": stamp(package.assessment.verdict),
+        "conditions": conditions(package),
         "sentence": _sentence(package),
         "numbers": _numbers(package),
         "arrays": _array_table(package),
@@ -98,10 +101,23 @@ def plan(package: PackageData) -> Mapping[str, object]:
 
 
 def _sentence(package: PackageData) -> str:
-    if package.assessment.ok:
+    if package.assessment.verdict is not Verdict.NG:
+        count = len(package.assessment.conditions)
+        if count:
+            each = "condition" if count == 1 else "conditions"
+            return (
+                f"All limits and clearances are satisfied; {count} {each} below must be met before "
+                "this package is complete."
+            )
         return "All limits and clearances are satisfied; every run reached a final value."
     counts = (
-        ("array", [package.assessment.array_ok(array) for array in package.assessment.arrays]),
+        (
+            "array",
+            [
+                package.assessment.array_verdict(array).is_permitted
+                for array in package.assessment.arrays
+            ],
+        ),
         ("clearance", [gap.ok for gap in package.assessment.clearances]),
         ("limit", [check.ok for _, check in all_checks(package)]),
     )
@@ -185,9 +201,9 @@ def _array_row(package: PackageData, array: ArrayAssessment) -> TableRow:
             *package.fmt.cells(array.prescriptive.value_m, mark=prescriptive),
             *package.fmt.cells(array.design_m, mark=package.design_mark(array)),
             array.governs,
-            verdict(all(check.ok for check in array.checks)),
+            verdict(all(check.ok for check in array.limits)),
             ratio(largest) if demands else "none given",
-            verdict(package.assessment.array_ok(array)),
+            stamp(package.assessment.array_verdict(array)),
         )
     )
 

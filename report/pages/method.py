@@ -174,7 +174,7 @@ def design_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]
     """Return the steps from the peaks of an array to its design displacement."""
     fmt, analysis, rules = package.fmt, array.analysis, package.assessment.rules
     unit = fmt.units()[0]
-    peaks = [run.governing.result.prd_m for run in array.motions]
+    peaks = [run.governing.prd_m for run in array.motions]
     shown = " + ".join(fmt.cells(peak)[0] for peak in peaks[:12]) + (
         " + …" if len(peaks) > 12 else ""
     )

@@ -177,7 +177,7 @@ def _table(package: PackageData) -> Table:
 def _model_rows(array: ArrayAssessment) -> Iterator[tuple[str, ...]]:
     total = len(_runs(array))
     for rung, runs in _by_rung(array):
-        worst = max(runs, key=lambda run: nan_is_worst(run.result.prd_m))
+        worst = max(runs, key=lambda run: nan_is_worst(run.prd_m))
         demand = max(run.solution.friction_demand for run in runs)
         yield (
             array.id,
@@ -280,7 +280,7 @@ def _requested_row(package: PackageData, array: ArrayAssessment) -> tuple[str | 
     if math.isnan(array.design_m) or math.isnan(other.value_m):
         return array.id, name, Wide(NO_VALUE, 4), "no value from analysis"
     effect = max(
-        abs(more.governing.result.prd_m - run.governing.result.prd_m)
+        abs(more.governing.prd_m - run.governing.prd_m)
         for run, more in zip(array.motions, array.needed, strict=True)
     )
     change = array.chosen_toward_m(Direction.ANY) - array.design_m
@@ -300,7 +300,7 @@ def _sentences(package: PackageData, array: ArrayAssessment) -> Iterator[str]:
     lifted = "uplift occurs" if least < 0.0 else "no uplift"
     yield (
         f"Array {name}: the governing run is {worst.motion.id}, {worst.governing.heading.name}, "
-        f"with PRD {package.fmt.both(worst.governing.result.prd_m)}. Minimum normal force "
+        f"with PRD {package.fmt.both(worst.governing.prd_m)}. Minimum normal force "
         f"{number(least, 2)} m g: {lifted}.{friction(array.array)}"
     )
     is_bounded = array.array.friction.is_monotone

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from markupsafe import Markup, escape
 
+from report.assessment.conditions import DRIFT_M, drifts
 from report.assessment.evidence import Evidence
 from report.assessment.highpass import Beyond
 from report.assessment.spectra import PRINTED_S, Spectra
@@ -23,9 +24,6 @@ from report.words.units import G_MPS2, number
 from solver.model import Floats, Motion
 from solver.records.processing import AS_RECORDED
 from solver.rules.spectra import Tail
-
-DRIFT_M = 0.010
-"""Final displacement above which a component is marked."""
 
 
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
@@ -154,11 +152,6 @@ def _drift_row(prepared: PreparedMotion, names: Sequence[str], si: float) -> Tab
             Markup("<b>drifts</b>") if drifts(prepared) else "none",
         )
     )
-
-
-def drifts(prepared: PreparedMotion) -> bool:
-    """Whether a component of a motion has a final displacement above the limit."""
-    return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
 
 
 def beyond_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
@@ -326,6 +319,6 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "achieved": achieved_table(spectra),
         "spectra": tuple(spectrum_table(part) for part in spectra),
         "events": event_table(package.data.motions),
-        "acceptance": acceptance_table(evidence.acceptance),
-        "strength": strength_table(evidence.acceptance.motions),
+        "acceptance": acceptance_table(package.assessment.acceptance),
+        "strength": strength_table(package.assessment.acceptance.motions),
     }

@@ -16,6 +16,7 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction, ProjectInput
 from report.typeset.equations import formula
 from report.words.units import Quantity, Unit, measured, number, pair
@@ -29,7 +30,7 @@ from solver.rules.provisions import (
     Provision,
 )
 
-NO_VALUE = "no value"
+NO_VALUE = "none"
 WHOLE_ROWS = 24  # longer tables may break across pages, with the heading repeated
 OK, NG = "OK", "NG"
 
@@ -184,13 +185,13 @@ class UnitFormat:
     us_first: bool
 
     def both(self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT) -> str:
-        """Return `81.6 in (2070 mm)`; `no value` for NaN."""
+        """Return `81.6 in (2070 mm)`; `none` for NaN."""
         return NO_VALUE if math.isnan(value_si) else pair(value_si, quantity, self.us_first)
 
     def cells(
         self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT, *, mark: str = ""
     ) -> tuple[str, str]:
-        """Return the value in both systems, for two columns; `no value` for NaN."""
+        """Return the value in both systems, for two columns; `none` for NaN."""
         if math.isnan(value_si):
             return NO_VALUE, NO_VALUE
         first, second = self.units(quantity)
@@ -225,6 +226,11 @@ def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
     """Return OK, or NG highlighted."""
     good, bad = words
     return Markup('<b class="{}">{}</b>').format(*(("ok", good) if ok else ("ng", bad)))
+
+
+def stamp(value: Verdict) -> Markup:
+    """Return a verdict, highlighted where it is not OK."""
+    return Markup('<b class="{}">{}</b>').format(value.name.lower(), value.value)
 
 
 def dagger(provision: Provision) -> str:
@@ -291,8 +297,13 @@ class PackageData:
 
     def design_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of a design displacement."""
-        key = "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
-        return "" if math.isnan(array.design_m) else self.mark(key)
+        if math.isnan(array.design_m):
+            return ""
+        if array.governs is DesignBasis.PRESCRIPTIVE:
+            return self.mark(self.prescriptive_key(array))
+        return self.mark(
+            "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
+        )
 
     def direction_mark(self, array: ArrayAssessment, direction: Direction) -> str:
         """Return the marks of a design displacement in a direction."""

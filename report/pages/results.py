@@ -59,7 +59,7 @@ def _spread(array: ArrayAssessment) -> str:
     """Return the motions farthest from the mean; nothing where there is no mean."""
     if not array.analysis.mean_m > 0.0:
         return ""
-    ordered = sorted(array.motions, key=lambda run: run.governing.result.prd_m)
+    ordered = sorted(array.motions, key=lambda run: run.governing.prd_m)
     least, most = ordered[0], ordered[-1]
     return (
         f"Motion {most.motion.id} ({most.governing.heading.name}) governs with "
@@ -70,7 +70,7 @@ def _spread(array: ArrayAssessment) -> str:
 
 def _over_mean(array: ArrayAssessment, run: MotionRun) -> str:
     mean = array.analysis.mean_m
-    return number(run.governing.result.prd_m / mean, 2) if mean > 0.0 else "—"
+    return number(run.governing.prd_m / mean, 2) if mean > 0.0 else "—"
 
 
 def _peaks(package: PackageData, array: ArrayAssessment) -> Table:
@@ -290,7 +290,7 @@ def _sentence(package: PackageData, array: ArrayAssessment) -> str:
 def _exceeds(package: PackageData, array: ArrayAssessment) -> str:
     """Return where the analysis exceeds the prescriptive value; it still governs."""
     over = array.analysis.value_m / array.prescriptive.value_m
-    peaks = sum(m.governing.result.prd_m > array.prescriptive.value_m for m in array.motions)
+    peaks = sum(m.governing.prd_m > array.prescriptive.value_m for m in array.motions)
     count = f"{peaks} of {len(array.motions)} PRDs"
     if over > 1.0:
         return (

@@ -53,7 +53,7 @@ def write_peaks(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> Pea
                 cells = _range("Runs", columns[direction], first, last)
                 value = motion.peak_m(direction) / INCH_M
                 if math.isnan(value):
-                    sheet.write_string(row, column, "no value")
+                    sheet.write_string(row, column, "none")
                 else:
                     sheet.write_formula(row, column, f"=MAX({cells})", pages.numbers[2], value)
             row, first = row + 1, last + 1
@@ -67,12 +67,17 @@ def _range(sheet: str, column: int, first: int, last: int) -> str:
 
 
 def write_directions(pages: Pages, assessment: Assessment, peaks: PeakRanges) -> DirectionCells:
-    """Write the design displacement of each array in each direction; return their cells."""
+    """Write the displacement of each array in each direction; return those of clearances."""
+    by_direction = assessment.project.options.directional
+    use = (
+        "Each clearance uses the displacement in its own direction, a departure from the rule set."
+        if by_direction
+        else "For information: each clearance uses the full design displacement."
+    )
     sheet = pages.sheet(
         "Directions",
         "Design displacement by direction",
-        "Each clearance uses the displacement in its own direction. From the sheets Peaks and "
-        "Design.",
+        f"{use} From the sheets Peaks and Design.",
     )
     write_headings(pages, sheet, 3, _DIRECTIONS_HEADINGS)
     row, cells = 4, {}
@@ -80,7 +85,9 @@ def write_directions(pages: Pages, assessment: Assessment, peaks: PeakRanges) ->
         for direction in Direction:
             peak_range = peaks[item.id, direction]
             _write_row(pages, sheet, row, item, direction, peak_range, design_row)
-            cells[item.id, direction] = f"Directions!$H${row + 1}"
+            cells[item.id, direction] = (
+                f"Directions!$H${row + 1}" if by_direction else f"Design!$N${design_row}"
+            )
             row += 1
     return cells
 
@@ -99,10 +106,10 @@ def _write_row(
     sheet.write_string(row, 1, direction.value)
     if math.isnan(analysis.value_m):
         for column in (2, 3, 5, 7):
-            sheet.write_string(row, column, "no value")
+            sheet.write_string(row, column, "none")
         return
     picked = "D" if analysis.basis is Basis.LARGEST_FACTORED else "C"
-    design = item.design_toward_m(direction) / inch
+    design = item.floored_m(direction) / inch
     for column, formula, value in (
         (2, f"=AVERAGE({peaks})", analysis.mean_m / inch),
         (3, f"=MAX({peaks})", analysis.largest_m / inch),

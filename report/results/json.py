@@ -23,11 +23,15 @@ from solver.building.roof import RoofMotion
 from solver.model import Motion
 from solver.rules.provisions import Check
 
+SCHEMA_VERSION = 2
+"""Raised where a key of results.json changes its name or meaning; 0.1 wrote none."""
+
 
 def results_json(assessment: Assessment) -> bytes:
     """Return everything as JSON in SI, with units in the keys and null for no value."""
     sheet, shaking, project = assessment.sheet, assessment.shaking, assessment.project
     document = {
+        "schema_version": SCHEMA_VERSION,
         "roofslip_version": version("roofslip"),
         "workbook": {"name": sheet.path.name, "sha256": sheet.sha256},
         "records": [_record(record) for record in shaking.records],
@@ -35,10 +39,11 @@ def results_json(assessment: Assessment) -> bytes:
         "input": project.model_dump(mode="json"),
         "s_ds_g": project.site.s_ds,
         "rule_set": assessment.rules.name,
-        "ok": assessment.ok,
+        "verdict": assessment.verdict,
         "warnings": list(assessment.warnings),
         "building_checks": [_check(check) for check in assessment.building_checks],
-        "arrays": [_array(item) for item in assessment.arrays],
+        "requirements": [asdict(row) | {"verdict": row.verdict} for row in assessment.rows],
+        "arrays": [_array(assessment, item) for item in assessment.arrays],
         "clearances": [_clearance(item) for item in assessment.clearances],
         "linked": [_linked(item) for item in assessment.linked],
     }
@@ -85,9 +90,10 @@ def _roof(roof: RoofMotion) -> dict[str, Any]:
     }
 
 
-def _array(item: ArrayAssessment) -> dict[str, Any]:
+def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
     return {
         "id": item.id,
+        "verdict": assessment.array_verdict(item),
         "slope_rad": item.array.slope_rad,
         "mu": item.array.mu,
         "friction": asdict(item.array.friction),
@@ -108,7 +114,7 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
                 "mean_m": analysis.mean_m,
                 "largest_m": analysis.largest_m,
                 "computed_m": analysis.value_m,
-                "design_m": item.design_toward_m(direction),
+                "design_m": item.floored_m(direction),
                 "design_by_chosen_model_m": item.chosen_toward_m(direction),
             }
             for direction, analysis in item.directions.items()
@@ -134,7 +140,9 @@ def _array(item: ArrayAssessment) -> dict[str, Any]:
             "duration_s": item.uplift.duration_s,
             "times": item.uplift.times,
         },
+        "route": item.route,
         "checks": [_check(check) for check in item.checks],
+        "analysis_checks": [_check(check) for check in item.analysis_checks],
         "prescriptive_checks": [_check(check) for check in item.prescriptive_checks],
         "runs": [
             {
@@ -167,11 +175,12 @@ def _clearance(item: ClearanceCheck) -> dict[str, Any]:
         "governing_array": item.governing_array,
         "governing_direction": item.governing_direction,
         "design_m": item.design_m,
+        "importance": item.importance,
         "factor": item.factor,
         "required_m": item.required_m,
         "provided_m": item.clearance.provided_m,
         "demand_capacity": item.demand_capacity,
-        "ok": item.ok,
+        "verdict": item.verdict,
     }
 
 

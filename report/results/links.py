@@ -40,7 +40,7 @@ def link_runs_table(assessment: Assessment) -> pd.DataFrame:
             "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
             _RIGID: run.rigid.prd_m / INCH_M,
             _ROW: run.prd_m / INCH_M,
-            "Block with largest PRD": "no value" if math.isnan(run.prd_m) else str(run.block),
+            "Block with largest PRD": "none" if math.isnan(run.prd_m) else str(run.block),
             "PRD of blocks, from the upslope end [in]": _listed(run.row.prd_m),
             "Largest link elongation [in]": run.row.stretch_m / INCH_M,
             "Largest link force [lb]": run.row.link_force
@@ -58,7 +58,7 @@ def link_runs_table(assessment: Assessment) -> pd.DataFrame:
 
 def _listed(places_m: tuple[float, ...]) -> str:
     if any(map(math.isnan, places_m)):
-        return "no value"
+        return "none"
     return ", ".join(f"{place / INCH_M:.2f}" for place in places_m)
 
 
@@ -122,7 +122,7 @@ def _write_row(
     design, estimated = linked_array.design, linked_array.estimated_m
     sheet.write_string(row, 0, design.id)
     if not math.isfinite(estimated):
-        sheet.write_string(row, 11, "no value")
+        sheet.write_string(row, 11, "none")
         sheet.write_string(row, 14, "NG")
         return
     is_largest = rigid.basis is Basis.LARGEST_FACTORED
@@ -169,6 +169,6 @@ def _write(
     decimals: int = 3,
 ) -> None:
     if math.isnan(value):
-        sheet.write_string(row, column, "no value")
+        sheet.write_string(row, column, "none")
     else:
         sheet.write_formula(row, column, formula, pages.numbers[decimals], value)

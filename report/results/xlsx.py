@@ -16,7 +16,7 @@ import pandas as pd
 from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
@@ -71,9 +71,9 @@ def _runs_table(assessment: Assessment) -> pd.DataFrame:
             "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
             "Governs": "yes" if run is motion.governing else "",
             "Scale": motion.motion.scale,
-            "PRD [in]": run.result.prd_m / INCH_M,
-            "PRD [mm]": run.result.prd_m * 1e3,
-            "PRD / mean": _over(run.result.prd_m, item.analysis.mean_m),
+            "PRD [in]": run.prd_m / INCH_M,
+            "PRD [mm]": run.prd_m * 1e3,
+            "PRD / mean": _over(run.prd_m, item.analysis.mean_m),
             "Residual [in]": run.result.residual_m / INCH_M,
             "Residual [mm]": run.result.residual_m * 1e3,
             "Residual cross-slope [in]": run.result.residual_across_m / INCH_M,
@@ -153,7 +153,7 @@ def _spectra_table(spectra: Sequence[Spectra]) -> pd.DataFrame:
 
 
 def _write_table(writer: Any, table: pd.DataFrame, name: str, pages: Pages) -> None:
-    table.to_excel(writer, sheet_name=name, index=False, na_rep="no value")
+    table.to_excel(writer, sheet_name=name, index=False, na_rep="none")
     sheet: Worksheet = writer.sheets[name]
     sheet.freeze_panes(1, 0)
     for column, heading in enumerate(table.columns):
@@ -200,7 +200,8 @@ def _write_design_row(
     r = row + 1
     statistic = "I" if analysis.basis is Basis.LARGEST_FACTORED else "H"
     floor_share = 0.0 if assessment.project.options.peer_reviewed else rules["analysis_floor"]
-    no_value = math.isnan(analysis.value_m)
+    governing = f"F{r},I{r}" if item.route is Route.PRESCRIPTIVE else f"K{r},M{r}"
+    no_value = math.isnan(item.design_m)
     inch = INCH_M
     sheet.write_string(row, 0, item.id)
     sheet.write_number(row, 1, assessment.project.site.s_ds, pages.numbers[4])
@@ -218,15 +219,18 @@ def _write_design_row(
     if no_value:
         formulas = [formulas[0], formulas[4]]
         for column in (7, 8, 10, 13, 14, 15):
-            sheet.write_string(row, column, "no value")
+            sheet.write_string(row, column, "none")
     else:
         formulas += [
-            (10, f"=J{r}*{statistic}{r}", analysis.value_m / inch, 2),
-            (13, f"=MAX(K{r},M{r})", item.design_m / inch, 2),
+            (13, f"=MAX({governing})", item.design_m / inch, 2),
             (14, f"=N{r}*25.4", item.design_m * 1e3, 1),
             (15, f"=N{r}/F{r}", item.ratio, 3),
             (17, f"=N{r}-Q{r}", 0.0, 4),
         ]
+        if math.isnan(analysis.value_m):
+            sheet.write_string(row, 10, "none")
+        else:
+            formulas.append((10, f"=J{r}*{statistic}{r}", analysis.value_m / inch, 2))
         sheet.write_number(row, 16, item.design_m / inch, pages.numbers[2])
     sheet.write_number(row, 9, analysis.factor, pages.numbers[2])
     sheet.write_number(row, 11, floor_share, pages.numbers[2])
@@ -272,7 +276,7 @@ def _write_clearance_row(
     sheet.write_number(row, 10, clearance.provided_m / inch, pages.numbers[1])
     if math.isnan(item.required_m):
         for column in (5, 8, 9, 11):
-            sheet.write_string(row, column, "no value")
+            sheet.write_string(row, column, "none")
         sheet.write_string(row, 12, "NG")
         return
     design = design_cells[item.governing_array, item.governing_direction]

@@ -13,33 +13,22 @@ from typing import Any
 
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.friction_checks import friction_faults
-from report.sheet.motion_checks import motion_faults, site_s_ds
+from report.sheet.motion_checks import motion_faults
 from report.sheet.schema import (
     PROVISION_KEYS,
     Model,
     ObjectKind,
     Rectangle,
-    RiskCategory,
-    Sdc,
     SlopeUnit,
     UnitsFirst,
     coefficients,
-    s_ds,
     slope_rad,
 )
+from report.sheet.site_checks import site_faults
 from report.words.units import Quantity, pair
 from solver.model import INCH_M
 
-LEAST_I_E = {
-    RiskCategory.I: 1.0,
-    RiskCategory.II: 1.0,
-    RiskCategory.III: 1.25,
-    RiskCategory.IV: 1.5,
-}
 MAX_SLOPE_DEG = 45.0
-# Difference allowed between S_DS from a permit sheet, rounded to three decimals or truncated to
-# two, and 2/3 F_a S_S.
-S_DS_AGREES_G = 0.0051
 GAP_TOLERANCE = 0.01
 GAP_TOLERANCE_M = 0.5 * INCH_M
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
@@ -58,7 +47,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
     checks = (
         _tables,
         _ids,
-        _site,
+        site_faults,
         _roof,
         _arrays,
         friction_faults,
@@ -67,6 +56,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
         motion_faults,
         _links,
         _overrides,
+        _directional,
     )
     return [fault for check in checks for fault in check(draft, where)]
 
@@ -85,15 +75,6 @@ def gap_m(a: Rectangle, b: Rectangle) -> float:
     dx = max(a.x_from_m - b.x_to_m, b.x_from_m - a.x_to_m)
     dy = max(a.y_from_m - b.y_to_m, b.y_from_m - a.y_to_m)
     return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
-
-
-def least_sdc(s_ds_g: float, risk_category: RiskCategory, s_1_g: float | None) -> Sdc:
-    """Return the lowest category that S_DS and S_1 permit (ASCE 7 section 11.6, Table 11.6-1)."""
-    is_essential = risk_category is RiskCategory.IV
-    if s_1_g is not None and s_1_g >= 0.75:
-        return Sdc.F if is_essential else Sdc.E
-    steps = "ACDD" if is_essential else "ABCD"
-    return Sdc(steps[sum(s_ds_g >= limit for limit in (0.167, 0.33, 0.50))])
 
 
 def _tables(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -118,64 +99,6 @@ def _column(draft: Draft, sections: Sequence[str], field: str) -> Iterator[tuple
         for index, row in enumerate(draft[section]):
             if field in row:
                 yield Place(section, index, field), row[field]
-
-
-def _site(draft: Draft, where: Where) -> Iterator[Fault]:
-    for row in draft["site"]:
-        yield from _importance(row)
-        yield from _s_ds(row)
-        yield from _sdc(row)
-
-
-def _importance(row: DraftRow) -> Iterator[Fault]:
-    risk_category, i_e = row.get("risk_category"), row.get("i_e")
-    if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
-        return
-    yield Fault(
-        Place("site", 0, "i_e"),
-        f"importance factor I_e is {i_e:g}; give at least {LEAST_I_E[risk_category]:g} for risk"
-        f" category {risk_category}",
-    )
-
-
-def _s_ds(row: DraftRow) -> Iterator[Fault]:
-    if any(name not in row for name in ("s_ds_g", "s_s_g", "f_a")):
-        return
-    given, s_s_g, f_a = row["s_ds_g"], row["s_s_g"], row["f_a"]
-    if given is None:
-        missing = [n for n, v in (("s_s_g", s_s_g), ("f_a", f_a)) if v is None]
-        if missing:
-            field = "s_ds_g" if len(missing) == 2 else missing[0]
-            label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
-            text = f"{label} is missing; give S_DS, or both S_S and F_a"
-            yield Fault(Place("site", 0, field), text)
-        return
-    computed = s_ds(None, s_s_g, f_a)
-    if computed is not None and abs(given - computed) > S_DS_AGREES_G:
-        text = (
-            f"S_DS is {given:g} g, but 2/3 F_a S_S is {computed:.4f} g; leave one of them blank,"
-            " or correct it"
-        )
-        yield Fault(Place("site", 0, "s_ds_g"), text)
-
-
-def _sdc(row: DraftRow) -> Iterator[Fault]:
-    sdc, risk_category = row.get("sdc"), row.get("risk_category")
-    s_ds_g = site_s_ds(row)
-    if sdc is None or risk_category is None or s_ds_g is None:
-        return
-    s_1_g = row.get("s_1_g")
-    least = least_sdc(s_ds_g, risk_category, s_1_g)
-    if sdc >= least:
-        return
-    near_fault = least in (Sdc.E, Sdc.F)
-    reason = f"S_1 = {s_1_g:g} g" if near_fault else f"S_DS = {s_ds_g:.3f} g"
-    clause = "ASCE 7 section 11.6" if near_fault else "ASCE 7 Table 11.6-1"
-    yield Fault(
-        Place("site", 0, "sdc"),
-        f"seismic design category is '{sdc}'; {reason} in risk category {risk_category} requires"
-        f" {least} or higher ({clause})",
-    )
 
 
 def _roof(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -387,3 +310,19 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:
 
 def _us_first(draft: Draft) -> bool:
     return all(row.get("units_first") is not UnitsFirst.SI for row in draft["project"])
+
+
+def _directional(draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield what a departure from the full displacement in every direction does not state."""
+    for row in draft["options"]:
+        if not row.get("directional"):
+            continue
+        for field, label in (
+            ("directional_reason", "reason for direction"),
+            ("directional_reviewer", "reviewer of direction"),
+            ("directional_license", "license for direction"),
+            ("directional_date", "date for direction"),
+        ):
+            if field in row and not row[field]:
+                text = f"{label} is missing; give it, or answer No to displacement by direction"
+                yield Fault(Place("options", 0, field), text)

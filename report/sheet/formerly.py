@@ -29,6 +29,24 @@ FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {
 }
 """Earlier names of a field, which defined names of cells end with."""
 
+ADDED: frozenset[tuple[str, str]] = frozenset(
+    (section, field)
+    for section, fields in (
+        (
+            "site",
+            "edition_name s_ms_g s_m1_g s_d1_g hazard hazard_source hazard_date force_factor"
+            " force_divisor",
+        ),
+        (
+            "options",
+            "peer_reviewer peer_license peer_date directional directional_reason"
+            " directional_reviewer directional_license directional_date",
+        ),
+    )
+    for field in fields.split()
+)
+"""Single cells that workbooks of 0.1 do not have; a workbook without any of its section is one."""
+
 CHOICES: dict[str, str] = {}
 """Earlier choices, in lowercase, with the present ones."""
 

@@ -122,6 +122,21 @@ def find_cell(book: OpenBook, section: Section, entry: Entry) -> CellPosition:
     return position
 
 
+def added_later(book: OpenBook, section: Section) -> tuple[Entry, ...]:
+    """Return the fields that a block lacks because its workbook is of 0.1, which had none of them.
+
+    A workbook that has some of them has lost the others.
+    """
+    fields = tuple(
+        entry for entry in entries(section.model) if (section.key, entry.name) in formerly.ADDED
+    )
+    has_any = any(
+        _field_named(book, section, entry) or _beside_label(book, section, entry)
+        for entry in fields
+    )
+    return () if has_any else fields
+
+
 def find_unit_cell(
     book: OpenBook, section: Section, entry: Entry, value: CellPosition
 ) -> CellPosition:

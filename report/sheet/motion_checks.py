@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
-from report.sheet.schema import RecordedAt, Scaling, s_ds
+from report.sheet.schema import RecordedAt, Scaling
+from report.sheet.site_checks import site_parameters
 from solver.building.beam import MOST_STORIES
 
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
@@ -156,30 +157,36 @@ def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[
     """Yield missing values of the design spectrum if a ground motion is scaled to it."""
     site = draft["site"][0] if draft["site"] else {}
     target = draft["target"][0]
+    field, label = _lacking_s_d1(site)
     parts = {
-        Place("site", 0, "s_1_g"): ("S_1", site.get("s_1_g", math.nan)),
-        Place("site", 0, "f_v"): ("F_v", site.get("f_v", math.nan)),
+        Place("site", 0, field): (label, _s_d1(site)),
         Place("target", 0, "t_l_s"): ("long-period transition T_L", target.get("t_l_s", math.nan)),
     }
     for place, (label, value) in parts.items():
         if ground and value is None:
             at = where(Place("motions", ground[0], "scaling"))
             text = f"{label} is missing; {at} scales a ground motion to the design spectrum, which"
-            yield Fault(place, f"{text} requires S_1, F_v and T_L")
+            yield Fault(place, f"{text} requires S_D1, or S_1 and F_v, and T_L")
     if all(value is not None and value == value for _, value in parts.values()):
         yield from _transition(site, target)
 
 
 def _transition(site: DraftRow, target: DraftRow) -> Iterator[Fault]:
-    s_ds_g = site_s_ds(site)
-    if s_ds_g is None:
-        return
-    t_s = 2.0 / 3.0 * site["f_v"] * site["s_1_g"] / s_ds_g
-    if target["t_l_s"] <= t_s:
+    parameters = site_parameters(site)
+    t_s = None if parameters is None else parameters.t_s
+    if t_s is not None and target["t_l_s"] <= t_s:
         text = f"long-period transition T_L is {target['t_l_s']:g} s; give more than T_S"
         yield Fault(Place("target", 0, "t_l_s"), f"{text} = S_D1/S_DS = {t_s:.3g} s")
 
 
-def site_s_ds(row: DraftRow) -> float | None:
-    """Return S_DS [g] of a draft of the site; None if it cannot be determined."""
-    return s_ds(row.get("s_ds_g"), row.get("s_s_g"), row.get("f_a"))
+def _s_d1(site: DraftRow) -> float | None:
+    """Return S_D1 [g]; NaN where a cell of the site could not be read."""
+    parameters = site_parameters(site)
+    return math.nan if parameters is None else parameters.s_d1
+
+
+def _lacking_s_d1(site: DraftRow) -> tuple[str, str]:
+    """Return the field and label to fill in where S_D1 is missing."""
+    lacking = [name for name in ("s_1_g", "f_v") if site.get(name) is None]
+    field = lacking[0] if len(lacking) == 1 else "s_d1_g"
+    return field, {"s_1_g": "S_1", "f_v": "F_v", "s_d1_g": "S_D1"}[field]

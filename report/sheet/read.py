@@ -20,6 +20,7 @@ from report.sheet.locate import (
     CellPosition,
     FieldColumn,
     TableFound,
+    added_later,
     find_cell,
     find_table,
     find_unit_cell,
@@ -222,7 +223,11 @@ def _read_section(book: OpenBook, section: Section, gathered: _Gathered) -> None
 def _read_block(book: OpenBook, section: Section, gathered: _Gathered) -> None:
     row: dict[str, Any] = {}
     gathered.draft[section.key].append(row)
+    absent = added_later(book, section)
+    row |= {entry.name: entry.default for entry in absent}
     for entry in entries(section.model):
+        if entry in absent:
+            continue
         place = Place(section.key, 0, entry.name)
         try:
             position = find_cell(book, section, entry)

@@ -17,6 +17,7 @@ from report.suite.target_table import TargetTable
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 from solver.records.record import Record
+from solver.rules.hazard import EDITIONS
 from solver.rules.provisions import RULE_SETS
 from solver.rules.spectra import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical
 from solver.synthesis import Target
@@ -73,7 +74,7 @@ def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> S
     if code not in CODES:
         raise InputError(f"--code is {code!r}; give one of {', '.join(CODES)}")
     rules = RULE_SETS[CODES[code]]
-    across = ac156_horizontal(rules, s_ds_g=s_ds_g, z_over_h=z_over_h, tail=tail)
+    across = ac156_horizontal(EDITIONS[rules.edition], s_ds_g=s_ds_g, z_over_h=z_over_h, tail=tail)
     upward = ac156_vertical(s_ds_g=s_ds_g, tail=tail)
     return SuiteTargets(
         horizontal=(across.freq_hz, across.sa_g),

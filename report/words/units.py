@@ -119,5 +119,5 @@ def pair(value_si: float, quantity: Quantity, us_first: bool = True) -> str:
 def ratio(value: float) -> str:
     """Return a demand/capacity ratio, rounded up so that 1.00 never hides a failure."""
     if math.isnan(value):
-        return "no value"
+        return "none"
     return "∞" if math.isinf(value) else number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)

@@ -68,6 +68,11 @@ class Acceptance:
     motions: tuple[MotionStrength, ...]
 
     @property
+    def qualifies(self) -> bool:
+        """Whether the motions satisfy every limit without which a value from analysis is NG."""
+        return not any(row.consequence is Consequence.NG for row in self.missed)
+
+    @property
     def missed(self) -> tuple[AcceptanceRow, ...]:
         """The rows that are not satisfied."""
         return tuple(row for row in self.rows if not row.satisfied)

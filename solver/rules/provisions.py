@@ -13,6 +13,7 @@ from enum import StrEnum
 from solver.rules.rulesets import OVERRIDABLE as OVERRIDABLE
 from solver.rules.rulesets import RULE_SETS as RULE_SETS
 from solver.rules.rulesets import Confidence as Confidence
+from solver.rules.rulesets import LowProfileLength
 from solver.rules.rulesets import Provision as Provision
 from solver.rules.rulesets import RuleSet as RuleSet
 
@@ -108,7 +109,7 @@ def analysis_value(
 ) -> AnalysisValue:
     """Return the value from analysis; with `basis` None the rule set determines the basis.
 
-    PV1-2012 Sec. 9: 1.1 x mean of the peaks with 7 motions or more, 1.1 x largest with 3 to 6.
+    PV1-2012: 1.1 x mean of the peaks with 7 motions or more, 1.1 x largest with 3 to 6.
     A basis that needs more motions than there are gives `Basis.TOO_FEW`.
     """
     n = len(peaks_m)
@@ -146,6 +147,11 @@ class Neighbor(StrEnum):
     PARAPET = "edge with qualifying parapet"
     EDGE = "edge without qualifying parapet"
 
+    @property
+    def is_edge(self) -> bool:
+        """Whether it is a roof edge, with or without a parapet."""
+        return self in (Neighbor.PARAPET, Neighbor.EDGE)
+
 
 SEPARATION_KEYS: Mapping[Neighbor, str] = {
     Neighbor.LIKE: "separation_like",
@@ -161,7 +167,8 @@ def required_separation(
 ) -> float:
     """Return the required separation [m]: factor x I x design displacement, or the minimum.
 
-    The importance factor applies here only if the displacement does not include it.
+    The importance factor applies here only if the displacement does not include it: I_e of the
+    building at edges, the larger I_p of array and neighbor elsewhere.
     """
     required = rules[SEPARATION_KEYS[neighbor]] * design_m
     if rules.importance_in_separation:
@@ -239,18 +246,33 @@ def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tupl
 
 
 def array_checks(
-    rules: RuleSet, *, cg_height_m: float, support_spacing_m: float
+    rules: RuleSet, *, cg_height_m: float, support_spacing_m: float, base_m: float, slope_rad: float
 ) -> tuple[Check, ...]:
-    """Return the checks of the low-profile limits, which apply to both routes."""
-    spacing = rules["low_profile_ratio"] * support_spacing_m
+    """Return the checks of an array that apply to both routes: low profile, and slope by the IBC.
+
+    Parameters
+    ----------
+    support_spacing_m, base_m : float
+        Least spacing of the supports, and least plan dimension of the supporting base: PV1-2012
+        limits the height of the center of gravity by half the base, ASCE 7 by half the spacing.
+    """
+    takes_base = rules.low_profile_length is LowProfileLength.BASE
+    length = rules["low_profile_ratio"] * (base_m if takes_base else support_spacing_m)
     return (
         _check(
             rules,
             "Height of the center of gravity",
             cg_height_m,
             "low_profile_in",
-            limit=min(spacing, rules.length_m("low_profile_in")),
+            limit=min(length, rules.length_m("low_profile_in")),
             measure=Measure.LENGTH_M,
+        ),
+        _check(
+            rules,
+            "Roof slope, any ballasted system",
+            math.degrees(abs(slope_rad)),
+            "ibc_max_slope_deg",
+            measure=Measure.ANGLE_DEG,
         ),
     )
 
@@ -277,14 +299,20 @@ def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple
     )
 
 
-def analysis_checks(rules: RuleSet, *, slope_rad: float, n_motions: int) -> tuple[Check, ...]:
-    """Return the checks of the limits of the analysis route."""
+def analysis_checks(
+    rules: RuleSet, *, slope_rad: float, n_motions: int, sdc: str, is_reviewed: bool
+) -> tuple[Check, ...]:
+    """Return the checks of the limits of the analysis route.
+
+    ASCE 7, 13.6.12: steeper roofs in SDC A, B, C with peer review, then with the limit of the IBC.
+    """
+    has_no_limit = rules.steeper_if_reviewed and sdc in "ABC" and is_reviewed
     return (
         _check(
             rules,
             "Roof slope, analysis route",
             math.degrees(abs(slope_rad)),
-            "analysis_max_slope_deg",
+            "ibc_max_slope_deg" if has_no_limit else "analysis_max_slope_deg",
             measure=Measure.ANGLE_DEG,
         ),
         _check(

@@ -24,12 +24,16 @@ class Confidence(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Provision:
-    """One number of a rule set, with its clause; `reason` is not empty if it is overridden."""
+    """One number of a rule set, with its clause; `reason` is not empty if it is overridden.
+
+    `note` is what a reader must know of the number besides.
+    """
 
     value: float
     clause: str
     confidence: Confidence
     reason: str = ""
+    note: str = ""
 
     @property
     def verified(self) -> bool:
@@ -45,10 +49,11 @@ OVERRIDABLE: Mapping[str, str] = {
     "prescriptive_max_slope_deg": "maximum slope for the prescriptive route [deg]",
     "prescriptive_min_mu": "minimum friction coefficient for the prescriptive route",
     "analysis_max_slope_deg": "maximum slope for the analysis route [deg]",
+    "ibc_max_slope_deg": "maximum slope of any ballasted system [deg]",
     "max_stories": "maximum number of stories of the building",
     "max_risk_category": "highest risk category (I = 1 ... IV = 4)",
     "low_profile_in": "maximum height of the center of gravity [in]",
-    "low_profile_ratio": "maximum height of the center of gravity / smallest support spacing",
+    "low_profile_ratio": "maximum height of the center of gravity / least base or support spacing",
     "analysis_min_motions": "minimum number of motions for the analysis route",
     "analysis_mean_motions": "minimum number of motions for a value from the mean",
     "analysis_factor": "factor on the mean or on the largest peak",
@@ -65,16 +70,11 @@ OVERRIDABLE: Mapping[str, str] = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Amplification:
-    """Ratio of floor to ground acceleration at height z: (1 + slope z/h) / reduction."""
+class LowProfileLength(StrEnum):
+    """The length whose half limits the height of the center of gravity."""
 
-    slope: float
-    reduction: float
-
-    def at(self, z_over_h: float) -> float:
-        """Return the ratio at a relative height z/h; there is no reduction at grade."""
-        return (1.0 + self.slope * z_over_h) / (self.reduction if z_over_h > 0.0 else 1.0)
+    BASE = "least plan dimension of the supporting base"
+    SPACING = "least spacing of the supports"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,7 +88,9 @@ class RuleSet:
     importance_in_separation: bool  # otherwise it is included in the displacement; never both
     low_sdc_is_flat: bool  # SDC A, B, C have a constant displacement instead of the formula
     mu_rises_with_slope: bool
-    amplification: Amplification  # from ground to roof, in AC156
+    low_profile_length: LowProfileLength
+    steeper_if_reviewed: bool  # no slope limit of its own in SDC A, B, C with peer review
+    edition: str  # of the seismic parameters, unless the workbook states another
 
     def __getitem__(self, key: str) -> float:
         return self.values[key].value
@@ -116,49 +118,52 @@ class RuleSet:
 
 
 def _table(rows: str, document: str) -> dict[str, Provision]:
-    """Read rows of `key value confidence clause`."""
+    """Read rows of `key value confidence clause`; without a clause the document is cited."""
     table = {}
     for row in rows.strip().splitlines():
         key, value, confidence, clause = row.split(maxsplit=3)
         table[key] = Provision(
-            value=float(value), clause=f"{document} {clause}", confidence=Confidence(confidence)
+            value=float(value),
+            clause=document if clause == "-" else f"{document} {clause}",
+            confidence=Confidence(confidence),
         )
     return table
 
 
+# Clause numbers of PV1 other than Sec. 4 to 6 are not known: "-" cites the document alone.
 _PV1 = """
-prescriptive_factor_in      60     C  Sec. 6
-prescriptive_minimum_in     6      K  Sec. 6
-prescriptive_low_sdc_in     6      K  Sec. 6
-prescriptive_max_slope_deg  3      K  Sec. 6
-prescriptive_min_mu         0.4    K  Sec. 6
-analysis_max_slope_deg      7      K  Sec. 5
-max_stories                 6      K  Sec. 5
-max_risk_category           3      K  Sec. 5
+prescriptive_factor_in      60     C  -
+prescriptive_minimum_in     6      C  -
+prescriptive_low_sdc_in     6      C  -
+prescriptive_max_slope_deg  3      K  -
+prescriptive_min_mu         0.4    K  -
+analysis_max_slope_deg      7      K  -
+max_stories                 6      K  -
+max_risk_category           3      K  -
 low_profile_in              36     K  Sec. 5
 low_profile_ratio           0.5    K  Sec. 5
-analysis_min_motions        3      K  Sec. 9
-analysis_mean_motions       7      K  Sec. 9
-analysis_factor             1.1    K  Sec. 9
-analysis_floor              0.5    K  Sec. 9
+analysis_min_motions        3      K  -
+analysis_mean_motions       7      K  -
+analysis_factor             1.1    K  -
+analysis_floor              0.5    K  -
 separation_like             0.5    C  Sec. 6
 separation_fixed            1.0    C  Sec. 6
 separation_parapet          1.0    C  Sec. 6
-separation_edge             2.0    C  Sec. 6
+separation_edge             1.5    C  Sec. 6
 separation_edge_min_in      0      K  Sec. 6
-parapet_height_in           24     K  Sec. 6
-parapet_over_cg_in          6      K  Sec. 6
-interconnection_sds         0.133  K  Sec. 6
-interconnection_min         0.1    K  Sec. 6
+parapet_height_in           24     K  -
+parapet_over_cg_in          6      K  -
+interconnection_sds         0.133  C  Sec. 6
+interconnection_min         0.1    C  Sec. 6
 """
 
-# The maximum slopes are 1 in 20 and 1 in 12. No parapet height above the c.g. is stated.
+# The maximum slope is 1 in 20. No parapet height above the c.g. is stated.
 _ASCE = f"""
 prescriptive_factor_in      60     C  13.6.12
 prescriptive_minimum_in     24     K  13.6.12
 prescriptive_max_slope_deg  {math.degrees(math.atan(1 / 20))!r}  K  13.6.12
 prescriptive_min_mu         0.4    K  13.6.12
-analysis_max_slope_deg      {math.degrees(math.atan(1 / 12))!r}  L  13.6.12
+analysis_max_slope_deg      {math.degrees(math.atan(1 / 20))!r}  L  13.6.12
 max_stories                 6      K  13.6.12
 max_risk_category           3      K  13.6.12
 low_profile_in              36     K  13.6.12
@@ -179,14 +184,26 @@ interconnection_min         0.1    K  13.6.12
 """
 
 
-def _lowered(table: dict[str, Provision]) -> dict[str, Provision]:
-    """Return a table for an edition not compared: all that is not confirmed has low confidence."""
-    return {
-        key: row
-        if row.confidence is Confidence.CONFIRMED
-        else replace(row, confidence=Confidence.LOW)
-        for key, row in table.items()
-    }
+def _unverified(table: dict[str, Provision]) -> dict[str, Provision]:
+    """Return a table for an edition that was not compared: it inherits no confirmation."""
+    return {key: replace(row, confidence=Confidence.LOW) for key, row in table.items()}
+
+
+# Limits every ballasted system, beside all rule sets: 1 in 12.
+_IBC = {
+    "ibc_max_slope_deg": Provision(
+        value=math.degrees(math.atan(1 / 12)), clause="IBC 1613.3", confidence=Confidence.KNOWN
+    )
+}
+
+_PV1_NOTES = {
+    "analysis_max_slope_deg": "quoted for attached arrays (Sec. 4); an unattached array on a slope"
+    " over 3 deg may be outside PV1-2012",
+}
+
+
+def _noted(table: dict[str, Provision], notes: Mapping[str, str]) -> dict[str, Provision]:
+    return {key: replace(row, note=notes.get(key, "")) for key, row in table.items()}
 
 
 RULE_SETS: Mapping[str, RuleSet] = {
@@ -197,33 +214,39 @@ RULE_SETS: Mapping[str, RuleSet] = {
             name="SEAOC PV1-2012",
             title="SEAOC PV1-2012, Structural Seismic Requirements and Commentary for Rooftop "
             "Solar Photovoltaic Arrays",
-            values=_table(_PV1, "PV1-2012"),
+            values=_noted(_table(_PV1, "PV1-2012"), _PV1_NOTES) | _IBC,
             importance_in_separation=True,
             low_sdc_is_flat=True,
             mu_rises_with_slope=False,
-            amplification=Amplification(slope=2.0, reduction=1.0),
+            low_profile_length=LowProfileLength.BASE,
+            steeper_if_reviewed=False,
+            edition="ASCE 7-16",
         ),
         RuleSet(
             code="asce7-16",
             name="ASCE 7-16",
             title="ASCE/SEI 7-16, Minimum Design Loads and Associated Criteria for Buildings "
             "and Other Structures, 13.6.12",
-            values=_table(_ASCE, "ASCE 7-16"),
+            values=_table(_ASCE, "ASCE 7-16") | _IBC,
             importance_in_separation=False,
             low_sdc_is_flat=False,
             mu_rises_with_slope=True,
-            amplification=Amplification(slope=2.0, reduction=1.0),
+            low_profile_length=LowProfileLength.SPACING,
+            steeper_if_reviewed=True,
+            edition="ASCE 7-16",
         ),
         RuleSet(
             code="asce7-22",
             name="ASCE 7-22",
             title="ASCE/SEI 7-22, Minimum Design Loads and Associated Criteria for Buildings "
             "and Other Structures, 13.6.12",
-            values=_lowered(_table(_ASCE, "ASCE 7-22")),
+            values=_unverified(_table(_ASCE, "ASCE 7-22")) | _IBC,
             importance_in_separation=False,
             low_sdc_is_flat=False,
             mu_rises_with_slope=True,
-            amplification=Amplification(slope=2.5, reduction=1.3),
+            low_profile_length=LowProfileLength.SPACING,
+            steeper_if_reviewed=True,
+            edition="ASCE 7-22",
         ),
     )
 }

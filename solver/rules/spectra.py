@@ -11,7 +11,7 @@ from enum import StrEnum
 import numpy as np
 
 from solver.model import Floats
-from solver.rules.rulesets import RuleSet
+from solver.rules.hazard import Edition
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,16 +59,16 @@ _TAIL_AT_10_S = {Tail.AC156: 0.1, Tail.RECIPROCAL: 0.1 / _FLEXIBLE_FROM_HZ}
 
 
 def ac156_horizontal(
-    rules: RuleSet, *, s_ds_g: float, z_over_h: float, tail: Tail = Tail.AC156
+    edition: Edition, *, s_ds_g: float, z_over_h: float, tail: Tail = Tail.AC156
 ) -> RequiredSpectrum:
     """Return the horizontal AC156 spectrum, 5 % damping.
 
     A_FLX = S_DS (1 + 2 z/h) <= 1.6 S_DS, A_RIG = 0.4 S_DS (1 + 2 z/h); with ASCE 7-22
     A_FLX = S_DS H_f/R_mu <= 1.6 S_DS, A_RIG = 0.4 S_DS H_f/R_mu, H_f = 1 + 2.5 z/h, R_mu = 1.3
     above grade and 1 at grade.
-    PV1-2012 Sec. 9 permits 1/T beyond 0.77 s in place of the AC156 line.
+    PV1-2012 permits 1/T beyond 0.77 s in place of the AC156 line.
     """
-    ratio = rules.amplification.at(z_over_h)
+    ratio = edition.amplification.at(z_over_h)
     return _corners(min(ratio, 1.6) * s_ds_g, 0.4 * ratio * s_ds_g, tail)
 
 

@@ -20,7 +20,7 @@ from solver.formats import read_record
 from solver.model import Floats
 from solver.records.measures import measures
 from solver.records.record import Record
-from solver.rules.provisions import RULE_SETS
+from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis import make_suite, spectrum_fit
 from solver.synthesis.matching import goal_mps2, make_frame, matched, rounded, shaped
@@ -33,7 +33,7 @@ RECORDS = Path(sys.argv[2]) if len(sys.argv) > 2 else Path("records")
 
 def targets() -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
     """Return the AC156 spectra at the roof, ASCE 7-16."""
-    across = ac156_horizontal(RULE_SETS["ASCE 7-16"], s_ds_g=S_DS_G, z_over_h=1.0)
+    across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=S_DS_G, z_over_h=1.0)
     upward = ac156_vertical(s_ds_g=S_DS_G)
     return (across.freq_hz, across.sa_g), (upward.freq_hz, upward.sa_g)
 

@@ -6,6 +6,7 @@ than one cell are in `checks`. Read `report.sheet.read` next.
 
 from __future__ import annotations
 
+import datetime as dt
 from dataclasses import replace
 from typing import Annotated
 
@@ -32,12 +33,13 @@ from report.sheet.schema.choices import (
     SlopeUnit,
     Statistic,
     StructureType,
+    Text,
     UnitsFirst,
 )
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
-from report.sheet.schema.project import Project, Revision, Site, s_ds
+from report.sheet.schema.project import Project, Revision, Site, edition_of
 from report.sheet.schema.roof import Roof
 from report.sheet.schema.scene import Array, Clearance, Rectangle, RoofObject, slope_rad
 from solver.rules.provisions import OVERRIDABLE
@@ -82,7 +84,7 @@ __all__ = [
     "UnitsFirst",
     "YesNo",
     "coefficients",
-    "s_ds",
+    "edition_of",
     "slope_rad",
 ]
 
@@ -105,6 +107,57 @@ class Options(Frozen):
         bool,
         Cell("Peer review", "Yes removes the lower limit on the displacement from analysis.", "No"),
     ] = False
+    peer_reviewer: Annotated[
+        Text, Cell("Peer reviewer", "Required with peer review.", "Reviewer of record")
+    ] = ""
+    peer_license: Annotated[
+        Text, Cell("Reviewer's license", "State and number. Required with peer review.", "CA S0000")
+    ] = ""
+    peer_date: Annotated[
+        dt.date | None,
+        Cell("Date of review", "Required with peer review.", dt.date(2026, 3, 1)),
+    ] = None
+    directional: Annotated[
+        bool,
+        Cell(
+            "Displacement by direction",
+            "No: a clearance takes the full design displacement in every direction, as the rule"
+            " sets do. Yes: the displacement toward it, a departure that the package prints.",
+            "No",
+        ),
+    ] = False
+    directional_reason: Annotated[
+        Text,
+        Cell(
+            "Reason for direction",
+            "Required with displacement by direction.",
+            "Agreed with the building department",
+        ),
+    ] = ""
+    directional_reviewer: Annotated[
+        Text,
+        Cell(
+            "Reviewer of direction",
+            "Required with displacement by direction.",
+            "Reviewer of record",
+        ),
+    ] = ""
+    directional_license: Annotated[
+        Text,
+        Cell(
+            "License for direction",
+            "State and number. Required with displacement by direction.",
+            "CA S0000",
+        ),
+    ] = ""
+    directional_date: Annotated[
+        dt.date | None,
+        Cell(
+            "Date for direction",
+            "Required with displacement by direction.",
+            dt.date(2026, 3, 1),
+        ),
+    ] = None
 
 
 class Override(Frozen):
@@ -187,7 +240,7 @@ def _table(
 SECTIONS = (
     _block("project", "Project", "Project", "Printed on the cover and on every page.", Project),
     _table("revisions", "Project", "Revisions", "One row for each issue.", Revision),
-    _block("site", "Site", "Site and building", "Give S_DS, or S_S and F_a.", Site),
+    _block("site", "Site", "Site and building", "Give S_DS, S_MS, or S_S and F_a.", Site),
     _block(
         "roof",
         "Site",

@@ -13,6 +13,7 @@ from pydantic import Field
 
 from solver.building.periods import APPROXIMATE_PERIODS
 from solver.records.units import UNIT_CHOICES
+from solver.rules.hazard import EDITIONS
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import RULE_SETS
 
@@ -32,6 +33,14 @@ class RuleSetName(StrEnum):
     _ignore_ = "_rules"
     for _rules in RULE_SETS.values():
         vars()[_rules.code.upper().replace("-", "_")] = _rules.name
+
+
+class EditionName(StrEnum):
+    """Edition of ASCE 7 for the seismic parameters: any of `solver.rules.hazard`."""
+
+    _ignore_ = "_name"
+    for _name in EDITIONS:
+        vars()[_name.upper().replace(" ", "_").replace("-", "_")] = _name
 
 
 class UnitsFirst(StrEnum):

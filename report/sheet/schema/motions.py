@@ -94,24 +94,6 @@ class MotionInput(Frozen):
             "Spectrum-compatible, seed 1",
         ),
     ] = ""
-    event: Annotated[
-        Text,
-        Cell(
-            "Event", "Earthquake and year of a record; blank for a generated motion.", "Kobe 1995"
-        ),
-    ] = ""
-    magnitude: Annotated[
-        Annotated[float, Field(ge=3, le=10)] | None,
-        Cell("M", "Moment magnitude of the event of a record.", 6.9),
-    ] = None
-    distance_km: Annotated[
-        Annotated[float, Field(ge=0, le=1000)] | None,
-        Cell("R", "Distance of the recording station from the rupture.", 7.1, "km"),
-    ] = None
-    v_s30_mps: Annotated[
-        Annotated[float, Field(ge=50, le=3000)] | None,
-        Cell("V_s30", "Mean shear-wave velocity of the upper 30 m at the station.", 312.0, "m/s"),
-    ] = None
     recorded_at: Annotated[
         RecordedAt,
         Cell(
@@ -162,4 +144,22 @@ class MotionInput(Frozen):
             5.0,
             "s",
         ),
+    ] = None
+    event: Annotated[
+        Text,
+        Cell(
+            "Event", "Earthquake and year of a record; blank for a generated motion.", "Kobe 1995"
+        ),
+    ] = ""
+    magnitude: Annotated[
+        Annotated[float, Field(ge=3, le=10)] | None,
+        Cell("M", "Moment magnitude of the event of a record.", 6.9),
+    ] = None
+    distance_km: Annotated[
+        Annotated[float, Field(ge=0, le=1000)] | None,
+        Cell("R", "Distance of the recording station from the rupture.", 7.1, "km"),
+    ] = None
+    v_s30_mps: Annotated[
+        Annotated[float, Field(ge=50, le=3000)] | None,
+        Cell("V_s30", "Mean shear-wave velocity of the upper 30 m at the station.", 312.0, "m/s"),
     ] = None

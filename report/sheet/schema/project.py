@@ -12,6 +12,7 @@ from pydantic import Field, model_validator
 
 from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import (
+    EditionName,
     NotNegative,
     Positive,
     RequiredText,
@@ -23,6 +24,16 @@ from report.sheet.schema.choices import (
     UnitsFirst,
 )
 from report.words.units import Quantity
+from solver.rules.hazard import (
+    EDITIONS,
+    Edition,
+    HazardBasis,
+    SeismicParameters,
+    seismic_parameters,
+)
+from solver.rules.rulesets import RULE_SETS
+
+Acceleration = Annotated[float, Field(gt=0, le=10)]
 
 
 class Project(Frozen):
@@ -65,15 +76,6 @@ class Revision(Frozen):
     by: Annotated[Text, Cell("By", "Name or initials.", "RG")] = ""
 
 
-def s_ds(s_ds_g: float | None, s_s_g: float | None, f_a: float | None) -> float | None:
-    """Return S_DS [g]: as given, else 2/3 F_a S_S unrounded (ASCE 7 eq. 11.4-1, 11.4-3)."""
-    if s_ds_g is not None:
-        return s_ds_g
-    if s_s_g is None or f_a is None:
-        return None
-    return 2.0 / 3.0 * f_a * s_s_g
-
-
 class Site(Frozen):
     """Where the building stands and which rules govern."""
 
@@ -92,24 +94,25 @@ class Site(Frozen):
         ),
     ]
     s_s_g: Annotated[
-        Annotated[float, Field(gt=0, le=10)] | None,
-        Cell("S_S", "Mapped value at 0.2 s. Give S_S and F_a, or S_DS.", 1.97, "g"),
+        Acceleration | None,
+        Cell("S_S", "Mapped value at 0.2 s. Give S_S and F_a, or S_MS, or S_DS.", 1.97, "g"),
     ] = None
     s_1_g: Annotated[
-        Annotated[float, Field(gt=0, le=10)] | None,
+        Acceleration | None,
         Cell("S_1", "Mapped value at 1 s. At 0.75 g or more the SDC is E or F.", 0.70, "g"),
     ] = None
     site_class: Annotated[SiteClass | None, Cell("Site class", "ASCE 7 chapter 20.", "D")] = None
     f_a: Annotated[
         Annotated[float, Field(gt=0, le=10)] | None,
-        Cell("F_a", "Site coefficient at 0.2 s. Give S_S and F_a, or S_DS.", 1.2),
+        Cell("F_a", "Site coefficient at 0.2 s, ASCE 7-16. ASCE 7-22 has none.", 1.2),
     ] = None
     f_v: Annotated[
-        Annotated[float, Field(gt=0, le=10)] | None, Cell("F_v", "Site coefficient at 1 s.", 1.7)
+        Annotated[float, Field(gt=0, le=10)] | None,
+        Cell("F_v", "Site coefficient at 1 s, ASCE 7-16. ASCE 7-22 has none.", 1.7),
     ] = None
     s_ds_g: Annotated[
         Annotated[float, Field(gt=0, le=5)] | None,
-        Cell("S_DS", "Design value, short period. Blank: 2/3 F_a S_S, unrounded.", 1.566, "g"),
+        Cell("S_DS", "Design value, short period. Blank: 2/3 S_MS, unrounded.", 1.566, "g"),
     ] = None
     sdc: Annotated[Sdc, Cell("Seismic design category", "ASCE 7 section 11.6.", "D")]
     stories: Annotated[int, Field(ge=1, le=200), Cell("Number of stories", "Above grade.", 1)]
@@ -131,16 +134,100 @@ class Site(Frozen):
             Quantity.PLAN,
         ),
     ]
+    edition_name: Annotated[
+        EditionName | None,
+        Cell(
+            "Edition of ASCE 7",
+            "For the seismic parameters. Blank: that of the rule set, ASCE 7-16 with PV1-2012.",
+            "ASCE 7-16",
+        ),
+    ] = None
+    s_ms_g: Annotated[
+        Acceleration | None,
+        Cell("S_MS", "Read from a hazard tool. Blank: F_a S_S, unrounded.", 2.349, "g"),
+    ] = None
+    s_m1_g: Annotated[
+        Acceleration | None,
+        Cell("S_M1", "Read from a hazard tool. Blank: F_v S_1, unrounded.", 0.98, "g"),
+    ] = None
+    s_d1_g: Annotated[
+        Acceleration | None,
+        Cell("S_D1", "Design value, 1 s. Blank: 2/3 S_M1, unrounded.", 0.653, "g"),
+    ] = None
+    hazard: Annotated[
+        HazardBasis,
+        Cell(
+            "Hazard basis",
+            "Site class D with S_1 of 0.2 g or more needs a site-specific analysis or the"
+            " exception of ASCE 7-16 11.4.8.",
+            "mapped values",
+        ),
+    ] = HazardBasis.MAPPED
+    hazard_source: Annotated[
+        Text, Cell("Source of hazard", "Tool or report.", "ASCE 7 Hazard Tool")
+    ] = ""
+    hazard_date: Annotated[
+        dt.date | None,
+        Cell("Date of hazard", "When the values were read.", dt.date(2026, 2, 20)),
+    ] = None
+    force_factor: Annotated[
+        Annotated[float, Field(gt=0, le=5)] | None,
+        Cell(
+            "a_p or C_AR",
+            "Amplification factor of a component: a_p in ASCE 7-16, C_AR in ASCE 7-22. For F_p,"
+            " which the package prints for comparison.",
+            1.0,
+        ),
+    ] = None
+    force_divisor: Annotated[
+        Annotated[float, Field(ge=1, le=12)] | None,
+        Cell("R_p or R_po", "R_p in ASCE 7-16, R_po in ASCE 7-22.", 1.5),
+    ] = None
 
     @model_validator(mode="after")
     def _enough_for_s_ds(self) -> Site:
-        if s_ds(self.s_ds_g, self.s_s_g, self.f_a) is None:
-            raise ValueError("give S_DS, or S_S and F_a")
+        if self.parameters.s_ds is None:
+            raise ValueError("give S_DS, S_MS, or S_S and F_a")
         return self
 
     @property
+    def edition(self) -> Edition:
+        """The edition of the seismic parameters."""
+        return edition_of(self.rule_set, self.edition_name)
+
+    @property
+    def parameters(self) -> SeismicParameters:
+        """S_MS, S_M1, S_DS, S_D1 [g], as given or derived."""
+        return seismic_parameters(
+            self.edition,
+            s_s=self.s_s_g,
+            s_1=self.s_1_g,
+            f_a=self.f_a,
+            f_v=self.f_v,
+            s_ms=self.s_ms_g,
+            s_m1=self.s_m1_g,
+            s_ds=self.s_ds_g,
+            s_d1=self.s_d1_g,
+        )
+
+    @property
     def s_ds(self) -> float:
-        """S_DS [g], as given, else from S_S and F_a."""
-        value = s_ds(self.s_ds_g, self.s_s_g, self.f_a)
+        """S_DS [g]."""
+        value = self.parameters.s_ds
         assert value is not None  # checked when made
         return value
+
+    @property
+    def s_d1(self) -> float | None:
+        """S_D1 [g], if known."""
+        return self.parameters.s_d1
+
+    @property
+    def z_over_h(self) -> float:
+        """Relative height of the roof that supports the array."""
+        return self.roof_height_m / self.structure_height_m
+
+
+def edition_of(rule_set: RuleSetName, name: EditionName | None) -> Edition:
+    """Return the edition of the seismic parameters: as given, or else that of the rule set."""
+    return EDITIONS[RULE_SETS[rule_set].edition if name is None else name]

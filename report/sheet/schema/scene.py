@@ -27,6 +27,7 @@ from report.words.units import Quantity
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
 from solver.model import Friction
 
+ImportanceCell = Annotated[float, Field(ge=1.0, le=1.5)]
 MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]
 RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
 
@@ -83,7 +84,8 @@ class Array(Frozen):
         RequiredText,
         Cell(
             "Construction",
-            "Product and layout. Arrays with the same text are like arrays.",
+            "Product and layout. Arrays of the same text, slope, friction and downslope"
+            " direction are like arrays.",
             "Tray 10 deg, landscape",
         ),
     ]
@@ -155,6 +157,44 @@ class Array(Frozen):
         ),
     ] = Model.CHOOSE
 
+    i_p: Annotated[
+        ImportanceCell,
+        Cell(
+            "Importance factor I_p",
+            "Of the component. Separations of PV1-2012 take the larger I_p of array and neighbor.",
+            1.0,
+        ),
+    ] = 1.0
+    base_m: Annotated[
+        Positive | None,
+        Cell(
+            "Base dimension",
+            "Least plan dimension of the supporting base, for the low-profile limit of PV1-2012."
+            " Blank: the support spacing, which is on the safe side.",
+            60.0,
+            Quantity.SIZE,
+        ),
+    ] = None
+    interconnection_n: Annotated[
+        Positive | None,
+        Cell(
+            "Interconnection strength",
+            "Least strength provided between the parts of the array; compared with the strength"
+            " that the rule set requires.",
+            4000.0,
+            Quantity.WEIGHT,
+        ),
+    ] = None
+    slack_m: Annotated[
+        NotNegative | None,
+        Cell(
+            "Electrical slack",
+            "Slack of the wiring that leaves the array; compared with the design displacement.",
+            48.0,
+            Quantity.SIZE,
+        ),
+    ] = None
+
     @property
     def slope_rad(self) -> float:
         """The slope as an angle [rad]."""
@@ -174,6 +214,11 @@ class Array(Frozen):
     def least_mu(self) -> float:
         """The smallest friction coefficient at any velocity."""
         return min(self.friction.mu_slow, self.friction.mu_fast)
+
+    @property
+    def base_dimension_m(self) -> float:
+        """Least plan dimension of the supporting base [m]; where not given, support spacing."""
+        return self.support_spacing_m if self.base_m is None else self.base_m
 
     @property
     def rectangle(self) -> Rectangle:
@@ -206,6 +251,10 @@ class RoofObject(Frozen):
     x_to_m: Annotated[float | None, _plan("x to")] = None
     y_from_m: Annotated[float | None, _plan("y from")] = None
     y_to_m: Annotated[float | None, _plan("y to")] = None
+    i_p: Annotated[
+        ImportanceCell,
+        Cell("Importance factor I_p", "Of an object or unlike array; not used for edges.", 1.0),
+    ] = 1.0
 
     @property
     def rectangle(self) -> Rectangle | None:

@@ -89,7 +89,7 @@ def test_the_design_grows_by_what_links_change_in_one_axis():
     assert item.estimated_m == pytest.approx(item.ratio * item.design.analysis.value_m)
     assert not item.is_rigid_enough
     assert item.is_final
-    assert not done.ok
+    assert not done.verdict.is_permitted
 
 
 @pytest.mark.parametrize("lb_per_in", [1, 5000, 1e6])
@@ -98,7 +98,7 @@ def test_blocks_with_equal_friction_move_as_one_whatever_links_them(lb_per_in):
     assert item.ratio == pytest.approx(1.0, rel=1e-9)
     assert item.link_force_n == pytest.approx(0.0, abs=1e-6)
     assert item.estimated_m == pytest.approx(item.design.design_m, rel=1e-9)
-    assert done.ok
+    assert done.verdict.is_permitted
 
 
 def test_very_stiff_links_make_one_block_of_the_mean_coefficient():
@@ -117,14 +117,14 @@ def test_very_soft_links_leave_the_weakest_block_by_itself():
 def test_the_least_coefficient_entered_as_that_of_the_array_does(friction, lb_per_in):
     done, item = assessed(friction, lb_per_in, mu=0.40)
     assert item.ratio <= 1.0
-    assert done.ok
+    assert done.verdict.is_permitted
 
 
 def test_where_the_floor_governs_links_may_change_what_stays_below_it():
     done, item = assessed("0.40, 0.45, 0.50", 50, peer_reviewed=False)
     assert item.ratio > 1.1
     assert item.estimated_m == item.design.floor_m == item.design.design_m
-    assert done.ok
+    assert done.verdict.is_permitted
 
 
 def test_links_raise_the_value_of_the_model_that_the_motions_need():
@@ -157,7 +157,7 @@ def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
     assert item.linked.value_m > 0.01
     assert math.isinf(item.ratio)
     assert math.isinf(item.estimated_m)
-    assert not done.ok
+    assert not done.verdict.is_permitted
     _, still = assessed("0.29, 0.50", 0.01, mu=0.3, shaking=shaking)
     assert (still.linked.value_m, still.ratio) == (0.0, 1.0)
     assert still.is_rigid_enough
@@ -172,7 +172,7 @@ def test_uplift_withholds_the_row_as_well():
     for value in (item.ratio, item.estimated_m, item.link_force_n, item.rigid_prd_m):
         assert math.isnan(value)
     assert not item.is_rigid_enough
-    assert not done.ok
+    assert not done.verdict.is_permitted
 
 
 def test_a_row_that_cannot_be_followed_is_never_enough(monkeypatch):
@@ -181,7 +181,7 @@ def test_a_row_that_cannot_be_followed_is_never_enough(monkeypatch):
     assert item.farthest.row.status is Status.DIVERGED
     assert math.isnan(item.ratio)
     assert item.design.is_model_enough
-    assert not done.ok
+    assert not done.verdict.is_permitted
 
 
 def test_a_row_that_still_slides_at_the_end_is_not_final():
@@ -192,7 +192,7 @@ def test_a_row_that_still_slides_at_the_end_is_not_final():
     assert item.farthest.row.status is Status.SLIDING_AT_END
     assert not item.is_final
     assert not item.is_rigid_enough
-    assert not done.ok
+    assert not done.verdict.is_permitted
 
 
 def test_too_few_motions_give_no_value():

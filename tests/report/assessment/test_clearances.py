@@ -1,9 +1,15 @@
 """The object across each clearance, its required separation, and the governing displacement."""
 
+import datetime as dt
+import math
+
 import pytest
 
 import stand_in
+from report.sheet.schema import Direction
 from solver.rules.provisions import Neighbor
+
+SAME_SLOPE = 100.0 * math.tan(math.radians(0.5))
 
 
 def assessed(shaking=None, **changes):
@@ -22,13 +28,13 @@ def done():
 def test_clearances_take_the_factor_of_what_lies_across(done):
     kinds = [item.neighbor for item in done.clearances]
     assert kinds == [
-        Neighbor.LIKE,
+        Neighbor.UNLIKE,  # of another slope
         Neighbor.FIXED,
         Neighbor.UNLIKE,
         Neighbor.PARAPET,
         Neighbor.EDGE,
     ]
-    assert [item.factor for item in done.clearances] == [0.5, 1.0, 1.0, 1.0, 2.0]
+    assert [item.factor for item in done.clearances] == [1.0, 1.0, 1.0, 1.0, 1.5]
     for item in done.clearances:
         assert item.required_m == pytest.approx(item.factor * item.design_m)
         assert item.demand_capacity == item.required_m / item.clearance.provided_m
@@ -57,6 +63,28 @@ def test_arrays_of_other_construction_are_unlike():
     assert done.clearances[0].neighbor is Neighbor.UNLIKE
 
 
+@pytest.mark.parametrize(
+    ("change", "neighbor"),
+    [
+        ({}, Neighbor.LIKE),
+        ({"slope_value": 0.6}, Neighbor.UNLIKE),
+        ({"slope_value": 0.51}, Neighbor.UNLIKE),
+        ({"mu": 0.46}, Neighbor.UNLIKE),
+        ({"mu_static": 0.5}, Neighbor.UNLIKE),
+        ({"downslope_deg": 90.0}, Neighbor.UNLIKE),
+        (
+            {"slope_value": 100.0 * math.tan(math.radians(0.5)), "slope_unit": "percent"},
+            Neighbor.LIKE,
+        ),
+    ],
+)
+def test_like_arrays_slide_alike(change, neighbor):
+    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=120) | change]
+    done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)])
+    assert done.clearances[0].neighbor is neighbor
+    assert done.clearances[0].factor == (0.5 if neighbor is Neighbor.LIKE else 1.0)
+
+
 def test_a_low_parapet_leaves_an_edge_without():
     objects = [stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=0.5)]
     done = assessed(objects=objects, clearances=[stand_in.clearance("A1", "N", 5.0)])
@@ -66,7 +94,8 @@ def test_a_low_parapet_leaves_an_edge_without():
 def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7():
     pv1 = assessed(site=site(risk_category="III", i_e=1.25))
     asce = assessed(site=site(risk_category="III", i_e=1.25, rule_set="ASCE 7-16"))
-    assert pv1.clearances[1].factor == 1.25
+    assert [gap.importance for gap in pv1.clearances] == [1.0, 1.0, 1.0, 1.25, 1.25]
+    assert pv1.clearances[4].factor == 1.5 * 1.25
     assert asce.clearances[1].factor == 1.0
     ratio = asce.arrays[0].prescriptive.value_m / pv1.arrays[0].prescriptive.value_m
     assert ratio == pytest.approx(1.25)
@@ -82,3 +111,31 @@ def test_asce_requires_four_feet_to_an_edge():
     assert edge.required_m == pytest.approx(4 * 0.3048)
     assert edge.is_least_value
     assert not done.clearances[1].is_least_value
+
+
+def test_the_larger_component_importance_of_both_sides_governs():
+    arrays = [stand_in.array("A1", 0.5) | {"i_p": 1.25}, stand_in.array("A2", 0.5, x=120)]
+    objects = [stand_in.roof_object("RTU", "fixed object", 107, 112, 35, 42) | {"i_p": 1.5}]
+    gaps = [stand_in.clearance("A2", "A1", 3.0), stand_in.clearance("A1", "RTU", 7.0)]
+    for rule_set, expected in (("SEAOC PV1-2012", [1.25, 1.5]), ("ASCE 7-16", [1.0, 1.0])):
+        done = assessed(
+            arrays=arrays, objects=objects, clearances=gaps, site=site(rule_set=rule_set)
+        )
+        assert [gap.importance for gap in done.clearances] == expected
+
+
+def test_a_clearance_takes_the_full_displacement_unless_the_workbook_departs():
+    full = assessed(options={"peer_reviewed": True})
+    assert {gap.governing_direction for gap in full.clearances} == {Direction.ANY}
+    departing = {
+        "peer_reviewed": True,
+        "directional": True,
+        "directional_reason": "test",
+        "directional_reviewer": "Reviewer of record",
+        "directional_license": "CA S0000",
+        "directional_date": dt.date(2026, 3, 1),
+    }
+    by_direction = assessed(options=departing)
+    pairs = list(zip(full.clearances, by_direction.clearances, strict=True))
+    assert all(one.design_m >= other.design_m for one, other in pairs)
+    assert any(one.design_m > other.design_m for one, other in pairs)

@@ -20,6 +20,11 @@ from sheets import FT, INCH, make, project
 OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 * FT}
 
 
+def of(assessment):
+    """The neighbors of an assessment, which a test may have changed."""
+    return neighbors(assessment.project, assessment.arrays, assessment.sheet.addresses)
+
+
 @pytest.fixture(scope="module")
 def done():
     return stand_in.assess_input(stand_in.project(), stand_in.motions(3, seconds=12.0))
@@ -36,7 +41,7 @@ def having(done, design_m=None, **changes):
 
 
 def by_pair(done):
-    return {(neighbor.array, neighbor.other): neighbor for neighbor in neighbors(done)}
+    return {(neighbor.array, neighbor.other): neighbor for neighbor in of(done)}
 
 
 def test_every_pair_with_a_clearance_is_listed_with_its_row(done):
@@ -103,7 +108,7 @@ def test_a_missing_clearance_is_named_with_both_lengths_and_the_sheet(done):
 
 def test_cells_are_those_of_the_workbook(tmp_path):
     sheet = read(make(tmp_path, clearances=[project().clearances[2].model_dump()]))
-    listed = neighbors(assess(sheet, prepare(sheet)))
+    listed = of(assess(sheet, prepare(sheet)))
     row = next(neighbor for neighbor in listed if neighbor.given)
     assert row.given[0].cell == "Clearances!E8"
     assert {
@@ -119,7 +124,7 @@ def test_an_object_that_is_nowhere_is_named_unless_a_clearance_covers_it():
 
 def test_an_edge_of_the_roof_that_no_object_covers_is_a_neighbor(done):
     edge = having(done, design_m=10.5 * FT, roof=OUTLINE)
-    edges = [neighbor for neighbor in neighbors(edge) if neighbor.kind is NearbyKind.BARE_EDGE]
+    edges = [neighbor for neighbor in of(edge) if neighbor.kind is NearbyKind.BARE_EDGE]
     assert [(neighbor.array, neighbor.other) for neighbor in edges] == [
         ("A1", "the west edge of the roof"),
         ("A2", "the east edge of the roof"),

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import stand_in
+from report.assessment.arrays import DesignBasis
+from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction
 from solver.model import Status
 from solver.rules.provisions import Basis
@@ -90,7 +92,7 @@ def test_each_direction_has_the_farthest_of_all_runs_of_each_motion(done):
         assert [m.peak_m(Direction(direction)) for m in item.motions] == peaks
         value = item.directions[Direction(direction)].value_m
         assert value == pytest.approx(1.1 * sum(peaks) / 7)
-        assert item.design_toward_m(Direction(direction)) == max(value, item.floor_m)
+        assert item.floored_m(Direction(direction)) == max(value, item.floor_m)
 
 
 def test_a_reversed_motion_is_the_motion_on_the_opposite_slope(done):
@@ -117,7 +119,7 @@ def test_a_requested_model_is_run_and_compared_with_the_adequate_one():
         assert free.is_model_enough
         enough = free.design_m <= asked.design_m
         assert asked.is_model_enough is enough
-        assert done.ok is enough
+        assert done.verdict.is_permitted is enough
 
 
 def test_friction_by_speed_reaches_the_solver():
@@ -180,9 +182,9 @@ def test_uplift_withholds_the_displacement_and_fails_every_clearance():
     assert item.worst.motion.id == "UP"
     assert item.worst.governing.result.status is Status.UPLIFT
     assert math.isnan(item.design_m)
-    assert item.governs == "no value"
+    assert item.governs == "none"
     assert not any(gap.ok for gap in done.clearances)
-    assert not done.ok
+    assert not done.verdict.is_permitted
     assert any("normal force falls below zero" in line and "(at " in line for line in done.warnings)
 
 
@@ -194,21 +196,40 @@ def test_a_run_without_a_result_withholds_the_displacement(monkeypatch):
     assert item.worst.governing.result.status is Status.STEP_LIMIT
     assert math.isnan(item.design_m)
     assert not any(gap.ok for gap in done.clearances)
-    assert not done.ok
+    assert not done.verdict.is_permitted
     assert any("the run exceeded the limit on time steps" in line for line in done.warnings)
 
 
 def test_two_motions_are_too_few():
     done = assessed(stand_in.motions(2))
-    assert done.arrays[0].analysis.basis is Basis.TOO_FEW
-    assert math.isnan(done.arrays[0].design_m)
-    assert not done.ok
+    item = done.arrays[0]
+    assert item.analysis.basis is Basis.TOO_FEW
+    assert item.governs is DesignBasis.PRESCRIPTIVE
+    assert item.design_m == item.prescriptive.value_m
+
+
+def test_without_either_route_there_is_no_value():
+    steep = stand_in.array("A1", 4.0)
+    done = assessed(stand_in.motions(2), arrays=[steep], clearances=[])
+    assert done.arrays[0].governs is DesignBasis.NO_VALUE
+    assert done.array_verdict(done.arrays[0]) is Verdict.NG
+
+
+def test_the_prescriptive_route_takes_no_less_than_a_computed_displacement():
+    done = assessed(stand_in.motions(2, peak_g=6.0, vertical_peak_g=0.1), clearances=[])
+    for item in done.arrays:
+        largest = max(run.governing.prd_m for run in item.motions)
+        assert item.design_m == max(item.prescriptive.value_m, largest)
+    assert any(item.design_m > item.prescriptive.value_m for item in done.arrays)
 
 
 def test_too_few_motions_for_a_chosen_statistic_are_never_ok():
-    done = assessed(stand_in.motions(5), options={"statistic": "mean"}, clearances=[])
+    steep = stand_in.array("A1", 4.0)
+    done = assessed(
+        stand_in.motions(5), arrays=[steep], options={"statistic": "mean"}, clearances=[]
+    )
     assert math.isnan(done.arrays[0].design_m)
-    assert not done.ok
+    assert not done.verdict.is_permitted
 
 
 def test_a_motion_that_ends_while_sliding_is_warned_of():
@@ -216,12 +237,13 @@ def test_a_motion_that_ends_while_sliding_is_warned_of():
     cut = stand_in.motion("CUT", ax, signs=(1,))
     done = assessed((*stand_in.motions(6), cut))
     assert any("CUT" in line and "still sliding" in line for line in done.warnings)
-    assert not done.ok
+    assert all(math.isnan(item.design_m) for item in done.arrays)
+    assert not done.verdict.is_permitted
 
 
 def test_a_limit_of_the_building_fails_the_whole():
-    assert not assessed(site=site(risk_category="IV", i_e=1.5)).ok
-    assert not assessed(site=site(stories=7)).ok
+    assert not assessed(site=site(risk_category="IV", i_e=1.5)).verdict.is_permitted
+    assert not assessed(site=site(stories=7)).verdict.is_permitted
 
 
 def test_an_override_changes_the_result_and_is_kept_with_its_reason():

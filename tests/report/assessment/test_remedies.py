@@ -221,4 +221,7 @@ def test_a_block_that_lifts_off_has_no_friction_that_helps():
     (separation,) = of(listed, RemedyKind.SEPARATION)
     assert not separation.exists
     (s_ds,) = of(listed, RemedyKind.S_DS)
-    assert s_ds.value == pytest.approx(math.floor(156.6 / 1.4) / 100)
+    # No uplift up to 1.12 g; without horizontal components the prescriptive value decides.
+    by_clearance = 0.4 + math.sqrt(0.5 / (60 * stand_in.INCH))
+    assert by_clearance < 1.566 / 1.4
+    assert s_ds.value == pytest.approx(math.floor(100 * by_clearance) / 100)

@@ -16,7 +16,8 @@ G = 9.80665
 
 @pytest.fixture(scope="module")
 def assessment():
-    return stand_in.assessed(stand_in.book(shaking=stand_in.motions(3, seconds=8.0)))
+    book = stand_in.book(stand_in.project(spectrum=[]), stand_in.motions(3, seconds=8.0))
+    return stand_in.assessed(book)
 
 
 def under(assessment, motions, places=()):
@@ -115,7 +116,7 @@ def test_a_project_spectrum_of_long_periods_alone_gives_no_ratios_in_the_band():
 def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_target():
     motions = given()
     preparations = [stand_in.prepared(m, recorded_at=RecordedAt.GROUND) for m in motions]
-    done = stand_in.assessed(stand_in.book(shaking=motions))
+    done = stand_in.assessed(stand_in.book(stand_in.project(spectrum=[]), motions))
     *_, across, transverse = spectra(under(done, motions, preparations))
     assert (across.title, transverse.title) == ("Ground, horizontal", "Ground, transverse")
     assert across.is_ground

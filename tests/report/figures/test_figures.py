@@ -91,10 +91,10 @@ def test_a_run_without_a_value_is_drawn_as_such():
     book = stand_in.book(shaking=(still,) * 3)
     assessment = stand_in.assessed(book)
     printed = words(histories(assessment.arrays[0]))
-    assert printed.count("no value") == 3
-    assert printed.count("PRD: no value") == 3
-    assert "no value" in words(figures.comparison(assessment.arrays, True))
-    assert words(figures.clearances(assessment.clearances, True)).count("no value: NG") == 5
+    assert printed.count("none") == 3
+    assert printed.count("PRD: none") == 3
+    assert "none" in words(figures.comparison(assessment.arrays, True))
+    assert words(figures.clearances(assessment.clearances, True)).count("none: NG") == 5
 
 
 def test_a_failed_clearance_is_marked(assessment):

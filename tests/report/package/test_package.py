@@ -75,8 +75,8 @@ def whole(texts):
     return flat(" ".join(texts))
 
 
-def test_the_package_has_fifteen_to_twenty_eight_pages(texts):
-    assert 15 <= len(texts) <= 28
+def test_the_package_has_fifteen_to_thirty_two_pages(texts):
+    assert 15 <= len(texts) <= 32
 
 
 def test_every_page_carries_project_sheet_date_by_checked_revision_and_edition(texts):
@@ -144,7 +144,7 @@ def test_contents_name_the_sheet_of_each_part(texts):
 
 
 def test_unverified_values_carry_a_dagger_and_confirmed_ones_do_not(whole):
-    assert "50 % of the prescriptive displacement, PV1-2012 Sec. 9†" in whole
+    assert "50 % of the prescriptive displacement, PV1-2012†" in whole
     assert "60 in × (1.566 − 0.4)" in whole
     assert "60† in" not in whole
 
@@ -209,12 +209,12 @@ def test_motions_without_a_vertical_component_are_counted(crowded):
 
 
 def test_too_few_motions_give_no_value_and_ng(said):
-    whole = said(shaking=few(2))
+    whole = said(stand_in.steep(), few(2))
     summary = whole[whole.index("1 Summary Marked") if "1 Summary Marked" in whole else 0 :]
     for name in ("A1", "A2", "A3"):
-        row = re.search(rf"{name} \d\.\d\d 0\.\d\d (no .*?) (OK|NG) no value NG", summary)
+        row = re.search(rf"{name} \d\.\d\d 0\.\d\d (none .*?) (OK|NG) none NG", summary)
         assert row, name
-        assert row[1] == "no value no value 81.6 2070 no value no value no value"
+        assert row[1] == "none none 81.6 2070 none none none"
     assert "5 of 5 clearances" in whole
     assert "too few motions" in whole
     assert not re.search(r"\bnan\b", whole, re.IGNORECASE)
@@ -226,7 +226,7 @@ def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time(said):
     lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
     whole = said(shaking=(*few(), lifted))
     assert "motion LIFT, record +: the normal force falls below zero" in whole
-    assert re.search(r"LIFT (no value ){8}— −0\.40 uplift", whole)
+    assert re.search(r"LIFT (none ){8}— −0\.40 uplift", whole)
     assert "3 of 3 arrays" in whole
     assert not re.search(r"\bnan\b", whole, re.IGNORECASE)
 
@@ -240,10 +240,10 @@ def test_an_analysis_above_the_prescriptive_value_is_said_and_governs(said):
     assert "(3 of 3 PRDs exceed it) and governs" in whole
 
 
-def test_clearances_name_the_direction_of_the_governing_displacement(whole):
-    assert "A2 down 2.00" in whole
-    assert "A3 up 1.00" in whole
-    assert "in its own direction" in whole
+def test_clearances_take_the_full_displacement(whole):
+    assert "A2 any 1.50" in whole
+    assert "A3 any 1.00" in whole
+    assert "It is taken in full in every direction." in whole
 
 
 def test_thirty_motions_of_one_array_without_clearances_have_room():
@@ -258,17 +258,18 @@ def test_overrides_are_printed_with_their_reason(said):
     whole = said(stand_in.project(overrides=[override]), few())
     assert "Agreed on 2026-02-10" in whole
     assert "0.8 †‡" in whole
-    assert "80 % of the prescriptive displacement, PV1-2012 Sec. 9†‡" in whole
+    assert "80 % of the prescriptive displacement, PV1-2012†‡" in whole
 
 
 @pytest.mark.parametrize("edition", ["ASCE 7-16", "ASCE 7-22"])
 def test_other_editions_say_their_own_name_and_clauses(said, edition):
     site = stand_in.project().site.model_dump() | {"rule_set": edition, "s_ds_g": None}
+    if edition == "ASCE 7-22":
+        site |= {"f_a": None, "f_v": None, "s_ms_g": 2.36}
     whole = said(stand_in.project(site=site), few())
     assert f"Code {edition}" in whole
     assert f"{edition} 13.6.12" in whole
     assert "PV1" not in whole
-    assert "ASCE 7 Eqs. 11.4-1, 11.4-3" in whole
 
 
 @pytest.mark.parametrize(
@@ -304,7 +305,7 @@ def ground(name="G1", **changes):
     (given,) = stand_in.motions(1, seconds=8.0, peak_g=0.5)
     row = {"id": name, "record": "x", "recorded_at": "ground"}
     data = stand_in.project(
-        motions=[row | changes], building={"period_s": 0.5}, target={"t_l_s": 8.0}
+        spectrum=[], motions=[row | changes], building={"period_s": 0.5}, target={"t_l_s": 8.0}
     )
     components = {
         field: Record(name=field, dt_s=given.dt_s, a_mps2=a)

@@ -75,8 +75,11 @@ def test_the_equation_has_its_numbers(both):
 
 def test_an_array_for_which_one_block_is_not_adequate_is_ng_everywhere(both):
     first, second = both.assessment.arrays
-    assert not both.assessment.ok
-    assert (both.assessment.array_ok(first), both.assessment.array_ok(second)) == (False, True)
+    assert not both.assessment.verdict.is_permitted
+    assert (
+        both.assessment.array_verdict(first).is_permitted,
+        both.assessment.array_verdict(second).is_permitted,
+    ) == (False, True)
     (text,) = links.link_troubles(both)
     assert text in troubles(both)
     assert text.startswith("Array A1: a row of linked blocks slides 1.")
@@ -110,8 +113,8 @@ def test_a_row_without_a_displacement_says_so_and_is_ng():
     )
     page = model.page(package)["links"]
     shown, held = texts(page["rows"].rows[0]), texts(page["design"].rows[0])
-    assert shown[6:] == ["no value"] * 7
-    assert held[5:] == ["no value", "no value", "no value", "no value", "no value", "NG"]
+    assert shown[6:] == ["none"] * 7
+    assert held[5:] == ["none", "none", "none", "none", "none", "NG"]
     assert "Array A1 as a row of linked blocks, UP record +: " in page["troubles"][0]
     assert not re.search(r"\bnan\b", " ".join([*shown, *held, *page["troubles"]]))
 

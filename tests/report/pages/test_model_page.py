@@ -96,8 +96,8 @@ def test_a_model_that_is_not_adequate_is_ng():
     assert item.chosen_toward_m(Direction.ANY) > 1.1 * item.design_m
     (text,) = model.page(package)["troubles"]
     assert text.startswith("Array A1: the requested model, one axis, gives")
-    assert not package.assessment.ok
-    assert not package.assessment.array_ok(item)
+    assert not package.assessment.verdict.is_permitted
+    assert not package.assessment.array_verdict(item).is_permitted
 
 
 def test_a_neglected_vertical_component_has_its_exact_effect():
@@ -159,7 +159,7 @@ def test_a_block_that_lifts_off_has_no_error_and_no_limit_of_demand():
     lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
     page = model.page(scene((*stand_in.motions(3, seconds=4.0), lifted)))
     rows = [texts(row) for row in page["table"].rows]
-    assert any(row[4] == "no limit" and row[6] == "no value" for row in rows)
+    assert any(row[4] == "no limit" and row[6] == "none" for row in rows)
     assert "uplift occurs" in " ".join(page["sentences"])
     assert not re.search(r"\bnan\b", " ".join(map(str, rows)))
 
@@ -188,8 +188,8 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     made = stand_in.book(data, stand_in.motions(3, seconds=6.0))
     package = package_data(stand_in.assessed(made))
     assert package.assessment.arrays[0].tipping.ratio > 1.0
-    assert not package.assessment.ok
-    assert not package.assessment.array_ok(package.assessment.arrays[0])
+    assert not package.assessment.verdict.is_permitted
+    assert not package.assessment.array_verdict(package.assessment.arrays[0]).is_permitted
     assert "begins to tip" in " ".join(troubles(package))
     assert ">NG<" in texts(model.page(package)["stability"].rows[0])[7]
 

@@ -1,5 +1,6 @@
 """results.xlsx: its formulas, evaluated here independently, give its values."""
 
+import datetime as dt
 import io
 import re
 
@@ -118,7 +119,7 @@ def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets(usual):
 def test_a_row_without_a_value_is_ng_in_the_workbook():
     data = stand_in.project(links=[stand_in.links("A1", "0.40, 0.50", 50)])
     _, values = made(stand_in.book(data, stand_in.motions(2, seconds=8.0)))
-    assert [values["Links"][f"{c}5"].value for c in "ALO"] == ["A1", "no value", "NG"]
+    assert [values["Links"][f"{c}5"].value for c in "ALO"] == ["A1", "none", "NG"]
 
 
 def test_the_prescriptive_value_is_a_live_formula(usual):
@@ -128,7 +129,15 @@ def test_the_prescriptive_value_is_a_live_formula(usual):
 
 
 def test_a_clearance_follows_from_the_runs_through_its_direction():
-    book = stand_in.book(stand_in.project(options={"peer_reviewed": True}))
+    options = {
+        "peer_reviewed": True,
+        "directional": True,
+        "directional_reason": "test",
+        "directional_reviewer": "Reviewer of record",
+        "directional_license": "CA S0000",
+        "directional_date": dt.date(2026, 3, 1),
+    }
+    book = stand_in.book(stand_in.project(options=options))
     formulas, values = made(book)
     gap = stand_in.assessed(book).clearances[3]
     assert (gap.governing_array, gap.governing_direction) == ("A3", Direction.UP)
@@ -149,6 +158,15 @@ def test_a_clearance_follows_from_the_runs_through_its_direction():
     assert formulas["Peaks"][f"D{peaks[1]}"].value.startswith("=MAX(Runs!")
 
 
+def test_a_clearance_takes_the_full_displacement_of_the_sheet_design():
+    book = stand_in.book()
+    formulas, values = made(book)
+    gap = stand_in.assessed(book).clearances[3]
+    assert values["Clearances"]["E8"].value == "A3, any"
+    assert formulas["Clearances"]["F8"].value == "=Design!$N$7"
+    assert values["Design"]["N7"].value == pytest.approx(gap.design_m / 0.0254)
+
+
 def test_the_model_of_every_run_is_listed(usual):
     _, values = usual
     head, first, *_ = values["Runs"].iter_rows(values_only=True)
@@ -158,9 +176,9 @@ def test_the_model_of_every_run_is_listed(usual):
 
 
 def test_without_a_value_the_workbook_states_no_value_and_ng():
-    _, values = made(stand_in.book(shaking=stand_in.motions(2)))
-    assert values["Design"]["N5"].value == "no value"
-    assert values["Clearances"]["I5"].value == "no value"
+    _, values = made(stand_in.book(stand_in.steep(), stand_in.motions(2)))
+    assert values["Design"]["N5"].value == "none"
+    assert values["Clearances"]["I5"].value == "none"
     assert values["Clearances"]["M5"].value == "NG"
 
 

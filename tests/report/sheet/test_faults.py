@@ -176,14 +176,14 @@ CONTRADICTIONS = [
             " or higher (ASCE 7 section 11.6)"
         ],
     ),
-    ({"Site!B13": None}, ["Site!B13: S_DS is missing; give S_DS, or both S_S and F_a"]),
+    ({"Site!B13": None}, ["Site!B13: S_DS is missing; give S_DS, S_MS, or both S_S and F_a"]),
     (
         {"Site!B13": None, "Site!B8": 1.97},
-        ["Site!B11: F_a is missing; give S_DS, or both S_S and F_a"],
+        ["Site!B11: F_a is missing; give S_DS, S_MS, or both S_S and F_a"],
     ),
     (
         {"Site!B13": None, "Site!B11": 1.2},
-        ["Site!B8: S_S is missing; give S_DS, or both S_S and F_a"],
+        ["Site!B8: S_S is missing; give S_DS, S_MS, or both S_S and F_a"],
     ),
     (
         {"Site!B8": 1.97, "Site!B11": 1.2},
@@ -299,8 +299,8 @@ CONTRADICTIONS = [
         ],
     ),
     (
-        {"Options!B15": 5},
-        ["Options!B16: longest scaling period is 5 s; give more than the shortest, 5 s"],
+        {"Options!B23": 5},
+        ["Options!B24: longest scaling period is 5 s; give more than the shortest, 5 s"],
     ),
     (
         {"Motions!H8": "target spectrum", "Motions!P8": 0.5},
@@ -313,15 +313,15 @@ CONTRADICTIONS = [
         {"Motions!H8": "target spectrum", "Motions!L8": "ground", "Building!B6": 0.5},
         [
             "Site!B12: F_v is missing; Motions!H8 scales a ground motion to the design spectrum,"
-            " which requires S_1, F_v and T_L",
-            "Options!B14: long-period transition T_L is missing; Motions!H8 scales a ground motion"
-            " to the design spectrum, which requires S_1, F_v and T_L",
+            " which requires S_D1, or S_1 and F_v, and T_L",
+            "Options!B22: long-period transition T_L is missing; Motions!H8 scales a ground motion"
+            " to the design spectrum, which requires S_D1, or S_1 and F_v, and T_L",
         ],
     ),
     (
-        {"Options!B14": 0.5, "Site!B12": 1.7},
+        {"Options!B22": 0.5, "Site!B12": 1.7},
         [
-            "Options!B14: long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS ="
+            "Options!B22: long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS ="
             " 0.507 s"
         ],
     ),
@@ -333,8 +333,8 @@ CONTRADICTIONS = [
         ],
     ),
     (
-        {f"Options!{c}27": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
-        ["Options!B27: provision is 'parapet_height_in', already given at Options!B26; delete one"],
+        {f"Options!{c}35": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
+        ["Options!B35: provision is 'parapet_height_in', already given at Options!B34; delete one"],
     ),
 ]
 
@@ -354,9 +354,9 @@ def typed(changes):
 
 
 def test_an_unknown_provision_is_reported_with_the_valid_ones(tmp_path):
-    path = edit(make(tmp_path), typed({"Options!B26": "parapet"}))
+    path = edit(make(tmp_path), typed({"Options!B34": "parapet"}))
     (line,) = problems(path)
-    assert line.startswith("Options!B26: provision is 'parapet'; choose one of prescriptive_fac")
+    assert line.startswith("Options!B34: provision is 'parapet'; choose one of prescriptive_fac")
 
 
 def test_all_errors_are_reported_together_in_the_order_of_the_sheets(tmp_path):

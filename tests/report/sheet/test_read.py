@@ -180,7 +180,7 @@ CHANGES = {
     "a date as text": lambda book: book["Project"].__setitem__("B11", "2026-03-05"),
     "a number as a text": lambda book: book["Project"].__setitem__("B12", 1),
     "a logical value for a yes": lambda book: book["Options"].__setitem__("B6", True),
-    "notes beside the table": lambda book: book["Arrays"].__setitem__("V9", "ask the client"),
+    "notes beside the table": lambda book: book["Arrays"].__setitem__("Z9", "ask the client"),
     "notes far to the right": lambda book: book["Arrays"].__setitem__("GR9", "ask the client"),
     "a name in other capitals": lambda book: setattr(
         book["Arrays"].tables["arrays_table"], "displayName", "ARRAYS_TABLE"
@@ -220,11 +220,11 @@ def test_a_blank_choice_takes_its_default(tmp_path):
 
 def test_an_unknown_heading_is_listed_in_the_echo(tmp_path):
     def change(book):
-        book["Arrays"]["T7"], book["Arrays"]["T8"] = "Color", "black"
+        book["Arrays"]["X7"], book["Arrays"]["X8"] = "Color", "black"
 
     book = read_workbook(edit(make(tmp_path), change))
     (row,) = [row for row in book.echo if row.value.startswith("not an input")]
-    assert (row.sheet, row.cell, row.label) == ("Arrays", "T7", "column 'Color'")
+    assert (row.sheet, row.cell, row.label) == ("Arrays", "X7", "column 'Color'")
 
 
 def test_every_cell_is_echoed_as_typed_and_as_used(path):

@@ -128,7 +128,7 @@ def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank):
 
 def test_overrides_offer_the_provisions(blank):
     book = blank[1]
-    target = validation(book["Options"], "B26").formula1
+    target = validation(book["Options"], "B34").formula1
     first = target.split("!")[1].split(":")[0].replace("$", "")
     assert book["Provisions"][first].value == "prescriptive_factor_in"
 
@@ -186,7 +186,7 @@ def test_a_project_with_many_arrays_gets_a_larger_table(tmp_path):
     array = project().arrays[0].model_dump()
     arrays = [array | {"id": f"A{i}"} for i in range(40)]
     book = load_workbook(make(tmp_path, arrays=arrays, clearances=[]))
-    assert book["Arrays"].tables["arrays_table"].ref == "B7:S52"
+    assert book["Arrays"].tables["arrays_table"].ref == "B7:W52"
 
 
 def test_a_text_that_looks_like_a_formula_is_written_as_text(tmp_path):

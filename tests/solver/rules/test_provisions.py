@@ -1,11 +1,14 @@
 """Code rules against published permit calculations and the paper."""
 
+import csv
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from solver.model import InputError
+from solver.rules.hazard import EDITIONS
 from solver.rules.provisions import (
     RULE_SETS,
     Basis,
@@ -13,6 +16,7 @@ from solver.rules.provisions import (
     analysis_checks,
     analysis_value,
     array_checks,
+    interconnection_strength_n,
     parapet_qualifies,
     prescriptive_checks,
     prescriptive_displacement,
@@ -21,12 +25,57 @@ from solver.rules.provisions import (
 from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
 
 PV1, A16, A22 = (RULE_SETS[name] for name in ("SEAOC PV1-2012", "ASCE 7-16", "ASCE 7-22"))
+E16, E22 = EDITIONS["ASCE 7-16"], EDITIONS["ASCE 7-22"]
 INCH = 0.0254
+TABLE = Path(__file__).parents[2] / "data" / "provisions.csv"
 
 
 def prescriptive_in(rules, s_ds, sdc="D", importance=1.0):
     displacement = prescriptive_displacement(rules, s_ds_g=s_ds, sdc=sdc, importance=importance)
     return displacement.value_m / INCH
+
+
+def _rows():
+    with TABLE.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.mark.parametrize(("rules", "column"), [(PV1, "pv1"), (A16, "asce7_16"), (A22, "asce7_22")])
+def test_every_number_and_mark_is_that_of_the_table_of_provisions(rules, column):
+    rows = {row["key"]: row for row in _rows() if row[column]}
+    assert set(rules.values) == set(rows)
+    for key, row in rows.items():
+        value, provision = row[column], rules.values[key]
+        if ":" in value:
+            rise, run = map(float, value.split(":"))
+            value = math.degrees(math.atan(rise / run))
+        assert provision.value == pytest.approx(float(value), rel=1e-12), key
+        assert provision.confidence.value == row[f"{column}_mark"], key
+        if column == "pv1":
+            assert provision.clause == row["pv1_clause"], key
+
+
+def test_the_separations_of_a_published_table():
+    delta = prescriptive_displacement(PV1, s_ds_g=1.0, sdc="D", importance=1.25).value_m
+    inches = [
+        f"{required_separation(PV1, kind, design_m=delta, importance=importance) / INCH:.1f}"
+        for kind, importance in (
+            (Neighbor.LIKE, 1.0),
+            (Neighbor.FIXED, 1.0),
+            (Neighbor.PARAPET, 1.25),
+            (Neighbor.EDGE, 1.25),
+        )
+    ]
+    assert inches == ["10.8", "21.6", "27.0", "40.5"]
+
+
+def test_the_interconnection_strength_of_a_published_table():
+    """W1,max = min(F / (0.133 S_DS), F / 0.1) for strengths of 358 lb and 110 lb."""
+    for strength, weight in ((358.0, 2691.7), (110.0, 827.1)):
+        required = interconnection_strength_n(PV1, s_ds_g=1.0, w1_n=weight)
+        assert f"{required:.1f}" == f"{strength:.1f}"
+    assert interconnection_strength_n(PV1, s_ds_g=0.751, w1_n=1.0) == 0.1
+    assert interconnection_strength_n(PV1, s_ds_g=0.752, w1_n=1.0) > 0.1
 
 
 def test_the_papers_example_gives_81_6_inches_and_2070_mm():
@@ -74,7 +123,7 @@ def test_the_importance_factor_enters_once_in_each_rule_set():
 
 
 def test_an_edge_without_parapet_needs_at_least_four_feet_in_asce_7():
-    for rules, expected in ((PV1, 0.2), (A16, 4 * 0.3048)):
+    for rules, expected in ((PV1, 0.15), (A16, 4 * 0.3048)):
         separation_m = required_separation(rules, Neighbor.EDGE, design_m=0.1, importance=1.0)
         assert separation_m == pytest.approx(expected, rel=1e-12)
 
@@ -135,15 +184,48 @@ def test_friction_required_rises_with_slope_in_asce_7():
 def test_a_check_of_nan_never_passes():
     assert not prescriptive_checks(PV1, slope_rad=math.nan, mu=math.nan)[0].ok
     assert not prescriptive_checks(PV1, slope_rad=0.0, mu=math.nan)[1].ok
-    assert not analysis_checks(PV1, slope_rad=0.0, n_motions=2)[1].ok
+    assert not analysis_checks(PV1, slope_rad=0.0, n_motions=2, sdc="D", is_reviewed=False)[1].ok
 
 
 def test_low_profile_is_the_lesser_of_36_inches_and_half_the_support():
     limits = [
-        array_checks(PV1, cg_height_m=0.3, support_spacing_m=spacing)[0].limit / INCH
-        for spacing in (40 * INCH, 100 * INCH)
+        array_checks(
+            rules,
+            cg_height_m=0.3,
+            support_spacing_m=spacing * INCH,
+            base_m=base * INCH,
+            slope_rad=0.0,
+        )[0].limit
+        / INCH
+        for rules, spacing, base in ((PV1, 40, 60), (A16, 40, 60), (PV1, 40, 100), (A16, 90, 60))
     ]
-    assert limits == pytest.approx([20.0, 36.0], rel=1e-12)
+    assert limits == pytest.approx([30.0, 20.0, 36.0, 36.0], rel=1e-12)
+
+
+@pytest.mark.parametrize("rules", [PV1, A16, A22])
+def test_one_in_twelve_of_the_ibc_limits_every_rule_set(rules):
+    def check(rise):
+        return array_checks(
+            rules, cg_height_m=0.1, support_spacing_m=1.0, base_m=1.0, slope_rad=math.atan(rise)
+        )[1]
+
+    assert check(1 / 12).ok
+    assert not check(1 / 12 + 1e-6).ok
+    assert check(0.0).provision.clause == "IBC 1613.3"
+
+
+def test_asce_7_permits_steeper_roofs_in_low_sdc_with_peer_review_alone():
+    slope = math.atan(0.07)
+    for rules, sdc, is_reviewed, ok in (
+        (A16, "C", True, True),
+        (A16, "C", False, False),
+        (A16, "D", True, False),
+        (PV1, "D", False, True),
+    ):
+        check = analysis_checks(
+            rules, slope_rad=slope, n_motions=7, sdc=sdc, is_reviewed=is_reviewed
+        )[0]
+        assert check.ok is ok
 
 
 def test_a_parapet_must_clear_the_roof_and_the_centre_of_gravity():
@@ -164,7 +246,7 @@ def test_an_override_replaces_one_number_and_keeps_its_reason():
 
 
 def test_the_ac156_spectrum_is_straight_on_log_axes():
-    spectrum = ac156_horizontal(A16, s_ds_g=1.0, z_over_h=1.0)
+    spectrum = ac156_horizontal(E16, s_ds_g=1.0, z_over_h=1.0)
     freq = np.array([0.1, 0.2, 0.5, 1, 1.3, 8.3, 10, 15, 20, 33.3, 50])
     expected = [
         0.1600, 0.2981, 0.6786, 1.2642, 1.6, 1.6, 1.5394, 1.4155, 1.3336, 1.2, 1.2,
@@ -173,17 +255,17 @@ def test_the_ac156_spectrum_is_straight_on_log_axes():
 
 
 def test_ac156_accelerations_at_the_roof_of_published_sites():
-    spectrum = ac156_horizontal(A16, s_ds_g=1.26, z_over_h=1.0)
+    spectrum = ac156_horizontal(E16, s_ds_g=1.26, z_over_h=1.0)
     assert [round(v, 2) for v in spectrum.sa_g[[1, 3]]] == [2.02, 1.51]
-    edition_22 = ac156_horizontal(A22, s_ds_g=1.0, z_over_h=1.0)
+    edition_22 = ac156_horizontal(E22, s_ds_g=1.0, z_over_h=1.0)
     assert edition_22.sa_g[[1, 3]] == pytest.approx([1.6, 0.4 * 3.5 / 1.3], rel=1e-12)
-    assert ac156_horizontal(A22, s_ds_g=1.0, z_over_h=0.0).sa_g[[1, 3]].tolist() == [1.0, 0.4]
+    assert ac156_horizontal(E22, s_ds_g=1.0, z_over_h=0.0).sa_g[[1, 3]].tolist() == [1.0, 0.4]
     assert ac156_vertical(s_ds_g=1.0).sa_g[[1, 3]] == pytest.approx([0.67, 0.27], rel=1e-12)
 
 
 def test_the_reciprocal_tail_falls_as_one_over_the_period_beyond_0_77_s():
     for of in (
-        lambda tail: ac156_horizontal(A16, s_ds_g=1.0, z_over_h=1.0, tail=tail),
+        lambda tail: ac156_horizontal(E16, s_ds_g=1.0, z_over_h=1.0, tail=tail),
         lambda tail: ac156_vertical(s_ds_g=1.0, tail=tail),
     ):
         line, reciprocal = of(Tail.AC156), of(Tail.RECIPROCAL)

@@ -1,0 +1,260 @@
+"""Requirements beside the numeric limits: what is not on file, not stated or close to a limit.
+
+Each row says what its lack leads to. Read `project_rows` and `array_rows`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.friction_rows import friction_rows
+from report.assessment.neighbors import PlanNeighbor
+from report.assessment.verdict import Consequence, Row
+from report.motions.history import PreparedMotion
+from report.sheet.schema import ProjectInput
+from report.words.units import Quantity, number, pair
+from solver.records.acceptance import Acceptance
+from solver.records.acceptance_row import AcceptanceRow
+from solver.rules.hazard import HazardBasis, site_specific_reason
+
+DRIFT_M = 0.010
+"""Final displacement of a record [m] above which it drifts."""
+
+FIRE_LANE_M = 150 * 0.3048
+"""Largest plan dimension of an array between fire lanes [m]."""
+
+NOT_GIVEN = "not given"
+
+
+def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tuple[Row, ...]:
+    """Return the rows of the whole project and of its motions."""
+    return (*_peer_review(data), *_hazard(data), *_drift(data, prepared))
+
+
+def _peer_review(data: ProjectInput) -> Iterator[Row]:
+    options = data.options
+    if not options.peer_reviewed:
+        return
+    parts = (
+        ("reviewer", options.peer_reviewer),
+        ("license", options.peer_license),
+        ("date", options.peer_date),
+    )
+    missing = [name for name, value in parts if not value]
+    yield Row(
+        id="peer_review",
+        title="Peer review, which removes the floor",
+        found=f"{' and '.join(missing)} {NOT_GIVEN}"
+        if missing
+        else f"{options.peer_reviewer}, {options.peer_license}, {options.peer_date}",
+        limit="reviewer, license and date",
+        basis=data.site.rule_set,
+        is_satisfied=not missing,
+        consequence=Consequence.CONDITION,
+        remedy="Without peer review the floor applies: give reviewer, license and date.",
+    )
+
+
+def _hazard(data: ProjectInput) -> Iterator[Row]:
+    site = data.site
+    reason = site_specific_reason(
+        site.edition,
+        site_class=site.site_class.value if site.site_class else "",
+        s_s_g=site.s_s_g,
+        s_1_g=site.s_1_g,
+    )
+    if not reason:
+        return
+    yield Row(
+        id="site_specific_hazard",
+        title=f"Hazard analysis for {reason}",
+        found=site.hazard.value,
+        limit="site-specific analysis or exception",
+        basis=site.edition.clause("site_specific"),
+        is_satisfied=site.hazard is not HazardBasis.MAPPED,
+        consequence=Consequence.CONDITION,
+        remedy="S_DS and S_D1 are mapped values: obtain a site-specific hazard analysis, or state "
+        "the exception that applies.",
+    )
+
+
+def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Row]:
+    us_first = data.project.units_first == "US"
+    limit = pair(DRIFT_M, Quantity.DISPLACEMENT, us_first)
+    for motion in prepared:
+        largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
+        if drifts(motion):
+            yield Row(
+                id="drift",
+                title="Final displacement of the record",
+                subject=motion.motion_id,
+                found=pair(largest, Quantity.DISPLACEMENT, us_first),
+                limit=f"≤ {limit}",
+                basis="limit of this program",
+                is_satisfied=False,
+                consequence=Consequence.CONDITION,
+                remedy="Drift of a record becomes slip: correct its baseline, or show that the "
+                "displacement is real.",
+            )
+
+
+def motion_rows(acceptance: Acceptance, arrays: Sequence[ArrayAssessment]) -> tuple[Row, ...]:
+    """Return the limits on the motions that they miss.
+
+    What makes a value from analysis NG is a condition where no array takes that value.
+    """
+    takes_analysis = any(item.route is Route.ANALYSIS for item in arrays)
+    return tuple(_motion_row(missed, takes_analysis=takes_analysis) for missed in acceptance.missed)
+
+
+def _motion_row(missed: AcceptanceRow, *, takes_analysis: bool) -> Row:
+    is_ng = missed.consequence.value == Consequence.NG.value
+    unit = " s" if missed.unit == "s" else ""
+    sign = "≥" if missed.is_at_least else "≤"
+    return Row(
+        id="motions",
+        title=missed.title,
+        found=f"{missed.found:.4g}{unit}" + (f" ({missed.worst})" if missed.worst else ""),
+        limit=f"{sign} {missed.limit:g}{unit}",
+        basis="limit of this program" if missed.is_ours else "motions for analysis",
+        is_satisfied=False,
+        consequence=Consequence.NG if is_ng and takes_analysis else Consequence.CONDITION,
+        remedy=_motion_remedy(is_ng, takes_analysis),
+    )
+
+
+def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
+    if not is_ng:
+        return "Show that the motions are strong for long enough, or replace them."
+    if takes_analysis:
+        return "Without it there is no value from analysis: replace or complete the motions."
+    return "The design displacements are prescriptive; the analysis is for information."
+
+
+def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Row, ...]:
+    """Return what the plan shows near an array and no clearance covers, or contradicts."""
+    us_first = data.project.units_first == "US"
+    return tuple(
+        Row(
+            id="neighbors",
+            title=f"Clearance {neighbor.array} to {neighbor.other}",
+            subject=neighbor.array,
+            found=NOT_GIVEN if neighbor.is_missing else "contradicts the plan",
+            limit="given, as in the plan",
+            basis="roof plan",
+            is_satisfied=False,
+            consequence=Consequence.CONDITION,
+            remedy=f"{text}.",
+        )
+        for neighbor in nearby
+        for text in neighbor.shortcomings(us_first)
+    )
+
+
+def friction_test_rows(data: ProjectInput) -> tuple[Row, ...]:
+    """Return the rows on the friction tests."""
+    return tuple(
+        Row(
+            id="friction_tests",
+            title=row.title,
+            found=row.found,
+            limit=row.limit,
+            basis="friction tests",
+            is_satisfied=row.satisfied,
+            consequence=Consequence.CONDITION,
+            remedy="Obtain the friction test report and complete the sheet Friction tests.",
+        )
+        for row in friction_rows(data)
+    )
+
+
+def drifts(prepared: PreparedMotion) -> bool:
+    """Whether any component of a motion ends away from where it began."""
+    return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
+
+
+def array_rows(data: ProjectInput, assessed: ArrayAssessment) -> tuple[Row, ...]:
+    """Return the rows of an array."""
+    return (
+        *_fire_lanes(data, assessed),
+        _interconnection(data, assessed),
+        _slack(data, assessed),
+    )
+
+
+def _fire_lanes(data: ProjectInput, assessed: ArrayAssessment) -> Iterator[Row]:
+    us_first = data.project.units_first == "US"
+    plan = assessed.array.rectangle
+    largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
+    yield Row(
+        id="fire_lanes",
+        title="Largest plan dimension between fire lanes",
+        subject=assessed.array.id,
+        found=pair(largest, Quantity.PLAN, us_first),
+        limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, us_first)}",
+        basis="fire code†",
+        is_satisfied=largest <= FIRE_LANE_M * (1.0 + 1e-9),
+        consequence=Consequence.CONDITION,
+        remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
+    )
+
+
+def _interconnection(data: ProjectInput, assessed: ArrayAssessment) -> Row:
+    us_first = data.project.units_first == "US"
+    provided, required = assessed.array.interconnection_n, assessed.interconnection_n
+    return Row(
+        id="interconnection",
+        title="Interconnection strength provided",
+        subject=assessed.array.id,
+        found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first),
+        limit=f"≥ {pair(required, Quantity.WEIGHT, us_first)}",
+        basis=data.site.rule_set,
+        is_satisfied=provided is not None and provided >= required,
+        consequence=Consequence.CONDITION if provided is None else Consequence.NG,
+        remedy="Show that the racking provides the required strength between its parts.",
+    )
+
+
+def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
+    us_first = data.project.units_first == "US"
+    provided, design = assessed.array.slack_m, assessed.design_m
+    has_value = not math.isnan(design)
+    return Row(
+        id="electrical_slack",
+        title="Electrical slack provided",
+        subject=assessed.array.id,
+        found=NOT_GIVEN if provided is None else pair(provided, Quantity.SIZE, us_first),
+        limit=f"≥ {pair(design, Quantity.DISPLACEMENT, us_first) if has_value else 'none'}",
+        basis="design displacement",
+        is_satisfied=provided is not None and has_value and provided >= design,
+        consequence=Consequence.CONDITION if provided is None else Consequence.NG,
+        remedy="Provide wiring slack of at least the design displacement.",
+    )
+
+
+def friction_row(given: ClearanceCheck, less: ClearanceCheck, share: float) -> Row:
+    """Return whether a clearance that is satisfied stays so with less friction.
+
+    Parameters
+    ----------
+    share : float
+        Fraction by which the friction coefficients are smaller in `less`.
+    """
+    changes = given.ok and not less.ok
+    row = given.clearance
+    percent = number(100.0 * share, 0)
+    return Row(
+        id="less_friction",
+        title=f"Clearance {row.array} to {row.object} with {percent} % less friction",
+        subject=row.array,
+        found=less.verdict.value,
+        limit=given.verdict.value,
+        basis="sensitivity",
+        is_satisfied=not changes,
+        consequence=Consequence.CONDITION,
+        remedy=f"With {percent} % less friction this clearance is NG: confirm the friction "
+        "coefficient, or provide more clearance.",
+    )

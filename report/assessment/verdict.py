@@ -1,0 +1,75 @@
+"""The three verdicts, and the rows that lead to them beside the numeric limits of the rule set.
+
+Which row leads to which verdict is stated where the row is made. Read `Row`, then `worst`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Verdict(StrEnum):
+    """Verdict on a project, an array or a clearance."""
+
+    OK = "OK"
+    CONDITIONS = "OK with conditions"
+    NG = "NG"
+
+    @property
+    def is_permitted(self) -> bool:
+        """Whether it is not NG."""
+        return self is not Verdict.NG
+
+
+class Consequence(StrEnum):
+    """What a row that is not satisfied leads to."""
+
+    NG = "NG"
+    CONDITION = "condition"
+
+
+_BY_CONSEQUENCE = {Consequence.NG: Verdict.NG, Consequence.CONDITION: Verdict.CONDITIONS}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """A requirement compared with the project.
+
+    Attributes
+    ----------
+    id : str
+        Key in results.json.
+    title, found, limit : str
+        As printed.
+    subject : str
+        Id of the array or motion that it concerns; empty for the project.
+    basis : str
+        Document and clause, or whose practice it is.
+    is_satisfied : bool
+    consequence : Consequence
+        Where it is not satisfied.
+    remedy : str
+        What the engineer must do where it is not satisfied, as a sentence.
+    """
+
+    id: str
+    title: str
+    found: str
+    limit: str
+    basis: str
+    is_satisfied: bool
+    consequence: Consequence
+    subject: str = ""
+    remedy: str = ""
+
+    @property
+    def verdict(self) -> Verdict:
+        """Verdict of this row alone."""
+        return Verdict.OK if self.is_satisfied else _BY_CONSEQUENCE[self.consequence]
+
+
+def worst(verdicts: Iterable[Verdict]) -> Verdict:
+    """Return the most severe verdict; OK for none."""
+    return max(verdicts, key=list(Verdict).index, default=Verdict.OK)

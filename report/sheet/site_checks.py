@@ -1,0 +1,166 @@
+"""Checks of the site: seismic parameters against each other, the edition, and the SDC.
+
+Each fault names the cell to change. Read `site_faults`; `checks` calls it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
+from report.sheet.schema import RiskCategory, SiteClass, edition_of
+from solver.rules import hazard
+from solver.rules.hazard import Edition, SeismicParameters
+
+LEAST_I_E = {
+    RiskCategory.I: 1.0,
+    RiskCategory.II: 1.0,
+    RiskCategory.III: 1.25,
+    RiskCategory.IV: 1.5,
+}
+# Difference allowed between a value from a permit sheet, rounded to three decimals or truncated to
+# two, and the same from other cells.
+AGREES_G = 0.0051
+
+# Names at the short period and at 1 s: mapped, coefficient, maximum considered, design.
+_CHAINS = (
+    (("s_s_g", "S_S"), ("f_a", "F_a"), ("s_ms_g", "S_MS"), ("s_ds_g", "S_DS")),
+    (("s_1_g", "S_1"), ("f_v", "F_v"), ("s_m1_g", "S_M1"), ("s_d1_g", "S_D1")),
+)
+
+
+def site_faults(draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield inconsistencies of the site."""
+    for row in draft["site"]:
+        yield from _importance(row)
+        edition = edition_of_row(row)
+        if edition is None:
+            continue
+        yield from _edition(row, edition)
+        yield from _missing_s_ds(row, edition)
+        for chain in _CHAINS:
+            yield from _agreement(row, edition, chain)
+        yield from _default_site_class(row, edition)
+        yield from _sdc(row)
+
+
+def edition_of_row(row: DraftRow) -> Edition | None:
+    """Return the edition of a draft of the site; None if it cannot be determined."""
+    if "rule_set" not in row or "edition_name" not in row:
+        return None
+    return edition_of(row["rule_set"], row["edition_name"])
+
+
+def site_parameters(row: DraftRow) -> SeismicParameters | None:
+    """Return the parameters of a draft of the site; None if a cell could not be read."""
+    edition = edition_of_row(row)
+    names = [name for chain in _CHAINS for name, _ in chain]
+    if edition is None or any(name not in row for name in names):
+        return None
+    values = {name.removesuffix("_g"): row[name] for name in names}
+    return hazard.seismic_parameters(edition, **values)
+
+
+def _importance(row: DraftRow) -> Iterator[Fault]:
+    risk_category, i_e = row.get("risk_category"), row.get("i_e")
+    if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
+        return
+    yield Fault(
+        Place("site", 0, "i_e"),
+        f"importance factor I_e is {i_e:g}; give at least {LEAST_I_E[risk_category]:g} for risk"
+        f" category {risk_category}",
+    )
+
+
+def _edition(row: DraftRow, edition: Edition) -> Iterator[Fault]:
+    """Yield an edition that contradicts the rule set, and coefficients that it does not have."""
+    rule_set = row["rule_set"]
+    if rule_set in hazard.EDITIONS and rule_set != edition.name:
+        text = f"edition of ASCE 7 is '{edition.name}', but the rule set is '{rule_set}'"
+        yield Fault(Place("site", 0, "edition_name"), f"{text}; leave it blank, or correct one")
+    if edition.has_site_coefficients:
+        return
+    for field, label, wanted in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
+        if row.get(field) is not None:
+            text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients; leave"
+            yield Fault(
+                Place("site", 0, field), f"{text} it blank and give {wanted} from a hazard tool"
+            )
+
+
+def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Fault]:
+    parameters = site_parameters(row)
+    if parameters is None or parameters.s_ds is not None:
+        return
+    has_coefficients = edition.has_site_coefficients
+    missing = [n for n in ("s_s_g", "f_a") if row[n] is None] if has_coefficients else []
+    field = missing[0] if len(missing) == 1 else "s_ds_g"
+    label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
+    wanted = "give S_DS, S_MS, or both S_S and F_a" if has_coefficients else "give S_DS or S_MS"
+    yield Fault(Place("site", 0, field), f"{label} is missing; {wanted}")
+
+
+def _agreement(
+    row: DraftRow, edition: Edition, chain: tuple[tuple[str, str], ...]
+) -> Iterator[Fault]:
+    """Yield a value that differs from the same derived from other cells of its chain."""
+    mapped, coefficient, maximum, design = (row.get(name) for name, _ in chain)
+    (_, mapped_label), (_, factor_label), (maximum_name, maximum_label) = chain[:3]
+    design_name, design_label = chain[3]
+    product = None
+    if edition.has_site_coefficients and mapped is not None and coefficient is not None:
+        product = coefficient * mapped
+    factors = f"{factor_label} {mapped_label}"
+    for name, label, given, words, derived in (
+        (maximum_name, maximum_label, maximum, factors, product),
+        (design_name, design_label, design, f"2/3 {maximum_label}", _design(maximum)),
+        (design_name, design_label, design, f"2/3 {factors}", _design(product)),
+    ):
+        if given is not None and derived is not None and abs(given - derived) > AGREES_G:
+            text = f"{label} is {given:g} g, but {words} is {derived:.4f} g; leave one of them"
+            yield Fault(Place("site", 0, name), f"{text} blank, or correct it")
+            return
+
+
+def _design(maximum_g: float | None) -> float | None:
+    return None if maximum_g is None else 2.0 / 3.0 * maximum_g
+
+
+def _default_site_class(row: DraftRow, edition: Edition) -> Iterator[Fault]:
+    f_a, site_class = row.get("f_a"), row.get("site_class")
+    least = hazard.LEAST_F_A_BY_DEFAULT
+    if f_a is None or site_class is not SiteClass.D_DEFAULT or f_a >= least:
+        return
+    if edition.has_site_coefficients:
+        yield Fault(
+            Place("site", 0, "f_a"),
+            f"F_a is {f_a:g}; give at least {least:g} for site class '{site_class}' ({edition.name}"
+            " 11.4.4)",
+        )
+
+
+def _sdc(row: DraftRow) -> Iterator[Fault]:
+    sdc, risk_category = row.get("sdc"), row.get("risk_category")
+    parameters = site_parameters(row)
+    if sdc is None or risk_category is None or parameters is None or parameters.s_ds is None:
+        return
+    is_essential = risk_category is RiskCategory.IV
+    s_ds_g, s_d1_g, s_1_g = parameters.s_ds, parameters.s_d1, row["s_1_g"]
+    by_1s = "" if s_d1_g is None else hazard.sdc_1s(s_d1_g, is_essential=is_essential)
+    near_fault = "" if s_1_g is None else hazard.sdc_near_fault(s_1_g, is_essential=is_essential)
+    least, reason, clause = max(
+        (
+            hazard.sdc_short(s_ds_g, is_essential=is_essential),
+            f"S_DS = {s_ds_g:.3f} g",
+            "ASCE 7 Table 11.6-1",
+        ),
+        (by_1s, f"S_D1 = {s_d1_g or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
+        (near_fault, f"S_1 = {s_1_g or 0.0:g} g", "ASCE 7 section 11.6"),
+        key=lambda table: table[0],
+    )
+    if sdc < least:
+        yield Fault(
+            Place("site", 0, "sdc"),
+            f"seismic design category is '{sdc}'; {reason} in risk category {risk_category}"
+            f" requires {least} or higher ({clause})",
+        )

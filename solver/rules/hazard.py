@@ -1,0 +1,267 @@
+"""Seismic design parameters of ASCE 7: ground motion values, SDC, F_p, and AC156's amplification.
+
+The edition of these parameters is independent of the rule set: PV1-2012 is used with any. Read
+`EDITIONS`, then `SeismicParameters`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Amplification:
+    """Ratio of floor to ground acceleration at height z: (1 + slope z/h) / reduction."""
+
+    slope: float
+    reduction: float
+
+    def at(self, z_over_h: float) -> float:
+        """Return the ratio at a relative height z/h; there is no reduction at grade."""
+        return self.height_factor(z_over_h) / (self.reduction if z_over_h > 0.0 else 1.0)
+
+    def height_factor(self, z_over_h: float) -> float:
+        """Return 1 + slope z/h: the factor of ASCE 7-16, H_f of ASCE 7-22 for unknown period."""
+        return 1.0 + self.slope * z_over_h
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Edition:
+    """An edition of ASCE 7, as far as the seismic design parameters of a site depend on it.
+
+    Attributes
+    ----------
+    has_site_coefficients : bool
+        Whether S_MS and S_M1 come from F_a and F_v; otherwise they are read from a hazard tool.
+    amplification : Amplification
+        From ground to roof, in AC156 and in F_p.
+    force_factors : tuple of str
+        Symbols of the factor on F_p and of its divisor.
+    clauses : mapping
+        Clause of each parameter, by the names used here.
+    """
+
+    name: str
+    has_site_coefficients: bool
+    amplification: Amplification
+    force_factors: tuple[str, str]
+    clauses: Mapping[str, str]
+
+    def clause(self, topic: str) -> str:
+        """Return edition and clause, as in `ASCE 7-16 11.4.4`."""
+        return f"{self.name} {self.clauses[topic]}"
+
+
+_COMMON = {
+    "s_ds": "11.4.5",
+    "sdc": "11.6",
+    "sdc_short": "Table 11.6-1",
+    "sdc_1s": "Table 11.6-2",
+    "t_l": "11.4.6",
+    "period": "12.8.2.1",
+    "force": "13.3.1",
+    "importance": "Table 1.5-2",
+    "risk_category": "Table 1.5-1",
+    "site_class": "chapter 20",
+}
+
+EDITIONS: Mapping[str, Edition] = {
+    edition.name: edition
+    for edition in (
+        Edition(
+            name="ASCE 7-16",
+            has_site_coefficients=True,
+            amplification=Amplification(slope=2.0, reduction=1.0),
+            force_factors=("a_p", "R_p"),
+            clauses=_COMMON | {"s_ms": "11.4.4", "site_specific": "11.4.8"},
+        ),
+        Edition(
+            name="ASCE 7-22",
+            has_site_coefficients=False,
+            amplification=Amplification(slope=2.5, reduction=1.3),
+            force_factors=("C_AR", "R_po"),
+            clauses=_COMMON | {"s_ms": "11.4.3", "s_ds": "11.4.4", "site_specific": "11.4.7"},
+        ),
+    )
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeismicParameters:
+    """Ground motion values of a site [g]; None where neither given nor derivable.
+
+    S_MS = F_a S_S, S_M1 = F_v S_1 (ASCE 7-16 11.4.4); S_DS = 2/3 S_MS, S_D1 = 2/3 S_M1.
+    """
+
+    s_ms: float | None
+    s_m1: float | None
+    s_ds: float | None
+    s_d1: float | None
+
+    @property
+    def t_s(self) -> float | None:
+        """T_S = S_D1 / S_DS [s]."""
+        return None if self.s_ds is None or self.s_d1 is None else self.s_d1 / self.s_ds
+
+
+def seismic_parameters(
+    edition: Edition,
+    *,
+    s_s: float | None = None,
+    s_1: float | None = None,
+    f_a: float | None = None,
+    f_v: float | None = None,
+    s_ms: float | None = None,
+    s_m1: float | None = None,
+    s_ds: float | None = None,
+    s_d1: float | None = None,
+) -> SeismicParameters:
+    """Return the parameters of a site, each as given or else derived, unrounded [g].
+
+    A given S_DS without S_MS gives S_MS = 3/2 S_DS, and likewise at 1 s.
+    """
+    s_ms, s_ds = _pair(edition, s_s, f_a, s_ms, s_ds)
+    s_m1, s_d1 = _pair(edition, s_1, f_v, s_m1, s_d1)
+    return SeismicParameters(s_ms=s_ms, s_m1=s_m1, s_ds=s_ds, s_d1=s_d1)
+
+
+def _pair(
+    edition: Edition,
+    mapped: float | None,
+    coefficient: float | None,
+    maximum: float | None,
+    design: float | None,
+) -> tuple[float | None, float | None]:
+    """Return the maximum considered and the design value at one period."""
+    if maximum is None and edition.has_site_coefficients:
+        maximum = None if mapped is None or coefficient is None else coefficient * mapped
+    if maximum is None:
+        return (None if design is None else 1.5 * design), design
+    return maximum, 2.0 / 3.0 * maximum if design is None else design
+
+
+_LIMITS_SHORT_G = (0.167, 0.33, 0.50)
+_LIMITS_1S_G = (0.067, 0.133, 0.20)
+NEAR_FAULT_S_1_G = 0.75
+
+
+def sdc_short(s_ds_g: float, *, is_essential: bool) -> str:
+    """Return the SDC by S_DS (ASCE 7 Table 11.6-1); essential: risk category IV."""
+    return _sdc(s_ds_g, _LIMITS_SHORT_G, is_essential)
+
+
+def sdc_1s(s_d1_g: float, *, is_essential: bool) -> str:
+    """Return the SDC by S_D1 (ASCE 7 Table 11.6-2)."""
+    return _sdc(s_d1_g, _LIMITS_1S_G, is_essential)
+
+
+def sdc_near_fault(s_1_g: float, *, is_essential: bool) -> str:
+    """Return E or F where S_1 is 0.75 g or more (ASCE 7, 11.6); otherwise nothing."""
+    if s_1_g < NEAR_FAULT_S_1_G:
+        return ""
+    return "F" if is_essential else "E"
+
+
+def controlling_sdc(
+    *, s_ds_g: float, s_d1_g: float | None, s_1_g: float | None, is_essential: bool
+) -> str:
+    """Return the most severe category of both tables and of S_1, as far as they are known."""
+    return max(
+        sdc_short(s_ds_g, is_essential=is_essential),
+        "" if s_d1_g is None else sdc_1s(s_d1_g, is_essential=is_essential),
+        "" if s_1_g is None else sdc_near_fault(s_1_g, is_essential=is_essential),
+    )
+
+
+def _sdc(value_g: float, limits_g: tuple[float, float, float], is_essential: bool) -> str:
+    steps = "ACDD" if is_essential else "ABCD"
+    return steps[sum(value_g >= limit for limit in limits_g)]
+
+
+class HazardBasis(StrEnum):
+    """Source of the ground motion values of a site."""
+
+    MAPPED = "mapped values"
+    SITE_SPECIFIC = "site-specific analysis"
+    EXCEPTION = "exception of 11.4.8"
+
+
+def site_specific_reason(
+    edition: Edition, *, site_class: str, s_s_g: float | None, s_1_g: float | None
+) -> str:
+    """Return why a site needs a site-specific hazard analysis; empty if it does not.
+
+    ASCE 7-16 11.4.8: site class F; E with S_S >= 1.0 g or S_1 >= 0.2 g; D with S_1 >= 0.2 g. The
+    multi-period values of ASCE 7-22 leave site class F.
+    """
+    letter = site_class[:1] if site_class in ("D", "D (default)", "E", "F") else ""
+    if letter == "F":
+        return "site class F"
+    if not edition.has_site_coefficients:
+        return ""
+    if letter == "E" and s_s_g is not None and s_s_g >= 1.0:
+        return f"site class E with S_S = {s_s_g:g} g"
+    if letter in ("D", "E") and s_1_g is not None and s_1_g >= 0.2:
+        return f"site class {letter} with S_1 = {s_1_g:g} g"
+    return ""
+
+
+LEAST_F_A_BY_DEFAULT = 1.2
+"""Least F_a where site class D is assumed by default (ASCE 7-16 11.4.4)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComponentForce:
+    """Seismic design force of a nonstructural component / its weight (ASCE 7, 13.3.1)."""
+
+    formula: float
+    largest: float
+    least: float
+
+    @property
+    def value(self) -> float:
+        """F_p / W_p: the formula within its limits."""
+        return min(max(self.formula, self.least), self.largest)
+
+
+def component_force(
+    edition: Edition,
+    *,
+    s_ds_g: float,
+    factor: float,
+    divisor: float,
+    i_p: float,
+    z_over_h: float,
+    period_s: float | None = None,
+) -> ComponentForce:
+    """Return F_p / W_p with its maximum and minimum.
+
+    ASCE 7-16 Eqs. 13.3-1 to 13.3-3: 0.4 a_p S_DS (1 + 2 z/h) / (R_p / I_p); ASCE 7-22:
+    0.4 S_DS I_p (H_f / R_mu) (C_AR / R_po), with H_f = 1 + 2.5 z/h where the period of the building
+    is unknown and R_mu = 1.3 above grade. At most 1.6 S_DS I_p, at least 0.3 S_DS I_p.
+
+    Parameters
+    ----------
+    factor, divisor : float
+        a_p and R_p, or C_AR and R_po.
+    period_s : float, optional
+        T_a of the building; the factor of ASCE 7-16 does not depend on it.
+    """
+    amplified = edition.amplification.at(z_over_h)
+    if period_s is not None and not edition.has_site_coefficients:
+        known, unknown = period_height_factor(z_over_h, period_s), edition.amplification
+        amplified *= known / unknown.height_factor(z_over_h)
+    return ComponentForce(
+        formula=0.4 * s_ds_g * i_p * amplified * factor / divisor,
+        largest=1.6 * s_ds_g * i_p,
+        least=0.3 * s_ds_g * i_p,
+    )
+
+
+def period_height_factor(z_over_h: float, period_s: float) -> float:
+    """Return H_f of ASCE 7-22, 13.3.1.1 for a known period: 1 + a1 (z/h) + a2 (z/h)^10."""
+    a1 = min(1.0 / period_s, 2.5)
+    a2 = max(1.0 - (0.4 / period_s) ** 2, 0.0)
+    return 1.0 + a1 * z_over_h + a2 * z_over_h**10

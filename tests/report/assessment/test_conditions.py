@@ -1,0 +1,87 @@
+"""Requirements beside the numeric limits, and the three verdicts."""
+
+import datetime as dt
+
+import pytest
+
+import stand_in
+from report.assessment.verdict import Consequence, Verdict, worst
+
+STATED = {
+    "peer_reviewer": "Reviewer of record",
+    "peer_license": "CA S0000",
+    "peer_date": dt.date(2026, 3, 1),
+}
+
+
+def assessed(**changes):
+    return stand_in.assess_input(stand_in.project(**changes), stand_in.motions(3, seconds=8.0))
+
+
+def site(**changes):
+    return stand_in.project().site.model_dump() | changes
+
+
+def row(done, key):
+    return next((item for item in done.rows if item.id == key), None)
+
+
+def test_the_worst_verdict_is_ng_and_none_is_ok():
+    assert worst([]) is Verdict.OK
+    assert worst([Verdict.OK, Verdict.CONDITIONS]) is Verdict.CONDITIONS
+    assert worst([Verdict.NG, Verdict.CONDITIONS]) is Verdict.NG
+
+
+@pytest.mark.parametrize("missing", [None, *STATED])
+def test_a_peer_review_without_name_license_and_date_is_a_condition(missing):
+    given = {name: value for name, value in STATED.items() if name != missing}
+    done = assessed(options={"peer_reviewed": True, **given})
+    found = row(done, "peer_review")
+    assert found.is_satisfied is (missing is None)
+    assert found.consequence is Consequence.CONDITION
+    assert row(assessed(), "peer_review") is None
+
+
+@pytest.mark.parametrize(
+    ("hazard", "satisfied"),
+    [("mapped values", False), ("site-specific analysis", True), ("exception of 11.4.8", True)],
+)
+def test_site_class_d_with_a_large_s_1_asks_for_a_hazard_analysis(hazard, satisfied):
+    assert row(assessed(site=site(hazard=hazard)), "site_specific_hazard").is_satisfied is satisfied
+    assert row(assessed(site=site(site_class="C")), "site_specific_hazard") is None
+
+
+def test_fire_lanes_limit_an_array_to_150_feet():
+    def array(to_ft):
+        return stand_in.array("A1", 0.5) | {"x_to_m": to_ft * stand_in.FOOT}
+
+    for to_ft, satisfied in ((170.0, True), (170.1, False)):
+        done = assessed(arrays=[array(to_ft)], clearances=[])
+        assert row(done, "fire_lanes").is_satisfied is satisfied
+
+
+def test_interconnection_and_slack_are_conditions_without_a_value_and_ng_with_too_little():
+    for key, field in (("interconnection", "interconnection_n"), ("electrical_slack", "slack_m")):
+        plain = assessed(arrays=[stand_in.array("A1", 0.5)], clearances=[])
+        item = plain.arrays[0]
+        assert row(plain, key).verdict is Verdict.CONDITIONS
+        needed = item.interconnection_n if key == "interconnection" else item.design_m
+        for factor, verdict in ((1.001, Verdict.OK), (0.999, Verdict.NG)):
+            array = stand_in.array("A1", 0.5) | {field: needed * factor}
+            done = assessed(arrays=[array], clearances=[])
+            assert row(done, key).verdict is verdict
+            assert (done.array_verdict(done.arrays[0]) is Verdict.NG) is (verdict is Verdict.NG)
+
+
+def test_a_clearance_that_five_percent_less_friction_breaks_is_a_condition():
+    options = {"peer_reviewed": True, **STATED}
+    wide = [stand_in.clearance("A1", "RTU-1", 30.0)]
+    given = assessed(options=options, clearances=wide)
+    assert row(given, "less_friction") is None
+    middle = (given.clearances[0].required_m + given.less.clearances[0].required_m) / 2.0
+    gap = [wide[0] | {"provided_m": middle}]
+    done = assessed(options=options, clearances=gap)
+    assert done.clearances[0].ok
+    assert not done.less.clearances[0].ok
+    assert row(done, "less_friction").verdict is Verdict.CONDITIONS
+    assert "5 % less friction" in row(done, "less_friction").remedy

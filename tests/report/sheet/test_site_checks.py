@@ -1,0 +1,82 @@
+"""The seismic parameters of a site against each other, the edition and the design category."""
+
+import pytest
+
+from report.sheet.schema import Site, SiteClass
+from report.sheet.site_checks import site_faults
+
+GIVEN = {
+    "rule_set": "SEAOC PV1-2012",
+    "risk_category": "II",
+    "i_e": 1.0,
+    "s_s_g": 1.271,
+    "s_1_g": 0.455,
+    "site_class": "C",
+    "f_a": 1.2,
+    "f_v": 1.5,
+    "sdc": "D",
+    "stories": 1,
+    "structure_height_m": 9.0,
+    "roof_height_m": 9.0,
+}
+
+
+def faults(**changes):
+    row = Site.model_construct(**Site.model_validate(GIVEN).model_dump() | changes)
+    draft = {"site": [dict(row)]}
+    return [(fault.place.field, fault.text) for fault in site_faults(draft, str)]
+
+
+def test_a_consistent_site_has_no_faults():
+    assert faults() == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "field", "text"),
+    [
+        ({"s_ms_g": 1.6}, "s_ms_g", "S_MS is 1.6 g, but F_a S_S is 1.5252 g; leave one of them"),
+        ({"s_ds_g": 1.03}, "s_ds_g", "S_DS is 1.03 g, but 2/3 F_a S_S is 1.0168 g"),
+        (
+            {"s_s_g": None, "f_a": None, "s_ms_g": 1.5, "s_ds_g": 1.1},
+            "s_ds_g",
+            "S_DS is 1.1 g, but 2/3 S_MS is 1.0000 g",
+        ),
+        ({"s_d1_g": 0.5}, "s_d1_g", "S_D1 is 0.5 g, but 2/3 F_v S_1 is 0.4550 g"),
+        ({"sdc": "C"}, "sdc", "S_DS = 1.017 g in risk category II requires D or higher"),
+        (
+            {"s_s_g": 0.3, "f_a": 1.3, "sdc": "C"},
+            "sdc",
+            "S_D1 = 0.455 g in risk category II requires D or higher (ASCE 7 Table 11.6-2)",
+        ),
+        ({"s_1_g": 0.8}, "sdc", "S_1 = 0.8 g in risk category II requires E or higher"),
+        (
+            {"site_class": SiteClass.D_DEFAULT, "s_s_g": 1.2, "f_a": 1.1},
+            "f_a",
+            "F_a is 1.1; give at least 1.2 for site class 'D (default)' (ASCE 7-16 11.4.4)",
+        ),
+        (
+            {"rule_set": "ASCE 7-22", "edition_name": "ASCE 7-16"},
+            "edition_name",
+            "edition of ASCE 7 is 'ASCE 7-16', but the rule set is 'ASCE 7-22'",
+        ),
+        (
+            {"edition_name": "ASCE 7-22", "f_v": None, "s_ds_g": 1.0},
+            "f_a",
+            "F_a is 1.2, but ASCE 7-22 has no site coefficients; leave it blank and give S_MS",
+        ),
+        (
+            {"edition_name": "ASCE 7-22", "f_a": None, "f_v": None},
+            "s_ds_g",
+            "S_DS is missing; give S_DS or S_MS",
+        ),
+    ],
+)
+def test_an_inconsistency_is_named_at_its_cell(changes, field, text):
+    ((place, said),) = faults(**changes)
+    assert place == field
+    assert text in said
+
+
+def test_edition_22_takes_what_the_hazard_tool_gives():
+    given = {"f_a": None, "f_v": None, "s_ms_g": 1.6, "s_m1_g": 0.9, "s_ds_g": 1.067}
+    assert faults(rule_set="ASCE 7-22", **given) == []

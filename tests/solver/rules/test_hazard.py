@@ -1,0 +1,115 @@
+"""Seismic design parameters against published permit sheets (tests/data, provisions)."""
+
+import pytest
+
+from solver.building.periods import FOOT_M, approximate_period_s
+from solver.rules.hazard import (
+    EDITIONS,
+    component_force,
+    controlling_sdc,
+    period_height_factor,
+    sdc_1s,
+    sdc_near_fault,
+    sdc_short,
+    seismic_parameters,
+    site_specific_reason,
+)
+from solver.rules.spectra import ac156_horizontal, ac156_vertical
+
+E16, E22 = EDITIONS["ASCE 7-16"], EDITIONS["ASCE 7-22"]
+
+
+def test_a_permit_sheet_of_asce_7_16():
+    site = seismic_parameters(E16, s_s=1.271, f_a=1.2, s_1=0.455, f_v=1.845)
+    printed = [f"{value:.3f}" for value in (site.s_ms, site.s_ds, site.s_m1, site.s_d1, site.t_s)]
+    assert printed == ["1.525", "1.017", "0.839", "0.560", "0.550"]
+    assert f"{approximate_period_s('other', 30 * FOOT_M):.3f}" == "0.256"
+    sdc = controlling_sdc(s_ds_g=site.s_ds, s_d1_g=site.s_d1, s_1_g=0.455, is_essential=False)
+    assert sdc == "D"
+
+
+def test_the_component_force_of_a_permit_sheet():
+    force = component_force(E16, s_ds_g=1.0504, factor=1.0, divisor=1.5, i_p=1.0, z_over_h=1.0)
+    printed = [f"{value:.2f}" for value in (force.value, force.largest, force.least)]
+    assert printed == ["0.84", "1.68", "0.32"]
+    assert f"{approximate_period_s('other', 35 * FOOT_M):.3f}" == "0.288"
+
+
+def test_the_component_force_keeps_within_its_limits():
+    for factor, expected in ((0.1, "least"), (10.0, "largest")):
+        force = component_force(E16, s_ds_g=1.0, factor=factor, divisor=1.5, i_p=1.5, z_over_h=1.0)
+        assert force.value == getattr(force, expected)
+    assert force.largest == pytest.approx(2.4)
+    assert force.least == pytest.approx(0.45)
+
+
+def test_the_component_force_of_asce_7_22_takes_the_period_where_it_is_known():
+    given = {"s_ds_g": 1.0, "factor": 1.0, "divisor": 1.5, "i_p": 1.0, "z_over_h": 1.0}
+    unknown = component_force(E22, **given).formula
+    assert unknown == pytest.approx(0.4 * 3.5 / 1.3 / 1.5, rel=1e-12)
+    known = component_force(E22, **given, period_s=1.0).formula
+    assert known == pytest.approx(0.4 * 2.84 / 1.3 / 1.5, rel=1e-12)
+    assert component_force(E16, **given, period_s=1.0) == component_force(E16, **given)
+
+
+def test_the_period_dependent_height_factor_at_the_roof():
+    factors = [f"{period_height_factor(1.0, t):.2f}" for t in (0.2, 0.4, 0.5, 1.0, 2.0)]
+    assert factors == ["3.50", "3.50", "3.36", "2.84", "2.46"]
+
+
+def test_an_ac156_report_that_envelopes_roof_and_grade():
+    roof = ac156_horizontal(E22, s_ds_g=2.0, z_over_h=1.0).sa_g[[1, 3]]
+    grade = ac156_horizontal(E22, s_ds_g=2.5, z_over_h=0.0).sa_g[[1, 3]]
+    upward = [ac156_vertical(s_ds_g=s).sa_g[[1, 3]] for s in (2.0, 2.5)]
+    assert [f"{max(pair):.2f}" for pair in zip(roof, grade, strict=True)] == ["3.20", "2.15"]
+    printed = [f"{max(pair) + 1e-12:.2f}" for pair in zip(*upward, strict=True)]
+    assert printed == ["1.68", "0.68"]
+
+
+@pytest.mark.parametrize(
+    ("s_ds", "s_d1", "ordinary", "essential"),
+    [
+        (0.1669, 0.0669, "A", "A"),
+        (0.167, 0.067, "B", "C"),
+        (0.33, 0.133, "C", "D"),
+        (0.50, 0.20, "D", "D"),
+    ],
+)
+def test_the_steps_of_both_category_tables(s_ds, s_d1, ordinary, essential):
+    assert sdc_short(s_ds, is_essential=False) == sdc_1s(s_d1, is_essential=False) == ordinary
+    assert sdc_short(s_ds, is_essential=True) == sdc_1s(s_d1, is_essential=True) == essential
+
+
+def test_the_more_severe_category_governs():
+    given = {"s_ds_g": 0.2, "is_essential": False}
+    assert controlling_sdc(s_d1_g=None, s_1_g=None, **given) == "B"
+    assert controlling_sdc(s_d1_g=0.25, s_1_g=0.3, **given) == "D"
+    assert controlling_sdc(s_d1_g=0.01, s_1_g=0.75, **given) == "E"
+    assert [sdc_near_fault(0.75, is_essential=e) for e in (False, True)] == ["E", "F"]
+    assert sdc_near_fault(0.749, is_essential=False) == ""
+
+
+def test_edition_22_takes_the_values_of_the_hazard_tool_and_no_coefficients():
+    site = seismic_parameters(E22, s_s=1.0, f_a=1.2, s_ms=1.5, s_d1=0.6)
+    assert (site.s_ms, site.s_ds, site.s_d1) == (1.5, 1.0, 0.6)
+    assert site.s_m1 == pytest.approx(0.9)
+    assert seismic_parameters(E22, s_s=1.0, f_a=1.2).s_ds is None
+    assert seismic_parameters(E16, s_ds=1.2).s_ms == pytest.approx(1.8)
+
+
+@pytest.mark.parametrize(
+    ("edition", "site_class", "s_s", "s_1", "reason"),
+    [
+        (E16, "D", 1.0, 0.2, "site class D with S_1 = 0.2 g"),
+        (E16, "D (default)", 1.0, 0.6, "site class D with S_1 = 0.6 g"),
+        (E16, "D", 1.0, 0.199, ""),
+        (E16, "E", 1.0, None, "site class E with S_S = 1 g"),
+        (E16, "C", 2.0, 1.0, ""),
+        (E16, "F", 0.1, 0.1, "site class F"),
+        (E22, "F", 0.1, 0.1, "site class F"),
+        (E22, "D", 1.0, 0.6, ""),
+        (E22, "DE", 1.0, 0.6, ""),
+    ],
+)
+def test_sites_that_need_a_hazard_analysis_of_their_own(edition, site_class, s_s, s_1, reason):
+    assert site_specific_reason(edition, site_class=site_class, s_s_g=s_s, s_1_g=s_1) == reason
