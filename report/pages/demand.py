@@ -1,4 +1,4 @@
-"""The seismic demand in equations: S_DS and the target spectra of the motions."""
+"""The seismic demand in equations: S_DS and S_D1, target spectra of the motions, and F_p."""
 
 from __future__ import annotations
 
@@ -8,31 +8,97 @@ from markupsafe import Markup
 
 from report.motions.targets import OWN
 from report.pages.parts import Line, PackageData
-from report.sheet.schema import RecordedAt
+from report.pages.site import site_force
+from report.sheet.schema import RecordedAt, Site
 from report.typeset.equations import fraction, symbol
 from report.words.units import number
 
 
 def demand_lines(package: PackageData) -> tuple[Line, ...]:
-    """Return S_DS and the corners of the target spectra in use."""
-    return (*_s_ds(package), *_ac156(package), *_design_spectrum(package))
-
-
-def _s_ds(package: PackageData) -> Iterator[Line]:
+    """Return S_DS and S_D1 from the given values, the target spectra in use, and F_p."""
     site = package.data.site
-    if site.s_ds_g is None and site.s_s_g is not None and site.f_a is not None:
+    return (
+        *_parameters(site, _SHORT, (site.s_s_g, site.f_a, site.s_ms_g, site.s_ds_g)),
+        *_parameters(site, _AT_1S, (site.s_1_g, site.f_v, site.s_m1_g, site.s_d1_g)),
+        *_ac156(package),
+        *_design_spectrum(package),
+        *_force(package),
+    )
+
+
+# Mapped value, coefficient, maximum considered and design value.
+_SHORT = ("S_S", "F_a", "S_{MS}", "S_{DS}")
+_AT_1S = ("S_1", "F_v", "S_{M1}", "S_{D1}")
+
+_Given = tuple[float | None, float | None, float | None, float | None]
+
+
+def _parameters(site: Site, names: tuple[str, str, str, str], given: _Given) -> Iterator[Line]:
+    """Yield the equations of one period for what is not given, as `Site.parameters` has it."""
+    mapped, coefficient, maximum, design = given
+    mapped_name, coefficient_name, maximum_name, design_name = names
+    clause = site.edition.clause
+    if maximum is None and site.edition.has_site_coefficients and mapped and coefficient:
+        maximum = coefficient * mapped
         yield Line(
-            latex=r"S_{DS}=\frac{2}{3}F_a S_S",
-            reference="ASCE 7 Eqs. 11.4-1, 11.4-3",
+            latex=f"{maximum_name}={coefficient_name}\\,{mapped_name}",
+            reference=clause("s_ms"),
+            steps=(
+                (f"{number(coefficient, 3)} × {number(mapped, 3)} g", f"{number(maximum, 3)} g"),
+            ),
+        )
+    if design is None and maximum is not None:
+        yield Line(
+            latex=rf"{design_name}=\frac{{2}}{{3}}\,{maximum_name}",
+            reference=clause("s_ds"),
             steps=(
                 (
-                    Markup("{} × {} × {} g").format(
-                        fraction("2", "3"), number(site.f_a, 3), number(site.s_s_g, 3)
-                    ),
-                    f"{number(site.s_ds, 3)} g",
+                    Markup("{} × {} g").format(fraction("2", "3"), number(maximum, 3)),
+                    f"{number(2.0 / 3.0 * maximum, 3)} g",
                 ),
             ),
         )
+    if design is not None and maximum is None:
+        yield Line(
+            latex=rf"{maximum_name}=\frac{{3}}{{2}}\,{design_name}",
+            reference=clause("s_ds"),
+            steps=(
+                (
+                    Markup("{} × {} g").format(fraction("3", "2"), number(design, 3)),
+                    f"{number(1.5 * design, 3)} g",
+                ),
+            ),
+        )
+
+
+def _force(package: PackageData) -> Iterator[Line]:
+    """Yield F_p / W_p with its limits, where a_p and R_p are given."""
+    site, force = package.data.site, site_force(package)
+    if force is None or site.force_factor is None or site.force_divisor is None:
+        return
+    largest_i_p = max(array.i_p for array in package.data.arrays)
+    s_ds, i_p = number(site.s_ds, 3), number(largest_i_p, 2)
+    factor, divisor = number(site.force_factor, 2), number(site.force_divisor, 2)
+    height = number(site.z_over_h, 3)
+    if site.edition.has_site_coefficients:
+        latex = r"\frac{F_p}{W_p}=\frac{0.4\,a_p\,S_{DS}}{R_p/I_p}\left(1+2\,\frac{z}{h}\right)"
+        substituted = f"0.4 × {factor} × {s_ds} / ({divisor} / {i_p}) × (1 + 2 × {height})"
+    else:
+        latex = r"\frac{F_p}{W_p}=0.4\,S_{DS}\,I_p\,\frac{H_f}{R_{\mu}}\,\frac{C_{AR}}{R_{po}}"
+        amplified = force.formula / (
+            0.4 * site.s_ds * largest_i_p * site.force_factor / site.force_divisor
+        )
+        substituted = f"0.4 × {s_ds} × {i_p} × {number(amplified, 3)} × {factor} / {divisor}"
+    yield Line(
+        latex=latex,
+        reference=site.edition.clause("force"),
+        steps=(
+            (substituted, number(force.formula, 3)),
+            (f"At most 1.6 × {s_ds} × {i_p}", number(force.largest, 3)),
+            (f"At least 0.3 × {s_ds} × {i_p}", number(force.least, 3)),
+        ),
+        note="For comparison: an unattached array slides, and no clearance here uses this force.",
+    )
 
 
 def _ac156(package: PackageData) -> Iterator[Line]:
@@ -87,23 +153,12 @@ def _design_spectrum(package: PackageData) -> Iterator[Line]:
     site, t_l_s = package.data.site, package.data.target.t_l_s
     on_ground = any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
     has_own = package.assessment.targets.ground.name == OWN
-    if not on_ground or has_own or site.s_1_g is None or site.f_v is None or t_l_s is None:
+    s_d1_g = site.s_d1
+    if not on_ground or has_own or s_d1_g is None or t_l_s is None:
         return
-    s_d1_g = 2.0 / 3.0 * site.f_v * site.s_1_g
     yield Line(
-        latex=(
-            r"S_a=\mathrm{min}\left(S_{DS},\ \frac{S_{D1}}{T},\ \frac{S_{D1}T_L}{T^2}\right),"
-            r"\quad S_{D1}=\frac{2}{3}F_v S_1"
-        ),
-        reference="ASCE 7, 11.4.6",
-        steps=(
-            (
-                Markup("{}: {} × {} × {} g").format(
-                    symbol("S_D1"), fraction("2", "3"), number(site.f_v, 3), number(site.s_1_g, 3)
-                ),
-                f"{number(s_d1_g, 3)} g",
-            ),
-        ),
+        latex=(r"S_a=\mathrm{min}\left(S_{DS},\ \frac{S_{D1}}{T},\ \frac{S_{D1}T_L}{T^2}\right)"),
+        reference=site.edition.clause("t_l"),
         note=Markup(
             "At the ground. Below {} = 0.2 {} = {} s it decreases to 0.4 {} at T = 0; {} = {} s, "
             "{} = {} s."

@@ -55,6 +55,7 @@ class Edition:
 
 
 _COMMON = {
+    "mapped": "11.4.2",
     "s_ds": "11.4.5",
     "sdc": "11.6",
     "sdc_short": "Table 11.6-1",
@@ -82,7 +83,13 @@ EDITIONS: Mapping[str, Edition] = {
             has_site_coefficients=False,
             amplification=Amplification(slope=2.5, reduction=1.3),
             force_factors=("C_AR", "R_po"),
-            clauses=_COMMON | {"s_ms": "11.4.3", "s_ds": "11.4.4", "site_specific": "11.4.7"},
+            clauses=_COMMON
+            | {
+                "mapped": "11.4.3",
+                "s_ms": "11.4.3",
+                "s_ds": "11.4.4",
+                "site_specific": "11.4.7",
+            },
         ),
     )
 }
