@@ -94,7 +94,7 @@ def test_a_rigid_block_that_is_not_adequate_gives_a_warning(tmp_path):
     given = project().model_dump()
     # Padded, so that every run comes to rest; too steep for the prescriptive route.
     motions = [motion | {"pad_s": 20.0} for motion in given["motions"]]
-    arrays = [array | {"slope_value": 4.0} for array in given["arrays"]]
+    arrays = [array | {"slope_value": 7.0} for array in given["arrays"]]
     changes = {"links": [row], "options": options, "motions": motions, "arrays": arrays}
     done = run("report", make(tmp_path, **changes))
     assert done.exit_code == 0
