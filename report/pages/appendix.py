@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import platform
 import textwrap
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from importlib import metadata
-from itertools import groupby
+from itertools import groupby, zip_longest
+from string import ascii_uppercase, digits
 
 from report.motions.components import RecordFile
-from report.pages.parts import PackageData, shortened
-from report.sheet.read import EchoRow
+from report.pages.parts import PackageData, Table, TableColumn, TableRow, shortened
+from report.sheet.read import IGNORED, EchoRow
 from report.words.units import number
 
 LIBRARIES = (
@@ -25,14 +27,10 @@ LIBRARIES = (
     "weasyprint",
 )
 METHOD = "exact in one axis, to a tolerance in two; linear acceleration between samples"
-_WIDTHS = (11, 27, 33, 7, 38)
-_GAP = 2  # minimum number of blanks between columns
 _RECORD_WIDTHS = (10, 12, 9, 10, 10, 64)
 _SECOND_WIDTHS = (10, sum(_RECORD_WIDTHS[1:-1]), 64)
-LEAST_BLANK = 3
-"""Number of adjacent blank cells from which they share a line of the echo."""
-
-_HEADS = ("Cell", "Field", "Entered", "Unit", "Used as")
+MOST_COLUMNS = 4
+"""Rows of a table of the workbook that stand side by side."""
 
 
 def echo_page(package: PackageData) -> Mapping[str, object]:
@@ -47,71 +45,125 @@ def records_page(package: PackageData) -> Mapping[str, object]:
     return {"files": files, "method": METHOD, "software": software()}
 
 
-def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, str], ...]:
-    """Return the name of each sheet and its cells as lines of aligned columns."""
+def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, tuple[Table, ...]], ...]:
+    """Return the name of each sheet, and its cells as tables: entered values once.
+
+    Single cells stand in two columns of the page. A table of the workbook stands with one column
+    for each of its rows. Cells left blank share a note with the defaults that they stand for.
+    """
     return tuple(
-        (sheet, "\n".join(_lines(tuple(group))))
+        (sheet, tuple(_tables(tuple(group))))
         for sheet, group in groupby(rows, key=lambda row: row.sheet)
     )
 
 
-def _lines(rows: Sequence[EchoRow]) -> Iterator[str]:
-    yield _even(_HEADS, _WIDTHS)
-    for row in _condensed(rows):
-        cells = (row.cell, row.label, row.typed, row.unit, row.value)
-        wrapped = [
-            textwrap.wrap(str(text), width - _GAP) or [""]
-            for text, width in zip(cells, _WIDTHS, strict=True)
-        ]
-        for index in range(max(map(len, wrapped))):
-            texts = [part[index] if index < len(part) else "" for part in wrapped]
-            yield _even(texts, _WIDTHS)
+def _tables(rows: Sequence[EchoRow]) -> Iterator[Table]:
+    in_row = Counter(_row_number(row) for row in rows)
+    for is_table, group in groupby(rows, key=lambda row: in_row[_row_number(row)] > 1):
+        cells = tuple(group)
+        yield from _parts_of_table(cells) if is_table else (_single_cells(cells),)
 
 
-def _condensed(rows: Sequence[EchoRow]) -> Iterator[EchoRow]:
-    """Yield the rows, adjacent blank cells merged into one."""
-    blank: list[EchoRow] = []
-    for row in rows:
-        if blank and not (_is_blank(row) and _beside(blank[-1], row)):
-            yield from _joined(blank)
-            blank = []
-        if _is_blank(row):
-            blank.append(row)
-        else:
-            yield row
-    yield from _joined(blank)
+def _single_cells(rows: Sequence[EchoRow]) -> Table:
+    given = [row for row in rows if not _is_blank(row)]
+    half = (len(given) + 1) // 2
+    pairs = zip_longest(given[:half], given[half:])
+    return Table(
+        caption="",
+        columns=(*_SINGLE_COLUMNS, *_SINGLE_COLUMNS),
+        rows=tuple(TableRow(cells=(*_single(left), *_single(right))) for left, right in pairs),
+        notes=tuple(_blanks([row for row in rows if _is_blank(row)])),
+        kind="compact",
+    )
+
+
+_SINGLE_COLUMNS = (
+    TableColumn(head="Cell", align="left", share=0.6),
+    TableColumn(head="Field", align="left", share=2.2),
+    TableColumn(head="Entered", align="left", share=2.6),
+)
+
+
+def _single(row: EchoRow | None) -> tuple[str, str, str]:
+    return ("", "", "") if row is None else (row.cell, row.label, _entered(row, row.unit))
+
+
+def _parts_of_table(rows: Sequence[EchoRow]) -> Iterator[Table]:
+    """Yield a table of the workbook, a few of its rows at a time, with a line for each column."""
+    by_number = [tuple(cells) for _, cells in groupby(rows, key=_row_number)]
+    for start in range(0, len(by_number), MOST_COLUMNS):
+        yield _columns_of_rows(by_number[start : start + MOST_COLUMNS])
+
+
+def _columns_of_rows(parts: Sequence[Sequence[EchoRow]]) -> Table:
+    numbers = [_row_number(cells[0]) for cells in parts]
+    lines: dict[str, dict[str, EchoRow]] = {}
+    for cells in parts:
+        for row in cells:
+            lines.setdefault(_column_letters(row), {})[_row_number(row)] = row
+    given = {
+        letters: line
+        for letters, line in lines.items()
+        if not all(_is_blank(row) for row in line.values())
+    }
+    blank = [next(iter(line.values())) for key, line in lines.items() if key not in given]
+    return Table(
+        caption="",
+        columns=(
+            TableColumn(head="Column", align="left", share=0.7),
+            TableColumn(head="Field", align="left", share=2.2),
+            TableColumn(head="Unit", align="left", share=0.6),
+            *(TableColumn(head=f"Row {number}", align="left", share=1.6) for number in numbers),
+        ),
+        rows=tuple(
+            TableRow(
+                cells=(
+                    letters,
+                    next(iter(line.values())).label,
+                    next(iter(line.values())).unit,
+                    *(_entered(line[n], "") if n in line else "" for n in numbers),
+                )
+            )
+            for letters, line in given.items()
+        ),
+        notes=tuple(_blanks(blank, whole_column=True)),
+        kind="compact",
+    )
+
+
+def _entered(row: EchoRow, unit: str) -> str:
+    """Return what was entered; for a formula its result, for a blank cell its default."""
+    if _is_blank(row):
+        return "" if row.value == "—" else row.value
+    text = f"{row.typed} {unit}".rstrip()
+    is_plain = not row.typed.startswith("=") and row.value != IGNORED
+    return text if is_plain else f"{text}: {row.value}"
+
+
+def _blanks(rows: Sequence[EchoRow], *, whole_column: bool = False) -> Iterator[str]:
+    """Yield what is left blank in one line, with the defaults."""
+    if rows:
+        names = (
+            f"{_column_letters(row) if whole_column else row.cell} {row.label}{_default(row)}"
+            for row in rows
+        )
+        yield f"Left blank: {'; '.join(names)}."
+
+
+def _default(row: EchoRow) -> str:
+    return "" if row.value == "—" else f" = {row.value.removesuffix(' (default)')}"
 
 
 def _is_blank(row: EchoRow) -> bool:
     return not row.typed and (row.value == "—" or row.value.endswith("(default)"))
 
 
-def _beside(row: EchoRow, other: EchoRow) -> bool:
-    """Whether two cells share a row or a column."""
-    return any(a == b for a, b in zip(_split(row.cell), _split(other.cell), strict=True))
+def _row_number(row: EchoRow) -> str:
+    return row.cell.lstrip(ascii_uppercase)
 
 
-def _split(cell: str) -> tuple[str, str]:
-    letters = cell.rstrip("0123456789")
-    return letters, cell[len(letters) :]
-
-
-def _joined(rows: Sequence[EchoRow]) -> Sequence[EchoRow]:
-    if len(rows) < LEAST_BLANK:
-        return rows
-    taken = (
-        f"{row.label}: {row.value.removesuffix(' (default)')}" for row in rows if row.value != "—"
-    )
-    first, last = rows[0], rows[-1]
-    whole = EchoRow(
-        sheet=first.sheet,
-        cell=f"{first.cell}:{last.cell}",
-        label=f"{first.label} to {last.label}",
-        typed=f"{len(rows)} cells left blank",
-        unit="",
-        value="; ".join(taken) or "—",
-    )
-    return [whole]
+def _column_letters(row: EchoRow) -> str:
+    return row.cell.rstrip(digits)
 
 
 def _even(texts: Sequence[str], widths: Sequence[int]) -> str:

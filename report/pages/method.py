@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.pages.demand import demand_lines
 from report.pages.parts import Line, PackageData, nan_is_worst, statistic
@@ -219,19 +219,32 @@ def design_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]
                 ),
             ),
         ),
-        Line(
-            latex=r"\Delta=\mathrm{max}(\Delta_{RHA},\,\Delta_{floor})",
-            reference="design displacement",
-            steps=(
-                (
-                    f"max({fmt.both(analysis.value_m)}, {fmt.both(array.floor_m)})",
-                    fmt.both(array.design_m) + package.design_mark(array),
-                ),
-            ),
-            note=f"Governed by: {array.governs}.",
-        ),
-        _directions_line(package, array),
+        _design_line(package, array),
+        *([_directions_line(package, array)] if array.by_direction else []),
     ]
+
+
+def _design_line(package: PackageData, array: ArrayAssessment) -> Line:
+    """Return the design displacement by the route taken."""
+    fmt, by_analysis = package.fmt, array.route is Route.ANALYSIS
+    first, second = (
+        (array.analysis.value_m, array.floor_m)
+        if by_analysis
+        else (array.prescriptive.value_m, array.analysis.largest_m)
+    )
+    return Line(
+        latex=r"\Delta=\mathrm{max}(\Delta_{RHA},\,\Delta_{floor})"
+        if by_analysis
+        else r"\Delta=\mathrm{max}(\Delta_{MPV},\,\Delta_{max})",
+        reference="design displacement",
+        steps=(
+            (
+                f"max({fmt.both(first)}, {fmt.both(second)})",
+                fmt.both(array.design_m) + package.design_mark(array),
+            ),
+        ),
+        note=f"Governed by: {array.governs}.",
+    )
 
 
 def _directions_line(package: PackageData, array: ArrayAssessment) -> Line:
@@ -265,7 +278,7 @@ def _directions_line(package: PackageData, array: ArrayAssessment) -> Line:
 def separation_line(package: PackageData) -> Line:
     """Return the largest required separation of each condition that occurs."""
     latex = (
-        r"s_{req}=k\,I_e\,\Delta"
+        r"s_{req}=k\,I\,\Delta"
         if package.assessment.rules.importance_in_separation
         else r"s_{req}=k\,\Delta"
     )
@@ -284,7 +297,7 @@ def separation_line(package: PackageData) -> Line:
 def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
     fmt, rules = package.fmt, package.assessment.rules
     key = SEPARATION_KEYS[gap.neighbor]
-    inside = f" × {number(package.data.site.i_e, 2)}" if rules.importance_in_separation else ""
+    inside = f" × {number(gap.importance, 2)}" if rules.importance_in_separation else ""
     least = (
         f", not less than {fmt.both(rules.length_m('separation_edge_min_in'))}"
         f"{package.mark('separation_edge_min_in')}"

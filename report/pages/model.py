@@ -87,6 +87,7 @@ def _stability_table(package: PackageData) -> Table:
             TableColumn(head="Min. N", unit="m g", share=1.0),
             TableColumn(head="Uplift time", unit="s", share=1.1),
             TableColumn(head="Demand", unit="V/N", share=1.0),
+            TableColumn(head="Transmitted", unit="V/N", share=1.1),
             TableColumn(head="Capacity", unit="b/(2h)", share=1.1),
             TableColumn(head="Ratio, at rest", share=1.2),
             TableColumn(head="Ratio, sliding", share=1.2),
@@ -95,9 +96,10 @@ def _stability_table(package: PackageData) -> Table:
         rows=tuple(TableRow(cells=_stability(array)) for array in package.assessment.arrays),
         notes=(
             "The worst run of each array. Tipping: an array begins to tip about an edge of its "
-            "supports where the transmitted shear, which is limited by friction, exceeds b/(2h) "
-            "times the normal force; b: smallest support spacing; h: height of the center of "
-            "gravity, midway between the supports (Housner, 1963; Ishiyama, 1982).",
+            "supports where the transmitted shear exceeds b/(2h) times the normal force. "
+            "Transmitted: the lesser of the demand and the friction coefficient; b: smallest "
+            "support spacing; h: height of the center of gravity, midway between the supports "
+            "(Housner, 1963; Ishiyama, 1982).",
         ),
         kind="compact",
     )
@@ -110,6 +112,7 @@ def _stability(array: ArrayAssessment) -> tuple[str, ...]:
         number(lifts.n_min_g, 2),
         number(lifts.duration_s, 3) if lifts.lifts else "none",
         number(tips.demand, 2) if math.isfinite(tips.demand) else "no limit",
+        number(tips.transmitted, 2),
         number(tips.capacity, 2),
         ratio(tips.at_rest_ratio),
         ratio(tips.sliding_ratio),

@@ -140,7 +140,7 @@ def _motion_row(
         cells=(
             run.motion.id,
             *(_peak(package, run, heading) for heading in headings),
-            *fmt.cells(result.prd_m),
+            *fmt.cells(run.governing.prd_m),
             *(fmt.cells(run.peak_m(direction))[0] for direction in _WAYS),
             *(fmt.cells(value)[0] for value in (result.residual_m, result.residual_across_m)),
             number(result.t_prd_s, 2),
@@ -154,7 +154,7 @@ def _peak(package: PackageData, run: MotionRun, heading: Heading) -> str:
     """Return the PRD of one run in the first unit; blank where the motion has no such run."""
     for heading_run in run.runs:
         if heading_run.heading == heading:
-            text = package.fmt.cells(heading_run.result.prd_m)[0]
+            text = package.fmt.cells(heading_run.prd_m)[0]
             return Markup("<b>{}</b>").format(text) if heading_run is run.governing else text
     return ""
 

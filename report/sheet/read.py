@@ -63,6 +63,10 @@ class EchoRow:
     value: str
 
 
+IGNORED = "not an input, ignored"
+"""How the echo shows a cell under a heading that is not known."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
     """A workbook as data, with every problem found in it.
@@ -337,5 +341,5 @@ def _ignored(book: OpenBook, position: CellPosition) -> EchoRow:
         label=f"column '{text}'",
         typed="",
         unit="",
-        value="not an input, ignored",
+        value=IGNORED,
     )

@@ -63,6 +63,11 @@ class Tipping:
         return max(self.at_rest_ratio, self.sliding_ratio)
 
     @property
+    def transmitted(self) -> float:
+        """Shear over normal force that reaches the block in the state that governs."""
+        return self.ratio * self.capacity
+
+    @property
     def governs(self) -> str:
         """The state with the greater ratio, at rest or sliding; at rest if they are equal."""
         return "at rest" if self.at_rest_ratio >= self.sliding_ratio else "sliding"

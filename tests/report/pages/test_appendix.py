@@ -7,45 +7,74 @@ from report.pages import appendix
 from report.sheet.read import EchoRow
 
 
-def row(cell, label, typed="", value="—"):
-    return EchoRow(sheet="S", cell=cell, label=label, typed=typed, unit="", value=value)
+def row(cell, label, typed="", value="—", unit=""):
+    return EchoRow(sheet="S", cell=cell, label=label, typed=typed, unit=unit, value=value)
 
 
-def lines(*rows):
-    ((sheet, text),) = appendix.echo(rows)
+def table(*rows):
+    ((sheet, (made,)),) = appendix.echo(rows)
     assert sheet == "S"
-    return [" ".join(line.split()) for line in text.splitlines()[1:]]
+    return made
 
 
-def test_cells_left_blank_side_by_side_share_a_line_with_their_defaults():
-    printed = lines(
-        row("B8", "ID", "M1", "M1"),
-        row("C8", "Keep from"),
-        row("D8", "Baseline", value="none (default)"),
-        row("E8", "Filter order", value="4 (default)"),
+def test_single_cells_stand_in_two_columns_with_their_units():
+    made = table(
+        row("B5", "S_S", "1.9575", "1.9575 g", "g"),
+        row("B6", "S_1", "0.7", "0.7 g", "g"),
+        row("B7", "Site class", "C", "C"),
     )
-    assert printed == [
-        "B8 ID M1 M1",
-        "C8:E8 Keep from to Filter order 3 cells left blank Baseline: none; Filter order: 4",
+    assert [line.cells for line in made.rows] == [
+        ("B5", "S_S", "1.9575 g", "B7", "Site class", "C"),
+        ("B6", "S_1", "0.7 g", "", "", ""),
     ]
 
 
-def test_columns_never_run_together():
-    label = "Friction at speed to Model"
-    ((_, text),) = appendix.echo((row("AA10:AB10", label, "x" * 80, "y" * 80),))
-    first = text.splitlines()[1]
-    assert first.startswith("AA10:AB10  Friction at speed to  ")
-    assert "x  " in first
+def test_cells_left_blank_share_a_note_with_their_defaults():
+    made = table(
+        row("B5", "Name", "A", "A"),
+        row("B6", "Checked by"),
+        row("B7", "Hazard basis", value="mapped values (default)"),
+    )
+    assert made.notes == ("Left blank: B6 Checked by; B7 Hazard basis = mapped values.",)
 
 
-def test_two_blank_cells_keep_their_lines():
-    assert len(lines(row("C8", "a"), row("D8", "b"))) == 2
+def test_a_table_of_the_workbook_has_a_line_for_each_column():
+    made = table(
+        row("B8", "ID", "A1", "A1"),
+        row("C8", "Weight", "100", "444.8 N", "lb"),
+        row("D8", "Model", value="choose (default)"),
+        row("B9", "ID", "A2", "A2"),
+        row("C9", "Weight", "=2*C8", "889.6 N", "lb"),
+        row("D9", "Model", value="choose (default)"),
+    )
+    assert [column.head for column in made.columns] == ["Column", "Field", "Unit", "Row 8", "Row 9"]
+    assert [line.cells for line in made.rows] == [
+        ("B", "ID", "", "A1", "A2"),
+        ("C", "Weight", "lb", "100", "=2*C8: 889.6 N"),
+    ]
+    assert made.notes == ("Left blank: D Model = choose.",)
 
 
-def test_blank_cells_of_other_rows_and_columns_do_not_join():
-    printed = lines(row("C8", "a"), row("D8", "b"), row("B9", "c"), row("C9", "d"))
-    assert len(printed) == 4
-    assert len(lines(row("B5", "a"), row("B6", "b"), row("B7", "c"))) == 1
+def test_a_column_blank_in_some_rows_shows_the_default_there():
+    made = table(
+        row("B8", "ID", "A1", "A1"),
+        row("C8", "Model", "one axis", "one axis"),
+        row("B9", "ID", "A2", "A2"),
+        row("C9", "Model", value="choose (default)"),
+    )
+    assert made.rows[1].cells == ("C", "Model", "", "one axis", "choose (default)")
+
+
+def test_every_cell_of_a_long_table_is_printed():
+    rows = [
+        row(f"{letter}{number}", letter, f"{letter}-{number}", "x")
+        for number in range(8, 19)
+        for letter in "BC"
+    ]
+    ((_, tables),) = appendix.echo(rows)
+    printed = {cell for made in tables for line in made.rows for cell in line.cells}
+    assert {echoed.typed for echoed in rows} <= printed
+    assert len(tables) == 3
 
 
 def test_a_record_shows_its_format_and_what_was_noted():

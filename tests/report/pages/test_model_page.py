@@ -177,9 +177,10 @@ def test_a_stable_array_has_its_tipping_ratios(usual):
             height_m=array.array.cg_height_m, spacing_m=array.array.support_spacing_m
         )
         assert array.tipping.ratio == max(tipping(run.scene, supports).ratio for run in runs)
-        assert row[4] == f"{capacity:.2f}"
+        assert row[4] == f"{array.tipping.ratio * capacity:.2f}"
+        assert row[5] == f"{capacity:.2f}"
         assert row[2] == "none"
-        assert ">OK<" in row[7]
+        assert ">OK<" in row[8]
 
 
 def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
@@ -191,7 +192,7 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     assert not package.assessment.verdict.is_permitted
     assert not package.assessment.array_verdict(package.assessment.arrays[0]).is_permitted
     assert "begins to tip" in " ".join(troubles(package))
-    assert ">NG<" in texts(model.page(package)["stability"].rows[0])[7]
+    assert ">NG<" in texts(model.page(package)["stability"].rows[0])[8]
 
 
 def test_the_minimum_normal_force_includes_a_neglected_vertical_component(usual):
