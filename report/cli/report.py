@@ -140,9 +140,13 @@ def _print_summary(assessment: Assessment) -> None:
     for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
         text = f"one rigid block has not been shown to be adequate for array {name}"
         click.echo(f"warning: {text}; {see}")
-    checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.checks)]
+    checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.limits)]
     for failed in (c for c in checks if not c.ok):
         click.echo(f"warning: {failed.provision.clause} is not satisfied: {failed.title}")
+    for row in assessment.conditions:
+        where = f"{row.subject}, " if row.subject else ""
+        click.echo(f"{row.consequence.value}: {where}{row.title}: {row.found}; {row.limit} required")
+    click.echo(f"verdict: {assessment.verdict.value}")
 
 
 def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) -> tuple[str, ...]:
