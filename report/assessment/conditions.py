@@ -15,7 +15,7 @@ from report.assessment.neighbors import PlanNeighbor
 from report.assessment.verdict import Consequence, Row
 from report.motions.history import PreparedMotion
 from report.sheet.schema import ProjectInput
-from report.words.units import Quantity, number, pair
+from report.words.units import Quantity, compared, number, pair
 from solver.records.acceptance import Acceptance
 from solver.records.acceptance_row import AcceptanceRow
 from solver.rules.hazard import HazardBasis, site_specific_reason
@@ -205,14 +205,16 @@ def _fire_lanes(data: ProjectInput, assessed: ArrayAssessment) -> Iterator[Row]:
 def _interconnection(data: ProjectInput, assessed: ArrayAssessment) -> Row:
     us_first = data.project.units_first == "US"
     provided, required = assessed.array.interconnection_n, assessed.interconnection_n
+    is_enough = provided is not None and provided >= required
+    shown, had = compared(is_enough)
     return Row(
         id="interconnection",
         title="Interconnection strength provided",
         subject=assessed.array.id,
-        found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first),
-        limit=f"≥ {pair(required, Quantity.WEIGHT, us_first)}",
+        found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first, had),
+        limit=f"≥ {pair(required, Quantity.WEIGHT, us_first, shown)}",
         basis=data.site.rule_set,
-        is_satisfied=provided is not None and provided >= required,
+        is_satisfied=is_enough,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Show that the racking provides the required strength between its parts.",
     )
@@ -222,14 +224,16 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
     us_first = data.project.units_first == "US"
     provided, design = assessed.array.slack_m, assessed.design_m
     has_value = not math.isnan(design)
+    is_enough = provided is not None and has_value and provided >= design
+    shown, had = compared(is_enough)
     return Row(
         id="electrical_slack",
         title="Electrical slack provided",
         subject=assessed.array.id,
-        found=NOT_GIVEN if provided is None else pair(provided, Quantity.SIZE, us_first),
-        limit=f"≥ {pair(design, Quantity.DISPLACEMENT, us_first) if has_value else 'none'}",
+        found=NOT_GIVEN if provided is None else pair(provided, Quantity.SIZE, us_first, had),
+        limit=f"≥ {pair(design, Quantity.SIZE, us_first, shown) if has_value else 'none'}",
         basis="design displacement",
-        is_satisfied=provided is not None and has_value and provided >= design,
+        is_satisfied=is_enough,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Provide wiring slack of at least the design displacement.",
     )

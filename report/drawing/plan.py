@@ -22,7 +22,7 @@ from report.assessment.neighbors import bare_edges
 from report.assessment.project import Assessment
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
 from report.sheet.schema import ObjectKind, Rectangle, RoofObject
-from report.words.units import Quantity, Unit, number, pair
+from report.words.units import Quantity, Unit, compared, number, pair
 
 TEXT_SHARE = 1.0 / 120.0
 """Height of texts, as a share of the larger side of the plan."""
@@ -102,10 +102,11 @@ def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
         near, far = shapes[gap.clearance.array], shapes[gap.clearance.object]
         if near is None or far is None:
             continue
-        provided = pair(gap.clearance.provided_m, Quantity.SIZE, us_first)
+        show_required, show_provided = compared(gap.ok)
+        provided = pair(gap.clearance.provided_m, Quantity.SIZE, us_first, show_provided)
         required = "no value"
         if not math.isnan(gap.required_m):
-            required = pair(gap.required_m, Quantity.SIZE, us_first)
+            required = pair(gap.required_m, Quantity.SIZE, us_first, show_required)
         verdict = "OK" if gap.ok else "NG"
         yield GapLine(
             layer=Layer.CLEARANCE if gap.ok else Layer.CLEARANCE_NG,

@@ -37,7 +37,7 @@ from report.figures.plan_key import (
     ng_size,
 )
 from report.sheet.schema import ObjectKind, Rectangle, RoofObject
-from report.words.units import Quantity, measured, number, pair
+from report.words.units import Quantity, Show, compared, measured, number, pair
 from solver.model import INCH_M
 
 RADIUS_IN = 0.1
@@ -325,9 +325,9 @@ class _Plan:
     def _both(self, value_m: float) -> str:
         return pair(value_m, Quantity.SIZE, self.us_first)
 
-    def _first(self, value_m: float) -> str:
+    def _first(self, value_m: float, show: Show = measured) -> str:
         unit = Quantity.SIZE.us if self.us_first else Quantity.SIZE.si
-        return f"{measured(value_m, unit)} {unit.symbol}"
+        return f"{show(value_m, unit)} {unit.symbol}"
 
     def _array_labels(self, array: ArrayAssessment) -> Iterator[list[str]]:
         """Yield the lines of an array's label, then fewer where there is less room."""
@@ -409,8 +409,9 @@ class _Plan:
     def _callout(self, gap: _Gap) -> None:
         """Label a clearance: number, provided and required separation; the number if tight."""
         provided, required = gap.check.clearance.provided_m, gap.check.required_m
-        needed = "no value" if math.isnan(required) else self._first(required)
-        lines = [f"provided {self._first(provided)}", f"required {needed}"]
+        show_required, show_provided = compared(gap.check.ok)
+        needed = "no value" if math.isnan(required) else self._first(required, show_required)
+        lines = [f"provided {self._first(provided, show_provided)}", f"required {needed}"]
         for shown in (lines, []) if self.size.is_full else ([],):
             wide, tall = text_size(shown) if shown else (0.0, 2 * RADIUS_IN)
             mark = 0.0 if gap.check.ok else ng_size()[0] + PAD_IN

@@ -19,7 +19,6 @@ from report.pages.parts import (
     Table,
     TableColumn,
     TableRow,
-    UnitFormat,
     check_value,
     dagger,
     stamp,
@@ -27,7 +26,7 @@ from report.pages.parts import (
 )
 from report.pages.remedies import table
 from report.typeset.equations import symbol
-from report.words.units import Quantity, number, ratio
+from report.words.units import Quantity, compared, number, ratio
 from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
 
 
@@ -71,6 +70,7 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
     fmt, row = package.fmt, gap.clearance
     key = SEPARATION_KEYS[gap.neighbor]
     least = package.mark("separation_edge_min_in") if gap.is_least_value else ""
+    required, provided = compared(gap.ok)
     more = (
         ()
         if brief
@@ -90,8 +90,8 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
             row.object,
             gap.neighbor.value + where,
             *more,
-            *fmt.cells(gap.required_m, mark=least),
-            *fmt.cells(row.provided_m, Quantity.SIZE),
+            *fmt.cells(gap.required_m, mark=least, show=required),
+            *fmt.cells(row.provided_m, Quantity.SIZE, show=provided),
             ratio(gap.demand_capacity),
             stamp(gap.verdict),
         )
@@ -291,12 +291,7 @@ def _interconnection(package: PackageData) -> Table:
                     array.id,
                     *fmt.cells(array.array.weight_n, Quantity.WEIGHT),
                     *fmt.cells(array.array.weight_n / 2.0, Quantity.WEIGHT),
-                    *fmt.cells(
-                        array.interconnection_n,
-                        Quantity.WEIGHT,
-                        mark=package.mark("interconnection_sds"),
-                    ),
-                    *_provided(fmt, array),
+                    *_strengths(package, array),
                     package.clause("interconnection_sds"),
                 )
             )
@@ -306,13 +301,18 @@ def _interconnection(package: PackageData) -> Table:
     )
 
 
-def _provided(fmt: UnitFormat, array: ArrayAssessment) -> tuple[str, str, str]:
-    """Return the strength provided in both systems, and required / provided."""
-    provided = array.array.interconnection_n
+def _strengths(package: PackageData, array: ArrayAssessment) -> tuple[str, ...]:
+    """Return the strengths required and provided in both systems, and their ratio."""
+    fmt, mark = package.fmt, package.mark("interconnection_sds")
+    required, provided = array.interconnection_n, array.array.interconnection_n
     if provided is None:
-        return "not given", "not given", "—"
-    first, second = fmt.cells(provided, Quantity.WEIGHT)
-    return first, second, ratio(array.interconnection_n / provided)
+        return (*fmt.cells(required, Quantity.WEIGHT, mark=mark), "not given", "not given", "—")
+    shown, had = compared(required <= provided)
+    return (
+        *fmt.cells(required, Quantity.WEIGHT, mark=mark, show=shown),
+        *fmt.cells(provided, Quantity.WEIGHT, show=had),
+        ratio(required / provided),
+    )
 
 
 def provisions(package: PackageData) -> Mapping[str, object]:

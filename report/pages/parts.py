@@ -19,7 +19,7 @@ from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction, ProjectInput
 from report.typeset.equations import formula
-from report.words.units import Quantity, Unit, measured, number, pair
+from report.words.units import Quantity, Show, Unit, measured, number, pair
 from solver.model import DefectError
 from solver.rules.provisions import (
     SEPARATION_KEYS,
@@ -185,17 +185,22 @@ class UnitFormat:
     us_first: bool
 
     def both(self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT) -> str:
-        """Return `81.6 in (2070 mm)`; `none` for NaN."""
+        """Return `81.6 in (2072 mm)`; `none` for NaN."""
         return NO_VALUE if math.isnan(value_si) else pair(value_si, quantity, self.us_first)
 
     def cells(
-        self, value_si: float, quantity: Quantity = Quantity.DISPLACEMENT, *, mark: str = ""
+        self,
+        value_si: float,
+        quantity: Quantity = Quantity.DISPLACEMENT,
+        *,
+        mark: str = "",
+        show: Show = measured,
     ) -> tuple[str, str]:
         """Return the value in both systems, for two columns; `none` for NaN."""
         if math.isnan(value_si):
             return NO_VALUE, NO_VALUE
         first, second = self.units(quantity)
-        return measured(value_si, first) + mark, measured(value_si, second) + mark
+        return show(value_si, first) + mark, show(value_si, second) + mark
 
     def units(self, quantity: Quantity = Quantity.DISPLACEMENT) -> tuple[Unit, Unit]:
         """Return the units of a quantity, the preferred one first."""

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from itertools import groupby
 
 from report.assessment.remedies import Remedy, RemedyKind
 from report.pages.certainty import coefficient
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
-from report.words.units import Quantity, Unit, number
+from report.words.units import Quantity, no_less, number, pair
 
 
 def sentences(package: PackageData, remedies: Sequence[Remedy]) -> Sequence[str]:
@@ -59,16 +58,8 @@ def _other(package: PackageData, remedy: Remedy) -> str:
     if remedy.kind is RemedyKind.S_DS:
         return f"S_DS of at most {number(remedy.value, 2)} g (given {number(remedy.given, 3)} g)"
     given = package.fmt.both(remedy.given, Quantity.SIZE)
-    first, second = (
-        f"{raised(remedy.value, unit)} {unit.symbol}" for unit in package.fmt.units(Quantity.SIZE)
-    )
-    return f"{first} ({second}) provided (given {given})"
-
-
-def raised(value_si: float, unit: Unit) -> str:
-    """Return a value rounded up, so that the separation printed is enough."""
-    tens = 10.0**unit.decimals
-    return number(math.ceil(value_si / unit.si * tens - 1e-6) / tens, unit.decimals)
+    enough = pair(remedy.value, Quantity.SIZE, package.fmt.us_first, no_less)
+    return f"{enough} provided (given {given})"
 
 
 def table(package: PackageData, remedies: Sequence[Remedy]) -> Table:
@@ -139,8 +130,8 @@ def _value(package: PackageData, remedy: Remedy) -> str:
     if remedy.kind is RemedyKind.SEPARATION:
         first, second = package.fmt.units(Quantity.SIZE)
         return (
-            f"≥ {raised(remedy.value, first)} {first.symbol} "
-            f"({raised(remedy.value, second)} {second.symbol})"
+            f"≥ {no_less(remedy.value, first)} {first.symbol} "
+            f"({no_less(remedy.value, second)} {second.symbol})"
         )
     if remedy.kind is RemedyKind.S_DS:
         return f"≤ {number(remedy.value, 2)} g"

@@ -6,7 +6,7 @@ Values are in SI everywhere else; values that a user reads or enters are convert
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
@@ -45,22 +45,22 @@ PRESSURES = {"psf": NEWTONS_PER_POUND / 0.3048**2, "kPa": 1e3, "Pa": 1.0}
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit: its symbol, its size in SI, and the number of decimals printed.
-
-    At 1000 or more, `significant` digits are printed if that is not 0: 2072 mm is 2070 mm.
-    """
+    """A unit: its symbol, its size in SI, and the number of decimals printed."""
 
     symbol: str
     si: float
     decimals: int
-    significant: int = 0
+
+
+Show = Callable[[float, Unit], str]
+_NOISE = 1e-6  # of the last digit printed: 36 in from meters is not 36.1 in
 
 
 class Quantity(Enum):
     """A physical quantity: (US unit, SI unit)."""
 
-    DISPLACEMENT = (Unit("in", INCH_M, 1), Unit("mm", 1e-3, 0, significant=3))
-    SIZE = (Unit("in", INCH_M, 1), Unit("mm", 1e-3, 0))
+    DISPLACEMENT = (Unit("in", INCH_M, 1), Unit("mm", 1e-3, 0))
+    SIZE = DISPLACEMENT
     PLAN = (Unit("ft", 0.3048, 2), Unit("m", 1.0, 2))
     WEIGHT = (Unit("lb", NEWTONS_PER_POUND, 0), Unit("kN", 1e3, 2))
     STIFFNESS = (Unit("lb/in", NEWTONS_PER_POUND / INCH_M, 0), Unit("kN/m", 1e3, 1))
@@ -101,16 +101,38 @@ def number(value: float, decimals: int) -> str:
 
 def measured(value_si: float, unit: Unit) -> str:
     """Return a value in a unit, for print, without the symbol."""
-    value = value_si / unit.si
-    if unit.significant and 1000.0 <= abs(value) < math.inf:
-        value = round(value, unit.significant - 1 - math.floor(math.log10(abs(value))))
-    return number(value, unit.decimals)
+    return number(value_si / unit.si, unit.decimals)
 
 
-def pair(value_si: float, quantity: Quantity, us_first: bool = True) -> str:
-    """Return a value in both systems, such as `81.6 in (2070 mm)`, the preferred one first."""
+def no_less(value_si: float, unit: Unit) -> str:
+    """Return a value in a unit, rounded up."""
+    return _rounded(math.ceil, -_NOISE, value_si, unit)
+
+
+def no_more(value_si: float, unit: Unit) -> str:
+    """Return a value in a unit, rounded down."""
+    return _rounded(math.floor, _NOISE, value_si, unit)
+
+
+def _rounded(to_whole: Callable[[float], int], noise: float, value_si: float, unit: Unit) -> str:
+    if not math.isfinite(value_si):
+        return measured(value_si, unit)
+    per_digit = 10.0**unit.decimals
+    return number(to_whole(value_si / unit.si * per_digit + noise) / per_digit, unit.decimals)
+
+
+def compared(ok: bool) -> tuple[Show, Show]:
+    """Return how required and provided values print.
+
+    Where the required one is larger it must print larger: it is rounded up, the other one down.
+    """
+    return (measured, measured) if ok else (no_less, no_more)
+
+
+def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:
+    """Return a value in both systems, such as `81.6 in (2072 mm)`, the preferred one first."""
     first, second = (
-        f"{measured(value_si, unit)} {unit.symbol}"
+        f"{show(value_si, unit)} {unit.symbol}"
         for unit in (quantity.value if us_first else quantity.value[::-1])
     )
     return f"{first} ({second})"

@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 from dataclasses import replace
 
 import ezdxf
@@ -11,7 +12,7 @@ import stand_in
 from report.assessment.envelopes import corners, design_envelope
 from report.drawing.dxf import APPLICATION, write_dxf
 from report.drawing.layers import Layer
-from report.drawing.plan import plan_drawing
+from report.drawing.plan import gap_lines, plan_drawing
 from sheets import FT
 
 OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 * FT}
@@ -113,3 +114,14 @@ def test_without_a_displacement_there_is_no_envelope(done):
     assert not [line for line in plan.lines if line.layer is Layer.DESIGN]
     assert [text.words for text in plan.texts].count("design displacement: no value") == 3
     assert not read(write_dxf(plan)).audit().errors
+
+
+def test_a_gap_short_by_less_than_a_digit_does_not_read_as_enough():
+    given = stand_in.assess_input(stand_in.project(), stand_in.motions(3, seconds=12.0))
+    gap = next(one for one in given.clearances if one.clearance.object == "RTU-1")
+    near = gap.clearance.model_copy(update={"provided_m": gap.required_m - 1e-5})
+    tight = replace(given, clearances=(replace(gap, clearance=near),))
+    (line,) = gap_lines(tight)
+    provided, required = re.findall(r"(?:provided|required) ([\d.]+) in", line.words)
+    assert float(required) > float(provided)
+    assert line.words.endswith("NG")

@@ -190,13 +190,6 @@ def test_a_floor_that_forbids_is_the_reason_given():
     assert any("floor alone" in str(row.cells[-1]) for row in table.rows)
 
 
-def test_the_separation_is_printed_rounded_up():
-    first, second = made().fmt.units(remedy_page.Quantity.SIZE)
-    assert remedy_page.raised(1.00001, second) == "1001"
-    assert remedy_page.raised(40.8001 * 0.0254, first) == "40.9"
-    assert remedy_page.raised(40.8 * 0.0254, first) == "40.8"
-
-
 def test_without_ng_the_summary_says_nothing_about_it():
     package = made(clearances=[stand_in.clearance("A2", "A3", 9.0)])
     html = unescape(pages(package.assessment, support(package.assessment)))

@@ -1,0 +1,55 @@
+"""Numbers in print: required and provided values never look the other way round."""
+
+import math
+
+import pytest
+from hypothesis import assume, example, given
+from hypothesis import strategies as st
+
+from report.words.units import Quantity, compared, measured, no_less, no_more, pair
+
+LENGTHS_M = st.floats(0.01, 20.0)
+
+
+@given(LENGTHS_M, LENGTHS_M)
+@example(36.04 * 0.0254, 35.96 * 0.0254)
+@example(1.0361, 1.0359)
+def test_a_required_value_that_is_larger_prints_larger(required_m, provided_m):
+    assume(abs(required_m - provided_m) > 1e-8)
+    ok = required_m <= provided_m
+    show_required, show_provided = compared(ok)
+    for unit in Quantity.DISPLACEMENT.value:
+        required = float(show_required(required_m, unit))
+        provided = float(show_provided(provided_m, unit))
+        assert (required <= provided) is ok
+        assert required == pytest.approx(required_m / unit.si, abs=1.001 * 10.0**-unit.decimals)
+        assert provided == pytest.approx(provided_m / unit.si, abs=1.001 * 10.0**-unit.decimals)
+
+
+def test_rounding_up_leaves_a_value_that_is_exact_in_its_unit():
+    inch, mm = Quantity.SIZE.value
+    assert no_less(1.00001, mm) == "1001"
+    assert no_less(40.8001 * 0.0254, inch) == "40.9"
+    for tenths in range(1, 2000):
+        text = f"{tenths / 10:.1f}"
+        assert no_less(tenths / 10 * 0.0254, inch) == no_more(tenths / 10 * 0.0254, inch) == text
+
+
+def test_no_value_stays_no_value():
+    for show in (measured, no_less, no_more):
+        assert show(math.nan, Quantity.SIZE.si) == "—"
+        assert show(math.inf, Quantity.SIZE.si) == "inf"
+
+
+@pytest.mark.parametrize(
+    ("value_m", "text"),
+    [
+        (2.07196, "81.6 in (2072 mm)"),
+        (0.9994, "39.3 in (999 mm)"),
+        (1.0049, "39.6 in (1005 mm)"),
+        (12.345, "486.0 in (12345 mm)"),
+        (-1.2346, "−48.6 in (−1235 mm)"),
+    ],
+)
+def test_displacements_print_in_whole_millimeters_of_any_size(value_m, text):
+    assert pair(value_m, Quantity.DISPLACEMENT) == text
