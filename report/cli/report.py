@@ -143,9 +143,10 @@ def _print_summary(assessment: Assessment) -> None:
     checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.limits)]
     for failed in (c for c in checks if not c.ok):
         click.echo(f"warning: {failed.provision.clause} is not satisfied: {failed.title}")
-    for row in assessment.conditions:
-        where = f"{row.subject}, " if row.subject else ""
-        click.echo(f"{row.consequence.value}: {where}{row.title}: {row.found}; {row.limit} required")
+    for missed in assessment.conditions:
+        where = f"{missed.subject}, " if missed.subject else ""
+        text = f"{where}{missed.title}: {missed.found}; {missed.limit} required"
+        click.echo(f"{missed.consequence.value}: {text}")
     click.echo(f"verdict: {assessment.verdict.value}")
 
 

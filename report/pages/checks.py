@@ -25,9 +25,10 @@ from report.pages.parts import (
     verdict,
 )
 from report.pages.remedies import table
+from report.sheet.schema import Array, ObjectKind
 from report.typeset.equations import symbol
 from report.words.units import Quantity, compared, number, ratio
-from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check
+from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check, Neighbor
 
 
 def clearance_table(package: PackageData, *, brief: bool) -> Table:
@@ -219,22 +220,14 @@ def check_table(
 
 def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
-    parapets = [gap for gap in package.assessment.clearances if "parapet" in gap.neighbor.value]
     notes = [
         "Displ. is the design displacement of the array in the next column "
         f"({package.part('comparison')}). " + _direction_note(package),
         "Between two arrays the larger of the two displacements governs.",
     ]
+    parapets = _parapets(package)
     if parapets:
-        notes.append(
-            "A parapet qualifies when its top is at least "
-            f"{package.fmt.both(package.assessment.rules.length_m('parapet_height_in'))}"
-            f"{package.mark('parapet_height_in')} above the roof and at least "
-            f"{package.fmt.both(package.assessment.rules.length_m('parapet_over_cg_in'))}"
-            f"{package.mark('parapet_over_cg_in')} above the array's center of gravity. An edge "
-            "whose parapet does not qualify is treated as an edge without a parapet. The strength "
-            "of the parapet is not checked."
-        )
+        notes += [*parapets, "The strength of a parapet is not checked."]
     if any(gap.is_least_value for gap in package.assessment.clearances):
         notes.append(
             "The minimum separation to an edge without a qualifying parapet governs where the "
@@ -247,6 +240,36 @@ def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str,
         "notes": tuple(notes),
         "remedies": table(package, remedies) if remedies else None,
     }
+
+
+def _parapets(package: PackageData) -> Sequence[str]:
+    """Return for each clearance to a parapet whether it qualifies, with the numbers."""
+    heights = {
+        item.id: item.height_m
+        for item in package.data.objects
+        if item.kind is ObjectKind.EDGE_WITH_PARAPET and item.height_m is not None
+    }
+    arrays = {array.id: array for array in package.data.arrays}
+    return [
+        _parapet(package, gap, heights[gap.clearance.object], arrays[gap.clearance.array])
+        for gap in package.assessment.clearances
+        if gap.clearance.object in heights
+    ]
+
+
+def _parapet(package: PackageData, gap: ClearanceCheck, top_m: float, array: Array) -> str:
+    rules, over_m = package.assessment.rules, top_m - array.cg_height_m
+    top, cg, over = (package.fmt.both(v, Quantity.SIZE) for v in (top_m, array.cg_height_m, over_m))
+    least, least_over = (
+        f"{package.fmt.both(rules.length_m(key), Quantity.SIZE)}{package.mark(key)}"
+        for key in ("parapet_height_in", "parapet_over_cg_in")
+    )
+    qualifies = gap.neighbor is Neighbor.PARAPET
+    return (
+        f"Parapet {gap.clearance.object} beside {array.id}: top {top} above the roof, at least "
+        f"{least}; above the center of gravity {top} − {cg} = {over}, at least {least_over}: "
+        + ("it qualifies." if qualifies else "it does not qualify, an edge without a parapet.")
+    )
 
 
 def _direction_note(package: PackageData) -> str:
