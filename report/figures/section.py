@@ -80,7 +80,7 @@ def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
     _thin(axes, roof.at(1.33, 0.36), roof.at(2.47, 0.36))
     _span(axes, roof.at(2.42, 0.0), roof.at(2.42, 0.36))
     x, y = roof.at(2.48, 0.33)
-    axes.text(x, y, f"h = {pair(array.cg_height_m, size, us_first)}", ha="left", va="bottom")
+    axes.text(x, y, f"c = {pair(array.cg_height_m, size, us_first)}", ha="left", va="bottom")
     weight = pair(array.weight_n, Quantity.WEIGHT, us_first)
     top = (center[0], center[1] + 0.42)
     axes.text(*top, f"W = {weight}", ha="left", va="bottom")

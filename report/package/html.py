@@ -11,6 +11,8 @@ from typing import Any
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment
 from report.pages import front
+from report.pages.cover import cover
+from report.pages.letter import letter
 from report.pages.pictures import draw_assessment, draw_evidence
 from report.pages.registry import PAGES, package_data, parts
 from report.typeset.pdf import TEMPLATES
@@ -25,7 +27,8 @@ def pages(assessment: Assessment, evidence: Evidence) -> str:
         {
             "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
             "sheet": front.sheet(package),
-            "cover": front.cover(package),
+            "cover": cover(package),
+            "letter": letter(package),
             "parts": listed,
             "below": {subpart.id: subpart for part in listed for subpart in part.parts},
             "templates": {page.id: page.template for page in PAGES},

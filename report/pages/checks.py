@@ -361,8 +361,14 @@ def provisions(package: PackageData) -> Mapping[str, object]:
                 )
                 for key, provision in rules.values.items()
             ),
+            notes=tuple(
+                Markup("{}: {}.").format(_sentence_case(OVERRIDABLE[key]), provision.note)
+                for key, provision in rules.values.items()
+                if provision.note
+            ),
             kind="compact",
         ),
+        "departure": _departure(package),
         "overrides": Table(
             caption="Overridden for this project",
             columns=(
@@ -382,6 +388,36 @@ def provisions(package: PackageData) -> Mapping[str, object]:
             ),
         ),
     }
+
+
+def _departure(package: PackageData) -> Table | None:
+    """Return the departure that is no number of the rule set, where the workbook asks for it."""
+    options = package.data.options
+    if not options.directional:
+        return None
+    date = "not given" if options.directional_date is None else options.directional_date.isoformat()
+    return Table(
+        caption="Departure from the rule set",
+        columns=(
+            TableColumn(head="Departure", align="left", share=3.0),
+            TableColumn(head="Reason given in the workbook", align="left", share=3.0),
+            TableColumn(head="Reviewer", align="left", share=1.6),
+            TableColumn(head="License", align="left", share=1.2),
+            TableColumn(head="Date", align="left", share=1.0),
+        ),
+        rows=(
+            TableRow(
+                cells=(
+                    "Displacement by direction: a clearance takes the displacement toward it, not "
+                    "less than the floor. No document of the rule sets states a direction.",
+                    options.directional_reason or "not given",
+                    options.directional_reviewer or "not given",
+                    options.directional_license or "not given",
+                    date,
+                )
+            ),
+        ),
+    )
 
 
 def _sentence_case(text: str) -> Markup:

@@ -1,4 +1,4 @@
-"""Page headers and footers, cover, summary, and basis of the analysis."""
+"""Page headers and footers, summary, and basis of the analysis."""
 
 from __future__ import annotations
 
@@ -47,44 +47,12 @@ def sheet(package: PackageData) -> Mapping[str, str]:
     }
 
 
-def cover(package: PackageData) -> Mapping[str, object]:
-    """Return the cover."""
-    project = package.data.project
-    rows = [
-        (row.revision, row.date.isoformat(), row.description, row.by or "—")
-        for row in package.data.revisions
-    ] or [(project.revision, project.date.isoformat(), "First issue", project.prepared_by)]
-    return {
-        "name": project.name,
-        "block": (
-            ("Project number", project.number),
-            ("Client", project.client or "—"),
-            ("Address", project.address or "—"),
-            ("Code edition", package.assessment.rules.title),
-            ("Prepared by", project.prepared_by),
-            ("Checked by", project.checked_by or "not yet checked"),
-            ("Date", project.date.isoformat()),
-            ("Revision", project.revision),
-        ),
-        "revisions": Table(
-            caption="",
-            columns=(
-                TableColumn(head="Rev.", share=0.6, align="left"),
-                TableColumn(head="Date", share=1.2, align="left"),
-                TableColumn(head="Description", share=4.0, align="left"),
-                TableColumn(head="By", share=1.8, align="left"),
-            ),
-            rows=tuple(TableRow(cells=cells) for cells in rows),
-        ),
-    }
-
-
 def summary(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, object]:
     """Return the summary page: governing numbers and all verdicts."""
     return {
         "verdict": stamp(package.assessment.verdict),
         "conditions": conditions(package),
-        "sentence": _sentence(package),
+        "sentence": verdict_sentence(package),
         "numbers": _numbers(package),
         "arrays": _array_table(package),
         "clearances": clearance_table(package, brief=True),
@@ -100,14 +68,15 @@ def plan(package: PackageData) -> Mapping[str, object]:
     return {"page": "landscape" if is_wide(package.assessment) else "portrait"}
 
 
-def _sentence(package: PackageData) -> str:
+def verdict_sentence(package: PackageData) -> str:
+    """Return what the verdict on the project rests on."""
     if package.assessment.verdict is not Verdict.NG:
         count = len(package.assessment.conditions)
         if count:
             each = "condition" if count == 1 else "conditions"
             return (
-                f"All limits and clearances are satisfied; {count} {each} below must be met before "
-                "this package is complete."
+                f"All limits and clearances are satisfied; {count} {each} listed in "
+                f"{package.part('summary')} must be met before this package is complete."
             )
         return "All limits and clearances are satisfied; every run reached a final value."
     counts = (
@@ -120,6 +89,7 @@ def _sentence(package: PackageData) -> str:
         ),
         ("clearance", [gap.ok for gap in package.assessment.clearances]),
         ("limit", [check.ok for _, check in all_checks(package)]),
+        ("requirement", [row.verdict.is_permitted for row in package.assessment.rows]),
     )
     failed = [
         f"{oks.count(False)} of {len(oks)} {name}{'s' if len(oks) != 1 else ''}"

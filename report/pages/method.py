@@ -152,9 +152,9 @@ def prescriptive_line(package: PackageData, array: ArrayAssessment) -> Line:
     factor = f"{rules['prescriptive_factor_in']:g} in" + package.mark("prescriptive_factor_in")
     inside = "" if rules.importance_in_separation else f" × {number(site.i_e, 2)}"
     latex = (
-        r"\Delta_{MPV}=c\,(S_{DS}-0.4)^2\geq\Delta_{min}"
+        r"\Delta_{MPV}=k_p\,(S_{DS}-0.4)^2\geq\Delta_{min}"
         if rules.importance_in_separation
-        else r"\Delta_{MPV}=c\,I_e\,(S_{DS}-0.4)^2\geq\Delta_{min}"
+        else r"\Delta_{MPV}=k_p\,I_e\,(S_{DS}-0.4)^2\geq\Delta_{min}"
     )
     bracket = Markup("({} − 0.4)<sup>2</sup>").format(number(max(site.s_ds, 0.4), 3))
     return Line(
@@ -201,14 +201,16 @@ def design_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]
         ),
         Line(
             latex=(
-                r"\Delta_{RHA}=k\,\Delta_{max}" if largest else r"\Delta_{RHA}=k\,\overline{\Delta}"
+                r"\Delta_{RHA}=k_a\,\Delta_{max}"
+                if largest
+                else r"\Delta_{RHA}=k_a\,\overline{\Delta}"
             ),
             reference=package.clause("analysis_factor"),
             steps=((f"{factor} × {fmt.both(picked)}", fmt.both(analysis.value_m)),),
             note=f"Statistic: {statistic(analysis.basis)}.",
         ),
         Line(
-            latex=r"\Delta_{floor}=f\,\Delta_{MPV}",
+            latex=r"\Delta_{floor}=k_f\,\Delta_{MPV}",
             reference=package.clause("analysis_floor"),
             steps=(
                 (
@@ -254,9 +256,9 @@ def _directions_line(package: PackageData, array: ArrayAssessment) -> Line:
     ways = (Direction.DOWN, Direction.UP, Direction.ACROSS)
     return Line(
         latex=(
-            r"\Delta_d=\mathrm{max}(k\,\Delta_{max,d},\,\Delta_{floor})"
+            r"\Delta_d=\mathrm{max}(k_a\,\Delta_{max,d},\,\Delta_{floor})"
             if largest
-            else r"\Delta_d=\mathrm{max}(k\,\overline{\Delta}_d,\,\Delta_{floor})"
+            else r"\Delta_d=\mathrm{max}(k_a\,\overline{\Delta}_d,\,\Delta_{floor})"
         ),
         reference="in each direction d",
         steps=tuple(

@@ -74,7 +74,7 @@ def tipping_troubles(package: PackageData) -> Iterator[str]:
         if not array.tipping.is_ok:
             yield (
                 f"Array {array.id} begins to tip ({array.tipping.governs}): the ratio of "
-                f"demand to b/(2h) is {ratio(array.tipping.ratio)}."
+                f"demand to b/(2c) is {ratio(array.tipping.ratio)}."
             )
 
 
@@ -88,7 +88,7 @@ def _stability_table(package: PackageData) -> Table:
             TableColumn(head="Uplift time", unit="s", share=1.1),
             TableColumn(head="Demand", unit="V/N", share=1.0),
             TableColumn(head="Transmitted", unit="V/N", share=1.1),
-            TableColumn(head="Capacity", unit="b/(2h)", share=1.1),
+            TableColumn(head="Capacity", unit="b/(2c)", share=1.1),
             TableColumn(head="Ratio, at rest", share=1.2),
             TableColumn(head="Ratio, sliding", share=1.2),
             TableColumn(head="Verdict", align="center", share=1.0),
@@ -96,9 +96,9 @@ def _stability_table(package: PackageData) -> Table:
         rows=tuple(TableRow(cells=_stability(array)) for array in package.assessment.arrays),
         notes=(
             "The worst run of each array. Tipping: an array begins to tip about an edge of its "
-            "supports where the transmitted shear exceeds b/(2h) times the normal force. "
+            "supports where the transmitted shear exceeds b/(2c) times the normal force. "
             "Transmitted: the lesser of the demand and the friction coefficient; b: smallest "
-            "support spacing; h: height of the center of gravity, midway between the supports "
+            "support spacing; c: height of the center of gravity, midway between the supports "
             "(Housner, 1963; Ishiyama, 1982).",
         ),
         kind="compact",

@@ -23,6 +23,7 @@ from report.pages import (
     model,
     motions,
     results,
+    symbols,
 )
 from report.pages.parts import PackageData, Part
 
@@ -160,6 +161,13 @@ PAGES = (
         title="Records and software",
         fill=lambda package, _: appendix.records_page(package),
         template="records.html",
+        is_appendix=True,
+    ),
+    Page(
+        id="symbols",
+        title="Symbols and references",
+        fill=lambda package, _: symbols.page(package),
+        template="symbols.html",
         is_appendix=True,
     ),
 )

@@ -48,7 +48,7 @@ def site_table(package: PackageData) -> Table:
             TableRow(
                 cells=(
                     row.words,
-                    symbol(row.symbol) if row.symbol else "",
+                    _symbols(row.symbol),
                     row.value,
                     row.clause,
                     "—" if row.value == NOT_GIVEN else row.origin,
@@ -58,6 +58,11 @@ def site_table(package: PackageData) -> Table:
         ),
         kind="compact",
     )
+
+
+def _symbols(text: str) -> Markup:
+    """Return a symbol, or a ratio of two; nothing for an empty text."""
+    return Markup("/").join(symbol(part) for part in text.split("/")) if text else Markup("")
 
 
 def site_parameters(package: PackageData) -> tuple[Parameter, ...]:

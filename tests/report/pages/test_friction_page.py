@@ -207,7 +207,7 @@ def test_the_section_states_its_dimensions_and_stays_on_the_sheet(slope):
     svg = array_section(array, True)
     texts = words(svg)
     for text in (
-        "h = 9.0 in (229 mm)", "b = 40.0 in (1016 mm)", "W = 42000 lb (186.83 kN)", "μ = 0.450",
+        "c = 9.0 in (229 mm)", "b = 40.0 in (1016 mm)", "W = 42000 lb (186.83 kN)", "μ = 0.450",
         f"θ = {slope:.2f}°", "N", "μ N", "W + m a", "−m a",
     ):  # fmt: skip
         assert text in texts

@@ -1,0 +1,96 @@
+"""The cover: project, verdict with the governing numbers, codes and attachments. Read `cover`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from markupsafe import Markup
+
+from report.assessment.clearances import ClearanceCheck
+from report.pages.front import verdict_sentence
+from report.pages.parts import PackageData, Table, TableColumn, TableRow, nan_is_worst, stamp
+from report.pages.references import codes
+from report.words.units import ratio
+
+SHORT_HASH = 12
+"""Characters of a SHA-256 printed on the cover; the appendices have it in full."""
+
+
+def cover(package: PackageData) -> Mapping[str, object]:
+    """Return the cover."""
+    project = package.data.project
+    return {
+        "name": project.name,
+        "block": (
+            ("Project number", project.number),
+            ("Client", project.client or "—"),
+            ("Address", project.address or "—"),
+            ("Prepared by", project.prepared_by),
+            ("Checked by", project.checked_by or "not yet checked"),
+            ("Date", project.date.isoformat()),
+            ("Revision", project.revision),
+            ("Verdict", _verdict(package)),
+            *_governing(package),
+            ("Applicable codes", _applicable(package)),
+            ("Attachments", "; ".join(_attachments(package))),
+        ),
+        "revisions": _revisions(package),
+    }
+
+
+def _verdict(package: PackageData) -> Markup:
+    return Markup("{} {}").format(stamp(package.assessment.verdict), verdict_sentence(package))
+
+
+def _governing(package: PackageData) -> Iterator[tuple[str, str]]:
+    array = package.governing
+    design = package.fmt.both(array.design_m) + package.design_mark(array)
+    yield (
+        "Governing array",
+        f"{array.id}: design displacement {design}, governed by: {array.governs}",
+    )
+    gap = governing_clearance(package)
+    yield (
+        "Governing clearance",
+        "none given"
+        if gap is None
+        else f"{gap.clearance.array} to {gap.clearance.object}: D/C {ratio(gap.demand_capacity)}",
+    )
+
+
+def governing_clearance(package: PackageData) -> ClearanceCheck | None:
+    """Return the clearance with the largest required / provided separation, if any."""
+    gaps = package.assessment.clearances
+    return max(gaps, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
+
+
+def _applicable(package: PackageData) -> str:
+    """Return the title of the rule set and the other codes and standards that apply."""
+    rules = package.assessment.rules
+    others = [code.cited for code in codes(package) if code.cited != rules.name]
+    return "; ".join((rules.title, *others))
+
+
+def _attachments(package: PackageData) -> Iterator[str]:
+    sheet, records = package.assessment.sheet, package.assessment.shaking.records
+    yield f"workbook {sheet.path.name} (SHA-256 {sheet.sha256[:SHORT_HASH]}…)"
+    yield "1 record file" if len(records) == 1 else f"{len(records)} record files"
+    yield "results.xlsx, results.json, plan.dxf"
+
+
+def _revisions(package: PackageData) -> Table:
+    project = package.data.project
+    rows = [
+        (row.revision, row.date.isoformat(), row.description, row.by or "—")
+        for row in package.data.revisions
+    ] or [(project.revision, project.date.isoformat(), "First issue", project.prepared_by)]
+    return Table(
+        caption="",
+        columns=(
+            TableColumn(head="Rev.", share=0.6, align="left"),
+            TableColumn(head="Date", share=1.2, align="left"),
+            TableColumn(head="Description", share=4.0, align="left"),
+            TableColumn(head="By", share=1.8, align="left"),
+        ),
+        rows=tuple(TableRow(cells=cells) for cells in rows),
+    )

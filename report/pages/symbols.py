@@ -1,0 +1,120 @@
+"""The appendix of symbols and references: each symbol with its one meaning. Read `SYMBOLS`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from markupsafe import Markup
+
+from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.pages.references import references
+from report.typeset.equations import symbol
+
+SYMBOLS: Mapping[str, str] = {
+    "A_FLX": "AC156 acceleration from 1.3 to 8.3 Hz",
+    "A_RIG": "AC156 acceleration from 33.3 Hz",
+    "a_h": "horizontal roof acceleration along the slope",
+    "a_y": "horizontal roof acceleration across the slope",
+    "a_v": "vertical roof acceleration, positive up",
+    "a_down": "acceleration at which downslope sliding begins",
+    "a_up": "acceleration at which upslope sliding begins",
+    "a_p": "amplification factor of a component",
+    "C_AR": "resonance ductility factor of a component",
+    "b": "least spacing of the supports of the array",
+    "c": "height of the array's center of gravity",
+    "c_1": "required interconnection strength / (S_DS W_1)",
+    "c_2": "least interconnection strength / W_1",
+    "F": "required strength of the interconnection",
+    "F_a": "site coefficient at 0.2 s",
+    "F_v": "site coefficient at 1 s",
+    "F_p": "seismic design force of a component",
+    "G": "driving force along the slope",
+    "g": "acceleration of gravity",
+    "H_f": "height factor of the component force",
+    "h": "height of the structure above the base",
+    "I": "importance factor of a separation: I_p, at edges I_e",
+    "I_e": "importance factor of the building",
+    "I_p": "importance factor of a component",
+    "k": "required separation / design displacement",
+    "k_a": "factor on the mean or on the largest PRD",
+    "k_f": "floor / prescriptive displacement",
+    "k_p": "prescriptive displacement / square of S_DS − 0.4",
+    "m": "mass of the array",
+    "N": "normal force between array and roof",
+    "n": "number of motions",
+    "PRD": "peak displacement relative to the roof",
+    "R_p": "response modification factor of a component",
+    "R_po": "strength factor of a component",
+    "r": "rate of the friction coefficient with velocity",
+    "S_1": "mapped acceleration at 1 s",
+    "S_S": "mapped acceleration at 0.2 s",
+    "S_MS": "maximum considered value at short periods",
+    "S_M1": "maximum considered value at 1 s",
+    "S_DS": "design value at short periods",
+    "S_D1": "design value at 1 s",
+    "S_a": "design spectral acceleration",
+    "s": "sliding displacement, positive downslope",
+    "s_req": "required separation",
+    "T": "period",
+    "T_0": "start of the plateau of the design spectrum",
+    "T_1": "period of the building, as given",
+    "T_a": "approximate period of the building",
+    "T_L": "long-period transition period",
+    "T_S": "end of the plateau of the design spectrum",
+    "u": "horizontal displacement relative to the roof",
+    "V": "shear between array and roof",
+    "v": "sliding velocity",
+    "W": "weight of the array with ballast",
+    "W_1": "weight of the lighter part beside a section",
+    "W_p": "weight of a component",
+    "z": "height of the supporting roof above the base",
+    "Δ": "design displacement",
+    "Δ_MPV": "prescriptive displacement of the rule set",
+    "Δ_RHA": "displacement by response-history analysis",
+    "Δ_floor": "least displacement without peer review",
+    "Δ_max": "largest PRD of the motions",
+    "Δ_min": "minimum of the prescriptive displacement",
+    "Δ_A,B,C": "prescriptive displacement in SDC A, B, C",
+    "Δ_d": "design displacement in direction d",
+    "θ": "slope of the roof",
+    "μ": "friction coefficient between array and roof",
+    "μ_fast": "friction coefficient at high velocity",
+    "μ_slow": "friction coefficient at low velocity",
+    "φ": "friction angle, arctan μ",
+}
+
+
+_NAME = re.compile(r"\b[A-Z]_[A-Za-z0-9]+")
+
+
+def _marked(text: str) -> Markup:
+    """Return a text with its symbols typeset."""
+    return Markup(_NAME.sub(lambda match: str(symbol(match[0])), text))
+
+
+def page(package: PackageData) -> Mapping[str, object]:
+    """Return the list of symbols and the list of references."""
+    cells = [(symbol(name), _marked(meaning)) for name, meaning in SYMBOLS.items()]
+    half = (len(cells) + 1) // 2
+    blank = (Markup(""), "")
+    second = [*cells[half:], *[blank] * (2 * half - len(cells))]
+    return {
+        "table": Table(
+            caption="Symbols",
+            columns=tuple(
+                column
+                for _ in range(2)
+                for column in (
+                    TableColumn(head="Symbol", align="left", share=0.5),
+                    TableColumn(head="Meaning", align="left", share=3.0),
+                )
+            ),
+            rows=tuple(
+                TableRow(cells=(*left, *right))
+                for left, right in zip(cells[:half], second, strict=True)
+            ),
+            kind="compact",
+        ),
+        "references": references(package),
+    }
