@@ -34,6 +34,7 @@ from report.figures.base import (
     tick_text,
 )
 from report.figures.history import MAX_POINTS, envelope, histories
+from report.figures.hodograph import hodographs
 from report.figures.plan import LANDSCAPE, PORTRAIT, SMALL, is_wide, roof_plan
 from report.words.units import Quantity, Unit
 
@@ -48,6 +49,7 @@ __all__ = [
     "comparison",
     "envelope",
     "histories",
+    "hodographs",
     "is_wide",
     "load_fonts",
     "roof_plan",
@@ -96,9 +98,7 @@ def _spectrum_axes(axes: Axes, part: Spectra) -> None:
     axes.set_title(f"{part.title} (target: {goal})", loc="left", weight="semibold", pad=3)
     axes.grid(True)
     axes.axvline(1 / 1.3, color=INK, linewidth=0.6, linestyle=":")
-    axes.text(
-        1.04 / 1.3, 0.98, "1.3 Hz", transform=axes.get_xaxis_transform(), va="top", fontsize=7
-    )
+    axes.text(1.04 / 1.3, 0.98, "1.3 Hz", transform=axes.get_xaxis_transform(), va="top")
     bare(axes)
 
 

@@ -29,6 +29,10 @@ from report.words.units import Quantity, Unit, number, pair
 from solver.model import Floats, SlideHistory
 
 MAX_POINTS = 150  # in a history; a panel is 150 pt wide
+ROW_IN = 0.86
+TRACE = 0.83  # of the width of a panel: the labels stand to the right of the lines
+LABEL_IN = 0.13  # between two labels
+DASHES = (0, (3.0, 1.2))
 
 
 def histories(
@@ -43,7 +47,7 @@ def histories(
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     grid = _Grid(motions, followed, unit)
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 0.92 * grid.rows + 0.3))
+        figure = Figure(figsize=(WIDTH_IN, ROW_IN * grid.rows + 0.3))
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         axes.set_axis_off()
         axes.set_xlim(-0.08 * grid.columns, grid.columns)
@@ -79,7 +83,7 @@ class _Grid:
 
     def x(self, index: int, t_s: Any) -> Any:
         """Return the position of times, a number or an array."""
-        return index % self.columns + 0.94 * t_s / self.seconds
+        return index % self.columns + TRACE * t_s / self.seconds
 
     def y(self, index: int, value: Any) -> Any:
         """Return the position of displacements in the unit of the grid, a number or an array."""
@@ -97,12 +101,12 @@ def _rules(axes: Axes, grid: _Grid, count: int) -> None:
             (levels if value else zeros).add([left, right], [level, level])
             if index % grid.columns == 0:
                 label = number(value, 0 if abs(grid.ticks[1] - grid.ticks[0]) >= 1 else 1)
-                axes.text(left - 0.012, level, label, ha="right", va="center", fontsize=7)
+                axes.text(left - 0.012, level, label, ha="right", va="center")
         if index >= grid.last:
             _times(axes, grid, index, ticks)
     for line, color in ((levels, PALE), (zeros, GREY), (ticks, INK)):
         axes.plot(line.x, line.y, color=color, linewidth=0.5, clip_on=False)
-    axes.text(grid.x(0, 0.0) - 0.012, -0.13, f"u [{grid.unit.symbol}]", ha="right", fontsize=7.5)
+    axes.text(grid.x(0, 0.0) - 0.012, -0.13, f"u [{grid.unit.symbol}]", ha="right")
 
 
 def _times(axes: Axes, grid: _Grid, index: int, ticks: Broken) -> None:
@@ -112,9 +116,7 @@ def _times(axes: Axes, grid: _Grid, index: int, ticks: Broken) -> None:
             at = grid.x(index, float(t))
             ticks.add([at, at], [level, level - 0.025])
             text = f"{t:g} s" if t else "0"
-            # The last label must not overlap the first one of the next panel.
-            side = "right" if t > 0.9 * grid.seconds else "center"
-            axes.text(at, level - 0.05, text, ha=side, va="top", fontsize=7)
+            axes.text(at, level - 0.05, text, ha="center", va="top")
 
 
 def _traces(axes: Axes, grid: _Grid) -> None:
@@ -129,19 +131,34 @@ def _traces(axes: Axes, grid: _Grid) -> None:
             if values.size:
                 t, u = envelope(history.t_s, values / grid.unit.si)
                 line.add(grid.x(index, t), grid.y(index, u))
+        _names(axes, grid, index, history)
         at = history.result.t_prd_s
         peak = np.interp(at, history.t_s, history.u_m / grid.unit.si)
         peaks.add([grid.x(index, at)], [grid.y(index, peak)])
-    axes.plot(across.x, across.y, color=ACROSS, linewidth=0.7, clip_on=False)
+    axes.plot(across.x, across.y, color=ACROSS, linewidth=0.9, linestyle=DASHES, clip_on=False)
     axes.plot(down.x, down.y, color=ACCENT, linewidth=0.9, clip_on=False)
     axes.plot(peaks.x, peaks.y, linestyle="", marker="o", markersize=3.2, color=INK, clip_on=False)
+
+
+def _names(axes: Axes, grid: _Grid, index: int, history: SlideHistory) -> None:
+    """Name the lines of a panel at their ends, apart from one another."""
+    ends = [("down", float(history.u_m[-1]))]
+    if history.across_m.size:
+        ends.append(("cross", float(history.across_m[-1])))
+    ends.sort(key=lambda end: end[1])
+    levels = [grid.y(index, value / grid.unit.si) for _, value in ends]
+    short = LABEL_IN / ROW_IN - (levels[-1] - levels[0])
+    if len(ends) == 2 and short > 0.0:
+        levels = [levels[0] - short / 2, levels[1] + short / 2]
+    for (name, _), level in zip(ends, levels, strict=True):
+        axes.text(grid.x(index, grid.seconds) + 0.015, level, name, va="center")
 
 
 def _titles(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool) -> None:
     top = grid.y(index, grid.high) + 0.045
     name = f"{tick_text(run.motion.id)} {_short(run)}"
     axes.text(grid.x(index, 0.0), top, name, weight="semibold")
-    axes.text(grid.x(index, grid.seconds), top, _prd_text(run, us_first), ha="right")
+    axes.text(index % grid.columns + 0.97, top, _prd_text(run, us_first), ha="right")
 
 
 def _short(run: MotionRun) -> str:
@@ -153,8 +170,8 @@ def _short(run: MotionRun) -> str:
 def _prd_text(run: MotionRun, us_first: bool) -> str:
     prd_m = run.governing.prd_m
     if math.isnan(prd_m):
-        return "PRD: none"
-    return f"PRD {pair(prd_m, Quantity.DISPLACEMENT, us_first)}"
+        return "none"
+    return pair(prd_m, Quantity.DISPLACEMENT, us_first)
 
 
 def envelope(t: Floats, u: Floats, most: int = MAX_POINTS) -> tuple[Floats, Floats]:

@@ -85,7 +85,7 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
     axes.set_xlabel(sweep.x_label)
     axes.set_ylabel(sweep.y_label)
     title = lettered(sweep.title).replace(": ", ":\n", 1)
-    axes.set_title(f"({count}) {title}", loc="left", fontsize=7.5, weight="semibold")
+    axes.set_title(f"({count}) {title}", loc="left", weight="semibold")
 
 
 def _contours(axes: Axes, sweep: StabilityMap) -> None:
@@ -142,7 +142,7 @@ def conditioning(cases: Sequence[Conditioning]) -> str:
             above.set_yscale("symlog", linthresh=1.0)
             _spread(below, case.change_percent)
             _plain_symlog(above)
-            above.set_title(f"{case.title}", loc="left", fontsize=7.5, weight="semibold")
+            above.set_title(f"{case.title}", loc="left", weight="semibold")
             below.set_xlabel("Friction coefficient μ")
             for axes in (above, below):
                 axes.grid(True)

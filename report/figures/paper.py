@@ -235,7 +235,6 @@ def _family(axes: Axes, x: Floats, family: Sequence[tuple[str, Floats]]) -> None
         ncols=4,
         handlelength=2.4,
         columnspacing=1.0,
-        fontsize=7.0,
     )
     bare(axes)
 
@@ -258,7 +257,7 @@ def contours(study: DesignCurves) -> str:
             linewidths=[1.5 if v in (500.0, 1000.0) else 0.8 for v in levels],
             linestyles=["-" if v in (500.0, 1000.0) else _DASHED for v in levels],
         )
-        axes.clabel(drawn, fmt=lambda value: f"{value:g} mm", fontsize=7, inline_spacing=2)
+        axes.clabel(drawn, fmt=lambda value: f"{value:g} mm", inline_spacing=2)
         least = study.least_mu(slope_deg, float(study.ppas_g[ppa]), wanted_m)
         if not math.isnan(least):
             _read_off(axes, least, slope_deg, wanted_m)

@@ -127,7 +127,7 @@ def bounds(groups: Sequence[BoundRatios]) -> str:
         figure = Figure(figsize=(WIDTH_IN, 2.5))
         axes = figure.add_axes((0.085, 0.165, 0.58, 0.8))
         axes.axvline(1.0, color=INK, linewidth=0.8)
-        axes.text(1.15, 0.9, "bound", fontsize=7.5, color=INK)
+        axes.text(1.15, 0.9, "bound", color=INK)
         for group, look in zip(groups, _LOOKS, strict=False):
             above = 1.0 - np.arange(group.ratios.size) / max(group.ratios.size, 1)
             axes.plot(

@@ -177,4 +177,4 @@ def _panel(axes: Axes, curve: Curve, shown: Sequence[Curve]) -> None:
     _log_axes(axes)
     decades(axes.xaxis, most=5)
     decades(axes.yaxis, most=6)
-    axes.set_title(look.label, loc="left", fontsize=7.5)
+    axes.set_title(look.label, loc="left")

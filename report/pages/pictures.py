@@ -145,19 +145,32 @@ def _by_place(spectra: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectr
 def _histories(
     array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[Picture]:
-    from report.figures.charts import histories
+    from report.figures.charts import histories, hodographs
 
-    two = any(m.governing.has_across for m in array.motions)
+    two = any(history.across_m.size for history in followed)
     lines = (
-        ": downslope (blue) and cross-slope, positive to the left (orange)"
+        ": downslope (solid) and cross-slope, positive to the left when facing downslope (dashed)"
         if two
         else ", downslope"
     )
+    one_axis = [
+        run.motion.id
+        for run, path in zip(array.motions, followed, strict=True)
+        if not path.across_m.size and path.result.prd_m > 0.0
+    ]
+    straight = f" Straight lines: {', '.join(one_axis)}, in one axis." if one_axis else ""
     for start in range(0, len(array.motions), PANELS):
         here = slice(start, start + PANELS)
         yield Picture(
             svg=histories(array.motions[here], followed[here], us_first),
             caption=f"Array {array.id}: displacement relative to the roof in the "
-            f"governing run{lines}. Dot: time of the PRD, the largest distance in plan.",
+            f"governing run{lines}. Dot: time of the PRD, the largest distance in "
+            "plan, whose value is at the upper right.",
             alt=f"Relative displacement histories of array {array.id}",
+        )
+        yield Picture(
+            svg=hodographs(array.motions[here], followed[here], us_first),
+            caption=f"Array {array.id}: path in plan in the governing run, all motions at one "
+            f"scale. Cross: start. Dot: PRD.{straight}",
+            alt=f"Paths of array {array.id} in plan",
         )

@@ -79,9 +79,17 @@ def test_a_short_record_is_drawn_as_it_is():
 
 def test_each_history_states_its_prd_in_both_systems(assessment):
     printed = words(histories(assessment.arrays[1]))
-    assert sum(bool(re.fullmatch(r"PRD [\d.]+ in \(\d+ mm\)", text)) for text in printed) == 3
+    assert sum(bool(re.fullmatch(r"[\d.]+ in \(\d+ mm\)", text)) for text in printed) == 3
     printed = words(histories(assessment.arrays[1], us_first=False))
-    assert sum(bool(re.fullmatch(r"PRD \d+ mm \([\d.]+ in\)", text)) for text in printed) == 3
+    assert sum(bool(re.fullmatch(r"\d+ mm \([\d.]+ in\)", text)) for text in printed) == 3
+
+
+def test_histories_name_their_lines_in_every_panel(assessment):
+    array = assessment.arrays[1]
+    two = sum(bool(run.history().across_m.size) for run in array.motions)
+    assert two > 0
+    printed = words(histories(array))
+    assert (printed.count("down"), printed.count("cross")) == (len(array.motions), two)
 
 
 def test_a_run_without_a_value_is_drawn_as_such():
@@ -91,8 +99,7 @@ def test_a_run_without_a_value_is_drawn_as_such():
     book = stand_in.book(shaking=(still,) * 3)
     assessment = stand_in.assessed(book)
     printed = words(histories(assessment.arrays[0]))
-    assert printed.count("none") == 3
-    assert printed.count("PRD: none") == 3
+    assert printed.count("none") == 6  # above and within each panel
     assert "none" in words(figures.comparison(assessment.arrays, True))
     assert words(figures.clearances(assessment.clearances, True)).count("none: NG") == 5
 

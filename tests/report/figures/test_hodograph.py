@@ -1,0 +1,88 @@
+"""Paths in plan: orientation, common scale, and what a run in one axis or without a value gives."""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.figures.charts import hodographs, load_fonts
+from report.figures.hodograph import STEP_IN, _Panel, _path, round_below, thinned
+from report.typeset.pdf import TEMPLATES
+
+
+@pytest.fixture(scope="module", autouse=True)
+def fonts():
+    load_fonts(TEMPLATES / "fonts")
+
+
+@pytest.fixture(scope="module")
+def array():
+    return stand_in.assessed(stand_in.book(shaking=stand_in.motions(3, seconds=12.0))).arrays[1]
+
+
+def words(svg):
+    return re.findall(r"<text[^>]*>([^<]+)</text>", svg)
+
+
+def test_downslope_is_down_the_page_and_left_of_it_to_the_readers_right(array):
+    history = array.motions[0].history()
+    turned = replace(history, u_m=np.array([0.0, 3.0]), across_m=np.array([0.0, 4.0]))
+    path = _path(turned)
+    assert path.x_m.tolist() == [0.0, 4.0]
+    assert path.y_m.tolist() == [0.0, -3.0]
+    assert math.hypot(*path.peak) == 5.0
+
+
+def test_the_dot_is_at_the_prd_of_the_run(array):
+    for run in array.motions:
+        # The largest distance between two samples may exceed that at the samples.
+        assert math.hypot(*_path(run.history()).peak) == pytest.approx(
+            run.governing.prd_m, rel=5e-3
+        )
+
+
+def test_a_run_in_one_axis_is_a_straight_line(array):
+    history = replace(array.motions[0].history(), across_m=np.zeros(0))
+    assert not _path(history).x_m.any()
+    assert len(_path(history).x_m) == len(history.u_m)
+
+
+def test_every_path_stays_within_its_panel(array):
+    paths = [_path(run.history()) for run in array.motions]
+    panel = _Panel.around(paths)
+    for path in paths:
+        x = panel.start[0] + path.x_m / panel.m_per_in
+        y = panel.start[1] + path.y_m / panel.m_per_in
+        assert 0.0 < x.min() <= x.max() < panel.wide_in
+        assert -panel.tall_in < y.min() <= y.max() < 0.0
+
+
+@pytest.mark.parametrize(("us_first", "unit"), [(True, "in"), (False, "mm")])
+def test_motions_downslope_and_a_round_scale_are_named(array, us_first, unit):
+    printed = words(hodographs(array.motions, [m.history() for m in array.motions], us_first))
+    assert [run.motion.id for run in array.motions] == printed[: len(array.motions)]
+    assert printed[-2] == "downslope"
+    assert re.fullmatch(rf"[125]0* {unit}", printed[-1])
+
+
+def test_a_run_without_a_value_has_no_path(array):
+    history = array.motions[0].history()
+    none = replace(history, result=replace(history.result, prd_m=math.nan))
+    assert words(hodographs(array.motions[:1], [none], True)).count("none") == 1
+
+
+def test_thinning_keeps_the_ends_and_no_point_is_farther_than_a_step_from_the_next():
+    angle = np.linspace(0.0, 6.0, 5000)
+    x, y = np.cos(angle), np.sin(angle)
+    x_few, y_few = thinned(x, y)
+    assert (x_few[0], y_few[0], x_few[-1], y_few[-1]) == (x[0], y[0], x[-1], y[-1])
+    assert len(x_few) == pytest.approx(6.0 / STEP_IN, rel=0.02)
+    assert np.hypot(np.diff(x_few), np.diff(y_few)).max() < 1.3 * STEP_IN
+
+
+@pytest.mark.parametrize(("value", "length"), [(1.0, 1.0), (4.9, 2.0), (99.0, 50.0), (0.7, 0.5)])
+def test_the_bar_is_one_two_or_five(value, length):
+    assert round_below(value) == pytest.approx(length)
