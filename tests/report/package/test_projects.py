@@ -149,13 +149,15 @@ def test_the_school_is_ok_in_the_same_word_everywhere(school):
     rows = [line for line in school.terminal.splitlines() if re.match(r"A\d ", line)]
     assert len(rows) == 2
     assert all(line.endswith(" OK") for line in rows)
+    assert "verdict: OK\n" in school.terminal
     results = [row[12].value for row in school.book["Clearances"].iter_rows(min_row=5)]
     assert [value for value in results if value] == ["OK"] * 7
 
 
 def test_the_school_has_no_condition(school):
     assert all(row["is_satisfied"] for row in school.results["requirements"])
-    assert "OK with conditions" not in school.whole
+    for title in ("1 Summary", "9 Clearances", "10 Limits and interconnection strength"):
+        assert "OK with conditions" not in school.part(title)
     assert "Conditions and requirements not satisfied" not in school.whole
     assert " NG " not in school.part("10 Limits and interconnection strength")
 
@@ -217,6 +219,7 @@ def test_the_warehouse_is_ng_in_the_same_word_everywhere(conditions):
     for name, verdict in verdicts.items():
         line = next(x for x in conditions.terminal.splitlines() if x.startswith(f"{name} "))
         assert line.endswith(f" {verdict}")
+    assert "verdict: NG\n" in conditions.terminal
     results = [row[12].value for row in conditions.book["Clearances"].iter_rows(min_row=5)]
     assert [value for value in results if value] == ["OK", "NG", "OK", "OK", "OK", "OK"]
 
@@ -294,7 +297,7 @@ def test_the_inputs_say_that_no_friction_test_is_given(conditions):
 
 def test_the_clearance_that_fails_says_what_would_do(conditions):
     gaps = conditions.part("9 Clearances")
-    assert re.search(r"2 A2 RTU-1 fixed object, across .* 21\.6 549 12\.0 305 1\.80 NG", gaps)
+    assert re.search(r"2 A2 RTU-1 fixed object, across .* 21\.6 549 12\.0 304 1\.80 NG", gaps)
     assert "2 Provided separation 12.0 in (305 mm) ≥ 21.6 in (549 mm) exact" in gaps
 
 
