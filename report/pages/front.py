@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.certainty import Certainty
 from report.assessment.remedies import Remedy
 from report.assessment.verdict import Verdict
@@ -196,10 +196,33 @@ def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
         "peer": "is stated to be peer reviewed"
         if package.data.options.peer_reviewed
         else "is not stated to be peer reviewed",
-        "floor": "does not apply" if package.data.options.peer_reviewed else "applies",
+        "floor": _floor(package),
+        "routes": _routes(package),
         "angles": _angles(package, certainty),
         "failed": troubles(package),
     }
+
+
+def _floor(package: PackageData) -> str:
+    """Return whether the floor on the value from analysis applies."""
+    if package.data.options.peer_reviewed:
+        return "does not apply"
+    if all(array.route is Route.PRESCRIPTIVE for array in package.assessment.arrays):
+        return "is not used: the design displacements are prescriptive"
+    return "applies"
+
+
+def _routes(package: PackageData) -> str:
+    """Return which limits are satisfied, by the route that each array takes."""
+    of_route = {
+        route: [array.id for array in package.assessment.arrays if array.route is route]
+        for route in Route
+    }
+    taken = {route: ids for route, ids in of_route.items() if ids}
+    if len(taken) == 1:
+        return f"All limits of the {next(iter(taken))} route are satisfied"
+    parts = (f"of the {route} route for {', '.join(ids)}" for route, ids in taken.items())
+    return f"All limits are satisfied: {' and '.join(parts)}"
 
 
 def _angles(package: PackageData, certainty: Certainty) -> str:

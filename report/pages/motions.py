@@ -131,7 +131,7 @@ def drift_sentence(package: PackageData, preparations: Sequence[PreparedMotion])
     speed = max(abs(m.final_velocity_mps) for m in measures) / unit.si
     place = max(abs(m.final_displacement_m) for m in measures) / unit.si
     return (
-        "All motions are run as recorded, without trimming, filtering or baseline correction. The "
+        "All motions are run without trimming, filtering or baseline correction. The "
         f"final velocity of every component is at most {number(speed, 2)} {unit.symbol}/s and its "
         f"final displacement at most {number(place, 2)} {unit.symbol}: none drifts. Drift in the "
         "input would become slip; a final displacement of more than "

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.project import run_warnings
 from report.assessment.runs import MotionRun
 from report.pages.checks import check_table
@@ -15,6 +15,8 @@ from report.pages.parts import NO_VALUE, PackageData, Table, TableColumn, TableR
 from report.sheet.schema import Direction
 from report.words.units import number
 from solver.model import Heading, Status
+from solver.records.acceptance_row import Consequence
+from solver.rules.provisions import Basis
 
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
 _SHORT = {
@@ -98,13 +100,18 @@ def _peaks(package: PackageData, array: ArrayAssessment) -> Table:
         notes=(
             f"{_meaning(headings)}; bold: the governing run. PRD is the largest distance in plan "
             "from the starting position, relative to the roof. Largest of all runs: downslope, "
-            "upslope and cross-slope; clearances are based on these. The columns to the right "
+            f"upslope and cross-slope; {_use(array)}. The columns to the right "
             "belong to the governing run; N/(m g) is its minimum. The file results.xlsx has every "
             "run in both systems of units.",
             *_stand_in(package, array),
         ),
         kind="compact",
     )
+
+
+def _use(array: ArrayAssessment) -> str:
+    """Return whether clearances take the displacements by direction."""
+    return "clearances are based on these" if array.by_direction else "for information"
 
 
 def _stand_in(package: PackageData, array: ArrayAssessment) -> Sequence[str]:
@@ -286,6 +293,8 @@ def _ratio_row(package: PackageData, array: ArrayAssessment) -> TableRow:
 
 
 def _sentence(package: PackageData, array: ArrayAssessment) -> str:
+    if array.route is Route.PRESCRIPTIVE:
+        return _prescriptive_sentence(package, array)
     failed = [check.title for check in array.prescriptive_checks if not check.ok]
     route = (
         f"the prescriptive route is not permitted ({'; '.join(failed)})"
@@ -304,6 +313,24 @@ def _sentence(package: PackageData, array: ArrayAssessment) -> str:
             f"{'governs' if array.governs is DesignBasis.FLOOR else 'does not govern'}"
         )
     return f"Array {array.id}: {_exceeds(package, array)}{floor}; {route}."
+
+
+def _prescriptive_sentence(package: PackageData, array: ArrayAssessment) -> str:
+    """Return why the prescriptive route is taken."""
+    acceptance = package.assessment.acceptance
+    failed = [check.title for check in array.analysis_checks if not check.ok]
+    failed += [row.title for row in acceptance.missed if row.consequence is Consequence.NG]
+    if array.analysis.basis is Basis.TOO_FEW:
+        failed.append("too few motions")
+    exceeds = (
+        "the largest PRD exceeds the prescriptive displacement and is used; "
+        if array.analysis.largest_m > array.prescriptive.value_m
+        else ""
+    )
+    return (
+        f"Array {array.id}: the prescriptive route is taken; {exceeds}the analysis route is not "
+        f"permitted ({'; '.join(failed)})."
+    )
 
 
 def _exceeds(package: PackageData, array: ArrayAssessment) -> str:

@@ -1,0 +1,155 @@
+"""Makes a project with much missing: what is not there is named by its package, which is NG.
+
+Run from the repository root: .venv/bin/python projects/conditions/make.py
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from pathlib import Path
+
+from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.template import write_template
+from solver.records.record import write_record
+from solver.rules.hazard import EDITIONS
+from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from solver.synthesis import SuiteMotion, make_suite
+
+HERE = Path(__file__).resolve().parent
+FOOT, INCH, POUND = 0.3048, 0.0254, 4.4482216152605
+S_DS_G = 1.0
+COUNT, SEED, DT_S = 4, 1000, 0.01
+ENGINEER = "Engineer of record"
+SOURCE = f"AC156 spectrum at the roof, seed {SEED}; one component of each motion"
+
+
+def main() -> None:
+    """Write records/ and input.xlsx beside this file."""
+    records = HERE / "records"
+    records.mkdir(exist_ok=True)
+    for number, motion in enumerate(suite(COUNT), start=1):
+        write_record(records / f"RM{number}-x.csv", motion.x, hold_s=motion.hold_s)
+    write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=project())
+
+
+def suite(count: int) -> list[SuiteMotion]:
+    """Return the roof motions, of which the project uses the first component alone."""
+    across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=S_DS_G, z_over_h=1.0)
+    upward = ac156_vertical(s_ds_g=S_DS_G)
+    return make_suite(
+        (across.freq_hz, across.sa_g),
+        (upward.freq_hz, upward.sa_g),
+        count=count,
+        seed=SEED,
+        dt_s=DT_S,
+    )
+
+
+def project() -> ProjectInput:
+    """Return the project: a small warehouse whose calculation lacks much."""
+    return ProjectInput.model_validate(
+        {
+            "project": {
+                "name": "Small Warehouse, Rooftop Solar",
+                "number": "CO-1000",
+                "client": "Example client",
+                "address": "Sacramento, California",
+                "prepared_by": ENGINEER,
+                "checked_by": "",
+                "date": dt.date(2026, 11, 20),
+                "revision": "A",
+                "units_first": "US",
+            },
+            "revisions": [
+                {
+                    "revision": "A",
+                    "date": dt.date(2026, 11, 20),
+                    "description": "Draft, incomplete",
+                    "by": ENGINEER,
+                }
+            ],
+            "site": {
+                "rule_set": "SEAOC PV1-2012",
+                "risk_category": "II",
+                "i_e": 1.0,
+                "site_class": "C",
+                "s_ds_g": S_DS_G,
+                "sdc": "D",
+                "stories": 1,
+                "structure_height_m": 24 * FOOT,
+                "roof_height_m": 24 * FOOT,
+            },
+            "roof": {
+                "x_from_m": 0.0,
+                "x_to_m": 200 * FOOT,
+                "y_from_m": 0.0,
+                "y_to_m": 100 * FOOT,
+            },
+            "arrays": [
+                # Longer than 150 ft between fire lanes.
+                _array("A1", (10, 170), (54, 90)),
+                _array("A2", (10, 120), (10, 50)),
+            ],
+            "objects": [
+                _object("RTU-1", "fixed object", 48, (121, 129), (20, 28)),
+                _object("NORTH", "edge with parapet", 36, (0, 200), (100, 101)),
+                _object("SOUTH", "edge without parapet", None, (0, 200), (-1, 0)),
+                _object("EAST", "edge with parapet", 36, (200, 201), (0, 100)),
+                _object("WEST", "edge with parapet", 36, (-1, 0), (0, 100)),
+            ],
+            "clearances": [
+                _clearance("A1", "A2", "down", 4),
+                # Too narrow: the prescriptive displacement is 21.6 in.
+                _clearance("A2", "RTU-1", "across", 1),
+                _clearance("A2", "SOUTH", "down", 10),
+                _clearance("A1", "NORTH", "up", 10),
+                _clearance("A1", "WEST", "across", 10),
+                _clearance("A2", "WEST", "across", 10),
+            ],
+            "motions": [
+                {"id": f"RM{number}", "record": f"records/RM{number}-x.csv", "source": SOURCE}
+                for number in range(1, COUNT + 1)
+            ],
+        }
+    )
+
+
+def _array(name: str, x: tuple[float, float], y: tuple[float, float]) -> dict[str, object]:
+    """Return an array without friction test report, interconnection strength and slack."""
+    area_sqft = (x[1] - x[0]) * (y[1] - y[0])
+    return {
+        "id": name,
+        "slope_value": 0.25,
+        "slope_unit": "in/12",
+        "mu": 0.50,
+        "construction": "Ballasted tray, 10 deg tilt",
+        "weight_n": 5.5 * area_sqft * POUND,
+        "cg_height_m": 9 * INCH,
+        "support_spacing_m": 40 * INCH,
+        "downslope_deg": 270.0,
+        **_plan(x, y),
+    }
+
+
+def _object(
+    name: str,
+    kind: str,
+    height_in: float | None,
+    x: tuple[float, float],
+    y: tuple[float, float],
+) -> dict[str, object]:
+    height_m = None if height_in is None else height_in * INCH
+    return {"id": name, "kind": kind, "height_m": height_m, **_plan(x, y)}
+
+
+def _plan(x: tuple[float, float], y: tuple[float, float]) -> dict[str, float]:
+    sides = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
+    return {side: value * FOOT for side, value in zip(sides, (*x, *y), strict=True)}
+
+
+def _clearance(array: str, other: str, direction: str, feet: float) -> dict[str, object]:
+    return {"array": array, "object": other, "direction": direction, "provided_m": feet * FOOT}
+
+
+if __name__ == "__main__":
+    main()

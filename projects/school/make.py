@@ -1,0 +1,201 @@
+"""Makes the school: ground motions from seeded noise, and the completed input workbook.
+
+Run from the repository root: .venv/bin/python projects/school/make.py
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from pathlib import Path
+
+from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.template import write_template
+from solver.records.record import write_record
+from solver.rules.hazard import EDITIONS
+from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from solver.synthesis import SuiteMotion, make_suite
+
+HERE = Path(__file__).resolve().parent
+S_S_G, F_A, S_1_G, F_V, T_L_S = 0.55, 1.28, 0.16, 1.5, 6.0
+S_DS_G = 2.0 / 3.0 * F_A * S_S_G
+COUNT, SEED = 7, 716
+# 24 s at full level: the building may shorten the strong motion, and 20 s are required at the roof.
+DT_S, DURATION_S = 0.01, 36.0
+# A_FLX at the roof / at grade: below its first frequency the building amplifies nothing.
+FACTOR = 1.6
+ENGINEER = "Engineer of record"
+SOURCE = (
+    f"Generated: AC156 at grade, vertical AC156 / {FACTOR}, seed {SEED}."
+    f" Factor {FACTOR}: A_FLX at the roof / at grade"
+)
+
+
+def main() -> None:
+    """Write records/ and input.xlsx beside this file."""
+    records = HERE / "records"
+    records.mkdir(exist_ok=True)
+    for number, motion in enumerate(suite(COUNT), start=1):
+        for record, letter in zip(motion.components, "xyz", strict=True):
+            write_record(records / f"GM{number}-{letter}.csv", record, hold_s=motion.hold_s)
+    write_template(HERE / "input.xlsx", units=UnitsFirst.SI, example=project())
+
+
+def suite(count: int) -> list[SuiteMotion]:
+    """Return the ground motions: horizontal components to AC156 at grade."""
+    across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=S_DS_G, z_over_h=0.0)
+    upward = ac156_vertical(s_ds_g=S_DS_G)
+    return make_suite(
+        (across.freq_hz, across.sa_g),
+        # The factor acts on all components, and the building does not amplify the vertical one.
+        (upward.freq_hz, upward.sa_g / FACTOR),
+        count=count,
+        seed=SEED,
+        dt_s=DT_S,
+        duration_s=DURATION_S,
+    )
+
+
+def project() -> ProjectInput:
+    """Return the project: a two-story school, its roof steeper than 1 in 20, with peer review."""
+    return ProjectInput.model_validate(
+        {
+            "project": {
+                "name": "Two-Story School, Rooftop Solar",
+                "number": "SC-716",
+                "client": "Example school district",
+                "address": "Albuquerque, New Mexico",
+                "prepared_by": ENGINEER,
+                "checked_by": "",
+                "date": dt.date(2026, 11, 20),
+                "revision": "0",
+                "units_first": "SI",
+            },
+            "revisions": [
+                {
+                    "revision": "0",
+                    "date": dt.date(2026, 11, 20),
+                    "description": "Issued for plan check",
+                    "by": ENGINEER,
+                }
+            ],
+            "site": {
+                "rule_set": "ASCE 7-16",
+                "risk_category": "III",
+                "i_e": 1.25,
+                "s_s_g": S_S_G,
+                "s_1_g": S_1_G,
+                "site_class": "C",
+                "f_a": F_A,
+                "f_v": F_V,
+                "sdc": "C",
+                "stories": 2,
+                "structure_height_m": 8.5,
+                "roof_height_m": 8.5,
+                "hazard_source": "Example values, in place of the ASCE 7 Hazard Tool",
+                "hazard_date": dt.date(2026, 11, 2),
+                "force_factor": 1.0,
+                "force_divisor": 1.5,
+            },
+            "roof": {"x_from_m": 0.0, "x_to_m": 60.0, "y_from_m": 0.0, "y_to_m": 34.0},
+            "arrays": [
+                _array("A1", (3.0, 28.0), (3.0, 31.0)),
+                _array("A2", (32.0, 57.0), (3.0, 26.0)),
+            ],
+            "friction_tests": {
+                "laboratory": "Example Laboratories",
+                "accreditation": "ISO/IEC 17025, no. 1234.01",
+                "standard": "ASTM G115-10",
+                "report": "FT-2026-031",
+                "date": dt.date(2026, 6, 12),
+                "membrane": "TPO, 60 mil",
+                "support": "EPDM pad",
+            },
+            "friction_runs": [
+                {
+                    "surface": surface,
+                    "number": number,
+                    "mu": mu,
+                    "velocity_mps": 0.5,
+                    "mu_static": mu + 0.04,
+                }
+                for surface, tested in (("dry", (0.55, 0.56, 0.54)), ("wet", (0.50, 0.51, 0.49)))
+                for number, mu in enumerate(tested, start=1)
+            ],
+            "objects": [
+                _object("AHU-1", "fixed object", 1.4, (40.0, 46.0), (28.0, 31.0)),
+                _object("NORTH", "edge with parapet", 0.9, (0.0, 60.0), (34.0, 34.3)),
+                _object("SOUTH", "edge with parapet", 0.9, (0.0, 60.0), (-0.3, 0.0)),
+                _object("EAST", "edge with parapet", 0.9, (60.0, 60.3), (0.0, 34.0)),
+                _object("WEST", "edge with parapet", 0.9, (-0.3, 0.0), (0.0, 34.0)),
+            ],
+            "clearances": [
+                _clearance("A1", "A2", "across", 4.0),
+                _clearance("A2", "AHU-1", "up", 2.0),
+                _clearance("A1", "NORTH", "up", 3.0),
+                _clearance("A1", "SOUTH", "down", 3.0),
+                _clearance("A1", "WEST", "across", 3.0),
+                _clearance("A2", "SOUTH", "down", 3.0),
+                _clearance("A2", "EAST", "across", 3.0),
+            ],
+            "motions": [
+                {
+                    "id": f"GM{number}",
+                    "record": f"records/GM{number}-x.csv",
+                    "transverse": f"records/GM{number}-y.csv",
+                    "vertical": f"records/GM{number}-z.csv",
+                    "scaling": "factor",
+                    "scale_value": FACTOR,
+                    "recorded_at": "ground",
+                    "source": SOURCE,
+                }
+                for number in range(1, COUNT + 1)
+            ],
+            "building": {"structure": "other"},
+            "options": {
+                "peer_reviewed": True,
+                "peer_reviewer": "Reviewer of record",
+                "peer_license": "NM S0000",
+                "peer_date": dt.date(2026, 11, 16),
+            },
+            "target": {"t_l_s": T_L_S},
+        }
+    )
+
+
+def _array(name: str, x: tuple[float, float], y: tuple[float, float]) -> dict[str, object]:
+    """Return an array of the same product; south is downslope, 0.75 in 12, which is 1 in 16."""
+    area_m2 = (x[1] - x[0]) * (y[1] - y[0])
+    return {
+        "id": name,
+        "slope_value": 0.75,
+        "slope_unit": "in/12",
+        "mu": 0.50,
+        "mu_report": "FT-2026-031",
+        "construction": "Ballasted tray, 10 deg tilt",
+        "weight_n": 260.0 * area_m2,
+        "cg_height_m": 0.23,
+        "support_spacing_m": 1.0,
+        "downslope_deg": 270.0,
+        "i_p": 1.0,
+        "interconnection_n": 15.0e3,
+        "slack_m": 1.2,
+        **_plan(x, y),
+    }
+
+
+def _object(
+    name: str, kind: str, height_m: float, x: tuple[float, float], y: tuple[float, float]
+) -> dict[str, object]:
+    return {"id": name, "kind": kind, "height_m": height_m, **_plan(x, y)}
+
+
+def _plan(x: tuple[float, float], y: tuple[float, float]) -> dict[str, float]:
+    return dict(zip(("x_from_m", "x_to_m", "y_from_m", "y_to_m"), (*x, *y), strict=True))
+
+
+def _clearance(array: str, other: str, direction: str, provided_m: float) -> dict[str, object]:
+    return {"array": array, "object": other, "direction": direction, "provided_m": provided_m}
+
+
+if __name__ == "__main__":
+    main()
