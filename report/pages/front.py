@@ -131,7 +131,25 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
             package.fmt.both(array.design_m) + package.design_mark(array),
             f"governed by: {array.governs}",
         ),
+        *_exceptional(package),
     )
+
+
+def _exceptional(package: PackageData) -> Sequence[tuple[str, str, str]]:
+    """Return a floor that is removed and a departure from the rule set, with who reviewed them."""
+    options, rows = package.data.options, []
+    if options.peer_reviewed:
+        by = (options.peer_reviewer, options.peer_license, options.peer_date or "")
+        stated = ", ".join(str(part) for part in by if part) or "reviewer not given"
+        rows.append(
+            ("Floor", f"removed by peer review: {stated}", package.clause("analysis_floor"))
+        )
+    if options.directional:
+        reason = shortened(options.directional_reason, 80)
+        rows.append(
+            ("Departure", f"displacement by direction: {reason}", package.part("provisions"))
+        )
+    return rows
 
 
 def _array_table(package: PackageData) -> Table:
