@@ -15,6 +15,7 @@ from report.cli.terminal import Progress, input_errors, no_collections
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
+    from report.assessment.changes import Changes
     from report.assessment.project import Assessment
 
 SOURCE = click.Path(path_type=Path)
@@ -72,42 +73,51 @@ def check(source: Path) -> None:
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--out", type=SOURCE, help="Output folder; default: out/ beside the input.")
-def report(source: Path, out: Path | None) -> None:
+@click.option("--since", type=SOURCE, metavar="RESULTS.JSON",
+              help="Of a former revision: the package states what changed.")  # fmt: skip
+def report(source: Path, out: Path | None, since: Path | None) -> None:
     """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary."""
     with input_errors(source), Progress() as progress, no_collections():
-        assessment, folder, files = make(source, out, progress)
+        assessment, folder, files, changed = make(source, out, since, progress)
     _print_summary(assessment)
+    if changed.is_asked_for:
+        _print_changes(assessment, changed)
     click.echo("")
     for name in files:
         click.echo(folder / name)
 
 
 def make(
-    source: Path, out: Path | None, progress: Callable[[str], None]
-) -> tuple[Assessment, Path, Mapping[str, bytes]]:
+    source: Path, out: Path | None, since: Path | None, progress: Callable[[str], None]
+) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
     """Read a workbook, run its motions, and write the package and the tables."""
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
+    from report.assessment.changes import NO_FORMER
     from report.assessment.evidence import support
     from report.assessment.project import assess
     from report.drawing.dxf import write_dxf
     from report.drawing.plan import plan_drawing
     from report.motions.prepare import prepare
     from report.package.html import pages
+    from report.results.compare import changes
     from report.results.publish import publish
+    from report.results.since import read_former
     from report.results.tables import tables
     from report.sheet.read import read
     from report.typeset.pdf import lay_out
 
     progress("reading the workbook")
+    former = [read_former(path) for path in (since,) if path]
     sheet = read(source)
     shaking = prepare(sheet)
     progress("running the motions (the first run compiles the solver)")
     assessment = assess(sheet, shaking)
     evidence = support(assessment)
     progress("writing the pages")
-    html = pages(assessment, evidence)
+    changed = changes(former[0], assessment) if former else NO_FORMER
+    html = pages(assessment, evidence, changed)
     progress("laying out the package")
     # The library for DXF takes 0.8 s to load, on the core that the layout leaves idle.
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as beside:
@@ -118,7 +128,7 @@ def make(
     files |= tables(assessment, evidence)
     folder = out or sheet.path.parent / "out"
     publish(files, folder)
-    return assessment, folder, files
+    return assessment, folder, files, changed
 
 
 def _print_summary(assessment: Assessment) -> None:
@@ -148,6 +158,14 @@ def _print_summary(assessment: Assessment) -> None:
         text = f"{where}{missed.title}: {missed.found}; {missed.limit} required"
         click.echo(f"{missed.consequence.value}: {text}")
     click.echo(f"verdict: {assessment.verdict.value}")
+
+
+def _print_changes(assessment: Assessment, changed: Changes) -> None:
+    from report.pages.changes import counted
+    from report.pages.registry import package_data
+
+    where = package_data(assessment, changed).part("changes")
+    click.echo(f"since revision {changed.revision}: {counted(changed)}; see {where} of the package")
 
 
 def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) -> tuple[str, ...]:

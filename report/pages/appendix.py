@@ -5,13 +5,15 @@ from __future__ import annotations
 import platform
 import textwrap
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from importlib import metadata
 from itertools import groupby, zip_longest
 from string import ascii_uppercase, digits
 
+from markupsafe import Markup
+
 from report.motions.components import RecordFile
-from report.pages.parts import PackageData, Table, TableColumn, TableRow, shortened
+from report.pages.parts import BAR, PackageData, Table, TableColumn, TableRow, shortened
 from report.sheet.read import IGNORED, EchoRow
 from report.words.units import number
 
@@ -36,7 +38,8 @@ MOST_COLUMNS = 4
 def echo_page(package: PackageData) -> Mapping[str, object]:
     """Return the input echo."""
     sheet = package.assessment.sheet
-    return {"workbook": sheet.path.name, "sha256": sheet.sha256, "sheets": echo(sheet.echo)}
+    sheets = echo(sheet.echo, package.changes.cells)
+    return {"workbook": sheet.path.name, "sha256": sheet.sha256, "sheets": sheets}
 
 
 def records_page(package: PackageData) -> Mapping[str, object]:
@@ -45,34 +48,55 @@ def records_page(package: PackageData) -> Mapping[str, object]:
     return {"files": files, "method": METHOD, "software": software()}
 
 
-def echo(rows: Sequence[EchoRow]) -> tuple[tuple[str, tuple[Table, ...]], ...]:
+def echo(
+    rows: Sequence[EchoRow], changed: Set[str] = frozenset()
+) -> tuple[tuple[str, tuple[Table, ...]], ...]:
     """Return the name of each sheet, and its cells as tables: entered values once.
 
     Single cells stand in two columns of the page. A table of the workbook stands with one column
     for each of its rows. Cells left blank share a note with the defaults that they stand for.
+    Cells at the addresses that changed are bold, and their rows have a bar in the margin.
     """
     return tuple(
-        (sheet, tuple(_tables(tuple(group))))
+        (sheet, tuple(_tables(tuple(group), changed)))
         for sheet, group in groupby(rows, key=lambda row: row.sheet)
     )
 
 
-def _tables(rows: Sequence[EchoRow]) -> Iterator[Table]:
+def _is_changed(row: EchoRow | None, changed: Set[str]) -> bool:
+    return row is not None and f"{row.sheet}!{row.cell}" in changed
+
+
+def _is_in_note(row: EchoRow, changed: Set[str]) -> bool:
+    return _is_blank(row) and not _is_changed(row, changed)
+
+
+def _bar(cells: Iterable[EchoRow | None], changed: Set[str]) -> str:
+    return BAR if any(_is_changed(row, changed) for row in cells) else ""
+
+
+def _tables(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[Table]:
     in_row = Counter(_row_number(row) for row in rows)
     for is_table, group in groupby(rows, key=lambda row: in_row[_row_number(row)] > 1):
         cells = tuple(group)
-        yield from _parts_of_table(cells) if is_table else (_single_cells(cells),)
+        yield from _parts_of_table(cells, changed) if is_table else (_single_cells(cells, changed),)
 
 
-def _single_cells(rows: Sequence[EchoRow]) -> Table:
-    given = [row for row in rows if not _is_blank(row)]
+def _single_cells(rows: Sequence[EchoRow], changed: Set[str]) -> Table:
+    given = [row for row in rows if not _is_in_note(row, changed)]
     half = (len(given) + 1) // 2
     pairs = zip_longest(given[:half], given[half:])
     return Table(
         caption="",
         columns=(*_SINGLE_COLUMNS, *_SINGLE_COLUMNS),
-        rows=tuple(TableRow(cells=(*_single(left), *_single(right))) for left, right in pairs),
-        notes=tuple(_blanks([row for row in rows if _is_blank(row)])),
+        rows=tuple(
+            TableRow(
+                cells=(*_single(left, changed), *_single(right, changed)),
+                kind=_bar((left, right), changed),
+            )
+            for left, right in pairs
+        ),
+        notes=tuple(_blanks([row for row in rows if _is_in_note(row, changed)])),
         kind="compact",
     )
 
@@ -84,18 +108,18 @@ _SINGLE_COLUMNS = (
 )
 
 
-def _single(row: EchoRow | None) -> tuple[str, str, str]:
-    return ("", "", "") if row is None else (row.cell, row.label, _entered(row, row.unit))
+def _single(row: EchoRow | None, changed: Set[str]) -> tuple[str, str, str]:
+    return ("", "", "") if row is None else (row.cell, row.label, _entered(row, row.unit, changed))
 
 
-def _parts_of_table(rows: Sequence[EchoRow]) -> Iterator[Table]:
+def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[Table]:
     """Yield a table of the workbook, a few of its rows at a time, with a line for each column."""
     by_number = [tuple(cells) for _, cells in groupby(rows, key=_row_number)]
     for start in range(0, len(by_number), MOST_COLUMNS):
-        yield _columns_of_rows(by_number[start : start + MOST_COLUMNS])
+        yield _columns_of_rows(by_number[start : start + MOST_COLUMNS], changed)
 
 
-def _columns_of_rows(parts: Sequence[Sequence[EchoRow]]) -> Table:
+def _columns_of_rows(parts: Sequence[Sequence[EchoRow]], changed: Set[str]) -> Table:
     numbers = [_row_number(cells[0]) for cells in parts]
     lines: dict[str, dict[str, EchoRow]] = {}
     for cells in parts:
@@ -104,7 +128,7 @@ def _columns_of_rows(parts: Sequence[Sequence[EchoRow]]) -> Table:
     given = {
         letters: line
         for letters, line in lines.items()
-        if not all(_is_blank(row) for row in line.values())
+        if not all(_is_in_note(row, changed) for row in line.values())
     }
     blank = [next(iter(line.values())) for key, line in lines.items() if key not in given]
     return Table(
@@ -121,8 +145,9 @@ def _columns_of_rows(parts: Sequence[Sequence[EchoRow]]) -> Table:
                     letters,
                     next(iter(line.values())).label,
                     next(iter(line.values())).unit,
-                    *(_entered(line[n], "") if n in line else "" for n in numbers),
-                )
+                    *(_entered(line[n], "", changed) if n in line else "" for n in numbers),
+                ),
+                kind=_bar(line.values(), changed),
             )
             for letters, line in given.items()
         ),
@@ -131,7 +156,13 @@ def _columns_of_rows(parts: Sequence[Sequence[EchoRow]]) -> Table:
     )
 
 
-def _entered(row: EchoRow, unit: str) -> str:
+def _entered(row: EchoRow, unit: str, changed: Set[str]) -> str:
+    """Return what was entered, bold where it changed."""
+    text = _as_entered(row, unit)
+    return Markup("<b>{}</b>").format(text or "—") if _is_changed(row, changed) else text
+
+
+def _as_entered(row: EchoRow, unit: str) -> str:
     """Return what was entered; for a formula its result, for a blank cell its default."""
     if _is_blank(row):
         return "" if row.value == "—" else row.value

@@ -95,7 +95,8 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
             *fmt.cells(row.provided_m, Quantity.SIZE, show=provided),
             ratio(gap.demand_capacity),
             stamp(gap.verdict),
-        )
+        ),
+        kind=package.bar(count in package.changes.clearances),
     )
 
 

@@ -174,7 +174,8 @@ def _array_row(package: PackageData, array: ArrayAssessment) -> TableRow:
             verdict(all(check.ok for check in array.limits)),
             ratio(largest) if demands else "none given",
             stamp(package.assessment.array_verdict(array)),
-        )
+        ),
+        kind=package.bar(array.id in package.changes.arrays),
     )
 
 

@@ -14,6 +14,7 @@ from itertools import groupby
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
@@ -31,6 +32,8 @@ from solver.rules.provisions import (
 )
 
 NO_VALUE = "none"
+BAR = "changed"
+"""Style of what changed since a former revision: a bar in the margin."""
 WHOLE_ROWS = 24  # longer tables may break across pages, with the heading repeated
 OK, NG = "OK", "NG"
 
@@ -263,6 +266,7 @@ class PackageData:
 
     assessment: Assessment
     numbers: Mapping[str, str]
+    changes: Changes = NO_FORMER
 
     def part(self, name: str) -> str:
         """Return the reference to a part, as in `part 6`."""
@@ -286,6 +290,10 @@ class PackageData:
     def clause(self, key: str) -> str:
         """Return the clause of a provision with its marks."""
         return self.assessment.rules.values[key].clause + self.mark(key)
+
+    def bar(self, is_changed: bool, kind: str = "") -> str:
+        """Return the style of a row, with a bar in the margin where it changed."""
+        return f"{kind} {BAR}".lstrip() if is_changed else kind
 
     @property
     def governing(self) -> ArrayAssessment:

@@ -7,15 +7,17 @@ no template of its own. Parts refer to each other by id (`PackageData.part`). Re
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment
 from report.pages import (
     accuracy,
     appendix,
     certainty,
+    changes,
     checks,
     front,
     inputs,
@@ -173,9 +175,27 @@ PAGES = (
 )
 
 
-def package_data(assessment: Assessment) -> PackageData:
-    """Return an assessment with the part numbers."""
-    return PackageData(assessment=assessment, numbers=_numbers(PAGES))
+CHANGES = Page(
+    id="changes",
+    title="Changes",
+    fill=lambda package, _: changes.page(package),
+    is_appendix=True,
+)
+"""The last appendix, so that the other parts have the same numbers in every revision."""
+
+
+def pages_of(package: PackageData) -> tuple[Page, ...]:
+    """Return the pages of a package: with the changes only where they are asked for."""
+    return _pages(package.changes)
+
+
+def _pages(since: Changes) -> tuple[Page, ...]:
+    return (*PAGES, replace(CHANGES, title=changes.title(since))) if since.is_asked_for else PAGES
+
+
+def package_data(assessment: Assessment, since: Changes = NO_FORMER) -> PackageData:
+    """Return an assessment with the part numbers, and what changed since a former revision."""
+    return PackageData(assessment=assessment, numbers=_numbers(_pages(since)), changes=since)
 
 
 def _numbers(pages: Sequence[Page]) -> Mapping[str, str]:
@@ -198,5 +218,5 @@ def parts(package: PackageData) -> tuple[Part, ...]:
                 for count, (name, title) in enumerate(page.below(package), start=1)
             ),
         )
-        for page in PAGES
+        for page in pages_of(package)
     )

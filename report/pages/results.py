@@ -146,7 +146,8 @@ def _motion_row(
             number(result.t_prd_s, 2),
             number(result.n_min_g, 2),
             _SHORT[result.status],
-        )
+        ),
+        kind=package.bar((array.id, run.motion.id) in package.changes.values),
     )
 
 
@@ -165,10 +166,25 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
     floor = rules.values["analysis_floor"].clause + package.mark("analysis_floor")
     ways = [array.directions[direction] for direction in _WAYS]
     toward = [array.design_toward_m(direction) for direction in _WAYS]
-    lines: tuple[tuple[str, float, str, str, list[float]], ...] = (
-        ("Mean", analysis.mean_m, "", "of the motions", [way.mean_m for way in ways]),
-        ("Largest", analysis.largest_m, "", "of the motions", [way.largest_m for way in ways]),
+    lines: tuple[tuple[str, str, float, str, str, list[float]], ...] = (
         (
+            "mean_prd_m",
+            "Mean",
+            analysis.mean_m,
+            "",
+            "of the motions",
+            [way.mean_m for way in ways],
+        ),
+        (
+            "largest_prd_m",
+            "Largest",
+            analysis.largest_m,
+            "",
+            "of the motions",
+            [way.largest_m for way in ways],
+        ),
+        (
+            "computed_m",
             f"Analysis: {statistic(analysis.basis)}, {factor}",
             analysis.value_m,
             "",
@@ -176,6 +192,7 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
             [way.value_m for way in ways],
         ),
         (
+            "floor_m",
             f"Floor: {_floor_words(package, floor)}",
             array.floor_m,
             package.mark("analysis_floor"),
@@ -183,6 +200,7 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
             [array.floor_m] * len(ways),
         ),
         (
+            "design_m",
             "Design",
             array.design_m,
             package.design_mark(array),
@@ -198,9 +216,9 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
                 *(package.fmt.cells(excursion)[0] for excursion in excursions),
                 Wide(words, 5),
             ),
-            kind="total",
+            kind=package.bar((array.id, key) in package.changes.values, "total"),
         )
-        for label, value, mark, words, excursions in lines
+        for key, label, value, mark, words, excursions in lines
     ]
 
 
@@ -262,7 +280,8 @@ def _ratio_row(package: PackageData, array: ArrayAssessment) -> TableRow:
             *fmt.cells(array.design_m, mark=package.design_mark(array)),
             *(NO_VALUE if math.isnan(share) else number(share, 2) for share in shares),
             array.governs,
-        )
+        ),
+        kind=package.bar(array.id in package.changes.arrays),
     )
 
 

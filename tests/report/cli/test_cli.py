@@ -112,3 +112,32 @@ def test_a_rigid_block_that_is_not_adequate_gives_a_warning(tmp_path):
     text = " ".join(" ".join(page.extract_text() for page in pdf.pages).split())
     assert "Array A2: a row of linked blocks" in text
     assert "One rigid block has not been shown to be adequate" in text
+
+
+def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_path):
+    first = run("report", make(tmp_path))
+    assert first.exit_code == 0
+    assert "since revision" not in first.output
+    former = tmp_path / "issued.json"
+    former.write_bytes((tmp_path / "out" / "results.json").read_bytes())
+    given = project().model_dump()
+    arrays = [given["arrays"][0] | {"mu": 0.33}, *given["arrays"][1:]]
+    done = run("report", make(tmp_path, arrays=arrays), "--since", former)
+    assert done.exit_code == 0, done.output
+    (line,) = (text for text in done.output.splitlines() if text.startswith("since revision"))
+    assert line.startswith("since revision 1: ")
+    assert "input 1," in line
+    assert line.endswith("see appendix C of the package")
+    pdf = PdfReader(tmp_path / "out" / "calc-package.pdf")
+    text = " ".join(" ".join(page.extract_text() for page in pdf.pages).split())
+    assert "Changes since revision 1" in text
+    assert "Friction coefficient" in text
+
+
+def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_path):
+    former = tmp_path / "issued.json"
+    former.write_bytes(b'{"schema_version": 2, "arr')
+    done = run("report", tmp_path / "no-such-project", "--since", former)
+    assert done.exit_code == 2
+    assert "issued.json: is no results.json or is damaged" in done.output
+    assert not (tmp_path / "out").exists()

@@ -1,0 +1,93 @@
+"""What changed since a former revision, as finished text, and which rows of the package show it.
+
+Only records: `report.results.compare` finds the changes, `report.pages.changes` prints them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class ChangeKind(StrEnum):
+    """What changed, in the order of the page."""
+
+    RULES = "rule set"
+    SOFTWARE = "software"
+    INPUT = "input"
+    RECORD = "record"
+    DESIGN = "design displacement"
+    CLEARANCE = "clearance"
+    REQUIREMENT = "requirement"
+    VERDICT = "verdict"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """One change.
+
+    Attributes
+    ----------
+    title : str
+        What changed, with the array, motion or clearance that it belongs to.
+    cell : str
+        Address in the workbook; empty for what has no cell.
+    before, now : str
+        As printed.
+    """
+
+    kind: ChangeKind
+    title: str
+    before: str
+    now: str
+    cell: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Changes:
+    """Everything that changed since a former revision.
+
+    Attributes
+    ----------
+    revision, date : str
+        Of the former package.
+    items : tuple of Change
+    arrays : frozenset of str
+        Ids of arrays with another result.
+    values : frozenset of (str, str)
+        Array and key of results.json, or array and motion, whose number changed.
+    clearances : frozenset of int
+        Numbers of the clearances that changed, from 1.
+    """
+
+    revision: str
+    date: str
+    items: tuple[Change, ...]
+    arrays: frozenset[str]
+    values: frozenset[tuple[str, str]]
+    clearances: frozenset[int]
+
+    @property
+    def is_asked_for(self) -> bool:
+        """Whether a former revision was named."""
+        return bool(self.revision)
+
+    @property
+    def cells(self) -> frozenset[str]:
+        """Addresses of the input cells that changed."""
+        return frozenset(item.cell for item in self.items if item.cell)
+
+    def count(self, kind: ChangeKind) -> int:
+        """Return the number of changes of a kind."""
+        return sum(item.kind is kind for item in self.items)
+
+
+NO_FORMER = Changes(
+    revision="",
+    date="",
+    items=(),
+    arrays=frozenset(),
+    values=frozenset(),
+    clearances=frozenset(),
+)
+"""Of a package that is compared with none."""

@@ -1,0 +1,134 @@
+"""Reads results.json of a former revision; trusts nothing in it.
+
+Compares nothing: see `report.results.compare`. Read `read_former`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from report.results.json import SCHEMA_VERSION
+from report.sheet.schema import ProjectInput
+from solver.model import InputError
+
+AGAIN = "write it again with `report` of this version, from the workbook of that revision"
+
+
+class _Part(BaseModel):
+    """A part of the file; its other keys are ignored."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False, strict=True)
+
+
+class FormerRecord(_Part):
+    """A record file."""
+
+    motion: str
+    component: str
+    name: str
+    sha256: str
+
+
+class FormerRow(_Part):
+    """A requirement with its verdict."""
+
+    id: str
+    subject: str
+    title: str
+    found: str
+    verdict: str
+
+
+class FormerArray(_Part):
+    """Results of an array; None for no value. `peaks` are those of `report.results.json`."""
+
+    id: str
+    verdict: str
+    mean_prd_m: float | None
+    largest_prd_m: float | None
+    computed_m: float | None
+    prescriptive_m: float
+    floor_m: float
+    design_m: float | None
+    peaks: tuple[dict[str, str | float | None], ...]
+
+
+class FormerClearance(_Part):
+    """A clearance; None for no value."""
+
+    array: str
+    object: str
+    direction: str
+    required_m: float | None
+    provided_m: float
+    verdict: str
+
+
+class Former(_Part):
+    """What is compared of a former results.json."""
+
+    roofslip_version: str
+    rule_set: str
+    verdict: str
+    input: ProjectInput
+    records: tuple[FormerRecord, ...]
+    requirements: tuple[FormerRow, ...]
+    arrays: tuple[FormerArray, ...]
+    clearances: tuple[FormerClearance, ...]
+
+
+class _Versioned(_Part):
+    schema_version: Any = None
+
+
+def read_former(path: Path) -> Former:
+    """Read results.json of a former revision.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is damaged or incomplete, or has another schema version.
+    """
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(
+            f"{path}: cannot be read ({error.strerror}); give the results.json of a former revision"
+        ) from error
+    return former_from(content, path)
+
+
+def former_from(content: bytes, path: Path) -> Former:
+    """Return the content of results.json as data.
+
+    Raises
+    ------
+    InputError
+    """
+    try:
+        version = _Versioned.model_validate_json(content).schema_version
+    except ValidationError as error:
+        raise InputError(
+            f"{path}: is no results.json or is damaged ({_first(error)}); {AGAIN}"
+        ) from error
+    # True equals 1, and 2.0 equals 2: only a whole number is a version.
+    if type(version) is not int or version != SCHEMA_VERSION:
+        found = f"{version!r:.40}" if version is not None else "missing, as in version 0.1"
+        raise InputError(
+            f"{path}: schema_version is {found}; this version reads {SCHEMA_VERSION}; {AGAIN}"
+        )
+    try:
+        return Former.model_validate_json(content)
+    except ValidationError as error:
+        raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
+
+
+def _first(error: ValidationError) -> str:
+    """Return the first problem with its place in the file."""
+    first = error.errors(include_url=False, include_input=False, include_context=False)[0]
+    place = ".".join(str(step) for step in first["loc"])
+    more = f", and {error.error_count() - 1} more" if error.error_count() > 1 else ""
+    return f"{place}: {first['msg']}{more}" if place else f"{first['msg']}{more}"

@@ -1,0 +1,236 @@
+"""What changed since a former revision: found from results.json, printed, and marked."""
+
+import json
+from html import unescape
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import stand_in
+from report.assessment.changes import ChangeKind
+from report.assessment.evidence import support
+from report.package.html import pages
+from report.pages.registry import package_data
+from report.results.compare import changes
+from report.results.json import results_json
+from report.results.since import former_from, read_former
+from solver.model import InputError
+
+FEW = 3
+
+
+def book(**project):
+    return stand_in.book(stand_in.project(**project), stand_in.motions(FEW, seconds=4.0))
+
+
+@pytest.fixture(scope="module")
+def assessment():
+    return stand_in.assessed(book())
+
+
+@pytest.fixture(scope="module")
+def content(assessment):
+    return results_json(assessment)
+
+
+def changed(content, document, now):
+    """Return what changed from a document, or from one that is edited, to an assessment."""
+    return changes(former_from(json.dumps(document).encode() if document else content, "x"), now)
+
+
+def test_nothing_changed_since_itself(assessment, content):
+    found = changed(content, None, assessment)
+    assert (found.items, found.arrays, found.values, found.clearances) == (
+        (), frozenset(), frozenset(), frozenset(),
+    )  # fmt: skip
+    assert found.revision == assessment.project.project.revision
+
+
+def test_an_input_with_its_results_and_verdicts_is_found(assessment, content):
+    # A2 weighs more; A3 has less friction; the clearance of A1 to RTU-1 is 6 in.
+    arrays = [
+        stand_in.array("A1", 0.5),
+        stand_in.array("A2", 2.0, x=120, weight_n=50000 * 4.4482216152605),
+        stand_in.array("A3", 3.0, mu=0.30, y=90),
+    ]
+    gaps = [row.model_dump() for row in assessment.project.clearances]
+    gaps[1]["provided_m"] = 6 * stand_in.INCH
+    now = stand_in.assessed(book(arrays=arrays, clearances=gaps))
+    found = changed(content, None, now)
+    inputs = {(i.title, i.before, i.now) for i in found.items if i.kind is ChangeKind.INPUT}
+    assert inputs == {
+        ("Arrays, A2: Weight", "42000 lb", "50000 lb"),
+        ("Arrays, A3: Friction coefficient", "0.55", "0.3"),
+        ("Clearances, A1 RTU-1 any: Provided clearance", "84 in", "6 in"),
+    }
+    assert "A3" in found.arrays
+    assert "A1" in found.arrays  # its clearance is NG now
+    assert ("A3", "M1") in found.values
+    assert not [key for key in found.values if key[0] in ("A1", "A2")]
+    assert 2 in found.clearances
+    assert 5 not in found.clearances
+    verdicts = {(i.title, i.now) for i in found.items if i.kind is ChangeKind.VERDICT}
+    assert ("Clearance A1 to RTU-1", "NG") in verdicts
+
+
+def test_a_row_that_is_added_or_removed_is_named_once(assessment, content):
+    gaps = [row.model_dump() for row in assessment.project.clearances][1:]
+    gaps.append(stand_in.clearance("A2", "RTU-1", 30 * stand_in.FOOT))
+    found = changed(content, None, stand_in.assessed(book(clearances=gaps)))
+    inputs = {(i.title, i.before, i.now) for i in found.items if i.kind is ChangeKind.INPUT}
+    assert inputs == {
+        ("Clearances, A1 A3 any", "given", "removed"),
+        ("Clearances, A2 RTU-1 any", "—", "added"),
+    }
+    assert 5 in found.clearances
+
+
+def test_a_record_with_another_hash_the_rule_set_and_the_version_are_found(assessment, content):
+    document = json.loads(content)
+    document["records"][0]["sha256"] = "00" * 32
+    document["rule_set"] = "another"
+    document["roofslip_version"] = "0.0.1"
+    document["arrays"][0]["design_m"] *= 1.1
+    document["arrays"][1]["design_m"] *= 1.0 + 1e-9  # rounding on another machine
+    found = changed(content, document, assessment)
+    kinds = [item.kind for item in found.items]
+    assert kinds == [
+        ChangeKind.RULES, ChangeKind.SOFTWARE, ChangeKind.RECORD, ChangeKind.DESIGN,
+    ]  # fmt: skip
+    assert "00" * 32 in found.items[2].before
+    assert "ab" * 32 in found.items[2].now
+    assert found.items[3].title == "Array A1"
+    assert found.values == {("A1", "design_m")}
+
+
+def test_two_results_that_print_alike_are_shown_with_more_digits(assessment, content):
+    document = json.loads(content)
+    design = document["arrays"][0]["design_m"]
+    document["arrays"][0]["design_m"] = design * (1.0 + 1e-5)
+    (item,) = changed(content, document, assessment).items
+    assert item.before != item.now
+    assert item.now == f"{design:.7g} m"
+
+
+def test_the_page_and_the_bars_are_there_only_if_asked_for(assessment, content):
+    document = json.loads(content)
+    document["input"]["site"]["stories"] = 3
+    document["input"]["project"]["revision"] = "<B>"
+    document["clearances"][2]["verdict"] = "NG"
+    document["arrays"][0]["design_m"] *= 1.1
+    found, evidence = changed(content, document, assessment), support(assessment)
+    html = unescape(pages(assessment, evidence, found))
+    assert "Changes since revision <B>" in html
+    assert 'id="changes"' in html
+    assert "Number of stories" in html
+    assert f"appendix {package_data(assessment, found).numbers['changes']}" == "appendix C"
+    # Summary: A1 and clearance 3; results: the design of A1; comparison: A1; clearances: 3.
+    assert html.count('<tr class="changed">') == 4
+    assert html.count('<tr class="total changed">') == 1
+    plain = pages(assessment, evidence)
+    assert 'class="changed"' not in plain
+    assert 'id="changes"' not in plain
+
+
+def test_the_echo_marks_changed_cells_and_their_rows():
+    from report.pages.appendix import echo
+    from report.sheet.read import EchoRow
+
+    def row(cell, typed="", value="—"):
+        return EchoRow(sheet="S", cell=cell, label=cell, typed=typed, unit="", value=value)
+
+    single = (row("B5", "1"), row("B6", "2"), row("B7", value="3 (default)"), row("B8"))
+    ((_, (made,)),) = echo(single, {"S!B6", "S!B7", "T!B5"})
+    assert [(line.cells[0], line.kind) for line in made.rows] == [
+        ("B5", "changed"),
+        ("B6", "changed"),
+    ]
+    assert [line.cells[5] for line in made.rows] == ["<b>3 (default)</b>", ""]
+    assert [line.cells[2] for line in made.rows] == ["1", "<b>2</b>"]
+    assert made.notes == ("Left blank: B8 B8.",)
+    table = (row("B8", "a"), row("C8", "<i>"), row("B9", "b"), row("C9", "d"))
+    ((_, (made,)),) = echo(table, {"S!C8"})
+    assert [line.kind for line in made.rows] == ["", "changed"]
+    assert made.rows[1].cells[3:] == ("<b>&lt;i&gt;</b>", "d")
+
+
+def test_a_missing_file_and_a_folder_are_input_errors(tmp_path):
+    for path in (tmp_path / "none.json", tmp_path):
+        with pytest.raises(InputError, match="cannot be read"):
+            read_former(path)
+
+
+@pytest.mark.parametrize(
+    ("version", "found"),
+    [(1, "is 1"), (3, "is 3"), ("2", "is '2'"), (2.0, "is 2.0"), (True, "is True")],
+)
+def test_another_version_is_named(content, version, found):
+    document = json.loads(content) | {"schema_version": version}
+    with pytest.raises(InputError, match=f"schema_version {found}.*reads 2") as error:
+        former_from(json.dumps(document).encode(), "x")
+    assert "write it again" in str(error.value)
+
+
+def test_a_file_without_a_version_is_of_the_first_release(content):
+    document = json.loads(content)
+    del document["schema_version"]
+    with pytest.raises(InputError, match=r"missing, as in version 0\.1"):
+        former_from(json.dumps(document).encode(), "x")
+
+
+@pytest.mark.parametrize(
+    ("where", "value"),
+    [
+        (("arrays", 0, "design_m"), "1.0"),
+        (("arrays", 0, "design_m"), [1.0]),
+        (("arrays", 0, "peaks"), {}),
+        (("arrays",), None),
+        (("records", 0, "sha256"), 5),
+        (("input", "site", "stories"), "many"),
+        (("input", "motions"), 1),
+        (("clearances", 0), "gap"),
+        (("verdict",), None),
+    ],
+)
+def test_a_wrong_type_is_named_with_its_place(content, where, value):
+    document = json.loads(content)
+    at = document
+    for step in where[:-1]:
+        at = at[step]
+    at[where[-1]] = value
+    with pytest.raises(InputError, match=r"\.".join(map(str, where))):
+        former_from(json.dumps(document).encode(), "x")
+
+
+@pytest.mark.parametrize(
+    "text", [b"", b"[]", b"null", b"{", b"\xff\xfe", b"[" * 100000, b"1" * 9999]
+)
+def test_what_is_not_json_is_an_input_error(text):
+    with pytest.raises(InputError, match=r"no results\.json or is damaged"):
+        former_from(text, "x")
+
+
+@settings(
+    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(data=st.data())
+def test_damaged_bytes_are_read_or_refused_and_never_crash(assessment, content, data):
+    damaged = bytearray(content)
+    for _ in range(data.draw(st.integers(1, 4))):
+        start = data.draw(st.integers(0, len(damaged) - 1))
+        length = data.draw(st.integers(0, 40))
+        damaged[start : start + length] = data.draw(st.binary(max_size=8))
+    try:
+        former = former_from(bytes(damaged), "x")
+    except InputError:
+        return
+    changes(former, assessment)
+    package_data(assessment, changes(former, assessment))
+
+
+@settings(max_examples=60, deadline=None)
+@given(end=st.floats(0.0, 1.0, exclude_max=True))
+def test_a_truncated_file_is_refused(content, end):
+    with pytest.raises(InputError):
+        former_from(content[: int(end * (len(content) - 2))], "x")
