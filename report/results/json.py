@@ -1,4 +1,4 @@
-"""results.json: the assessment in SI units.
+"""results.json: the assessment and its evidence in SI units.
 
 Computes nothing: the numbers come from `report.assessment.project`.
 """
@@ -14,10 +14,12 @@ from typing import Any
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.evidence import Evidence
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
+from report.results.evidence import acceptance, certainty, neighbor, remedy
 from report.sheet.schema import Direction
 from solver.building.roof import RoofMotion
 from solver.model import Motion
@@ -27,7 +29,7 @@ SCHEMA_VERSION = 2
 """Raised where a key of results.json changes its name or meaning; 0.1 wrote none."""
 
 
-def results_json(assessment: Assessment) -> bytes:
+def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
     """Return everything as JSON in SI, with units in the keys and null for no value."""
     sheet, shaking, project = assessment.sheet, assessment.shaking, assessment.project
     document = {
@@ -46,6 +48,10 @@ def results_json(assessment: Assessment) -> bytes:
         "arrays": [_array(assessment, item) for item in assessment.arrays],
         "clearances": [_clearance(item) for item in assessment.clearances],
         "linked": [_linked(item) for item in assessment.linked],
+        "acceptance": [acceptance(row) for row in assessment.acceptance.rows],
+        "neighbors": [neighbor(item) for item in assessment.neighbors],
+        "remedies": [remedy(item) for item in evidence.remedies],
+        "certainty": certainty(evidence.certainty),
     }
     return json.dumps(_nan_to_none(document), indent=1, ensure_ascii=False).encode() + b"\n"
 

@@ -12,5 +12,5 @@ def tables(assessment: Assessment, evidence: Evidence) -> dict[str, bytes]:
     """Return results.xlsx and results.json, by file name."""
     return {
         "results.xlsx": results_xlsx(assessment, evidence.spectra),
-        "results.json": results_json(assessment),
+        "results.json": results_json(assessment, evidence),
     }

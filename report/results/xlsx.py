@@ -23,6 +23,7 @@ from report.assessment.spectra import Spectra
 from report.motions.prepare import Shaking
 from report.results.directions import DirectionCells, PeakRanges, write_directions, write_peaks
 from report.results.links import link_runs_table, write_links
+from report.results.requirements import write_requirements
 from report.results.sheets import DIRECTION_HEADINGS, Pages, write_headings
 from report.sheet.schema import Direction
 from report.words.units import G_MPS2
@@ -40,7 +41,7 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
         pages = Pages(workbook)
         runs = _runs_table(assessment)
         linked = ("Links",) if assessment.linked else ()
-        for name in ("Design", "Directions", "Clearances", "Peaks", *linked):
+        for name in ("Design", "Directions", "Clearances", "Requirements", "Peaks", *linked):
             workbook.add_worksheet(name)
         _write_table(writer, runs, "Runs", pages)
         _write_table(writer, _motions_table(assessment.shaking), "Motions", pages)
@@ -48,6 +49,7 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
         _write_table(writer, _spectra_table(spectra), "Spectra", pages)
         peaks = write_peaks(pages, assessment, runs)
         _write_design(pages, assessment, peaks)
+        write_requirements(pages, assessment)
         if assessment.linked:
             link_runs = link_runs_table(assessment)
             _write_table(writer, link_runs, "LinkRuns", pages)
@@ -168,7 +170,7 @@ _DESIGN_HEADINGS = (
     "Array", "S_DS [g]", "Factor [in]", "I_e in displacement", "Minimum [in]",
     "Prescriptive [in]", "Number of motions", "Mean PRD [in]", "Largest PRD [in]",
     "Analysis factor", "Computed [in]", "Floor / prescriptive", "Floor [in]", "Design [in]",
-    "Design [mm]", "Design / prescriptive", "Design by Roofslip [in]", "Difference [in]",
+    "Design [mm]", "Design / prescriptive", "Design by Roofslip [in]", "Difference [in]", "Verdict",
 )  # fmt: skip
 
 
@@ -180,6 +182,8 @@ def _write_design(pages: Pages, assessment: Assessment, peaks: PeakRanges) -> No
         f"{assessment.rules.name}. From the sheet Peaks, any direction. Change a number to see "
         "its effect. The sheet Directions continues from here.",
     )
+    sheet.write_string(2, 0, "Verdict", pages.head)
+    sheet.write_string(2, 1, assessment.verdict.value, pages.head)
     write_headings(pages, sheet, 3, _DESIGN_HEADINGS)
     for row, item in enumerate(assessment.arrays, start=4):
         peak_range = peaks[item.id, Direction.ANY]
@@ -204,6 +208,7 @@ def _write_design_row(
     no_value = math.isnan(item.design_m)
     inch = INCH_M
     sheet.write_string(row, 0, item.id)
+    sheet.write_string(row, 18, assessment.array_verdict(item).value)
     sheet.write_number(row, 1, assessment.project.site.s_ds, pages.numbers[4])
     # The constant value for SDC A, B and C replaces the formula.
     sheet.write_number(row, 2, 0.0 if flat else rules["prescriptive_factor_in"], pages.numbers[1])

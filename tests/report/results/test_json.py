@@ -7,6 +7,7 @@ import os
 import pytest
 
 import stand_in
+from report.assessment.evidence import support
 from report.results.json import results_json
 from report.results.publish import publish
 from report.sheet.schema import Direction
@@ -16,7 +17,11 @@ from solver.model import InputError
 @pytest.fixture(scope="module")
 def document():
     book = stand_in.book()
-    return json.loads(results_json(stand_in.assessed(book)))
+    return json.loads(made(stand_in.assessed(book)))
+
+
+def made(assessment):
+    return results_json(assessment, support(assessment))
 
 
 def test_json_has_the_assessment_in_si(document):
@@ -55,7 +60,7 @@ def test_json_has_rows_of_linked_blocks_with_their_runs():
     book = stand_in.book(data, stand_in.motions(3, seconds=8.0))
     assessment, document = (
         stand_in.assessed(book),
-        json.loads(results_json(stand_in.assessed(book))),
+        json.loads(made(stand_in.assessed(book))),
     )
     (item,), (row,) = assessment.linked, document["linked"]
     assert (row["array"], row["mus"], row["damping_ratio"]) == ("A2", [0.4, 0.5], 0.05)
@@ -80,7 +85,9 @@ def check_units(document):
         "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
         "left_out_share", "mu_slow", "mu_fast", "mu_static", "rung", "next_rung", "friction_demand",
         "demand", "capacity", "held_ratio", "sliding_ratio", "times", "mus", "ratio",
-        "damping_ratio", "schema_version", "i_p", "force_factor", "force_divisor", "importance",
+        "least_mu", "lowest_mu_tried", "given", "resolution", "verified", "n_values",
+        "n_unfinished", "n_runs", "damping_ratio", "schema_version", "i_p", "force_factor",
+        "force_divisor", "importance",
     }  # fmt: skip
 
     def walk(value, key=""):
@@ -98,7 +105,7 @@ def check_units(document):
 
 def test_a_missing_value_is_null_in_json():
     book = stand_in.book(stand_in.steep(), stand_in.motions(2))
-    document = json.loads(results_json(stand_in.assessed(book)))
+    document = json.loads(made(stand_in.assessed(book)))
     assert document["arrays"][0]["design_m"] is None
     assert document["clearances"][0]["required_m"] is None
     assert document["clearances"][0]["verdict"] == "NG"
@@ -158,6 +165,58 @@ def test_infinite_demand_over_zero_clearance_is_null():
     book = stand_in.book(data)
     assessment = stand_in.assessed(book)
     assert math.isinf(assessment.clearances[0].demand_capacity)
-    document = json.loads(results_json(assessment))
+    document = json.loads(made(assessment))
     assert document["clearances"][0]["demand_capacity"] is None
     assert document["clearances"][0]["verdict"] == "NG"
+
+
+@pytest.fixture(scope="module")
+def supported():
+    """A clearance that is NG beside one that contradicts the plan, with the evidence."""
+    gaps = [stand_in.clearance("A1", "RTU-1", 0.5), stand_in.clearance("A1", "A3", 4.572)]
+    book = stand_in.book(stand_in.project(clearances=gaps), stand_in.motions(3, seconds=4.0))
+    assessment = stand_in.assessed(book)
+    evidence = support(assessment)
+    return assessment, evidence, json.loads(results_json(assessment, evidence))
+
+
+def test_json_says_what_would_do(supported):
+    assessment, evidence, document = supported
+    rows = {row["quantity"]: row for row in document["remedies"] if row["clearance"] == "1"}
+    assert list(rows) == [item.kind for item in evidence.remedies if item.clearance == 1]
+    assert rows["provided separation"]["value_m"] == assessment.clearances[0].required_m
+    assert rows["provided separation"]["given_m"] == 0.5
+    (friction,) = (item for item in evidence.remedies if item.kind == "friction coefficient")
+    assert rows["friction coefficient"]["exists"] is friction.exists is False
+    assert rows["friction coefficient"]["value"] is None
+    assert rows["friction coefficient"]["basis"] == friction.basis
+    assert rows["S_DS"]["given_g"] == 1.566
+    check_units(document)
+
+
+def test_json_has_the_margins_and_the_angles(supported):
+    assessment, evidence, document = supported
+    margins = document["certainty"]["margins"]
+    assert [row["array"] for row in margins] == ["A1", "A1", "A3"]
+    assert margins[0]["least_mu"] is None  # NG as given
+    least = [item.least_mu for item in evidence.certainty.margins]
+    assert [row["least_mu"] for row in margins[1:]] == least[1:]
+    angles = document["certainty"]["angles"]
+    assert [row["angle_deg"] for row in angles["turned"]][:3] == [22.5, 45.0, 67.5]
+    assert len(angles["turned"]) == 12
+    assert angles["prd_m"] == max(
+        run.prd_m for motion in assessment.governing.motions for run in motion.runs
+    )
+
+
+def test_json_has_neighbors_that_are_missing_or_contradict_and_the_limits_on_motions(supported):
+    assessment, _, document = supported
+    rows = document["neighbors"]
+    assert [row["is_missing"] for row in rows] == [n.is_missing for n in assessment.neighbors]
+    assert any(
+        row["contradictions"] for row in rows if (row["array"], row["other"]) == ("A1", "RTU-1")
+    )
+    assert [row["ok"] for row in document["acceptance"]] == [
+        row.satisfied for row in assessment.acceptance.rows
+    ]
+    assert {"found_s", "limit_s"} <= {key for row in document["acceptance"] for key in row}

@@ -31,7 +31,7 @@ def assessment():
 
 @pytest.fixture(scope="module")
 def content(assessment):
-    return results_json(assessment)
+    return results_json(assessment, support(assessment))
 
 
 def changed(content, document, now):

@@ -218,3 +218,32 @@ def test_the_processing_of_each_component_is_listed(usual):
     assert len(rows) == 7 * 3
     assert rows[1][:5] == ("M1", "transverse", "roof", "as recorded", "as recorded")
     assert rows[0][head.index("PGA [g]")] == pytest.approx(1.7)
+
+
+def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual):
+    _, values = usual
+    assessment = stand_in.assessed(stand_in.book())
+    first = values.worksheets[0]
+    assert [first["A3"].value, first["B3"].value] == ["Verdict", assessment.verdict.value]
+    words = [first.cell(5 + k, 19).value for k in range(3)]
+    assert words == [assessment.array_verdict(item).value for item in assessment.arrays]
+    rows = [row[:6] for row in values["Requirements"].iter_rows(min_row=5, values_only=True)]
+    for row in assessment.rows:
+        item = row.subject or "Project"
+        cells = (item, row.title, row.found, row.limit, row.basis, row.verdict.value)
+        assert rows.count(cells) == 1
+    limits = [c for item in assessment.arrays for c in item.limits]
+    motions = assessment.acceptance.rows
+    count = len(assessment.rows) + len(assessment.building_checks) + len(limits) + len(motions)
+    assert len(rows) == count
+    slope = next(c for c in limits if c.measure == "deg")
+    found = next(row for row in rows if row[:2] == ("A1", slope.title))
+    assert float(found[2].removesuffix(" deg")) == pytest.approx(slope.value, rel=1e-5)
+    assert found[5] == ("OK" if slope.ok else "NG")
+
+
+def test_a_limit_that_is_not_satisfied_is_ng_in_the_workbook():
+    _, values = made(stand_in.book(stand_in.steep(), stand_in.motions(2, seconds=4.0)))
+    assert values.worksheets[0]["B3"].value == "NG"
+    rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
+    assert any(row[0] == "Motions" and row[5] == "not satisfied: NG" for row in rows)
