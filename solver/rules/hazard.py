@@ -88,6 +88,7 @@ EDITIONS: Mapping[str, Edition] = {
                 "mapped": "11.4.3",
                 "s_ms": "11.4.3",
                 "s_ds": "11.4.4",
+                "t_l": "11.4.5",
                 "site_specific": "11.4.7",
             },
         ),
