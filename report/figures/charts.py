@@ -35,7 +35,8 @@ from report.figures.base import (
 )
 from report.figures.history import MAX_POINTS, envelope, histories
 from report.figures.hodograph import hodographs
-from report.figures.plan import LANDSCAPE, PORTRAIT, SMALL, is_wide, roof_plan
+from report.figures.plan import is_wide, roof_plan
+from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.words.units import Quantity, Unit
 
 __all__ = [

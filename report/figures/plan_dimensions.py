@@ -1,0 +1,78 @@
+"""The clearances of the roof plan: a dimension line each, numbered, provided and required.
+
+Read `report.figures.plan` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from report.figures.base import GREY, INK
+from report.figures.labels import Frame
+from report.figures.paper_plan import PAD_IN, text_size
+from report.figures.plan_key import FAILED, gap_line, ng_box, ng_size
+from report.figures.plan_sheet import Gap, PlanSheet
+from report.sheet.schema import Rectangle
+from report.words.units import compared
+
+RADIUS_IN = 0.1
+
+
+def draw_gap(plan: PlanSheet, gap: Gap) -> None:
+    """Draw a dimension line; a gap that is not satisfied is hatched."""
+    if not gap.check.ok:
+        near, far = (plan.shapes[name] for name in gap.names)
+        plan.paper.box(plan.paper.frame(_between(near, far)), **FAILED)
+    gap_line(plan.paper, gap.a, gap.b)
+    plan.paper.placer.take_segment(gap.a, gap.b)
+
+
+def draw_callout(plan: PlanSheet, gap: Gap) -> None:
+    """Label a clearance: number, provided and required separation; the number if tight."""
+    provided, required = gap.check.clearance.provided_m, gap.check.required_m
+    show_required, show_provided = compared(gap.check.ok)
+    needed = "no value" if math.isnan(required) else plan.first(required, show_required)
+    lines = [f"provided {plan.first(provided, show_provided)}", f"required {needed}"]
+    for shown in (lines, []) if plan.size.is_full else ([],):
+        wide, tall = text_size(shown) if shown else (0.0, 2 * RADIUS_IN)
+        mark = 0.0 if gap.check.ok else ng_size()[0] + PAD_IN
+        label = plan.paper.placer.place(
+            wide + 2 * RADIUS_IN + mark,
+            max(tall, 2 * RADIUS_IN),
+            gap.middle,
+            most=plan.leader_in if shown or gap.check.ok else 4.0,
+        )
+        if label is not None:
+            _draw_callout(plan, gap, label, shown, mark)
+            return
+    plan.unnamed.append(f"clearance {gap.number}")
+
+
+def _draw_callout(
+    plan: PlanSheet, gap: Gap, label: Frame, shown: Sequence[str], mark: float
+) -> None:
+    paper, y = plan.paper, label.middle[1]
+    plan.leader(gap.middle, label)
+    if shown:
+        paper.box(label, facecolor="white", edgecolor=GREY, linewidth=0.4, zorder=2)
+        paper.lines(Frame(label.x0 + 2 * RADIUS_IN, label.y0, label.x1 - mark, label.y1), shown)
+    center = label.x0 + RADIUS_IN, y
+    paper.circle(center, RADIUS_IN - 0.01, facecolor="white", edgecolor=INK, linewidth=0.7,
+                 zorder=2)  # fmt: skip
+    paper.text(center[0], y - 0.04, str(gap.number), ha="center")
+    if mark:
+        ng_box(paper, label.x1 - ng_size()[0] / 2 - 0.01, y)
+
+
+def _between(a: Rectangle, b: Rectangle) -> Rectangle:
+    """Return the area between two rectangles: the gap along their facing sides."""
+    x = _span((a.x_from_m, a.x_to_m), (b.x_from_m, b.x_to_m))
+    y = _span((a.y_from_m, a.y_to_m), (b.y_from_m, b.y_to_m))
+    return Rectangle(*x, *y)
+
+
+def _span(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
+    """Return the range between two ranges, or their overlap."""
+    inner = sorted((max(a[0], b[0]), min(a[1], b[1])))
+    return inner[0], inner[1]

@@ -1,0 +1,71 @@
+"""What the legend of the roof plan shows: the symbols on it and the field notes.
+
+Read `report.figures.plan` first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from report.assessment.envelopes import design_envelope, keep_clear_m, runs_envelope
+from report.assessment.neighbors import bare_edges
+from report.figures.plan_key import Key, Symbol
+from report.figures.plan_labels import keep_clear_words
+from report.figures.plan_sheet import PlanSheet
+from report.sheet.schema import ObjectKind
+
+MOST_NAMES = 6
+
+
+def key_of(plan: PlanSheet) -> Key:
+    """Return the legend of what is on the plan."""
+    assessment, full = plan.assessment, plan.size.is_full
+    kinds = {item.kind for item in assessment.project.objects if item.id in plan.shapes}
+    shown = {
+        Symbol.ARRAY: True,
+        Symbol.FIXED: ObjectKind.FIXED in kinds,
+        Symbol.UNLIKE: ObjectKind.UNLIKE_ARRAY in kinds,
+        Symbol.PARAPET: ObjectKind.EDGE_WITH_PARAPET in kinds,
+        Symbol.EDGE: ObjectKind.EDGE_WITHOUT_PARAPET in kinds,
+        Symbol.BARE: bool(bare_edges(assessment.project)),
+        Symbol.DESIGN: any(map(design_envelope, assessment.arrays)),
+        Symbol.RUNS: any(map(runs_envelope, assessment.arrays)),
+        Symbol.GAP: bool(plan.gaps),
+        Symbol.FAILED: any(not gap.check.ok for gap in plan.gaps),
+    }
+    return Key(
+        north_deg=assessment.project.roof.north_deg,
+        us_first=plan.us_first,
+        symbols=tuple(symbol for symbol, is_shown in shown.items() if is_shown and full),
+        notes=tuple(_notes(plan)) if full else (),
+    )
+
+
+def _notes(plan: PlanSheet) -> Iterator[str]:
+    yield "Δ: design displacement. It may occur in any direction."
+    distances: dict[str, list[str]] = {}
+    for array in plan.assessment.arrays:
+        words = keep_clear_words(keep_clear_m(plan.assessment, array), plan.us_first)
+        distances.setdefault(words, []).append(array.id)
+    if len(distances) > 3:
+        yield "Keep clear: no conduit or equipment within the distance stated, on all sides."
+    for words, ids in distances.items() if len(distances) <= 3 else ():
+        of = ", ".join(ids) if len(distances) > 1 else "all arrays"
+        yield f"{words.capitalize()} of {of}, on all sides: no conduit or equipment."
+    missing = [pair for pair in plan.assessment.neighbors if pair.is_missing]
+    if missing:
+        names = _some([f"{pair.array} to {pair.other}" for pair in missing])
+        yield f"No clearance is given: {names}."
+    numbers = {gap.number for gap in plan.gaps}
+    rows = enumerate(plan.assessment.clearances, start=1)
+    unplaced = [str(count) for count, _ in rows if count not in numbers]
+    if unplaced:
+        yield f"Not drawn, because a rectangle is not given: clearance {_some(unplaced)}."
+    if plan.unnamed:
+        yield f"Not labeled, for lack of space: {_some(plan.unnamed)}."
+
+
+def _some(names: Sequence[str]) -> str:
+    """Return a list of names, cut where it gets long: the legend has a fixed size."""
+    more = len(names) - MOST_NAMES
+    return ", ".join(names[:MOST_NAMES]) + (f" and {more} more" if more > 0 else "")

@@ -1,0 +1,101 @@
+"""What stands still on the roof plan, and where each array may move.
+
+Read `report.figures.plan` first.
+"""
+
+from __future__ import annotations
+
+from matplotlib.ticker import MaxNLocator
+
+from report.assessment.envelopes import design_envelope, runs_envelope
+from report.assessment.neighbors import bare_edges
+from report.figures.labels import LINE_IN, Frame, centered, width_in
+from report.figures.paper_plan import Point, around
+from report.figures.plan_key import ARRAY, BARE, DESIGN, EDGES, FILLS, ROOF, RUNS
+from report.figures.plan_sheet import PlanSheet
+from report.sheet.schema import Rectangle
+from report.words.units import Quantity, number
+
+
+def draw_roof(plan: PlanSheet) -> None:
+    """Draw the outline of the roof, and its edges that are no objects."""
+    data, paper = plan.assessment.project, plan.paper
+    if data.roof.outline is not None:
+        paper.box(paper.frame(data.roof.outline), **ROOF)
+    for edge in bare_edges(data):
+        frame = paper.frame(edge.line)
+        paper.line((frame.x0, frame.y0), (frame.x1, frame.y1), **BARE)
+
+
+def draw_arrays(plan: PlanSheet) -> None:
+    """Draw the arrays, and on the large plan where each may move."""
+    for array in plan.assessment.arrays if plan.size.is_full else ():
+        for outline, look in ((runs_envelope(array), RUNS), (design_envelope(array), DESIGN)):
+            if len(outline) > 2:
+                plan.paper.polygon(outline, **look)
+    for array in plan.assessment.arrays:
+        frame = plan.paper.frame(array.array.rectangle)
+        plan.paper.box(frame, gid=array.id, **ARRAY)
+        for side in around(frame):
+            plan.paper.placer.avoid(side)
+
+
+def draw_objects(plan: PlanSheet) -> None:
+    """Draw what else is on the roof."""
+    for item in plan.placed:
+        frame = plan.paper.frame(plan.shapes[item.id])
+        plan.paper.box(frame, gid=item.id, **FILLS[item.kind])
+        plan.paper.placer.avoid(frame)
+    for item in plan.edges:
+        a, b = _spine(plan.paper.frame(plan.shapes[item.id]))
+        plan.paper.line(a, b, **EDGES[item.kind])
+        plan.paper.placer.take(Frame(min(a[0], b[0]), min(a[1], b[1]), max(a[0], b[0]),
+                                     max(a[1], b[1])))  # fmt: skip
+
+
+def draw_coordinates(plan: PlanSheet, extent: Rectangle) -> None:
+    """Draw coordinates of the plan to the left and below."""
+    paper, unit = plan.paper, Quantity.PLAN.us if plan.us_first else Quantity.PLAN.si
+    box = paper.frame(extent)
+    for axis, low, high in (
+        ("x", extent.x_from_m, extent.x_to_m),
+        ("y", extent.y_from_m, extent.y_to_m),
+    ):
+        ticks = [
+            tick
+            for tick in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(
+                low / unit.si, high / unit.si
+            )
+            if low <= tick * unit.si <= high
+        ]
+        for tick in ticks:
+            x, y = paper.at((tick * unit.si, tick * unit.si))
+            words = number(tick, 0)
+            if axis == "x":
+                paper.line((x, box.y0 - 0.22), (x, box.y0 - 0.27), linewidth=0.6)
+                _write(plan, centered(x, box.y0 - 0.35, width_in(words), LINE_IN), words)
+            else:
+                paper.line((box.x0 - 0.22, y), (box.x0 - 0.27, y), linewidth=0.6)
+                wide = width_in(words)
+                _write(plan, centered(box.x0 - 0.3 - wide / 2, y, wide, LINE_IN), words)
+    words = f"x [{unit.symbol}]"
+    _write(plan, centered(box.middle[0], box.y0 - 0.53, width_in(words), LINE_IN), words)
+    words = f"y [{unit.symbol}]"
+    _write(
+        plan,
+        centered(box.x0 - 0.62 + width_in(words) / 2, box.y1 + 0.12, width_in(words), LINE_IN),
+        words,
+    )
+
+
+def _write(plan: PlanSheet, frame: Frame, words: str) -> None:
+    plan.paper.lines(frame, [words])
+    plan.paper.placer.take(frame)
+
+
+def _spine(frame: Frame) -> tuple[Point, Point]:
+    """Return the center line of a strip."""
+    x, y = frame.middle
+    if frame.tall > frame.wide:
+        return (x, frame.y0), (x, frame.y1)
+    return (frame.x0, y), (frame.x1, y)
