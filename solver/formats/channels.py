@@ -5,6 +5,7 @@ Compares a record with the peak stated in its header; knows no format. Read `mot
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -13,7 +14,7 @@ import numpy as np
 from solver.formats.motionfile import MotionFile, distinct
 from solver.formats.source import Source
 from solver.model import Floats, InputError
-from solver.records.record import UNITS, Record, read_only
+from solver.records.record import UNITS, Record, read_only, shown
 
 MAX_CHANNELS = 1000
 
@@ -21,6 +22,14 @@ MAX_CHANNELS = 1000
 _PEAK_WITHIN = 0.01
 _PEAK_FACTOR = 2.0
 _OFFSET = 0.01
+
+# A length may count the step after the last sample, and may be rounded.
+_LENGTH_STEPS = 2.0
+_LENGTH_WITHIN = 0.005
+
+_OF_RECORDER = re.compile(
+    r"\(\s*(\d{1,4})\s*CHNS?\s+OF\s+\d+\s+AT\s+STA\s*\)", re.ASCII | re.IGNORECASE
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,6 +103,51 @@ def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -
     if not stated / _PEAK_FACTOR <= reached <= stated * _PEAK_FACTOR:
         raise InputError(f"{source.at(index)}: {words}; give a file whose header and values agree")
     return () if abs(reached - stated) <= _PEAK_WITHIN * stated else (words,)
+
+
+def check_length(
+    source: Source, index: int, stated_s: float, reached_s: float, dt_s: float
+) -> None:
+    """Raise if a record is not as long as a heading states; NaN or 0 if it states no length."""
+    if stated_s > 0.0 and abs(reached_s - stated_s) > (
+        _LENGTH_STEPS * dt_s + _LENGTH_WITHIN * stated_s
+    ):
+        raise InputError(
+            f"{source.at(index)}: the heading states {stated_s:g} s, the record lasts"
+            f" {reached_s:g} s; give dt with more digits, or a file whose headings agree"
+        )
+
+
+def check_only_blank(source: Source, first: int, stop: int, before: str) -> None:
+    """Raise at the first line from index `first` to before `stop` that is not blank.
+
+    Such a line is the rest of a channel whose heading, or the beginning of it, is missing.
+    """
+    for index in range(first, stop):
+        if source.lines[index].strip():
+            raise InputError(
+                f"{source.at(index)}: found {shown(source.lines[index].strip())} after {before},"
+                " where a heading is due; give the whole file"
+            )
+
+
+def recorder_notes(source: Source, found: int) -> tuple[str, ...]:
+    """Note that a file has fewer channels than its headings state for the recorder.
+
+    It is no error: a file may hold one channel of a recorder.
+    """
+    stated = [
+        (int(match[1]), index)
+        for index, line in enumerate(source.lines)
+        if (match := _OF_RECORDER.search(line))
+    ]
+    most, index = max(stated, default=(0, 0))
+    if most <= found:
+        return ()
+    return (
+        f"line {index + 1} states {most} channels of the recorder, the file has {found}: the others"
+        " are in other files, or the file is truncated",
+    )
 
 
 def offset_notes(a_mps2: Floats) -> tuple[str, ...]:

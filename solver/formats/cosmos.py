@@ -6,7 +6,7 @@ and displacements after them are ignored; raw counts are refused. Read `read` fi
 
 Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
 tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the series
-[ms]) and 64 (its peak).
+[ms]), 63 (its length [s]) and 64 (its peak).
 """
 
 from __future__ import annotations
@@ -14,28 +14,51 @@ from __future__ import annotations
 import math
 import re
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from solver.formats.channels import Channel, check_number, motion_file, offset_notes, peak_notes
+from solver.formats.channels import (
+    Channel,
+    check_length,
+    check_number,
+    check_only_blank,
+    motion_file,
+    offset_notes,
+    peak_notes,
+    recorder_notes,
+)
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError
-from solver.records.record import shown
+from solver.records.record import raise_any, shown
 from solver.records.units import unit_size
 
 _FIRST = re.compile(
     r"\s*(RAW|UNCORRECTED|CORRECTED)\s+([A-Z]+)\b.*\(FORMAT\s+V", re.ASCII | re.IGNORECASE
 )
+_TEXT_LINES = re.compile(r"WITH\s+(\d{1,3})\s+TEXT LINES?", re.ASCII | re.IGNORECASE)
+_WHOLES = re.compile(
+    r"\s*\d+\s+INTEGER-HEADER VALUES FOLLOW ON\s+(\d{1,4})\s+LINES?,", re.ASCII | re.IGNORECASE
+)
+_COMMENTS = re.compile(
+    r"\s*(\d{1,4})\s+COMMENT LINES?(?:\(S\))?\s+FOLLOW", re.ASCII | re.IGNORECASE
+)
 _REALS = re.compile(
-    r"\s*(\d+)\s+REAL-HEADER VALUES FOLLOW ON\s+\d+\s+LINES?,\s*FORMAT\s*=\s*\(([^)]*)\)",
+    r"\s*(\d+)\s+REAL-HEADER VALUES FOLLOW ON\s+(\d{1,4})\s+LINES?,\s*FORMAT\s*=\s*\(([^)]*)\)",
     re.ASCII | re.IGNORECASE,
 )
 _DATA = re.compile(
     r"\s*(\d+)\s+([A-Z]+)\s+PTS,\s*APPROX\s+([\d.]+)\s*SECS?\s*,\s*UNITS?\s*=\s*([^,(]*?)\s*"
     r"(?:\(\s*(\d+)\s*\))?\s*,\s*FORMAT\s*=\s*\(([^)]*)\)",
     re.ASCII | re.IGNORECASE,
+)
+_TEXT, _REAL_NUMBERS = "text", "real numbers"
+_BLOCKS = (
+    (_TEXT_LINES, 1, _TEXT),
+    (_WHOLES, 1, "integers"),
+    (_REALS, 2, _REAL_NUMBERS),
+    (_COMMENTS, 1, "comment"),
 )
 _END = re.compile(r"\s*END-OF-DATA", re.IGNORECASE)
 _NAME = re.compile(r"\s*STA\s+CHA", re.IGNORECASE)
@@ -44,7 +67,7 @@ _NAME = re.compile(r"\s*STA\s+CHA", re.IGNORECASE)
 _UNITS = {2: "g", 4: "cm/s2", 7: "in/s2", 10: "gal", 11: "mg"}
 
 # Positions of the real numbers, from 1.
-_RECORD_STEP_S, _SERIES_STEP_MS, _PEAK = 34, 62, 64
+_RECORD_STEP_S, _SERIES_STEP_MS, _SERIES_LENGTH_S, _PEAK = 34, 62, 63, 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,8 +87,12 @@ def recognizes(lines: Sequence[str]) -> bool:
 
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all channels of a file."""
-    parts = [part for part in _parts(source) if part.line[2].lower().startswith("accel")]
-    return motion_file(source, "COSMOS V1.20", each(lambda part: _channel(source, part), parts))
+    series = _parts(source)
+    raise_any(_heading_problems(source, series))
+    parts = [part for part in series if part.line[2].lower().startswith("accel")]
+    channels = each(lambda part: _channel(source, part), parts)
+    notes = recorder_notes(source, len({part.first for part in series}))
+    return motion_file(source, "COSMOS V1.20", channels, notes)
 
 
 def _parts(source: Source) -> list[_Part]:
@@ -85,6 +112,39 @@ def _parts(source: Source) -> list[_Part]:
     ]
 
 
+def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
+    """Problems of headings without values, and of blocks that are not as long as they state."""
+    filled = {part.first for part in series}
+    for index, line in enumerate(source.lines):
+        if _FIRST.match(line) and index not in filled:
+            yield (
+                f"{source.at(index)}: found a heading without a line ... pts, approx ... secs and"
+                " values; give the whole file"
+            )
+    for part in {part.first: part for part in reversed(series)}.values():
+        yield from _block_problems(source, part)
+
+
+def _block_problems(source: Source, part: _Part) -> Iterator[str]:
+    """Problems of the blocks above the first series of a heading; each states its lines."""
+    starts = [
+        (index, int(match[group]), what)
+        for index in range(part.first, part.at)
+        for pattern, group, what in _BLOCKS
+        if (match := pattern.search(source.lines[index]))
+    ]
+    if all(what != _REAL_NUMBERS for _, _, what in starts):
+        return
+    ends = [*(index for index, _, _ in starts[1:]), part.at]
+    for (index, stated, what), end in zip(starts, ends, strict=True):
+        found = end - index - 1 + (what == _TEXT)
+        if found != stated:
+            yield (
+                f"{source.at(index)}: states {stated} lines of {what}, found {found}; give the"
+                " whole file"
+            )
+
+
 def _channel(source: Source, part: _Part) -> Channel:
     line, layout, stage = part.line, layout_of(part.line[6]), _stage(source, part)
     if not layout:
@@ -96,6 +156,8 @@ def _channel(source: Source, part: _Part) -> Channel:
     block = Block(first=part.at + 1, stop=stop, count=int(line[1]), promised=part.at)
     values = fixed_values(source, block, layout) * scale
     _check_length(source, part, len(values) * dt_s, dt_s)
+    if length := _real(reals, _SERIES_LENGTH_S):
+        check_length(source, length.index, length.value, len(values) * dt_s, dt_s)
     if peak := _real(reals, _PEAK):
         notes = (*notes, *peak_notes(source, peak.index, peak.value * scale, values))
     heading = source.lines[part.first : part.at]
@@ -140,7 +202,7 @@ def _reals(source: Source, part: _Part) -> list[Stated]:
     """Real numbers of the heading."""
     for index in range(part.first, part.at):
         match = _REALS.match(source.lines[index])
-        layout = layout_of(match[2]) if match else None
+        layout = layout_of(match[3]) if match else None
         if match and layout:
             return header_values(source, index + 1, min(int(match[1]), 1000), layout)
     raise InputError(
@@ -180,6 +242,7 @@ def _stop(source: Source, part: _Part) -> tuple[int, tuple[str, ...]]:
     """Index of the line that ends a series, with a note if there is none."""
     for index in range(part.at + 1, part.stop):
         if _END.match(source.lines[index]):
+            check_only_blank(source, index + 1, part.stop, "the end of a series")
             return index, ()
     if part.stop < len(source.lines):
         return part.stop, ()

@@ -12,11 +12,21 @@ California Division of Mines and Geology, OSMS 85-03, 1985.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from solver.formats.channels import Channel, check_number, motion_file, offset_notes, peak_notes
+from solver.formats.channels import (
+    Channel,
+    check_length,
+    check_number,
+    check_only_blank,
+    motion_file,
+    offset_notes,
+    peak_notes,
+    recorder_notes,
+)
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import (
     Block,
@@ -83,11 +93,13 @@ def read(source: Source) -> MotionFile:
         raise InputError(f"{source.at(0)}: found spectra; give a file of volume 1 or 2")
     if _VOLUME_2.match(source.line(0)):
         parts = _parts(source, _VOLUME_2)
-        return motion_file(source, "CSMIP V2", each(lambda p: _volume_2(source, p), parts))
+        channels = each(lambda p: _volume_2(source, p), parts)
+        return motion_file(source, "CSMIP V2", channels, recorder_notes(source, len(parts)))
     parts = _parts(source, _VOLUME_1)
     text = " ".join(source.lines[:_TEXT_1]).upper()
     form = "RENADIC V1" if "RENADIC" in text else "CSMIP V1"
-    return motion_file(source, form, each(lambda p: _volume_1(source, p), parts))
+    channels = each(lambda p: _volume_1(source, p), parts)
+    return motion_file(source, form, channels, recorder_notes(source, len(parts)))
 
 
 def _parts(source: Source, heading: re.Pattern[str]) -> list[_Part]:
@@ -127,6 +139,8 @@ def _pair_values(source: Source, part: _Part) -> tuple[float, Floats, tuple[str,
         raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; give at least 2")
     per_line = _PAIRS.per_line // 2
     even = sampled(source, pairs[:, 0], pairs[:, 1:].T, lambda i: first + i // per_line)
+    length = _reals_1(source, part)[_LENGTH_1 - 1]
+    check_length(source, length.index, length.value, float(pairs[-1, 0]), even.dt_s)
     return even.dt_s, even.columns[0] * scale, (*even.notes, *ended)
 
 
@@ -134,6 +148,7 @@ def _even_values(
     source: Source, part: _Part, at: int, match: re.Match[str]
 ) -> tuple[float, Floats, tuple[str, ...]]:
     """Evenly spaced values after a line with their count, rate, unit and format."""
+    _check_heading(source, part, at, _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1))
     rate, count = printed(match[2], at).value, int(match[1])
     layout = layout_of(match[4])
     if not rate > 0.0 or not layout:
@@ -145,7 +160,10 @@ def _even_values(
     scale = source.scale(match[3], at)
     stop, ended = _stop(source, at + 1, part.stop)
     block = Block(first=at + 1, stop=stop, count=count, promised=at)
-    return dt_s, fixed_values(source, block, layout) * scale, ended
+    values = fixed_values(source, block, layout) * scale
+    length = _reals_1(source, part)[_LENGTH_1 - 1]
+    check_length(source, length.index, length.value, len(values) * dt_s, dt_s)
+    return dt_s, values, ended
 
 
 def _volume_2(source: Source, part: _Part) -> Channel:
@@ -156,6 +174,7 @@ def _volume_2(source: Source, part: _Part) -> Channel:
             " ...; give the whole file"
         )
     at, line = place
+    _check_heading(source, part, at, _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2))
     dt_s = source.step(_step_2(source, part, at, printed(line[2], at)))
     scale = source.scale(line[3], at)
     others = (i for i in range(at + 1, part.stop) if _ANY_2.match(source.lines[i]))
@@ -165,7 +184,8 @@ def _volume_2(source: Source, part: _Part) -> Channel:
     if not layout:
         raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
     values = fixed_values(source, block, layout) * scale
-    _check_length(source, part, len(values) * dt_s, dt_s)
+    length = _reals_2(source, part)[_LENGTH_2 - 1]
+    check_length(source, length.index, length.value, len(values) * dt_s, dt_s)
     peak_at, peak_mps2 = _peak(source, part, _PEAK_2)
     return Channel(
         name=_name(source, part, _TEXT_2),
@@ -178,6 +198,11 @@ def _volume_2(source: Source, part: _Part) -> Channel:
 def _step_2(source: Source, part: _Part, at: int, stated: Stated) -> Stated:
     """Step of the real heading, which has more digits than the line above the values."""
     exact = _reals_2(source, part)[_STEP_2 - 1]
+    if math.isnan(exact.value):
+        raise InputError(
+            f"{source.at(exact.index)}: found no step as real number {_STEP_2} of the heading; give"
+            " the whole file"
+        )
     if not exact.value > 0.0:
         return stated
     if abs(exact.value - stated.value) > stated.rounding + exact.rounding:
@@ -188,14 +213,18 @@ def _step_2(source: Source, part: _Part, at: int, stated: Stated) -> Stated:
     return exact
 
 
-def _check_length(source: Source, part: _Part, length_s: float, dt_s: float) -> None:
-    """Compare count times step with the length stated in the heading: a step may be rounded."""
-    stated = _reals_2(source, part)[_LENGTH_2 - 1]
-    if stated.value > 0.0 and abs(length_s - stated.value) > 2.0 * dt_s + 0.005 * stated.value:
+def _check_heading(source: Source, part: _Part, at: int, due: int) -> None:
+    """Raise if the heading above the line of values has more or fewer lines than the format."""
+    found = at - part.first
+    if found != due:
         raise InputError(
-            f"{source.at(stated.index)}: the heading states {stated.value:g} s, count times step is"
-            f" {length_s:g} s; give dt with more digits, or a file whose headings agree"
+            f"{source.at(at)}: found {found} lines of heading above this one, where the format has"
+            f" {due}; give the whole file"
         )
+
+
+def _reals_1(source: Source, part: _Part) -> list[Stated]:
+    return header_values(source, part.first + _TEXT_1 + _WHOLE, _REALS_1, _REAL)
 
 
 def _reals_2(source: Source, part: _Part) -> list[Stated]:
@@ -219,8 +248,9 @@ def _heading(part: _Part) -> Iterator[int]:
 
 def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
     """Index of the line that ends a channel, with a note if there is none."""
-    for index in range(stop - 1, first - 1, -1):
+    for index in range(first, stop):
         if _END.match(source.lines[index]):
+            check_only_blank(source, index + 1, stop, "the end of a channel")
             return index, ()
     return stop, ("no end-of-data line (/&) follows the values: the file may be truncated",)
 

@@ -16,7 +16,15 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from solver.formats.channels import Channel, check_number, motion_file, offset_notes, peak_notes
+from solver.formats.channels import (
+    Channel,
+    check_length,
+    check_number,
+    check_only_blank,
+    motion_file,
+    offset_notes,
+    peak_notes,
+)
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, Layout, each, fixed_values, header_values, printed
 from solver.formats.source import Source, Stated
@@ -29,6 +37,9 @@ _INTERVAL = re.compile(r"\bINTERVALS?\b", re.IGNORECASE)
 _UNIT = re.compile(r"UNITS OF\s+([\d.]+)\s+([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
 _PEAK_UNIT = re.compile(r"ACCELERATION:\s+PEAK\s+\S+\s+([A-Z/0-9]+)", re.IGNORECASE)
 
+_LENGTH = re.compile(r"\bDURATION\s+([\d.]+)\s*SEC", re.ASCII | re.IGNORECASE)
+
+_COMPONENTS = 3
 _TEXT = 16
 _WHOLE = Layout(per_line=10, width=8)
 _WHOLES, _REALS = 40, 60
@@ -37,7 +48,7 @@ _HEADING = _TEXT + _WHOLE.lines(_WHOLES) + _WHOLE.lines(_REALS)
 # Positions of the numbers in the heading, from 1.
 _ACCELERATIONS, _VELOCITIES, _DISPLACEMENTS = 34, 35, 36
 _STEP, _PEAK_1, _PEAK_2 = 26, 31, 36
-_UNIT_LINE, _COMPONENT_LINE, _PEAK_LINE = 11, 13, 14
+_LENGTH_LINE, _UNIT_LINE, _COMPONENT_LINE, _PEAK_LINE = 10, 11, 13, 14
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,6 +72,11 @@ def read(source: Source) -> MotionFile:
     check_number(source, len(starts))
     stops = [*starts[1:], len(source.lines)]
     parts = [_Part(first=a, stop=b) for a, b in zip(starts, stops, strict=True)]
+    if len(starts) != _COMPONENTS:
+        raise InputError(
+            f"{source.at(starts[-1])}: found the heading of component {len(starts)}, the last one,"
+            f" where the format has {_COMPONENTS} components; give the whole file"
+        )
     form = "GeoNet V1A" if _is_uncorrected(source) else "GeoNet V2A"
     return motion_file(source, form, each(lambda part: _component(source, part), parts))
 
@@ -81,6 +97,7 @@ def _component(source: Source, part: _Part) -> Channel:
     scale = _scale(source, part)
     block = _block(part, whole)
     values = fixed_values(source, block, _WHOLE) * scale
+    _check_length(source, part, len(values) * dt_s, dt_s)
     uncorrected = _is_uncorrected(source)
     peak = real[(_PEAK_1 if uncorrected else _PEAK_2) - 1]
     notes = (
@@ -122,6 +139,13 @@ def _step(source: Source, part: _Part, exact: Stated) -> Stated:
     return exact if exact.rounding <= stated.rounding else stated
 
 
+def _check_length(source: Source, part: _Part, reached_s: float, dt_s: float) -> None:
+    """Compare count times step with the duration in the text."""
+    at = part.first + _LENGTH_LINE - 1
+    if match := _LENGTH.search(source.line(at)):
+        check_length(source, at, printed(match[1], at).value, reached_s, dt_s)
+
+
 def _scale(source: Source, part: _Part) -> float:
     """Value [m/s2] of one unit: from `Raw readings in units of 1.00 mm/s/s`, or of the peak."""
     at = part.first + _UNIT_LINE - 1
@@ -144,6 +168,8 @@ def _rest(source: Source, part: _Part, whole: Sequence[Stated]) -> tuple[str, ..
     counts = [whole[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
     counts = [count for count in counts if 0.0 < count < 1e8]
     lines = sum(_WHOLE.lines(int(count)) for count in [whole[_ACCELERATIONS - 1].value, *counts])
-    if part.first + _HEADING + lines <= part.stop:
+    end = part.first + _HEADING + lines
+    if end <= part.stop:
+        check_only_blank(source, end, part.stop, "the values of a component")
         return ()
     return ("velocities or displacements are incomplete: the file may be truncated",)

@@ -28,6 +28,12 @@ _STEP = re.compile(
 )
 
 
+_COUNT = re.compile(
+    r"\b(?:number|no\.?) of (?:points|samples|values)\b\s*[:=]?\s*(\d{1,9})\b(?![.,]\d)",
+    re.ASCII | re.IGNORECASE,
+)
+
+
 class Kind(Enum):
     """Content of a column according to its heading."""
 
@@ -110,6 +116,12 @@ def step_in(line: str) -> tuple[str, float]:
     """Time step stated in a line of text, as printed ("" for none), and its unit [s]."""
     match = _STEP.search(line)
     return (match[1], 0.001 if match[2] else 1.0) if match else ("", 1.0)
+
+
+def count_in(line: str) -> int:
+    """Number of samples stated in a line of text; -1 for none."""
+    match = _COUNT.search(line)
+    return int(match[1]) if match else -1
 
 
 def _split(text: str) -> tuple[str, str]:

@@ -85,7 +85,8 @@ def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
     Raises
     ------
     InputError
-        With every invalid field, or if there are fewer values than stated.
+        With every invalid field, or if there are fewer values than stated, or if a line is cut
+        within a number.
     """
     _check_enough(source, block)
     last = min(block.first + layout.lines(block.count), block.stop)
@@ -94,6 +95,7 @@ def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
     if values is None:
         values = _slowly(source, block, rows, layout)
     _check_no_more(source, block, last)
+    raise_any(_cut_lines(source, block, rows, layout))
     return values
 
 
@@ -263,6 +265,18 @@ def _number(field: str) -> float:
 def _field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterator[str]:
     problems = (_problem(field) for field in fields)
     return (f"{source.at(index)}: {problem}" for problem in problems if problem)
+
+
+def _cut_lines(source: Source, block: Block, rows: Sequence[str], layout: Layout) -> Iterator[str]:
+    """Problems of lines that end within a field, where most lines end with one."""
+    within = [index for index, row in enumerate(rows) if len(row) % layout.width]
+    if 2 * len(within) >= len(rows):
+        return
+    for index in within:
+        yield (
+            f"{source.at(block.first + index)}: found a line of {len(rows[index])} characters that"
+            f" ends within a field of {layout.width}; give the whole file"
+        )
 
 
 def _wrong_count(source: Source, block: Block, count: int) -> str:

@@ -70,6 +70,7 @@ def recognizes(lines: Sequence[str]) -> bool:
 def read(source: Source) -> MotionFile:
     """Read a text of one or more columns."""
     table = _table(source)
+    _check_count(source, table)
     timed = _has_times(source, table)
     columns = range(int(timed), table.values.shape[1])
     taken = [i for i in columns if not _is_other(table, i)]
@@ -92,6 +93,18 @@ def read(source: Source) -> MotionFile:
     notes = [f"column {shown(text)} is ignored: it is not an acceleration" for text in left]
     file = motion_file(source, "text", channels, [*even.notes, *notes])
     return replace(file, hold_s=_hold_s(table))
+
+
+def _check_count(source: Source, table: _Table) -> None:
+    """Compare the number of rows with the number of samples that a remark states."""
+    found = len(table.values)
+    for index, line in table.remarks:
+        stated = headings.count_in(line)
+        if stated not in (-1, found):
+            remedy = "give the whole file" if found < stated else "correct the count"
+            raise InputError(
+                f"{source.at(index)}: states {stated} samples, found {found}; {remedy}"
+            )
 
 
 def _hold_s(table: _Table) -> float:
@@ -132,16 +145,38 @@ def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Samp
         rows = _rows(source.lines, table.start)
         return np.fromiter((index for index, _ in rows), dtype=np.int64)
 
-    return sampled(source, times, columns, lambda i: int(indexes()[i]))
+    even = sampled(source, times, columns, lambda i: int(indexes()[i]))
+    _check_step(source, table, even)
+    return even
 
 
-def _stated_step(source: Source, table: _Table) -> float:
+def _check_step(source: Source, table: _Table, even: Sampled) -> None:
+    """Compare the step of even times with the one that a remark states."""
+    stated = _step_in(table)
+    if math.isnan(stated.value) or even.notes:
+        return
+    if abs(even.dt_s - stated.value) > stated.rounding + 1e-4 * even.dt_s:
+        raise InputError(
+            f"{source.at(stated.index)}: states a step of {stated.value:.6g} s, the times have"
+            f" {even.dt_s:.6g} s; give a file in which they agree"
+        )
+
+
+def _step_in(table: _Table) -> Stated:
+    """Step [s] that a remark states; NaN for none."""
     for index, line in table.remarks:
         text, seconds = headings.step_in(line)
         if text:
             stated = printed(text, index)
             value, rounding = stated.value * seconds, stated.rounding * seconds
-            return source.step(Stated(value=value, rounding=rounding, index=index))
+            return Stated(value=value, rounding=rounding, index=index)
+    return Stated(value=math.nan, rounding=0.0, index=-1)
+
+
+def _stated_step(source: Source, table: _Table) -> float:
+    stated = _step_in(table)
+    if stated.index >= 0:
+        return source.step(stated)
     if math.isnan(source.dt_s):
         raise InputError(
             f"{source.name}: found one column, without times; give the time step dt"

@@ -20,6 +20,13 @@ WAVE = np.array([0.25, -1.5, 12.125, -34.5, 98, -123.456, 77.125, -45.25, 30.5, 
 # fmt: on
 
 
+# A file may hold one channel of a recorder, so this is no error.
+OF_TWO = (
+    "line 7 states 2 channels of the recorder, the file has 1: the others are in other files, or"
+    " the file is truncated"
+)
+
+
 def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
     with pytest.raises(InputError) as caught:
         read_motion_file(path, **how)
@@ -29,7 +36,7 @@ def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
 def test_one_value_to_a_line_and_the_step_of_the_series() -> None:
     motion_file = read_motion_file(SAMPLES / "cosmos.v2c")
     assert motion_file.format == "COSMOS V1.20"
-    assert motion_file.notes == ()
+    assert motion_file.notes == (OF_TWO,)
     record = motion_file.channel()
     assert record.name == "Sta Chan 1: 360 deg (Rcrdr Chan 1) Location: Roof"
     # Milliseconds of the series, not the step of the record it was made of.
@@ -76,6 +83,7 @@ def test_a_file_without_its_last_line_says_so(altered: Any) -> None:
         altered("cosmos.v2c", ("End-of-data for Chan  1 acceleration", ""))
     )
     assert motion_file.notes == (
+        OF_TWO,
         "no end-of-data line follows the values: the file may be truncated",
     )
 
@@ -108,7 +116,13 @@ def test_faults_are_told_with_their_line(
 
 def test_a_step_that_no_heading_has_may_be_given(altered: Any) -> None:
     unknown = ("    -999.000000", "    -999.000000")
-    path = altered("cosmos.v2c", ("       7.812500", unknown[1]), ("       0.005000", unknown[1]))
+    steps = [("       7.812500", unknown[1]), ("       0.005000", unknown[1])]
+    path = altered("cosmos.v2c", *steps)
+    assert problems_of(path, dt_s=0.01) == (
+        "cosmos.v2c:38: the heading states 0.164062 s, the record lasts 0.21 s; give dt with more"
+        " digits, or a file whose headings agree",
+    )
+    path = altered("cosmos.v2c", *steps, ("       0.164062", unknown[1]))
     assert read_motion_file(path, dt_s=0.01).channel().dt_s == 0.01
 
 

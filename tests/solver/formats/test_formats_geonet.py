@@ -88,11 +88,18 @@ def test_counts_must_hold(altered: Any, file: Any) -> None:
 
 def test_a_cut_file_is_told(file: Any) -> None:
     lines = (SAMPLES / "geonet.v2a").read_text().splitlines()
-    whole = len(lines) // 3
-    cut = read_motion_file(file("\n".join(lines[: whole - 3])))
-    assert cut.notes == ("velocities or displacements are incomplete: the file may be truncated",)
-    (problem,) = problems_of(file("\n".join(lines[:27])))
-    assert problem == "roof.csv:20: states 21 values, found 10; give the whole file"
+    cut = read_motion_file(file("\n".join(lines[:-4])))
+    assert cut.notes == (
+        "Component Up Vertical Accelerometer Axis: velocities or displacements are incomplete: the"
+        " file may be truncated",
+    )
+    (problem,) = problems_of(file("\n".join(lines[:97])))
+    assert problem == "roof.csv:90: states 21 values, found 10; give the whole file"
+    (problem,) = problems_of(file("\n".join(lines[:70])))
+    assert problem == (
+        "roof.csv:36: found the heading of component 2, the last one, where the format has 3"
+        " components; give the whole file"
+    )
 
 
 def test_a_peak_of_the_heading_that_is_twice_that_of_the_values_is_refused(altered: Any) -> None:
