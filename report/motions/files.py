@@ -134,7 +134,7 @@ def find_heading(book: OpenBook, name: str) -> CellPosition | None:
     """
     if "!" not in name:
         return None
-    for sheet in book.typed.worksheets:
+    for sheet in book.book.worksheets:
         for title in (sheet.title, f"'{sheet.title}'"):
             if name.casefold().startswith(f"{title}!".casefold()):
                 return _heading_on(book, sheet.title, name[len(title) + 1 :].strip())
@@ -144,7 +144,7 @@ def find_heading(book: OpenBook, name: str) -> CellPosition | None:
 
 
 def _heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
-    extent, sheet = book.extent(title), book.computed[title]
+    extent, sheet = book.extent(title), book.book[title]
     spots = [
         CellPosition(title, row, column)
         for row in range(1, min(HEADING_ROWS, extent.last_row) + 1)

@@ -85,24 +85,14 @@ class TableFound:
 
 def found_at(book: OpenBook, position: CellPosition) -> Found:
     """Return the content of a cell, as typed and as computed."""
-    return _found(position, book.typed[position.sheet], book.computed[position.sheet])
-
-
-def _found(position: CellPosition, typed_sheet: Worksheet, computed_sheet: Worksheet) -> Found:
-    typed = typed_sheet.cell(position.row, position.column)
-    computed = computed_sheet.cell(position.row, position.column)
-    formula = ""
-    if typed.data_type == "f":
-        # Array formulas are objects with a text; data tables are objects without one.
-        is_text = isinstance(typed.value, str)
-        formula = str(typed.value if is_text else getattr(typed.value, "text", None) or "=TABLE()")
+    cell = book.book[position.sheet].cell(position.row, position.column)
     return Found(
         sheet=position.sheet,
         cell=position.cell,
-        value=computed.value,
-        formula=formula,
-        is_error=computed.data_type == "e",
-        number_format=str(computed.number_format),
+        value=cell.value,
+        formula=book.formula(position.sheet, position.cell),
+        is_error=cell.data_type == "e",
+        number_format=str(cell.number_format),
     )
 
 
@@ -158,7 +148,7 @@ def is_absent(book: OpenBook, section: Section) -> bool:
 
 
 def _sheets(book: OpenBook) -> list[Worksheet]:
-    return list(book.typed.worksheets)
+    return list(book.book.worksheets)
 
 
 def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
@@ -184,7 +174,7 @@ def _field_named(book: OpenBook, section: Section, entry: Entry) -> CellPosition
 
 
 def _named(book: OpenBook, name: str) -> CellPosition | None:
-    for defined in book.typed.defined_names.values():
+    for defined in book.book.defined_names.values():
         if str(defined.name).casefold() != name:
             continue
         match = _TARGET.fullmatch(str(defined.attr_text))
@@ -409,8 +399,7 @@ def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -
 def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:
     """Return the content of the cells below a heading, down to the last row of the sheet."""
     last = book.extent(heading.sheet).last_row
-    typed, computed = book.typed[heading.sheet], book.computed[heading.sheet]
     return [
-        _found(CellPosition(heading.sheet, row, heading.column), typed, computed)
+        found_at(book, CellPosition(heading.sheet, row, heading.column))
         for row in range(heading.row + 1, last + 1)
     ]

@@ -132,7 +132,7 @@ def _split(named: str) -> tuple[Path, str]:
 
 
 def _title(book: OpenBook, sheet: str) -> str:
-    titles = [worksheet.title for worksheet in book.typed.worksheets]
+    titles = [worksheet.title for worksheet in book.book.worksheets]
     if not sheet and len(titles) == 1:
         return titles[0]
     for title in titles:

@@ -3,12 +3,13 @@
 import contextlib
 import io
 import os
+import re
 import zipfile
 
 import pytest
-from openpyxl import DEFUSEDXML
+from openpyxl import DEFUSEDXML, load_workbook
 
-from report.sheet import archive
+from report.sheet import archive, scan
 from report.sheet.archive import open_book
 from sheets import edit, make, problems, read_workbook
 from solver.model import InputError
@@ -37,7 +38,7 @@ def rewritten(path, name, change):
 
 def sheet_part(path, title):
     with zipfile.ZipFile(path) as file:
-        return dict(archive._parts(file))[title]
+        return dict(archive._sheet_parts(file))[title]
 
 
 def test_workbooks_are_parsed_with_entities_switched_off():
@@ -239,9 +240,9 @@ def test_a_range_over_a_whole_sheet_is_rejected_before_it_is_made(tmp_path, xml)
 
 
 def test_a_workbook_of_too_many_cells_is_rejected(tmp_path, monkeypatch):
-    monkeypatch.setattr(archive, "MAX_CELLS", 500)
+    monkeypatch.setattr(scan, "MAX_CELLS", 500)
     assert problems(make(tmp_path))[0].endswith(
-        "more than 500 cells; keep records in files beside it"
+        "more than 500 cells and rows; keep records in files beside it"
     )
 
 
@@ -263,9 +264,130 @@ def test_a_field_with_a_broken_name_is_found_by_its_label(tmp_path):
     assert read_workbook(edit(make(tmp_path), change)).input.project.name == "Alameda Warehouse"
 
 
-def test_formulas_make_the_book_be_read_twice_and_only_they(tmp_path):
-    book = open_book(make(tmp_path))
-    assert book.typed is book.computed
+def test_a_formula_is_kept_beside_the_value_that_was_saved(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Project"].__setitem__("H5", "=1+1"))
     book = open_book(path)
-    assert book.typed is not book.computed
+    assert book.formula("Project", "H5") == "=1+1"
+    assert book.formula("Project", "H6") == ""
+    assert book.book["Project"]["H5"].value is None
+
+
+SHEET = b"""<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>
+<row r="1"><c r="A1"><f t="shared" ref="A1:A2" si="0">B1*$C$1</f><v>1</v></c></row>
+<row r="2"><c r="A2"><f t="shared" si="0"/><v>2</v></c></row>
+<row r="3"><c r="A3"><f t="array" ref="A3">SUM(B1:B2*2)</f><v>3</v></c></row>
+<row r="4"><c r="A4"><f t="dataTable" ref="A4:A5"/><v>4</v></c></row>
+<row><c/><c><f>1+\n1</f><v>5</v></c></row></sheetData></worksheet>"""
+
+
+def test_formulas_of_every_kind_are_those_that_openpyxl_reads(tmp_path):
+    path = make(tmp_path)
+    rewritten(path, sheet_part(path, "Project"), lambda old: SHEET)
+    typed = load_workbook(path)["Project"]
+    book = open_book(path)
+    texts = [book.formula("Project", f"A{row}") for row in range(1, 5)]
+    assert texts == ["=B1*$C$1", "=B2*$C$1", "=SUM(B1:B2*2)", "=TABLE()"]
+    assert texts[:2] == [typed["A1"].value, typed["A2"].value]
+    assert texts[2] == typed["A3"].value.text
+    assert book.formula("Project", "B5") == typed["B5"].value == "=1+\n1"
+
+
+def relations(path, change):
+    return rewritten(path, "xl/_rels/workbook.xml.rels", change)
+
+
+def arrays_target(path):
+    """The name of the part of sheet Arrays, relative to the workbook's folder."""
+    return sheet_part(path, "Arrays").removeprefix("xl/").encode()
+
+
+@pytest.mark.parametrize("prefix", [b"./", b"../xl/", b"../xl/./", b"/xl/"])
+def test_a_part_is_found_by_every_legal_spelling_of_its_target(tmp_path, prefix):
+    path = make(tmp_path)
+    target = arrays_target(path)
+    relations(path, lambda old: re.sub(rb"(/xl/|)" + target, prefix + target, old))
+    assert [array.id for array in read_workbook(path).input.arrays] == ["A1", "A2"]
+    far = edit(path, lambda book: book["Arrays"].__setitem__("XFD1048576", 1))
+    assert problems(far)[0].startswith("Arrays!XFD1048576: contains data more than")
+
+
+@pytest.mark.parametrize(
+    "spelled",
+    [lambda name: name.upper(), lambda name: name.replace(b"s", b"%73"), lambda name: b"gone.xml"],
+)
+@pytest.mark.parametrize("title", ["Arrays", "Clearances", "Building", "Spectrum", "Links"])
+def test_a_sheet_whose_part_is_not_there_is_refused_by_name(tmp_path, spelled, title):
+    path = make(tmp_path)
+    target = sheet_part(path, title).removeprefix("xl/").encode()
+    relations(path, lambda old: old.replace(target, spelled(target)))
+    (line,) = problems(path)
+    assert line.startswith(f"sheet '{title}': its part ")
+    assert line.endswith(f" is missing; {REOPEN}")
+
+
+def test_a_sheet_without_a_part_is_refused_by_name(tmp_path):
+    path = rewritten(
+        make(tmp_path),
+        "xl/workbook.xml",
+        lambda old: re.sub(rb'(<sheet [^>]*)r:id="[^"]*"', rb"\1", old),
+    )
+    assert problems(path)[0].endswith(f"its part (no name) is missing; {REOPEN}")
+
+
+def test_two_sheets_of_one_name_are_refused(tmp_path):
+    path = rewritten(
+        make(tmp_path),
+        "xl/workbook.xml",
+        lambda old: old.replace(b'name="Links"', b'name="arrays"'),
+    )
+    assert problems(path) == ("two sheets have the name 'arrays'; rename one",)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-be", "utf-16-le", "utf-16"])
+def test_a_part_is_scanned_in_every_encoding(tmp_path, encoding):
+    path = make(tmp_path)
+    part = sheet_part(path, "Arrays")
+    far = edit(path, lambda book: book["Arrays"].__setitem__("XFD1048576", 1))
+    rewritten(far, part, lambda old: re.sub(r"^<\?xml.*?\?>", "", old.decode()).encode(encoding))
+    assert problems(far)[0].startswith("Arrays!XFD1048576: contains data more than")
+
+
+def test_entities_are_refused_in_utf_16_without_a_mark(tmp_path):
+    text = '<!DOCTYPE x [<!ENTITY a "ha">]><x>&a;</x>'.encode("utf-16-be")
+    for part in ("xl/workbook.xml", "xl/_rels/workbook.xml.rels", "xl/comments1.bin"):
+        path = rewritten(make(tmp_path), part, lambda old: text)
+        assert problems(path) == (f"contains XML entity declarations at {part}; {REOPEN}",)
+
+
+def test_a_large_merge_in_another_encoding_is_refused_before_it_is_made(tmp_path):
+    path = make(tmp_path)
+    merge = '<mergeCells count="1"><mergeCell ref="G30:XFD1048576"/></mergeCells>'
+
+    def change(old):
+        text = re.sub(r"^<\?xml.*?\?>", "", old.decode())
+        return text.replace("<dataValidations", merge + "<dataValidations").encode("utf-16-be")
+
+    part = sheet_part(path, "Site")
+    (line,) = problems(rewritten(path, part, change))
+    assert line.startswith(f"{part}: merged cells or links over G30:XFD1048576")
+
+
+def test_comments_and_formats_are_bounded_before_they_are_made(tmp_path, monkeypatch):
+    monkeypatch.setattr(scan, "MAX_OTHERS", 50)
+    assert "more than 50 comments, formats and the like" in problems(make(tmp_path))[0]
+
+
+def test_tags_are_counted_before_anything_is_parsed(tmp_path, monkeypatch):
+    monkeypatch.setattr(scan, "MAX_TAGS", 100)
+    monkeypatch.setattr(scan, "_walk", lambda *_: pytest.fail("parsed"))
+    (line,) = problems(make(tmp_path))
+    assert line.endswith(" XML tags, more than 100; keep records in files beside it")
+
+
+def test_strict_workbooks_are_refused_by_name(tmp_path):
+    strict = b"http://purl.oclc.org/ooxml/spreadsheetml/main"
+    main = b"http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+    path = rewritten(make(tmp_path), "xl/workbook.xml", lambda old: old.replace(main, strict))
+    assert problems(path) == (
+        "a Strict Open XML workbook; save it as Excel Workbook (.xlsx), not Strict",
+    )
