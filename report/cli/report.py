@@ -6,6 +6,7 @@ Read `make` first: one line for each step from workbook to package.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -91,16 +92,28 @@ def make(
     source: Path, out: Path | None, since: Path | None, progress: Callable[[str], None]
 ) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
     """Read a workbook, run its motions, and write the package and the tables."""
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
+    from report.beside import beside
 
+    with beside() as second:
+        return _make(source, out, since, progress, second)
+
+
+def _make(
+    source: Path,
+    out: Path | None,
+    since: Path | None,
+    progress: Callable[[str], None],
+    second: Executor,
+) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
+    """Make a package with the help of a second process, which draws and writes the tables."""
+    second.submit(load)
     from report.assessment.changes import NO_FORMER
     from report.assessment.evidence import support
     from report.assessment.project import assess
     from report.drawing.dxf import write_dxf
     from report.drawing.plan import plan_drawing
     from report.motions.prepare import prepare
-    from report.package.html import pages
+    from report.package.html import begin, pages
     from report.results.compare import changes
     from report.results.publish import publish
     from report.results.since import read_former
@@ -114,21 +127,31 @@ def make(
     shaking = prepare(sheet)
     progress("running the motions (the first run compiles the solver)")
     assessment = assess(sheet, shaking)
+    changed = changes(former[0], assessment) if former else NO_FORMER
+    begun = begin(assessment, changed, second)
     evidence = support(assessment)
     progress("writing the pages")
-    changed = changes(former[0], assessment) if former else NO_FORMER
-    html = pages(assessment, evidence, changed)
+    html = pages(assessment, evidence, changed, begun, second)
     progress("laying out the package")
-    # The library for DXF takes 0.8 s to load, on the core that the layout leaves idle.
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as beside:
-        plan = beside.submit(write_dxf, plan_drawing(assessment))
-        pdf = lay_out(html)
-        files = {"calc-package.pdf": pdf, "plan.dxf": plan.result()}
+    plan = second.submit(write_dxf, plan_drawing(assessment))
+    listed = second.submit(tables, assessment, evidence)
+    pdf = lay_out(html)
     progress("writing the result tables")
-    files |= tables(assessment, evidence)
+    files = {"calc-package.pdf": pdf, "plan.dxf": plan.result(), **listed.result()}
     folder = out or sheet.path.parent / "out"
     publish(files, folder)
     return assessment, folder, files, changed
+
+
+def load() -> None:
+    """Import what draws and writes, while the other process reads and runs."""
+    import report.drawing.dxf
+    import report.figures.charts
+    import report.package.html
+    import report.results.tables  # noqa: F401
+    from report.pages.pictures import load_charts
+
+    load_charts()
 
 
 def _print_summary(assessment: Assessment) -> None:

@@ -46,6 +46,9 @@ def write_dxf(plan: PlanDrawing) -> bytes:
         look = {"layer": text.layer.title, "height": text.height}
         written = space.add_text(_plain(text.words), dxfattribs=look)
         written.set_placement(text.at, align=TextEntityAlignment.MIDDLE_CENTER)
+    # As the library would, but sorted: its order is that of a set, another one in each process.
+    for kind in sorted(document.entitydb.dxf_types_in_use()):
+        document.classes.add_class(kind)
     out = io.StringIO()
     document.write(out)
     return out.getvalue().encode("utf-8")

@@ -5,7 +5,6 @@ Templates print these and nothing else. Owns no content: see the other `report.p
 
 from __future__ import annotations
 
-import base64
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -19,7 +18,7 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction, ProjectInput
-from report.typeset.equations import formula
+from report.typeset.equations import data_uri
 from report.words.units import Quantity, Show, Unit, measured, number, pair
 from solver.model import DefectError
 from solver.rules.provisions import (
@@ -36,11 +35,6 @@ BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
 WHOLE_ROWS = 24  # longer tables may break across pages, with the heading repeated
 OK, NG = "OK", "NG"
-
-
-def data_uri(svg: str) -> str:
-    """Return the `data:` address of an SVG."""
-    return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,26 +138,12 @@ class Picture:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Line:
-    """A step of the calculation: equation, source, substituted numbers with results.
-
-    The equation is rendered by the template, in the process that draws.
-    """
+    """A step of the calculation: equation, source, substituted numbers with results."""
 
     latex: str
     reference: str
     steps: tuple[tuple[str, str], ...] = ()
     note: str = ""
-
-    @property
-    def src(self) -> str:
-        """`data:` address of the equation."""
-        return data_uri(formula(self.latex).svg)
-
-    @property
-    def size(self) -> str:
-        """Its size on the page, as a style."""
-        image = formula(self.latex)
-        return f"width: {image.width_pt:.2f}pt; height: {image.height_pt:.2f}pt"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -111,6 +111,7 @@ def draw_evidence(package: PackageData, evidence: Evidence) -> Pictures:
     """Return the other pictures, by the id of their part."""
     from report.figures import charts as figures
 
+    load_charts()
     us_first = package.fmt.us_first
     pictures = {
         "motions-spectra": [

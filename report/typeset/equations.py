@@ -5,8 +5,10 @@ Knows no values of a project: `report.pages.method` adds the numbers.
 
 from __future__ import annotations
 
+import base64
 import re
 import warnings
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 
@@ -28,6 +30,26 @@ class Formula:
     width_pt: float
     height_pt: float
     latex: str
+
+    @property
+    def src(self) -> str:
+        """Its `data:` address."""
+        return data_uri(self.svg)
+
+    @property
+    def size(self) -> str:
+        """Its size on the page, as a style."""
+        return f"width: {self.width_pt:.2f}pt; height: {self.height_pt:.2f}pt"
+
+
+def data_uri(svg: str) -> str:
+    """Return the `data:` address of an SVG."""
+    return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()
+
+
+def formulas(latex: Iterable[str]) -> dict[str, Formula]:
+    """Return LaTeX formulas as pictures, by their text."""
+    return {text: formula(text) for text in latex}
 
 
 @cache

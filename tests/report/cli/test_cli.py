@@ -10,6 +10,8 @@ from pathlib import Path
 from click.testing import CliRunner
 from pypdf import PdfReader
 
+import report.assessment.sensitivity
+import report.beside
 import report.package.html
 from places import ROOT
 from report.cli.main import main
@@ -75,6 +77,22 @@ def test_an_internal_error_exits_1_with_the_traceback(tmp_path, monkeypatch):
     assert done.exit_code == 1
     assert isinstance(done.exception, RuntimeError)
     assert not (tmp_path / "job" / "out").exists()
+
+
+def test_the_files_are_the_same_without_a_second_process(tmp_path, monkeypatch):
+    monkeypatch.setattr(report.assessment.sensitivity, "_seconds", lambda scene: 1e-3)
+    book = make(tmp_path)
+    assert run("report", book, "--out", tmp_path / "with").exit_code == 0
+
+    def refused():
+        raise OSError("no more processes")
+
+    monkeypatch.setattr(report.beside, "SecondProcess", refused)
+    assert run("report", book, "--out", tmp_path / "without").exit_code == 0
+    names = {path.name for path in (tmp_path / "with").iterdir()}
+    assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx"}
+    for name in names:
+        assert (tmp_path / "with" / name).read_bytes() == (tmp_path / "without" / name).read_bytes()
 
 
 def test_a_failed_run_leaves_the_older_package(tmp_path):

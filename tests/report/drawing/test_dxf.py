@@ -2,7 +2,10 @@
 
 import io
 import math
+import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 
 import ezdxf
@@ -35,6 +38,24 @@ def read(data):
 
 def test_the_same_plan_gives_the_same_bytes(done):
     assert write_dxf(plan_drawing(done)) == write_dxf(plan_drawing(done))
+
+
+def test_every_process_writes_the_same_bytes():
+    code = (
+        "from report.drawing.dxf import write_dxf; from report.drawing.layers import PlanDrawing; "
+        "print(write_dxf(PlanDrawing(is_feet=True, lines=(), texts=())).hex())"
+    )
+    seeds = ("1", "5")  # sets of the library's kinds in two orders
+    written = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env=os.environ | {"PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed in seeds
+    }
+    assert len(written) == 1
 
 
 @pytest.mark.parametrize("us_first", [True, False])
