@@ -115,9 +115,7 @@ class ArrayAssessment:
         The full one, unless the workbook departs from the rule sets and takes the value from
         analysis in the direction, not less than the floor.
         """
-        if not self.by_direction or self.route is Route.PRESCRIPTIVE:
-            return self.design_m
-        return self.floored_m(direction)
+        return self.directional_m(direction) if self.by_direction else self.design_m
 
     def chosen_toward_m(self, direction: Direction) -> float:
         """Return the same with the adequate models [m]."""
@@ -125,8 +123,13 @@ class ArrayAssessment:
             return self.design_m
         return self._floored(self.chosen[direction if self.by_direction else Direction.ANY])
 
-    def floored_m(self, direction: Direction) -> float:
-        """Return the value from analysis in a direction [m], not less than the floor."""
+    def directional_m(self, direction: Direction) -> float:
+        """Return the design displacement in a direction [m].
+
+        The value from analysis, not less than the floor; a prescriptive value has no direction.
+        """
+        if self.route is Route.PRESCRIPTIVE:
+            return self.design_m
         return self._floored(self.directions[direction])
 
     def _floored(self, analysis: AnalysisValue) -> float:

@@ -7,18 +7,18 @@ Live formulas, each written with the value computed by `report.assessment.projec
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import pandas as pd
 from xlsxwriter.utility import xl_rowcol_to_cell
 from xlsxwriter.worksheet import Worksheet
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.project import Assessment
 from report.results.sheets import DIRECTION_HEADINGS, Pages, write_headings
 from report.sheet.schema import Direction
 from solver.model import INCH_M
-from solver.rules.provisions import Basis
+from solver.rules.provisions import AnalysisValue, Basis
 
 PeakRanges = Mapping[tuple[str, Direction], str]
 """Cells of the peaks of an array in a direction, one for each motion."""
@@ -101,23 +101,41 @@ def _write_row(
     peaks: str,
     design_row: int,
 ) -> None:
-    analysis, inch, r = item.directions[direction], INCH_M, row + 1
+    analysis, design = item.directions[direction], item.directional_m(direction)
     sheet.write_string(row, 0, item.id)
     sheet.write_string(row, 1, direction.value)
+    formulas: list[_Formula] = []
     if math.isnan(analysis.value_m):
-        for column in (2, 3, 5, 7):
+        for column in (2, 3, 5):
             sheet.write_string(row, column, "none")
-        return
-    picked = "D" if analysis.basis is Basis.LARGEST_FACTORED else "C"
-    design = item.floored_m(direction) / inch
-    for column, formula, value in (
-        (2, f"=AVERAGE({peaks})", analysis.mean_m / inch),
-        (3, f"=MAX({peaks})", analysis.largest_m / inch),
-        (4, f"=Design!J{design_row}", analysis.factor),
-        (5, f"=E{r}*{picked}{r}", analysis.value_m / inch),
-        (6, f"=Design!M{design_row}", item.floor_m / inch),
-        (7, f"=MAX(F{r},G{r})", design),
-        (9, f"=H{r}-I{r}", 0.0),
-    ):
+    else:
+        formulas += _of_analysis(analysis, item.floor_m, peaks, row + 1, design_row)
+    if math.isnan(design):
+        sheet.write_string(row, 7, "none")
+    else:
+        formulas += _of_design(item.route, design, row + 1, design_row)
+        sheet.write_number(row, 8, design / INCH_M, pages.numbers[2])
+    for column, formula, value in formulas:
         sheet.write_formula(row, column, formula, pages.numbers[4 if column == 9 else 2], value)
-    sheet.write_number(row, 8, design, pages.numbers[2])
+
+
+_Formula = tuple[int, str, float]
+"""Column, formula and the value that it gives."""
+
+
+def _of_analysis(
+    analysis: AnalysisValue, floor_m: float, peaks: str, row: int, design_row: int
+) -> Iterator[_Formula]:
+    picked = "D" if analysis.basis is Basis.LARGEST_FACTORED else "C"
+    yield 2, f"=AVERAGE({peaks})", analysis.mean_m / INCH_M
+    yield 3, f"=MAX({peaks})", analysis.largest_m / INCH_M
+    yield 4, f"=Design!J{design_row}", analysis.factor
+    yield 5, f"=E{row}*{picked}{row}", analysis.value_m / INCH_M
+    yield 6, f"=Design!M{design_row}", floor_m / INCH_M
+
+
+def _of_design(route: Route, design_m: float, row: int, design_row: int) -> Iterator[_Formula]:
+    is_prescriptive = route is Route.PRESCRIPTIVE
+    design = f"=Design!N{design_row}" if is_prescriptive else f"=MAX(F{row},G{row})"
+    yield 7, design, design_m / INCH_M
+    yield 9, f"=H{row}-I{row}", 0.0

@@ -120,7 +120,7 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
                 "mean_m": analysis.mean_m,
                 "largest_m": analysis.largest_m,
                 "computed_m": analysis.value_m,
-                "design_m": item.floored_m(direction),
+                "design_m": item.directional_m(direction),
                 "design_by_chosen_model_m": item.chosen_toward_m(direction),
             }
             for direction, analysis in item.directions.items()

@@ -92,7 +92,7 @@ def test_each_direction_has_the_farthest_of_all_runs_of_each_motion(done):
         assert [m.peak_m(Direction(direction)) for m in item.motions] == peaks
         value = item.directions[Direction(direction)].value_m
         assert value == pytest.approx(1.1 * sum(peaks) / 7)
-        assert item.floored_m(Direction(direction)) == max(value, item.floor_m)
+        assert item.directional_m(Direction(direction)) == max(value, item.floor_m)
 
 
 def test_a_reversed_motion_is_the_motion_on_the_opposite_slope(done):

@@ -42,7 +42,7 @@ def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document
     array, item = document["arrays"][2], assessment.arrays[2]
     for direction in Direction:
         values = array["directions"][direction]
-        assert values["design_m"] == item.floored_m(direction)
+        assert values["design_m"] == item.directional_m(direction)
         peaks = [motion[f"{direction}_m"] for motion in array["peaks"]]
         assert values["mean_m"] == pytest.approx(sum(peaks) / len(peaks))
     run, solution = array["runs"][0], item.motions[0].runs[0].solution
@@ -53,6 +53,14 @@ def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document
     gap = document["clearances"][3]
     assert gap["governing_direction"] == "any"
     assert gap["design_m"] == item.design_m
+
+
+def test_json_has_the_prescriptive_value_in_every_direction_where_it_governs():
+    assessment = stand_in.assessed(stand_in.book(shaking=stand_in.motions(2, seconds=4.0)))
+    for array in json.loads(made(assessment))["arrays"]:
+        assert array["route"] == "prescriptive"
+        values = {way["design_m"] for way in array["directions"].values()}
+        assert values == {array["design_m"]}
 
 
 def test_json_has_rows_of_linked_blocks_with_their_runs():

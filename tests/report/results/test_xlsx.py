@@ -3,6 +3,7 @@
 import datetime as dt
 import io
 import re
+from dataclasses import replace
 
 import openpyxl
 import pytest
@@ -67,6 +68,10 @@ CASES = {
     "a row of linked blocks": {
         "links": [stand_in.links("A1", "0.40, 0.50", 50), stand_in.links("A3", "0.55, 0.55", 50)],
         "options": {"peer_reviewed": True},
+    },
+    "prescriptive, by direction": {
+        "site": SITE | {"s_ds_g": 1.0},
+        "options": {"directional": True, "statistic": "mean"},
     },
     "a row beside a model that is requested": {
         "arrays": [stand_in.array("A1", 0.5, model="one axis")],
@@ -218,6 +223,19 @@ def test_the_processing_of_each_component_is_listed(usual):
     assert len(rows) == 7 * 3
     assert rows[1][:5] == ("M1", "transverse", "roof", "as recorded", "as recorded")
     assert rows[0][head.index("PGA [g]")] == pytest.approx(1.7)
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_the_prescriptive_route_has_one_design_value_in_every_direction(count):
+    """Of two motions there is no value from analysis; three give one that lacks components."""
+    shaking = [replace(motion, ay_mps2=stand_in.NO_RECORD) for motion in stand_in.motions(count)]
+    book = stand_in.book(shaking=tuple(shaking))
+    formulas, values = made(book)
+    for row, item in enumerate(stand_in.assessed(book).arrays):
+        assert item.governs == "prescriptive"
+        for cell in (f"{column}{5 + 4 * row + k}" for column in "HI" for k in range(4)):
+            assert values["Directions"][cell].value == pytest.approx(item.design_m / 0.0254)
+        assert formulas["Directions"][f"H{5 + 4 * row}"].value == f"=Design!N{5 + row}"
 
 
 def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual):
