@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup, escape
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.remedies import Remedy
-from report.assessment.verdict import Row
+from report.assessment.verdict import Consequence, Row
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
@@ -142,8 +142,9 @@ def troubles(package: PackageData) -> Sequence[str]:
 
 def conditions(package: PackageData) -> Sequence[str]:
     """Return every requirement that is not satisfied, with what must be done."""
+    words = {Consequence.NG: "NG", Consequence.CONDITION: "Condition"}
     return [
-        f"{row.verdict.value}: {_subject(package, row)}{row.title}: {row.found}; required: "
+        f"{words[row.consequence]}: {_subject(package, row)}{row.title}: {row.found}; required: "
         f"{row.limit}. {row.remedy}"
         for row in package.assessment.conditions
     ]
@@ -285,15 +286,30 @@ def _direction_note(package: PackageData) -> str:
 
 def limits(package: PackageData) -> Mapping[str, object]:
     """Return the part on limits and interconnection strength."""
-    limits = "Limits of the analysis route and of the building"
     return {
         "texts": (),
         "tables": (
-            check_table(limits, package, all_checks(package)),
+            check_table(_limits_caption(package), package, all_checks(package)),
             requirements(package),
             _interconnection(package),
         ),
     }
+
+
+def _limits_caption(package: PackageData) -> str:
+    """Return of which routes the limits are, with the arrays where the routes differ."""
+    taken = {
+        route: ", ".join(array.id for array in package.assessment.arrays if array.route is route)
+        for route in Route
+    }
+    routes = [(route, ids) for route, ids in taken.items() if ids]
+    if len(routes) == 1:
+        return f"Limits of the building and of the {routes[0][0]} route"
+    (first, of_first), (second, of_second) = routes
+    return (
+        f"Limits of the building, of the {first} route ({of_first}) and of the {second} route "
+        f"({of_second})"
+    )
 
 
 def _interconnection(package: PackageData) -> Table:

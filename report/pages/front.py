@@ -71,14 +71,7 @@ def plan(package: PackageData) -> Mapping[str, object]:
 def verdict_sentence(package: PackageData) -> str:
     """Return what the verdict on the project rests on."""
     if package.assessment.verdict is not Verdict.NG:
-        count = len(package.assessment.conditions)
-        if count:
-            each = "condition" if count == 1 else "conditions"
-            return (
-                f"All limits and clearances are satisfied; {count} {each} listed in "
-                f"{package.part('summary')} must be met before this package is complete."
-            )
-        return "All limits and clearances are satisfied; every run reached a final value."
+        return f"{_satisfied(package)}; {_remaining(package)}."
     counts = (
         (
             "array",
@@ -97,6 +90,25 @@ def verdict_sentence(package: PackageData) -> str:
         if False in oks
     ]
     return f"Marked NG: {', '.join(failed)}."
+
+
+def _satisfied(package: PackageData) -> str:
+    """Return what is satisfied, which is no clearance where none is listed."""
+    if package.assessment.clearances:
+        return "All limits and clearances are satisfied"
+    return "All limits are satisfied; the workbook lists no clearance, and none is checked"
+
+
+def _remaining(package: PackageData) -> str:
+    """Return what remains to be done, or that every run is final."""
+    count = len(package.assessment.conditions)
+    if not count:
+        return "every run reached a final value"
+    each = "condition" if count == 1 else "conditions"
+    return (
+        f"{count} {each} listed in {package.part('summary')} must be met before this package is "
+        "complete"
+    )
 
 
 def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
