@@ -12,6 +12,7 @@ from report.assessment.verdict import Consequence
 from report.pages.front import verdict_sentence
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, stamp
 from report.typeset.equations import symbol
+from report.words.counts import capitalized, counted, spelled
 from report.words.units import number, ratio
 
 
@@ -37,8 +38,9 @@ def _analyzed(package: PackageData) -> Markup:
     assessment, site = package.assessment, package.data.site
     arrays, motions = assessment.arrays, assessment.shaking.motions
     runs = sum(len(motion.runs) for array in arrays for motion in array.motions)
+    ids = ", ".join(item.id for item in arrays)
     text = (
-        f"{counted(len(arrays), 'ballasted array')} ({', '.join(item.id for item in arrays)}) "
+        f"{capitalized(counted(len(arrays), 'ballasted array'))} ({ids}) "
         f"{'was' if len(arrays) == 1 else 'were'} analyzed by response history under "
         f"{counted(len(motions), 'motion')}, in {counted(runs, 'run')}, and compared with "
         f"{assessment.rules.name}"
@@ -46,11 +48,6 @@ def _analyzed(package: PackageData) -> Markup:
     return Markup("{} for {} = {} g and seismic design category {}.").format(
         text, symbol("S_DS"), number(site.s_ds, 3), site.sdc.value
     )
-
-
-def counted(count: int, noun: str) -> str:
-    """Return a number of things in words, such as `1 array` or `3 arrays`."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def _arrays(package: PackageData) -> Table:
@@ -84,7 +81,7 @@ def _array(package: PackageData, item: ArrayAssessment) -> tuple[str, ...]:
 
 def _texts(package: PackageData) -> Iterator[str]:
     yield _clearances(package)
-    yield _conditions(package)
+    yield _requirements(package)
     yield from _departures(package)
     yield (
         f"The verdicts are explained in {package.part('basis')}. The displacements are in "
@@ -99,33 +96,33 @@ def _clearances(package: PackageData) -> str:
     if not gaps:
         return "The workbook lists no clearances; none is checked."
     passed = sum(gap.ok for gap in gaps)
+    if passed == len(gaps):
+        each = "The clearance is" if passed == 1 else f"All {counted(passed, 'clearance')} are"
+        return f"{each} satisfied."
     are = "is" if passed == 1 else "are"
-    return f"{passed} of {counted(len(gaps), 'clearance')} {are} satisfied."
+    return f"{capitalized(spelled(passed))} of {counted(len(gaps), 'clearance')} {are} satisfied."
 
 
-def _conditions(package: PackageData) -> str:
-    """Return how many requirements are open, and what they lead to."""
-    rows = package.assessment.conditions
+def _requirements(package: PackageData) -> str:
+    """Return how many requirements are open, and as what the summary lists them."""
+    rows, where = package.assessment.conditions, package.part("summary")
     if not rows:
         return "All requirements beside the numeric limits are satisfied."
     severe = sum(row.consequence is Consequence.NG for row in rows)
-    leads = [
-        f"{count} {'leads' if count == 1 else 'lead'} to {verdict}"
-        for count, verdict in ((severe, "NG"), (len(rows) - severe, "OK with conditions"))
-        if count
-    ]
-    are = "is" if len(rows) == 1 else "are"
-    return (
-        f"{counted(len(rows), 'requirement')} {are} not satisfied: {' and '.join(leads)}. Each is "
-        f"listed in {package.part('summary')} with what must be done."
-    )
+    is_one = len(rows) == 1
+    open_ = f"{capitalized(counted(len(rows), 'requirement'))} {'is' if is_one else 'are'} open"
+    if severe in (0, len(rows)):
+        kind = "NG" if severe else "a condition" if is_one else "conditions"
+        return f"{open_}; the summary ({where}) lists {'it' if is_one else 'them'} as {kind}."
+    rest = counted(len(rows) - severe, "condition")
+    return f"{open_}; the summary ({where}) lists {spelled(severe)} as NG and {rest}."
 
 
 def _departures(package: PackageData) -> Iterator[str]:
     """Yield where the package departs from the numbers of the rule set."""
     options, where = package.data.options, package.part("provisions")
     if package.data.overrides:
-        count = counted(len(package.data.overrides), "number")
+        count = capitalized(counted(len(package.data.overrides), "number"))
         are = "is" if len(package.data.overrides) == 1 else "are"
         yield f"{count} of the rule set {are} overridden for this project ({where})."
     if options.directional:

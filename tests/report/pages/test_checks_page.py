@@ -1,4 +1,4 @@
-"""The part on limits, the list of conditions and the verdict are worded from the project at hand."""
+"""The part on limits, the conditions and the verdict are worded from the project at hand."""
 
 from dataclasses import replace
 
