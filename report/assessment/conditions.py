@@ -205,8 +205,7 @@ def _fire_lanes(data: ProjectInput, assessed: ArrayAssessment) -> Iterator[Row]:
 def _interconnection(data: ProjectInput, assessed: ArrayAssessment) -> Row:
     us_first = data.project.units_first == "US"
     provided, required = assessed.array.interconnection_n, assessed.interconnection_n
-    is_enough = provided is not None and provided >= required
-    shown, had = compared(is_enough)
+    shown, had = compared(required, math.nan if provided is None else provided)
     return Row(
         id="interconnection",
         title="Interconnection strength provided",
@@ -214,7 +213,7 @@ def _interconnection(data: ProjectInput, assessed: ArrayAssessment) -> Row:
         found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first, had),
         limit=f"≥ {pair(required, Quantity.WEIGHT, us_first, shown)}",
         basis=data.site.rule_set,
-        is_satisfied=is_enough,
+        is_satisfied=provided is not None and provided >= required,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Show that the racking provides the required strength between its parts.",
     )
@@ -224,8 +223,7 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
     us_first = data.project.units_first == "US"
     provided, design = assessed.array.slack_m, assessed.design_m
     has_value = not math.isnan(design)
-    is_enough = provided is not None and has_value and provided >= design
-    shown, had = compared(is_enough)
+    shown, had = compared(design, math.nan if provided is None else provided)
     return Row(
         id="electrical_slack",
         title="Electrical slack provided",
@@ -233,7 +231,7 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
         found=NOT_GIVEN if provided is None else pair(provided, Quantity.SIZE, us_first, had),
         limit=f"≥ {pair(design, Quantity.SIZE, us_first, shown) if has_value else 'none'}",
         basis="design displacement",
-        is_satisfied=is_enough,
+        is_satisfied=provided is not None and has_value and provided >= design,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Provide wiring slack of at least the design displacement.",
     )

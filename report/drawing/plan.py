@@ -102,7 +102,7 @@ def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
         near, far = shapes[gap.clearance.array], shapes[gap.clearance.object]
         if near is None or far is None:
             continue
-        show_required, show_provided = compared(gap.ok)
+        show_required, show_provided = compared(gap.required_m, gap.clearance.provided_m)
         provided = pair(gap.clearance.provided_m, Quantity.SIZE, us_first, show_provided)
         required = "no value"
         if not math.isnan(gap.required_m):

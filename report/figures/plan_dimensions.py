@@ -31,7 +31,7 @@ def draw_gap(plan: PlanSheet, gap: Gap) -> None:
 def draw_callout(plan: PlanSheet, gap: Gap) -> None:
     """Label a clearance: number, provided and required separation; the number if tight."""
     provided, required = gap.check.clearance.provided_m, gap.check.required_m
-    show_required, show_provided = compared(gap.check.ok)
+    show_required, show_provided = compared(required, provided)
     needed = "no value" if math.isnan(required) else plan.first(required, show_required)
     lines = [f"provided {plan.first(provided, show_provided)}", f"required {needed}"]
     for shown in (lines, []) if plan.size.is_full else ([],):

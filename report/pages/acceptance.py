@@ -11,6 +11,7 @@ from markupsafe import Markup
 
 from report.pages.parts import OK, Table, TableColumn, TableRow
 from report.sheet.schema import MotionInput
+from report.typeset.equations import symbol
 from report.words.units import number
 from solver.records.acceptance import Acceptance, MotionStrength
 from solver.records.acceptance_row import AcceptanceRow, Consequence
@@ -133,7 +134,7 @@ def event_table(rows: Sequence[MotionInput]) -> Sequence[Table]:
                 TableColumn(head="Event", align="left", share=3.0),
                 TableColumn(head="M"),
                 TableColumn(head="R", unit="km"),
-                TableColumn(head="V_s30", unit="m/s"),
+                TableColumn(head=symbol("V_s30"), unit="m/s"),
             ),
             rows=tuple(_event_row(row) for row in given),
             kind="compact",

@@ -25,6 +25,7 @@ from report.pages.parts import (
     verdict,
 )
 from report.pages.remedies import table
+from report.pages.symbols import with_symbols
 from report.sheet.schema import Array, ObjectKind
 from report.typeset.equations import symbol
 from report.words.units import Quantity, compared, number, ratio
@@ -71,7 +72,7 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
     fmt, row = package.fmt, gap.clearance
     key = SEPARATION_KEYS[gap.neighbor]
     least = package.mark("separation_edge_min_in") if gap.is_least_value else ""
-    required, provided = compared(gap.ok)
+    required, provided = compared(gap.required_m, row.provided_m)
     more = (
         ()
         if brief
@@ -144,8 +145,10 @@ def conditions(package: PackageData) -> Sequence[str]:
     """Return every requirement that is not satisfied, with what must be done."""
     words = {Consequence.NG: "NG", Consequence.CONDITION: "Condition"}
     return [
-        f"{words[row.consequence]}: {_subject(package, row)}{row.title}: {row.found}; required: "
-        f"{row.limit}. {row.remedy}"
+        with_symbols(
+            f"{words[row.consequence]}: {_subject(package, row)}{row.title}: {row.found}; "
+            f"required: {row.limit}. {row.remedy}"
+        )
         for row in package.assessment.conditions
     ]
 
@@ -173,7 +176,7 @@ def requirements(package: PackageData) -> Table:
             TableRow(
                 cells=(
                     row.subject or "Project",
-                    row.title,
+                    with_symbols(row.title),
                     row.found,
                     row.limit,
                     row.basis,
@@ -347,7 +350,7 @@ def _strengths(package: PackageData, array: ArrayAssessment) -> tuple[str, ...]:
     required, provided = array.interconnection_n, array.array.interconnection_n
     if provided is None:
         return (*fmt.cells(required, Quantity.WEIGHT, mark=mark), "not given", "not given", "—")
-    shown, had = compared(required <= provided)
+    shown, had = compared(required, provided)
     return (
         *fmt.cells(required, Quantity.WEIGHT, mark=mark, show=shown),
         *fmt.cells(provided, Quantity.WEIGHT, show=had),

@@ -18,6 +18,7 @@ from report.motions.targets import OWN
 from report.pages.acceptance import acceptance_table, event_table, strength_table
 from report.pages.building import building_part
 from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.pages.symbols import with_symbols
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
 from report.words.units import G_MPS2, number
@@ -285,7 +286,7 @@ def target_words(package: PackageData) -> Sequence[str]:
         Markup("Target at the roof: {}. Sliding is governed by long periods.").format(roof)
     ]
     if has_ground(package):
-        texts.append(_GROUND.get(goals.ground.name, _GROUND[""]))
+        texts.append(with_symbols(_GROUND.get(goals.ground.name, _GROUND[""])))
     return texts
 
 

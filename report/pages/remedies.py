@@ -8,14 +8,15 @@ from itertools import groupby
 from report.assessment.remedies import Remedy, RemedyKind
 from report.pages.certainty import coefficient
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
-from report.words.units import Quantity, no_less, number, pair
+from report.pages.symbols import with_symbols
+from report.words.units import Quantity, compared, number, pair
 
 
 def sentences(package: PackageData, remedies: Sequence[Remedy]) -> Sequence[str]:
     """Return a sentence for each clearance and array marked NG, and what was varied for it."""
     groups = groupby(remedies, key=lambda remedy: (remedy.clearance, _of_array(remedy)))
-    texts = [_sentence(package, list(group)) for _, group in groups]
-    return [*texts, *bases(remedies)]
+    texts = [with_symbols(_sentence(package, list(group))) for _, group in groups]
+    return [*texts, *map(with_symbols, bases(remedies))]
 
 
 def _of_array(remedy: Remedy) -> str:
@@ -57,9 +58,16 @@ def _friction(remedies: Sequence[Remedy]) -> str:
 def _other(package: PackageData, remedy: Remedy) -> str:
     if remedy.kind is RemedyKind.S_DS:
         return f"S_DS of at most {number(remedy.value, 2)} g (given {number(remedy.given, 3)} g)"
-    given = package.fmt.both(remedy.given, Quantity.SIZE)
-    enough = pair(remedy.value, Quantity.SIZE, package.fmt.us_first, no_less)
+    enough, given = _separations(package, remedy)
     return f"{enough} provided (given {given})"
+
+
+def _separations(package: PackageData, remedy: Remedy) -> tuple[str, str]:
+    """Return a separation that would do and the one given, as the clearances print them."""
+    would_do, had = compared(remedy.value, remedy.given)
+    us_first = package.fmt.us_first
+    given = pair(remedy.given, Quantity.SIZE, us_first, had)
+    return pair(remedy.value, Quantity.SIZE, us_first, would_do), given
 
 
 def table(package: PackageData, remedies: Sequence[Remedy]) -> Table:
@@ -75,14 +83,16 @@ def table(package: PackageData, remedies: Sequence[Remedy]) -> Table:
             TableColumn(head="Verified by all runs", align="left", share=2.2),
         ),
         rows=tuple(_row(package, remedy) for remedy in remedies),
-        notes=(
-            "Friction is searched from 1.5 down in steps of 0.05 and 0.01, S_DS from 0.05 g up in "
-            "steps of 0.20, 0.05 and 0.01 g, to the first value at which a run leaves the "
-            "clearance not satisfied. All values tried from there to the start of the search "
-            f"satisfy. {' '.join(bases(remedies))}",
-        ),
+        notes=(with_symbols(f"{_SEARCH} {' '.join(bases(remedies))}"),),
         kind="compact",
     )
+
+
+_SEARCH = (
+    "Friction is searched from 1.5 down in steps of 0.05 and 0.01, S_DS from 0.05 g up in steps of "
+    "0.20, 0.05 and 0.01 g, to the first value at which a run leaves the clearance not satisfied. "
+    "All values tried from there to the start of the search satisfy."
+)
 
 
 def bases(remedies: Sequence[Remedy]) -> Sequence[str]:
@@ -106,11 +116,15 @@ def _row(package: PackageData, remedy: Remedy) -> TableRow:
             str(remedy.clearance) if remedy.clearance else "—",
             f"μ of {remedy.array}"
             if remedy.kind is RemedyKind.FRICTION
-            else _sentence_case(remedy),
+            else with_symbols(_sentence_case(remedy)),
             _given(package, remedy),
-            *((*found, _verified(remedy)) if found else (Wide(f"none: {remedy.basis}", 3),)),
+            *((*found, _verified(remedy)) if found else (_none(remedy),)),
         )
     )
+
+
+def _none(remedy: Remedy) -> Wide:
+    return Wide(with_symbols(f"none: {remedy.basis}"), 3)
 
 
 def _sentence_case(remedy: Remedy) -> str:
@@ -120,7 +134,7 @@ def _sentence_case(remedy: Remedy) -> str:
 
 def _given(package: PackageData, remedy: Remedy) -> str:
     if remedy.kind is RemedyKind.SEPARATION:
-        return package.fmt.both(remedy.given, Quantity.SIZE)
+        return _separations(package, remedy)[1]
     if remedy.kind is RemedyKind.S_DS:
         return f"{number(remedy.given, 3)} g"
     return coefficient(remedy.given)
@@ -128,11 +142,7 @@ def _given(package: PackageData, remedy: Remedy) -> str:
 
 def _value(package: PackageData, remedy: Remedy) -> str:
     if remedy.kind is RemedyKind.SEPARATION:
-        first, second = package.fmt.units(Quantity.SIZE)
-        return (
-            f"≥ {no_less(remedy.value, first)} {first.symbol} "
-            f"({no_less(remedy.value, second)} {second.symbol})"
-        )
+        return f"≥ {_separations(package, remedy)[0]}"
     if remedy.kind is RemedyKind.S_DS:
         return f"≤ {number(remedy.value, 2)} g"
     return f"≥ {number(remedy.value, 2)}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.pages.references import references
@@ -64,6 +64,7 @@ SYMBOLS: Mapping[str, str] = {
     "T_S": "end of the plateau of the design spectrum",
     "u": "horizontal displacement relative to the roof",
     "V": "shear between array and roof",
+    "V_s30": "shear-wave velocity of the upper 30 m at a recording station",
     "v": "sliding velocity",
     "W": "weight of the array with ballast",
     "W_1": "weight of the lighter part beside a section",
@@ -85,17 +86,18 @@ SYMBOLS: Mapping[str, str] = {
 }
 
 
-_NAME = re.compile(r"\b[A-Z]_[A-Za-z0-9]+")
+_NAME = re.compile(rf"\b(?:{'|'.join(name for name in SYMBOLS if '_' in name)})\b")
 
 
-def _marked(text: str) -> Markup:
-    """Return a text with its symbols typeset."""
-    return Markup(_NAME.sub(lambda match: str(symbol(match[0])), text))
+def with_symbols(text: str) -> Markup:
+    """Return a text with its symbols typeset, such as `S_DS`; the rest is escaped."""
+    plain = str(escape(text))
+    return Markup(_NAME.sub(lambda match: str(symbol(match[0])), plain))
 
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the list of symbols and the list of references."""
-    cells = [(symbol(name), _marked(meaning)) for name, meaning in SYMBOLS.items()]
+    cells = [(symbol(name), with_symbols(meaning)) for name, meaning in SYMBOLS.items()]
     half = (len(cells) + 1) // 2
     blank = (Markup(""), "")
     second = [*cells[half:], *[blank] * (2 * half - len(cells))]

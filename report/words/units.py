@@ -121,12 +121,20 @@ def _rounded(to_whole: Callable[[float], int], noise: float, value_si: float, un
     return number(to_whole(value_si / unit.si * per_digit + noise) / per_digit, unit.decimals)
 
 
-def compared(ok: bool) -> tuple[Show, Show]:
-    """Return how required and provided values print.
+def compared(required_si: float, provided_si: float) -> tuple[Show, Show]:
+    """Return how a required and a provided value print.
 
-    Where the required one is larger it must print larger: it is rounded up, the other one down.
+    A required value that is larger must print larger: it is rounded up, and the provided one down
+    where it would print alike. NaN is no value: there is nothing to compare.
     """
-    return (measured, measured) if ok else (no_less, no_more)
+    if not required_si > provided_si:
+        return measured, measured
+
+    def provided(value_si: float, unit: Unit) -> str:
+        is_alike = measured(value_si, unit) == no_less(required_si, unit)
+        return (no_more if is_alike else measured)(value_si, unit)
+
+    return no_less, provided
 
 
 def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:

@@ -235,8 +235,8 @@ def test_the_warehouse_is_ng_in_the_same_word_everywhere(conditions):
         "design displacements are prescriptive; the analysis is for information.",
         "array A1, Largest plan dimension between fire lanes: 160.00 ft (48.77 m); required: ≤ "
         "150.00 ft (45.72 m). Divide the array by a fire lane",
-        "array A1, Interconnection strength provided: not given",
-        "array A2, Interconnection strength provided: not given",
+        "array A1, Interconnection strength provided: not given; required: ≥ 2107 lb (9.37 kN)",
+        "array A2, Interconnection strength provided: not given; required: ≥ 1609 lb (7.16 kN)",
         "array A1, Electrical slack provided: not given",
         "array A2, Electrical slack provided: not given",
     ],
@@ -297,7 +297,7 @@ def test_the_inputs_say_that_no_friction_test_is_given(conditions):
 
 def test_the_clearance_that_fails_says_what_would_do(conditions):
     gaps = conditions.part("9 Clearances")
-    assert re.search(r"2 A2 RTU-1 fixed object, across .* 21\.6 549 12\.0 304 1\.80 NG", gaps)
+    assert re.search(r"2 A2 RTU-1 fixed object, across .* 21\.6 549 12\.0 305 1\.80 NG", gaps)
     assert "2 Provided separation 12.0 in (305 mm) ≥ 21.6 in (549 mm) exact" in gaps
 
 

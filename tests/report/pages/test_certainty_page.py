@@ -17,6 +17,7 @@ from report.pages import certainty as page
 from report.pages import front
 from report.pages import remedies as remedy_page
 from report.pages.registry import package_data
+from report.typeset.equations import symbol
 from report.typeset.pdf import TEMPLATES
 
 PEER = {"peer_reviewed": True}
@@ -176,7 +177,10 @@ def test_each_ng_says_what_would_do_with_the_values_found():
             assert f"{one.value:.2f}" in texts[0]
     inches = math.ceil(required / 0.0254 * 10 - 1e-6) / 10
     assert f"{inches:.1f} in" in texts[0]
-    assert any("scaled in proportion to S_DS" in text for text in texts)
+    assert any(text.endswith("seismic design category D.") for text in texts)
+    for text in (*texts, *table.notes, table.rows[-1].cells[1]):
+        assert "S_DS" not in text
+    assert table.rows[-1].cells[1] == symbol("S_DS")
     assert len(table.rows) == len(found)
     summary = front.summary(package, found)
     assert summary["answers"] == texts
@@ -186,7 +190,7 @@ def test_a_floor_that_forbids_is_the_reason_given():
     package = made(options={}, clearances=[stand_in.clearance("A1", "RTU-1", 0.9)])
     _, texts, table = answers(package)
     assert "No friction coefficient would do: the floor alone" in texts[0]
-    assert "S_DS of at most" in texts[0]
+    assert f"{symbol('S_DS')} of at most" in texts[0]
     assert any("floor alone" in str(row.cells[-1]) for row in table.rows)
 
 

@@ -18,13 +18,27 @@ LENGTHS_M = st.floats(0.01, 20.0)
 def test_a_required_value_that_is_larger_prints_larger(required_m, provided_m):
     assume(abs(required_m - provided_m) > 1e-8)
     ok = required_m <= provided_m
-    show_required, show_provided = compared(ok)
+    show_required, show_provided = compared(required_m, provided_m)
     for unit in Quantity.DISPLACEMENT.value:
         required = float(show_required(required_m, unit))
         provided = float(show_provided(provided_m, unit))
         assert (required <= provided) is ok
         assert required == pytest.approx(required_m / unit.si, abs=1.001 * 10.0**-unit.decimals)
         assert provided == pytest.approx(provided_m / unit.si, abs=1.001 * 10.0**-unit.decimals)
+
+
+def test_a_provided_value_prints_as_elsewhere_unless_that_is_the_required_one():
+    _, mm = Quantity.SIZE.value
+    required, provided = compared(21.6 * 0.0254, 12.0 * 0.0254)
+    assert (required(21.6 * 0.0254, mm), provided(12.0 * 0.0254, mm)) == ("549", "305")
+    required, provided = compared(0.3049, 12.0 * 0.0254)
+    assert (required(0.3049, mm), provided(12.0 * 0.0254, mm)) == ("305", "304")
+
+
+def test_a_required_value_beside_none_provided_is_not_rounded_up():
+    required, _ = compared(9.3711e3, math.nan)
+    assert required(9.3711e3, Quantity.WEIGHT.si) == "9.37"
+    assert compared(math.nan, 1.0)[0](0.3041, Quantity.SIZE.si) == "304"
 
 
 def test_rounding_up_leaves_a_value_that_is_exact_in_its_unit():
