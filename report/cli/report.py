@@ -119,7 +119,7 @@ def _make(
     from report.results.since import read_former
     from report.results.tables import tables
     from report.sheet.read import read
-    from report.typeset.pdf import lay_out
+    from report.typeset.pdf import draw_ahead, lay_out, sources
 
     progress("reading the workbook")
     former = [read_former(path) for path in (since,) if path]
@@ -133,9 +133,10 @@ def _make(
     progress("writing the pages")
     html = pages(assessment, evidence, changed, begun, second)
     progress("laying out the package")
+    drawn = second.submit(draw_ahead, sources(html))
     plan = second.submit(write_dxf, plan_drawing(assessment))
     listed = second.submit(tables, assessment, evidence)
-    pdf = lay_out(html)
+    pdf = lay_out(html, drawn)
     progress("writing the result tables")
     files = {"calc-package.pdf": pdf, "plan.dxf": plan.result(), **listed.result()}
     folder = out or sheet.path.parent / "out"
@@ -150,8 +151,10 @@ def load() -> None:
     import report.package.html
     import report.results.tables  # noqa: F401
     from report.pages.pictures import load_charts
+    from report.typeset.pdf import draw_ahead
 
     load_charts()
+    draw_ahead([])
 
 
 def _print_summary(assessment: Assessment) -> None:

@@ -1,4 +1,4 @@
-"""From finished HTML to PDF: the only module that knows the renderer.
+"""From finished HTML to PDF: the only module that knows the renderer, with `drawings`.
 
 Reads only the HTML, `data:` addresses and the fonts and styles in the template folder. Any warning
 in the renderer's log is an internal error.
@@ -7,11 +7,14 @@ in the renderer's log is an internal error.
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Future
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from report.typeset.drawings import Converted, Shown, convert
 from solver.model import DefectError
 
 _HERE = Path(__file__).resolve().parents[1]
@@ -21,10 +24,33 @@ TEMPLATES = next(
     _HERE / "templates",
 )
 _SCHEME = "shipped:"
+_PICTURE = re.compile(r' src="(data:image/svg\+xml;base64,[^"]+)"')
 
 
-def lay_out(html: str) -> bytes:
+def sources(html: str) -> list[str]:
+    """Return the `data:` addresses of the SVG pictures in an HTML document."""
+    return list(dict.fromkeys(_PICTURE.findall(html)))
+
+
+def draw_ahead(pictures: Sequence[str]) -> dict[str, Converted | None]:
+    """Convert pictures for `lay_out`, in any process.
+
+    Raises
+    ------
+    DefectError
+        As `lay_out`.
+    """
+    with _clean_log():
+        return convert(pictures, TEMPLATES / "package.css")
+
+
+def lay_out(html: str, drawn: Future[dict[str, Converted | None]] | None = None) -> bytes:
     """Return the PDF of an HTML document; `shipped:/NAME` addresses a file of the templates.
+
+    Parameters
+    ----------
+    drawn : Future, optional
+        What `draw_ahead` returns for all its pictures; waited for when the first is painted.
 
     Raises
     ------
@@ -35,12 +61,15 @@ def lay_out(html: str) -> bytes:
     from weasyprint.text.fonts import FontConfiguration
 
     with _clean_log():
-        document = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=_fetcher())
-        pdf: bytes = document.write_pdf(font_config=FontConfiguration())
+        document = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=shipped())
+        fonts = FontConfiguration()
+        shown = {source: Shown(source, drawn, fonts) for source in sources(html)} if drawn else {}
+        pdf: bytes = document.write_pdf(font_config=fonts, cache=shown)
     return pdf
 
 
-def _fetcher() -> Any:
+def shipped() -> Any:
+    """Return what the renderer loads addresses with: the template folder and `data:`, no more."""
     from weasyprint.urls import URLFetcher, URLFetcherResponse
 
     class Shipped(URLFetcher):  # type: ignore[misc]

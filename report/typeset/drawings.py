@@ -1,0 +1,274 @@
+"""SVG pictures converted to PDF operators before the pages that show them are painted.
+
+The conversion of a picture does not depend on its page, so that another process can do it during
+layout. The only module beside `pdf` that knows the renderer. Read `convert`, then `Shown`.
+"""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Iterable, Mapping
+from concurrent.futures import Future
+from dataclasses import dataclass
+from functools import cache, cached_property
+from math import inf
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from solver.model import DefectError
+
+_HEAD = "data:image/svg+xml;base64,"
+_SIZE = re.compile(rb'<svg [^>]*?width="([^"]+)" height="([^"]+)"')
+_FACES = re.compile(r"@font-face \{.*?\}", re.DOTALL)
+_SIMPLE = {"ca", "CA"}
+"""Opacity: the only graphics states that a converted picture may have."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Face:
+    """A font as a picture uses it: name in the PDF, look, and its glyphs by number."""
+
+    hash: str
+    family: str
+    is_italic: bool
+    weight: int
+    texts: Mapping[int, str]
+    widths: Mapping[int, int]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drawing:
+    """Operators in order, with groups of their own between them, and the opacities they name."""
+
+    parts: tuple[bytes | Drawing, ...]
+    opacities: Mapping[str, Mapping[str, float]]
+    box: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Converted:
+    """A picture at its own size [px], as operators and fonts."""
+
+    width: float
+    height: float
+    drawing: Drawing
+    faces: tuple[Face, ...]
+
+
+def convert(sources: Iterable[str], css: Path) -> dict[str, Converted | None]:
+    """Return pictures as PDF operators, by their `data:` address.
+
+    None for a picture with patterns, shadings or images: the page that shows it has to draw it.
+
+    Parameters
+    ----------
+    css : Path
+        Styles with the fonts (`@font-face`), the same as those of the pages.
+    """
+    fonts = _fonts(css)
+    return {source: _converted(source, fonts) for source in dict.fromkeys(sources)}
+
+
+@cache
+def _fonts(css: Path) -> Any:
+    """Return the fonts of a style sheet, loaded for the renderer; they live as long as the process.
+
+    Reads nothing else of the styles: a whole sheet takes longer than most pictures.
+    """
+    from weasyprint import CSS
+    from weasyprint.text.fonts import FontConfiguration
+
+    from report.typeset.pdf import shipped
+
+    fonts = FontConfiguration()
+    faces = "\n".join(_FACES.findall(css.read_text(encoding="utf-8")))
+    CSS(string=faces, font_config=fonts, url_fetcher=shipped())
+    return fonts
+
+
+def _converted(source: str, fonts: Any) -> Converted | None:
+    svg = _svg(source)
+    width, height = _size_px(svg)
+    stream = _recorder()(
+        {}, (0.0, 0.0, width, height), _no_resources(), {}, None, {}, None, compress=False
+    )
+    _draw(svg, source, fonts, stream, width, height)
+    drawing = _recorded(stream, ())
+    if drawing is None:
+        return None
+    faces = tuple(
+        Face(
+            hash=font.hash,
+            family=font.family,
+            is_italic=bool(font.style),
+            weight=font.weight,
+            texts=dict(font.to_unicode),
+            widths=dict(font.widths),
+        )
+        for font in stream._fonts.values()
+    )
+    return Converted(width=width, height=height, drawing=drawing, faces=faces)
+
+
+def _svg(source: str) -> bytes:
+    if not source.startswith(_HEAD):
+        raise DefectError(f"not the address of an SVG picture: {source[:40]}")
+    return base64.b64decode(source.removeprefix(_HEAD))
+
+
+def _size_px(svg: bytes) -> tuple[float, float]:
+    from weasyprint.svg.utils import size
+
+    found = _SIZE.search(svg)
+    if found is None:
+        raise DefectError("a picture without width and height")
+    width, height = (size(text.decode()) for text in found.groups())
+    return width, height
+
+
+def _draw(svg: bytes, source: str, fonts: Any, stream: Any, width: float, height: float) -> None:
+    from weasyprint.svg import SVG
+
+    picture = SVG(ElementTree.fromstring(svg), source, fonts, None)
+    picture.draw(stream, width, height, source, None)
+
+
+def _no_resources() -> Any:
+    import pydyf
+
+    kinds = ("ExtGState", "XObject", "Pattern", "Shading", "ColorSpace")
+    return pydyf.Dictionary({kind: pydyf.Dictionary() for kind in kinds})
+
+
+@cache
+def _recorder() -> Any:
+    """Return the class of a stream that keeps groups where they are drawn; loads the renderer."""
+    from weasyprint.pdf.stream import Stream
+
+    class Recorder(Stream):  # type: ignore[misc]
+        """Keeps a group itself in place of the operator that draws it by its number on a page."""
+
+        def clone(self, **changes: Any) -> Recorder:
+            """Return an empty stream for a group."""
+            given = {
+                "fonts": self._fonts,
+                "page_rectangle": self.page_rectangle,
+                "resources": self._resources,
+                "images": self._images,
+                "tags": self._tags,
+                "color_profiles": self._color_profiles,
+                "output_intent": self._output_intent,
+                "compress": self.compress,
+            }
+            return Recorder(**(given | changes))
+
+        def draw_x_object(self, reference: str) -> None:
+            """Draw a group."""
+            self.stream.append(self._resources["XObject"][reference])
+
+    return Recorder
+
+
+def _recorded(stream: Any, box: tuple[float, ...]) -> Drawing | None:
+    """Return what was drawn on a recorder; None if it needs more than operators and groups."""
+    resources = stream._resources
+    states = {name: dict(state) for name, state in resources["ExtGState"].items()}
+    if stream._images or resources["Pattern"] or resources["Shading"]:
+        return None
+    if any(state.keys() - _SIMPLE for state in states.values()):
+        return None
+    parts: list[bytes | Drawing] = []
+    operators: list[bytes] = []
+    for item in stream.stream:
+        if isinstance(item, bytes | str):
+            operators.append(item.encode() if isinstance(item, str) else item)
+            continue
+        below = _recorded(item, tuple(item.extra["BBox"]))
+        if below is None:
+            return None
+        parts += [b"\n".join(operators), below]
+        operators = []
+    return Drawing(parts=(*parts, b"\n".join(operators)), opacities=states, box=box)
+
+
+class Shown:
+    """A picture for the renderer: its size at once, its operators when the page is painted."""
+
+    def __init__(
+        self, source: str, converted: Future[dict[str, Converted | None]], fonts: Any
+    ) -> None:
+        self._source = source
+        self._converted = converted
+        self._fonts = fonts
+
+    @cached_property
+    def _size(self) -> tuple[float, float]:
+        return _size_px(_svg(self._source))
+
+    def get_intrinsic_size(self, *_: Any) -> tuple[float, float, float]:
+        """Return width, height [px] and their ratio."""
+        width, height = self._size
+        return width, height, width / height
+
+    def draw(self, stream: Any, width: float, height: float, *_: Any) -> None:
+        """Paint the picture, at the place and scale of the stream."""
+        picture = self._converted.result()[self._source]
+        if picture is None:
+            _draw(_svg(self._source), self._source, self._fonts, stream, width, height)
+            return
+        for face in picture.faces:
+            _use(stream, face, self._fonts)
+        stream.push_state()
+        stream.transform(a=width / picture.width, d=height / picture.height)
+        _replay(stream, picture.drawing)
+        stream.pop_state()
+
+
+def _replay(stream: Any, drawing: Drawing) -> None:
+    import pydyf
+
+    states = stream._resources["ExtGState"]
+    for name, state in drawing.opacities.items():
+        states.setdefault(name, pydyf.Dictionary(state))
+    for part in drawing.parts:
+        if isinstance(part, Drawing):
+            group = stream.add_group(0, 0, 0, 0)
+            group.extra["BBox"][:] = part.box
+            _replay(group, part)
+            stream.draw_x_object(group.id)
+        elif part:
+            stream.stream.append(part)
+
+
+def _use(stream: Any, face: Face, fonts: Any) -> None:
+    """Add the glyphs of a face to the font of the document, which is loaded if it is not yet."""
+    same = (font for font in stream._fonts.values() if font.hash == face.hash)
+    font = next(same, None) or _load(stream, face, fonts)
+    for glyph, text in face.texts.items():
+        font.to_unicode.setdefault(glyph, text)
+    for glyph, width in face.widths.items():
+        font.widths.setdefault(glyph, width)
+
+
+def _load(stream: Any, face: Face, fonts: Any) -> Any:
+    """Have the renderer load a font, by setting a letter in it."""
+    from weasyprint.css.properties import INITIAL_VALUES
+    from weasyprint.svg.text import Style
+    from weasyprint.text.line_break import split_first_line
+
+    style = Style(INITIAL_VALUES)
+    style.font_config = fonts
+    style["font_family"] = [face.family]
+    style["font_style"] = "italic" if face.is_italic else "normal"
+    style["font_weight"] = face.weight
+    style["font_size"] = 10.0
+    letter = next(text for text in face.texts.values() if text.strip())
+    layout = split_first_line(letter, style, None, inf, 0)[0]
+    layout.reactivate(style)
+    line, _ = layout.get_first_line()
+    font, _ = stream.add_font(line.runs[0].data.item.analysis.font)
+    if font.hash != face.hash:
+        raise DefectError(f"the font {face.family} of a picture is another one on the pages")
+    return font

@@ -1,0 +1,136 @@
+"""Pictures converted ahead are those that the renderer draws on the page."""
+
+import io
+from concurrent.futures import Future
+
+import pytest
+from pypdf import PdfReader
+
+from report.typeset import drawings
+from report.typeset.drawings import convert
+from report.typeset.equations import data_uri, formula
+from report.typeset.pdf import TEMPLATES, draw_ahead, lay_out, sources
+from solver.model import DefectError
+
+CSS = TEMPLATES / "package.css"
+FACES = "".join(
+    f'@font-face {{ font-family: "Source Sans 3"; src: url("shipped:/fonts/{name}.ttf"); {look} }}'
+    for name, look in (
+        ("SourceSans3-Regular", "font-weight: 400"),
+        ("SourceSans3-It", "font-weight: 400; font-style: italic"),
+        ("SourceSans3-Semibold", "font-weight: 700"),
+    )
+)
+
+
+def svg(content):
+    return data_uri(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="144pt" height="72pt" '
+        f'viewBox="0 0 144 72">{content}</svg>'
+    )
+
+
+WORDS = (
+    '<g style="fill: #1f4e79"><text x="70" y="30" style="font-size: 9px; '
+    "font-family: 'Source Sans 3'; text-anchor: middle; {}\">Array A2</text></g>"
+)
+CHART = svg(
+    '<defs><clipPath id="c"><rect x="5" y="5" width="90" height="50"/></clipPath></defs>'
+    '<path d="M 0 0 L 100 50 C 10 20 30 40 50 60" clip-path="url(#c)" '
+    'style="fill: none; stroke: #c8651b; stroke-width: 0.6"/>'
+    '<path d="M 10 10 h 30 v 20 z" style="fill: #707070; opacity: 0.4"/>' + WORDS.format("")
+)
+HATCHED = svg(
+    '<defs><pattern id="h" width="4" height="4" patternUnits="userSpaceOnUse">'
+    '<path d="M 0 0 L 4 4" style="stroke: #1a1a1a"/></pattern></defs>'
+    '<rect x="1" y="1" width="90" height="50" fill="url(#h)"/>'
+)
+
+
+def page(*pictures, text=""):
+    images = "".join(f'<img src="{source}">' for source in pictures)
+    return f"<html><head><style>{FACES}</style></head><body>{images}{text}</body></html>"
+
+
+def ahead(html):
+    drawn = Future()
+    drawn.set_result(draw_ahead(sources(html)))
+    return drawn
+
+
+def blank(kind):
+    return kind({}, (0.0, 0.0, 192.0, 96.0), drawings._no_resources(), {}, None, {}, None)
+
+
+def tree(stream):
+    """Return everything that a stream draws, groups included."""
+    resources = stream._resources
+    groups = {name: tree(group) for name, group in resources["XObject"].items()}
+    states = {name: dict(state) for name, state in resources["ExtGState"].items()}
+    glyphs = {font.hash: (font.to_unicode, font.widths) for font in stream._fonts.values()}
+    return b"\n".join(stream.stream), list(stream.extra.get("BBox", ())), groups, states, glyphs
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        pytest.param(CHART, id="a chart"),
+        pytest.param(svg(WORDS.format("font-weight: 700")), id="bold words"),
+        pytest.param(svg(WORDS.format("font-style: italic")), id="italic words"),
+        pytest.param(data_uri(formula(r"\Delta=\frac{1}{n}\mu").svg), id="a formula"),
+    ],
+)
+def test_operators_groups_opacities_and_glyphs_are_those_of_the_renderer(source):
+    from weasyprint.pdf.stream import Stream
+
+    fonts = drawings._fonts(CSS)
+    data = drawings._svg(source)
+    size = drawings._size_px(data)
+    direct, replayed = blank(Stream), blank(Stream)
+    drawings._draw(data, source, fonts, direct, *size)
+    picture = convert([source], CSS)[source]
+    for face in picture.faces:
+        drawings._use(replayed, face, fonts)
+    drawings._replay(replayed, picture.drawing)
+    assert tree(replayed) == tree(direct)
+
+
+def test_a_page_shows_the_words_of_its_pictures_in_fonts_that_it_uses_nowhere_else():
+    html = page(svg(WORDS.format("font-style: italic")), svg(WORDS.format("font-weight: 700")))
+    (shown,) = PdfReader(io.BytesIO(lay_out(html, ahead(html)))).pages
+    (direct,) = PdfReader(io.BytesIO(lay_out(html))).pages
+    assert shown.extract_text() == direct.extract_text()
+    assert shown.extract_text().count("Array A2") == 2
+    names = [
+        sorted(
+            str(font.get_object()["/BaseFont"]) for font in drawn["/Resources"]["/Font"].values()
+        )
+        for drawn in (shown, direct)
+    ]
+    assert names[0] == names[1]
+    assert len(names[0]) == 2
+
+
+def test_a_picture_is_scaled_to_its_place():
+    html = page(CHART).replace("<img ", '<img style="width: 100px" ')
+    content = PdfReader(io.BytesIO(lay_out(html, ahead(html)))).pages[0].get_contents().get_data()
+    assert b"\n0.520833 0 0 0.520833 0 0 cm" in content  # 100 px / 192 px
+
+
+def test_a_picture_with_a_pattern_is_left_to_the_page_that_shows_it():
+    html = page(HATCHED, CHART)
+    drawn = ahead(html)
+    assert drawn.result()[HATCHED] is None
+    assert drawn.result()[CHART] is not None
+    resources = PdfReader(io.BytesIO(lay_out(html, drawn))).pages[0]["/Resources"]
+    assert len(resources["/Pattern"]) == 1
+
+
+def test_a_glyph_that_no_font_has_is_an_internal_error_where_it_is_converted():
+    with pytest.raises(DefectError, match="notdef"):
+        draw_ahead([svg(WORDS.format("").replace("Array A2", "\U000f1234"))])
+
+
+def test_a_picture_without_a_size_is_an_internal_error():
+    with pytest.raises(DefectError, match="width"):
+        draw_ahead([data_uri('<svg xmlns="http://www.w3.org/2000/svg"/>')])
