@@ -13,8 +13,9 @@ import posixpath
 import warnings
 import zipfile
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -62,6 +63,11 @@ class OpenBook:
     sha256: str
     book: Workbook
     scans: Mapping[str, Scan]
+
+    def __reduce__(self) -> tuple[Callable[[], OpenBook], tuple[()]]:
+        """Reach another process without cells: nothing is read from them once motions run."""
+        empty = partial(OpenBook, path=self.path, sha256=self.sha256, book=Workbook(), scans={})
+        return empty, ()
 
     def extent(self, title: str) -> Extent:
         """Return the extent of a sheet's values."""

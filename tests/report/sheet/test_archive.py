@@ -3,6 +3,7 @@
 import contextlib
 import io
 import os
+import pickle
 import re
 import zipfile
 
@@ -39,6 +40,15 @@ def rewritten(path, name, change):
 def sheet_part(path, title):
     with zipfile.ZipFile(path) as file:
         return dict(archive._sheet_parts(file))[title]
+
+
+def test_an_open_workbook_reaches_another_process_without_its_cells(tmp_path):
+    book = open_book(make(tmp_path))
+    sent = pickle.dumps(book)
+    assert len(sent) < 10_000
+    arrived = pickle.loads(sent)
+    assert (arrived.path, arrived.sha256) == (book.path, book.sha256)
+    assert arrived.scans == {}
 
 
 def test_workbooks_are_parsed_with_entities_switched_off():
