@@ -187,7 +187,7 @@ def array_rows(data: ProjectInput, assessed: ArrayAssessment) -> tuple[Row, ...]
 
 def _fire_lanes(data: ProjectInput, assessed: ArrayAssessment) -> Iterator[Row]:
     us_first = data.project.units_first == "US"
-    plan = assessed.array.rectangle
+    plan = assessed.array.shape.bounds
     largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
     yield Row(
         id="fire_lanes",

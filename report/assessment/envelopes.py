@@ -12,39 +12,15 @@ from collections.abc import Iterable, Sequence
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
 from report.assessment.runs import HeadingRun
-from report.sheet.schema import Direction, Rectangle
+from report.sheet.schema import Direction, Polygon, Shape
+from report.sheet.shapes import Point, merged, sides
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor
 
-Point = tuple[float, float]
 Outline = tuple[Point, ...]
 
 ARC_STEPS = 6
 """Chords in a quarter of a circle."""
-
-
-def corners(rectangle: Rectangle) -> Outline:
-    """Return the corners of a rectangle."""
-    x0, x1 = rectangle.x_from_m, rectangle.x_to_m
-    y0, y1 = rectangle.y_from_m, rectangle.y_to_m
-    return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
-
-
-def closest(a: Rectangle, b: Rectangle) -> tuple[Point, Point]:
-    """Return a point of each rectangle at their smallest distance, midway along facing sides."""
-    xa, xb = _nearest((a.x_from_m, a.x_to_m), (b.x_from_m, b.x_to_m))
-    ya, yb = _nearest((a.y_from_m, a.y_to_m), (b.y_from_m, b.y_to_m))
-    return (xa, ya), (xb, yb)
-
-
-def _nearest(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
-    """Return the closest points of two ranges; the middle of the overlap if they overlap."""
-    if a[1] <= b[0]:
-        return a[1], b[0]
-    if b[1] <= a[0]:
-        return a[0], b[1]
-    middle = (max(a[0], b[0]) + min(a[1], b[1])) / 2
-    return middle, middle
 
 
 def design_envelope(array: ArrayAssessment) -> Outline:
@@ -54,11 +30,11 @@ def design_envelope(array: ArrayAssessment) -> Outline:
     """
     if math.isnan(array.design_m):
         return ()
-    return _swept(array.array.rectangle, _circle(array.design_m))
+    return _swept(array.array.shape, _circle(array.design_m))
 
 
 def runs_envelope(array: ArrayAssessment) -> Outline:
-    """Return the convex hull of an array in all of its runs, by their largest excursions.
+    """Return the outline of an array in all of its runs, by their largest excursions.
 
     A run is within its excursions downslope, upslope and cross-slope, and within its PRD. Empty if
     a run has no displacement.
@@ -69,7 +45,7 @@ def runs_envelope(array: ArrayAssessment) -> Outline:
     downslope = math.radians(array.array.downslope_deg)
     cos, sin = math.cos(downslope), math.sin(downslope)
     turned = [(along * cos - across * sin, along * sin + across * cos) for along, across in moves]
-    return _swept(array.array.rectangle, hull(turned))
+    return _swept(array.array.shape, hull(turned))
 
 
 def _region(run: HeadingRun) -> Outline:
@@ -106,9 +82,16 @@ def _cut(region: Outline, normal: Point, limit: float) -> Outline:
     return tuple(kept)
 
 
-def _swept(rectangle: Rectangle, moves: Sequence[Point]) -> Outline:
-    """Return the convex hull of a rectangle at all displacements."""
-    return hull((x + dx, y + dy) for x, y in corners(rectangle) for dx, dy in moves)
+def _swept(shape: Shape, moves: Sequence[Point]) -> Outline:
+    """Return the outline of a shape at all displacements within a convex region about 0."""
+    if not isinstance(shape, Polygon):
+        return _moved(shape.points, moves)
+    return merged([shape.points, *(_moved(side, moves) for side in sides(shape.points))])
+
+
+def _moved(points: Sequence[Point], moves: Sequence[Point]) -> Outline:
+    """Return the convex hull of points at all displacements."""
+    return hull((x + dx, y + dy) for x, y in points for dx, dy in moves)
 
 
 def hull(points: Iterable[Point]) -> Outline:

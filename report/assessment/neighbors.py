@@ -12,9 +12,9 @@ from enum import StrEnum
 from itertools import combinations
 
 from report.assessment.arrays import ArrayAssessment
-from report.sheet.checks import gap_m
 from report.sheet.fields import Place
-from report.sheet.schema import Clearance, ObjectKind, ProjectInput, Rectangle
+from report.sheet.schema import Clearance, ObjectKind, ProjectInput, Rectangle, Shape
+from report.sheet.shapes import Point, Polygon, gap_m, sides, spans_near
 from report.words.units import Quantity, pair
 from solver.model import INCH_M
 
@@ -28,7 +28,7 @@ EDGE_STRIP_M = 0.3048
 """Largest distance [m] from a side of the roof to the strip of the object that stands for it."""
 
 _COMPASS = ("east", "northeast", "north", "northwest", "west", "southwest", "south", "southeast")
-_EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
+EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
 
 
 class NearbyKind(StrEnum):
@@ -47,12 +47,16 @@ class BareEdge:
     ----------
     name : str
         As in `west edge of the roof`.
-    line : Rectangle
-        Of no width.
+    ends : tuple of Point
     """
 
     name: str
-    line: Rectangle
+    ends: tuple[Point, Point]
+
+    @property
+    def line(self) -> Shape:
+        """The line between its ends."""
+        return _line(*self.ends)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,13 +76,15 @@ class PlanNeighbor:
     array, other : str
         Ids, in the order of the workbook between arrays; `other` names a bare edge in words.
     gap_m : float
-        Smallest distance in plan [m]; negative if the rectangles overlap.
+        Smallest distance in plan [m]; negative if they overlap.
     reach_m : float
         `REACH_FACTOR` times the larger design displacement of the two [m].
     given : tuple of GivenGap
         Clearances between them, from either side.
     to_add : str
         Cell of the table to which a missing row is to be added.
+    drawn_as : str
+        What the gap is between: rectangles or outlines.
     """
 
     array: str
@@ -88,6 +94,7 @@ class PlanNeighbor:
     reach_m: float
     given: tuple[GivenGap, ...]
     to_add: str
+    drawn_as: str
 
     @property
     def is_missing(self) -> bool:
@@ -116,7 +123,7 @@ class PlanNeighbor:
         return tuple(
             f"{row.cell}: provided clearance is "
             f"{pair(row.clearance.provided_m, Quantity.SIZE, us_first)}, but {apart}; correct "
-            "the clearance or the rectangles"
+            f"the clearance or the {self.drawn_as}"
             for row in self.contradictions
         )
 
@@ -126,8 +133,9 @@ def neighbors(
 ) -> tuple[PlanNeighbor, ...]:
     """Return each pair of arrays, array and object, array and bare roof edge of the plan.
 
-    Of those, the pairs within reach or with a clearance. An object without a rectangle is in none
-    of them (`unplaced`). An array without a design displacement reaches twice the prescriptive one.
+    Of those, the pairs within reach or with a clearance. An object without a place in plan is in
+    none of them (`unplaced`). An array without a design displacement reaches twice the
+    prescriptive one.
     """
     return tuple(
         neighbor
@@ -137,24 +145,22 @@ def neighbors(
 
 
 def unplaced(data: ProjectInput) -> tuple[str, ...]:
-    """Return the ids of objects that have neither a rectangle in plan nor a clearance."""
+    """Return the ids of objects that have neither a place in plan nor a clearance."""
     named = {row.object for row in data.clearances}
-    return tuple(
-        item.id for item in data.objects if item.rectangle is None and item.id not in named
-    )
+    return tuple(item.id for item in data.objects if item.placed is None and item.id not in named)
 
 
 def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:
     """Return the parts of the roof outline along which no object is an edge, if it is given."""
-    outline = data.roof.outline
+    outline = data.roof.placed
     if outline is None:
         return ()
-    strips = [item.rectangle for item in data.objects if item.kind in _EDGES]
+    strips = [item.placed for item in data.objects if item.kind in EDGES]
     placed = [strip for strip in strips if strip is not None]
     return tuple(
-        BareEdge(f"{_compass(outward_deg - data.roof.north_deg)} edge of the roof", line)
-        for outward_deg, side in _sides(outline)
-        for line in _bare(side, placed)
+        BareEdge(f"{_compass(side.outward_deg - data.roof.north_deg)} {side.title}", ends)
+        for side in _sides(outline)
+        for ends in _bare(side, placed)
     )
 
 
@@ -163,34 +169,94 @@ def _compass(from_north_deg: float) -> str:
     return _COMPASS[round((from_north_deg + 90.0) / 45.0) % 8]
 
 
-def _sides(outline: Rectangle) -> Iterator[tuple[float, Rectangle]]:
-    """Yield the outward direction [deg] of each side, and the side."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Side:
+    """A side of the roof: a range of distances [m] from a point of its line, in a direction."""
+
+    title: str
+    outward_deg: float
+    origin: Point
+    direction: Point
+    low: float
+    high: float
+
+    def at(self, along: float) -> Point:
+        """Return the point at a distance."""
+        (x, y), (ux, uy) = self.origin, self.direction
+        return x + along * ux, y + along * uy
+
+    def along(self, point: Point) -> float:
+        """Return the distance of a point's foot."""
+        (x, y), (ux, uy) = self.origin, self.direction
+        return (point[0] - x) * ux + (point[1] - y) * uy
+
+
+def _sides(outline: Shape) -> Iterator[_Side]:
+    """Yield the sides of a roof; those of a polygon are numbered from its first vertex."""
+    if isinstance(outline, Polygon):
+        for number, (start, end) in enumerate(sides(outline.points), start=1):
+            yield _side(f"edge of the roof (side {number})", start, end)
+        return
     x0, x1, y0, y1 = outline.x_from_m, outline.x_to_m, outline.y_from_m, outline.y_to_m
-    yield 0.0, Rectangle(x1, x1, y0, y1)
-    yield 90.0, Rectangle(x0, x1, y1, y1)
-    yield 180.0, Rectangle(x0, x0, y0, y1)
-    yield 270.0, Rectangle(x0, x1, y0, y0)
+    for outward_deg, low, high in ((0.0, y0, y1), (90.0, x0, x1), (180.0, y0, y1), (270.0, x0, x1)):
+        # Distances are the coordinates themselves.
+        on_x = outward_deg in (0.0, 180.0)
+        yield _Side(
+            title="edge of the roof",
+            outward_deg=outward_deg,
+            origin=({0.0: x1, 180.0: x0}[outward_deg], 0.0) if on_x
+            else (0.0, {90.0: y1, 270.0: y0}[outward_deg]),
+            direction=(0.0, 1.0) if on_x else (1.0, 0.0),
+            low=low,
+            high=high,
+        )  # fmt: skip
 
 
-def _bare(side: Rectangle, strips: Sequence[Rectangle]) -> Iterator[Rectangle]:
-    """Yield the parts of a side along which no strip lies; none shorter than `EDGE_STRIP_M`."""
-    along_x = side.y_from_m == side.y_to_m
-    low, high = (side.x_from_m, side.x_to_m) if along_x else (side.y_from_m, side.y_to_m)
-    near = sorted(
-        (strip.x_from_m, strip.x_to_m) if along_x else (strip.y_from_m, strip.y_to_m)
-        for strip in strips
-        if gap_m(side, strip) <= EDGE_STRIP_M
+def _side(title: str, start: Point, end: Point) -> _Side:
+    """Return the side from a vertex to the next, counterclockwise."""
+    long = math.dist(start, end)
+    direction = (end[0] - start[0]) / long, (end[1] - start[1]) / long
+    return _Side(
+        title=title,
+        outward_deg=math.degrees(math.atan2(-direction[0], direction[1])),
+        origin=start,
+        direction=direction,
+        low=0.0,
+        high=long,
     )
-    at = low
-    for start, end in [*near, (high, high)]:
+
+
+def _line(start: Point, end: Point) -> Shape:
+    """Return a line as a shape: where it is parallel to an axis, a rectangle of no width."""
+    (x0, y0), (x1, y1) = start, end
+    if x0 == x1 or y0 == y1:
+        return Rectangle(min(x0, x1), max(x0, x1), min(y0, y1), max(y0, y1))
+    return Polygon((start, end))
+
+
+def _bare(side: _Side, strips: Sequence[Shape]) -> Iterator[tuple[Point, Point]]:
+    """Yield the parts of a side along which no strip lies; none shorter than `EDGE_STRIP_M`."""
+    at = side.low
+    for start, end in [*sorted(_covered(side, strips)), (side.high, side.high)]:
         if start - at > EDGE_STRIP_M:
-            stop = min(start, high)
-            yield (
-                Rectangle(at, stop, side.y_from_m, side.y_to_m)
-                if along_x
-                else Rectangle(side.x_from_m, side.x_to_m, at, stop)
-            )
+            yield side.at(at), side.at(min(start, side.high))
         at = max(at, end)
+
+
+def _covered(side: _Side, strips: Sequence[Shape]) -> Iterator[tuple[float, float]]:
+    """Yield the ranges of a side near which strips lie."""
+    ends = side.at(side.low), side.at(side.high)
+    line = _line(*ends)
+    for strip in strips:
+        if isinstance(line, Rectangle) and isinstance(strip, Rectangle):
+            if gap_m(line, strip) <= EDGE_STRIP_M:
+                (x0, y0), _, (x1, y1), _ = strip.points
+                low, high = sorted((side.along((x0, y0)), side.along((x1, y1))))
+                yield low, high
+            continue
+        for points in spans_near(strip, *ends, EDGE_STRIP_M):
+            found = [side.along(point) for point in points]
+            yield min(found), max(found)
 
 
 Rows = Mapping[frozenset[str], tuple[GivenGap, ...]]
@@ -207,10 +273,11 @@ def _pairs(
             array=a.id,
             other=b.id,
             kind=NearbyKind.ARRAY,
-            gap_m=gap_m(a.array.rectangle, b.array.rectangle),
+            gap_m=gap_m(a.array.shape, b.array.shape),
             reach_m=max(_reach_m(a), _reach_m(b)),
             given=rows.get(frozenset((a.id, b.id)), ()),
             to_add=table,
+            drawn_as=_noun(a.array.shape, b.array.shape),
         )
     edges = bare_edges(data)
     for array in arrays:
@@ -222,15 +289,16 @@ def _objects_of(
     array: ArrayAssessment, data: ProjectInput, rows: Rows, table: str
 ) -> Iterator[PlanNeighbor]:
     for item in data.objects:
-        if item.rectangle is not None:
+        if item.placed is not None:
             yield PlanNeighbor(
                 array=array.id,
                 other=item.id,
                 kind=NearbyKind.OBJECT,
-                gap_m=gap_m(array.array.rectangle, item.rectangle),
+                gap_m=gap_m(array.array.shape, item.placed),
                 reach_m=_reach_m(array),
                 given=rows.get(frozenset((array.id, item.id)), ()),
                 to_add=table,
+                drawn_as=_noun(array.array.shape, item.placed),
             )
 
 
@@ -242,11 +310,17 @@ def _edges_of(
             array=array.id,
             other=f"the {edge.name}",
             kind=NearbyKind.BARE_EDGE,
-            gap_m=gap_m(array.array.rectangle, edge.line),
+            gap_m=gap_m(array.array.shape, edge.line),
             reach_m=_reach_m(array),
             given=(),
             to_add=table,
+            drawn_as=_noun(array.array.shape, edge.line),
         )
+
+
+def _noun(a: Shape, b: Shape) -> str:
+    are_boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
+    return "rectangles" if are_boxes else "outlines"
 
 
 def _reach_m(array: ArrayAssessment) -> float:

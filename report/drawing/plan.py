@@ -11,9 +11,6 @@ from dataclasses import dataclass
 
 from report.assessment.envelopes import (
     Outline,
-    Point,
-    closest,
-    corners,
     design_envelope,
     keep_clear_m,
     runs_envelope,
@@ -21,7 +18,8 @@ from report.assessment.envelopes import (
 from report.assessment.neighbors import bare_edges
 from report.assessment.project import Assessment
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
-from report.sheet.schema import ObjectKind, Rectangle, RoofObject
+from report.sheet.schema import ROOF, ObjectKind, RoofObject, Shape
+from report.sheet.shapes import Point, closest, label_point, mean
 from report.words.units import Quantity, Unit, compared, number, pair
 
 TEXT_SHARE = 1.0 / 120.0
@@ -53,17 +51,15 @@ def _closed(layer: Layer, name: str, points: Outline) -> PlanLine:
 def _lines(assessment: Assessment) -> Iterator[PlanLine]:
     """Yield the lines, in m."""
     data = assessment.project
-    if data.roof.outline is not None:
-        yield _closed(Layer.OUTLINE, "roof", corners(data.roof.outline))
+    if data.roof.placed is not None:
+        yield _closed(Layer.OUTLINE, ROOF, data.roof.placed.points)
     for edge in bare_edges(data):
-        line = edge.line
-        ends = ((line.x_from_m, line.y_from_m), (line.x_to_m, line.y_to_m))
-        yield PlanLine(layer=Layer.BARE_EDGE, name=edge.name, points=ends, is_closed=False)
+        yield PlanLine(layer=Layer.BARE_EDGE, name=edge.name, points=edge.ends, is_closed=False)
     for item in data.objects:
-        if item.rectangle is not None:
-            yield _closed(_layer(item), item.id, corners(item.rectangle))
+        if item.placed is not None:
+            yield _closed(_layer(item), item.id, item.placed.points)
     for array in assessment.arrays:
-        yield _closed(Layer.ARRAY, array.id, corners(array.array.rectangle))
+        yield _closed(Layer.ARRAY, array.id, array.array.shape.points)
         for layer, outline in (
             (Layer.DESIGN, design_envelope(array)),
             (Layer.RUNS, runs_envelope(array)),
@@ -93,11 +89,11 @@ class GapLine:
 
 
 def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
-    """Yield the clearances between rectangles, numbered as in the workbook."""
+    """Yield the clearances between shapes in plan, numbered as in the workbook."""
     data = assessment.project
     us_first = data.project.units_first == "US"
-    shapes: dict[str, Rectangle | None] = {item.id: item.rectangle for item in data.objects}
-    shapes |= {array.id: array.rectangle for array in data.arrays}
+    shapes: dict[str, Shape | None] = {item.id: item.placed for item in data.objects}
+    shapes |= {array.id: array.placed for array in data.arrays}
     for count, gap in enumerate(assessment.clearances, start=1):
         near, far = shapes[gap.clearance.array], shapes[gap.clearance.object]
         if near is None or far is None:
@@ -118,14 +114,14 @@ def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
 
 def _texts(assessment: Assessment, unit: Unit, height: float, us_first: bool) -> Iterator[PlanText]:
     for item in assessment.project.objects:
-        if item.rectangle is not None:
+        if item.placed is not None:
             words = item.id if item.height_m is None else (
                 f"{item.id}, height {pair(item.height_m, Quantity.SIZE, us_first)}"
             )  # fmt: skip
-            at = _middle(corners(item.rectangle), unit)
+            at = _in(label_point(item.placed), unit)
             yield PlanText(layer=_layer(item), words=words, at=at, height=height)
     for array in assessment.arrays:
-        x, y = _middle(corners(array.array.rectangle), unit)
+        x, y = _in(label_point(array.array.shape), unit)
         yield PlanText(layer=Layer.ARRAY, words=array.id, at=(x, y), height=height)
         for count, words in enumerate(_array_notes(assessment, array.id, us_first), start=1):
             at = (x, y - 1.6 * height * count)
@@ -147,8 +143,11 @@ def _array_notes(assessment: Assessment, name: str, us_first: bool) -> Iterator[
 
 
 def _middle(points: Sequence[Point], unit: Unit) -> Point:
-    x, y = (sum(axis) / len(axis) / unit.si for axis in zip(*points, strict=True))
-    return x, y
+    return _in(mean(points), unit)
+
+
+def _in(point: Point, unit: Unit) -> Point:
+    return point[0] / unit.si, point[1] / unit.si
 
 
 def _north_point(points: Sequence[Point], height: float) -> Point:

@@ -6,7 +6,7 @@ Read `report.figures.plan` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -19,14 +19,15 @@ from matplotlib.patches import Rectangle as Box
 
 from report.figures.base import INK, Broken
 from report.figures.labels import LINE_IN, TYPE_PT, Frame, Placer, centered, width_in
-from report.sheet.schema import Rectangle
+from report.sheet.schema import Rectangle, Shape
+from report.sheet.shapes import Point, sides
 from solver.model import INCH_M
 
-Point = tuple[float, float]
 FOOT_M = 12.0 * INCH_M
 
 PAD_IN = 0.045
 """Margin of the text in a frame."""
+_STEP_IN = 0.05  # along an oblique line
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +89,21 @@ class PlanPaper:
         return Frame(
             *self.at((shape.x_from_m, shape.y_from_m)), *self.at((shape.x_to_m, shape.y_to_m))
         )
+
+    def shape(self, shape: Shape, **look: Any) -> None:
+        """Draw a shape of the plan [m]."""
+        if isinstance(shape, Rectangle):
+            self.box(self.frame(shape), **look)
+        else:
+            self.polygon(shape.points, **look)
+
+    def sides(self, shape: Shape) -> Iterator[Frame]:
+        """Yield thin frames along the sides of a shape, where they are on paper."""
+        if isinstance(shape, Rectangle):
+            yield from around(self.frame(shape))
+            return
+        for start, end in sides(tuple(map(self.at, shape.points))):
+            yield from along(start, end)
 
     def box(self, frame: Frame, **look: Any) -> None:
         """Draw a rectangle on paper."""
@@ -170,3 +186,16 @@ def around(frame: Frame) -> tuple[Frame, ...]:
         centered(frame.x0, y, line, frame.tall),
         centered(frame.x1, y, line, frame.tall),
     )
+
+
+def along(a: Point, b: Point) -> Iterator[Frame]:
+    """Yield thin frames along a line: one, or small ones where the line is oblique."""
+    line = 0.01
+    wide, tall = abs(b[0] - a[0]), abs(b[1] - a[1])
+    if min(wide, tall) < line:
+        yield centered((a[0] + b[0]) / 2, (a[1] + b[1]) / 2, max(wide, line), max(tall, line))
+        return
+    count = math.ceil(math.dist(a, b) / _STEP_IN)
+    for k in range(count + 1):
+        share = k / count
+        yield centered(a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), line, line)

@@ -24,6 +24,7 @@ from report.figures.plan_notes import key_of
 from report.figures.plan_shapes import draw_arrays, draw_coordinates, draw_objects, draw_roof
 from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, PlanSheet, PlanSize, is_us_first
 from report.sheet.schema import Rectangle
+from report.sheet.shapes import around
 
 
 def is_wide(assessment: Assessment) -> bool:
@@ -96,15 +97,8 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
 def _extent(assessment: Assessment) -> Rectangle:
     """Return what the plan must show, in plan."""
     data = assessment.project
-    shapes = [array.rectangle for array in data.arrays]
-    shapes += [shape for item in data.objects if (shape := item.rectangle) is not None]
-    shapes += [shape] if (shape := data.roof.outline) is not None else []
-    return Rectangle(
-        min(shape.x_from_m for shape in shapes),
-        max(shape.x_to_m for shape in shapes),
-        min(shape.y_from_m for shape in shapes),
-        max(shape.y_to_m for shape in shapes),
-    )
+    rows = (*data.arrays, *data.objects, data.roof)
+    return around(row.placed for row in rows if row.placed is not None)
 
 
 def _needed(extent: Rectangle, size: PlanSize) -> float:

@@ -13,7 +13,7 @@ from report.figures.labels import Frame
 from report.figures.paper_plan import PAD_IN, text_size
 from report.figures.plan_key import FAILED, gap_line, ng_box, ng_size
 from report.figures.plan_sheet import Gap, PlanSheet
-from report.sheet.schema import Rectangle
+from report.sheet.shapes import between
 from report.words.units import compared
 
 RADIUS_IN = 0.1
@@ -23,7 +23,9 @@ def draw_gap(plan: PlanSheet, gap: Gap) -> None:
     """Draw a dimension line; a gap that is not satisfied is hatched."""
     if not gap.check.ok:
         near, far = (plan.shapes[name] for name in gap.names)
-        plan.paper.box(plan.paper.frame(_between(near, far)), **FAILED)
+        area = between(near, far)
+        if area is not None:
+            plan.paper.shape(area, **FAILED)
     gap_line(plan.paper, gap.a, gap.b)
     plan.paper.placer.take_segment(gap.a, gap.b)
 
@@ -63,16 +65,3 @@ def _draw_callout(
     paper.text(center[0], y - 0.04, str(gap.number), ha="center")
     if mark:
         ng_box(paper, label.x1 - ng_size()[0] / 2 - 0.01, y)
-
-
-def _between(a: Rectangle, b: Rectangle) -> Rectangle:
-    """Return the area between two rectangles: the gap along their facing sides."""
-    x = _span((a.x_from_m, a.x_to_m), (b.x_from_m, b.x_to_m))
-    y = _span((a.y_from_m, a.y_to_m), (b.y_from_m, b.y_to_m))
-    return Rectangle(*x, *y)
-
-
-def _span(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
-    """Return the range between two ranges, or their overlap."""
-    inner = sorted((max(a[0], b[0]), min(a[1], b[1])))
-    return inner[0], inner[1]

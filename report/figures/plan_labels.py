@@ -25,8 +25,11 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
     """Write the name and height of each edge along it, outside of the roof."""
     middle = plan.paper.frame(extent).middle
     for item in plan.edges:
-        frame = plan.paper.frame(plan.shapes[item.id])
-        words = _edge_words(plan, item)
+        shape, words = plan.shapes[item.id], _edge_words(plan, item)
+        if not isinstance(shape, Rectangle):
+            plan.beside(plan.room(item.id), words)
+            continue
+        frame = plan.paper.frame(shape)
         if width_in(words) > max(frame.wide, frame.tall) or not plan.size.is_full:
             words = tick_text(item.id)
         (x, y), wide = frame.middle, width_in(words)
@@ -52,7 +55,7 @@ def _edge_words(plan: PlanSheet, item: RoofObject) -> str:
 
 def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame:
     """Keep room for the name of an array, and where possible for all of its label."""
-    middle = plan.paper.frame(array.array.rectangle).middle
+    middle = plan.room(array.id).middle
     shown = list(_array_labels(plan, array))
     whole, name = (text_size(lines, first_bold=True) for lines in (shown[0], shown[-1]))
     plan.paper.placer.avoid(centered(*middle, whole[0], whole[1] + ARROW_IN))
@@ -63,7 +66,7 @@ def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame:
 
 def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
     """Label an array inside of it with as many lines as there is room for, or outside."""
-    frame = plan.paper.frame(array.array.rectangle)
+    frame = plan.room(array.id)
     shown = [(lines, ARROW_IN) for lines in _array_labels(plan, array)]
     for lines, arrow in (*shown, (shown[-1][0], 0.0)):
         wide, tall = text_size(lines, first_bold=True)
@@ -104,7 +107,7 @@ def _slope_arrow(plan: PlanSheet, x: float, y: float, array: ArrayAssessment) ->
 
 def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
     """Return where the name of an object fits in the middle of it, if it does."""
-    frame = plan.paper.frame(plan.shapes[item.id])
+    frame = plan.room(item.id)
     wide, tall = text_size([tick_text(item.id)])
     is_room = wide < frame.wide and tall < frame.tall
     return centered(*frame.middle, wide, tall) if is_room else None
@@ -112,7 +115,7 @@ def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
 
 def label_object(plan: PlanSheet, item: RoofObject) -> None:
     """Name an object inside of it, or beside it with a leader."""
-    frame = plan.paper.frame(plan.shapes[item.id])
+    frame = plan.room(item.id)
     words = tick_text(item.id)
     wide, tall = text_size([words])
     label = plan.paper.placer.place(wide, tall, frame.middle, _inner(frame))

@@ -10,21 +10,21 @@ from matplotlib.ticker import MaxNLocator
 from report.assessment.envelopes import design_envelope, runs_envelope
 from report.assessment.neighbors import bare_edges
 from report.figures.labels import LINE_IN, Frame, centered, width_in
-from report.figures.paper_plan import Point, around
 from report.figures.plan_key import ARRAY, BARE, DESIGN, EDGES, FILLS, ROOF, RUNS
 from report.figures.plan_sheet import PlanSheet
-from report.sheet.schema import Rectangle
+from report.sheet.schema import Rectangle, RoofObject
+from report.sheet.shapes import Point, sides
 from report.words.units import Quantity, number
 
 
 def draw_roof(plan: PlanSheet) -> None:
     """Draw the outline of the roof, and its edges that are no objects."""
     data, paper = plan.assessment.project, plan.paper
-    if data.roof.outline is not None:
-        paper.box(paper.frame(data.roof.outline), **ROOF)
+    if data.roof.placed is not None:
+        paper.shape(data.roof.placed, **ROOF)
     for edge in bare_edges(data):
-        frame = paper.frame(edge.line)
-        paper.line((frame.x0, frame.y0), (frame.x1, frame.y1), **BARE)
+        start, end = map(paper.at, edge.ends)
+        paper.line(start, end, **BARE)
 
 
 def draw_arrays(plan: PlanSheet) -> None:
@@ -34,23 +34,34 @@ def draw_arrays(plan: PlanSheet) -> None:
             if len(outline) > 2:
                 plan.paper.polygon(outline, **look)
     for array in plan.assessment.arrays:
-        frame = plan.paper.frame(array.array.rectangle)
-        plan.paper.box(frame, gid=array.id, **ARRAY)
-        for side in around(frame):
+        plan.paper.shape(array.array.shape, gid=array.id, **ARRAY)
+        for side in plan.paper.sides(array.array.shape):
             plan.paper.placer.avoid(side)
 
 
 def draw_objects(plan: PlanSheet) -> None:
     """Draw what else is on the roof."""
     for item in plan.placed:
-        frame = plan.paper.frame(plan.shapes[item.id])
-        plan.paper.box(frame, gid=item.id, **FILLS[item.kind])
-        plan.paper.placer.avoid(frame)
+        shape = plan.shapes[item.id]
+        plan.paper.shape(shape, gid=item.id, **FILLS[item.kind])
+        frames = [plan.paper.frame(shape)] if isinstance(shape, Rectangle) else []
+        for frame in frames or plan.paper.sides(shape):
+            plan.paper.placer.avoid(frame)
     for item in plan.edges:
-        a, b = _spine(plan.paper.frame(plan.shapes[item.id]))
+        _draw_edge(plan, item)
+
+
+def _draw_edge(plan: PlanSheet, item: RoofObject) -> None:
+    shape = plan.shapes[item.id]
+    if isinstance(shape, Rectangle):
+        a, b = _spine(plan.paper.frame(shape))
         plan.paper.line(a, b, **EDGES[item.kind])
         plan.paper.placer.take(Frame(min(a[0], b[0]), min(a[1], b[1]), max(a[0], b[0]),
                                      max(a[1], b[1])))  # fmt: skip
+        return
+    for a, b in sides(tuple(map(plan.paper.at, shape.points))):
+        plan.paper.line(a, b, **EDGES[item.kind])
+        plan.paper.placer.take_segment(a, b)
 
 
 def draw_coordinates(plan: PlanSheet, extent: Rectangle) -> None:

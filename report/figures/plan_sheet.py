@@ -10,13 +10,13 @@ from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.envelopes import closest
 from report.assessment.project import Assessment
 from report.figures.base import GREY
 from report.figures.labels import Frame
-from report.figures.paper_plan import PlanPaper, Point, text_size
+from report.figures.paper_plan import PlanPaper, text_size
 from report.figures.plan_key import EDGES, FILLS
-from report.sheet.schema import ObjectKind, Rectangle, RoofObject
+from report.sheet.schema import ObjectKind, RoofObject, Shape
+from report.sheet.shapes import Point, closest, room
 from report.words.units import Quantity, Show, measured, pair
 
 LEADER_IN = 1.5  # farthest label
@@ -84,7 +84,7 @@ class PlanSheet:
 
     Attributes
     ----------
-    shapes : dict of str to Rectangle
+    shapes : dict of str to Shape
         What is on the plan, by name [m].
     gaps : tuple of Gap
         The clearances between shapes.
@@ -95,7 +95,7 @@ class PlanSheet:
     assessment: Assessment
     size: PlanSize
     paper: PlanPaper
-    shapes: dict[str, Rectangle]
+    shapes: dict[str, Shape]
     gaps: tuple[Gap, ...]
     unnamed: list[str] = field(default_factory=list)
 
@@ -103,8 +103,8 @@ class PlanSheet:
     def of(cls, assessment: Assessment, size: PlanSize, paper: PlanPaper) -> PlanSheet:
         """Return the empty sheet of an assessment."""
         data = assessment.project
-        shapes = {item.id: item.rectangle for item in data.objects if item.rectangle is not None}
-        shapes |= {array.id: array.rectangle for array in data.arrays}
+        shapes = {item.id: item.placed for item in data.objects if item.placed is not None}
+        shapes |= {array.id: array.shape for array in data.arrays}
         return cls(assessment, size, paper, shapes, tuple(_gaps(assessment, shapes, paper)))
 
     @property
@@ -126,6 +126,10 @@ class PlanSheet:
     def edges(self) -> list[RoofObject]:
         """The roof edges on the plan."""
         return self._of_kinds(EDGES)
+
+    def room(self, name: str) -> Frame:
+        """Return where there is room on paper within a shape."""
+        return self.paper.frame(room(self.shapes[name]))
 
     def _of_kinds(self, kinds: Container[ObjectKind]) -> list[RoofObject]:
         data = self.assessment.project
@@ -164,7 +168,7 @@ def is_us_first(assessment: Assessment) -> bool:
     return assessment.project.project.units_first == "US"
 
 
-def _gaps(assessment: Assessment, shapes: dict[str, Rectangle], paper: PlanPaper) -> Iterator[Gap]:
+def _gaps(assessment: Assessment, shapes: dict[str, Shape], paper: PlanPaper) -> Iterator[Gap]:
     for count, check in enumerate(assessment.clearances, start=1):
         near, far = shapes.get(check.clearance.array), shapes.get(check.clearance.object)
         if near is not None and far is not None:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 
 from report.assessment.runs import RUNGS
 from report.pages import friction_tests
 from report.pages.model import friction
 from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.pages.site import NOT_GIVEN, s_ds_note, site_table
+from report.sheet.schema import Array, Polygon, RoofObject, Shape
 from report.words.units import Quantity, number
 
 
@@ -97,16 +99,28 @@ def _sizes(package: PackageData) -> Table:
                     *fmt.cells(array.weight_n, Quantity.WEIGHT),
                     *fmt.cells(array.cg_height_m, Quantity.SIZE),
                     *fmt.cells(array.support_spacing_m, Quantity.SIZE),
-                    *fmt.cells(array.x_to_m - array.x_from_m, Quantity.PLAN),
-                    *fmt.cells(array.y_to_m - array.y_from_m, Quantity.PLAN),
+                    *fmt.cells(plan.x_to_m - plan.x_from_m, Quantity.PLAN),
+                    *fmt.cells(plan.y_to_m - plan.y_from_m, Quantity.PLAN),
                 )
             )
-            for array in package.data.arrays
+            for array, plan in ((array, array.shape.bounds) for array in package.data.arrays)
         ),
         notes=(
             "Center of gravity: height above the roof surface. Plan x and y: size of the array.",
+            *_outlined(package.data.arrays),
         ),
     )
+
+
+def _outlined(rows: Sequence[Array | RoofObject]) -> Iterator[str]:
+    """Yield which rows are drawn by an outline, of which a table gives the rectangle around it."""
+    drawn = [
+        f"{row.id} ({len(row.placed.points)} vertices)"
+        for row in rows
+        if isinstance(row.placed, Polygon)
+    ]
+    if drawn:
+        yield f"By an outline, of which the rectangle around it is given: {', '.join(drawn)}."
 
 
 def _links(package: PackageData) -> Table:
@@ -155,16 +169,22 @@ def _objects(package: PackageData) -> Table:
                     item.id,
                     item.kind.value,
                     *_optional(package, item.height_m, Quantity.SIZE),
-                    *_optional(package, item.x_from_m, Quantity.PLAN),
-                    *_optional(package, item.x_to_m, Quantity.PLAN),
-                    *_optional(package, item.y_from_m, Quantity.PLAN),
-                    *_optional(package, item.y_to_m, Quantity.PLAN),
+                    *chain(*(_optional(package, at, Quantity.PLAN) for at in _sides(item.placed))),
                 )
             )
             for item in package.data.objects
         ),
         kind="compact",
+        notes=tuple(_outlined(package.data.objects)),
     )
+
+
+def _sides(shape: Shape | None) -> tuple[float | None, ...]:
+    """Return x from, x to, y from and y to of the rectangle around a shape."""
+    if shape is None:
+        return (None,) * 4
+    box = shape.bounds
+    return box.x_from_m, box.x_to_m, box.y_from_m, box.y_to_m
 
 
 def _optional(package: PackageData, value_m: float | None, quantity: Quantity) -> tuple[str, str]:

@@ -34,8 +34,7 @@ def picture(package: PackageData) -> Picture:
 
 def weight_per_area_pa(array: Array) -> float:
     """Return the weight of an array over its plan area [Pa]."""
-    plan = array.rectangle
-    return array.weight_n / ((plan.x_to_m - plan.x_from_m) * (plan.y_to_m - plan.y_from_m))
+    return array.weight_n / array.shape.area_m2
 
 
 def _weights(package: PackageData) -> str:

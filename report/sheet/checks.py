@@ -6,7 +6,6 @@ Works on a draft, the rows of readable values, so that one invalid cell hides no
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
@@ -14,16 +13,19 @@ from typing import Any
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.friction_checks import friction_faults
 from report.sheet.motion_checks import motion_faults
+from report.sheet.plan_checks import plan_faults, shapes_of, us_first
+from report.sheet.references import suggestion
 from report.sheet.schema import (
     PROVISION_KEYS,
     Model,
     ObjectKind,
     Rectangle,
+    Shape,
     SlopeUnit,
-    UnitsFirst,
     coefficients,
     slope_rad,
 )
+from report.sheet.shapes import gap_m
 from report.sheet.site_checks import site_faults
 from report.words.units import Quantity, pair
 from solver.model import INCH_M
@@ -31,7 +33,6 @@ from solver.model import INCH_M
 MAX_SLOPE_DEG = 45.0
 GAP_TOLERANCE = 0.01
 GAP_TOLERANCE_M = 0.5 * INCH_M
-SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
 
 
 def faults(draft: Draft, where: Where) -> list[Fault]:
@@ -48,7 +49,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
         _tables,
         _ids,
         site_faults,
-        _roof,
+        plan_faults,
         _arrays,
         friction_faults,
         _objects,
@@ -59,22 +60,6 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
         _directional,
     )
     return [fault for check in checks for fault in check(draft, where)]
-
-
-def rectangle(row: DraftRow) -> Rectangle | None:
-    """Return a row's rectangle, if all four sides are given and in order."""
-    sides = [row[side] for side in SIDES if row.get(side) is not None]
-    if len(sides) < len(SIDES):
-        return None
-    x_from, x_to, y_from, y_to = sides
-    return Rectangle(*sides) if x_from < x_to and y_from < y_to else None
-
-
-def gap_m(a: Rectangle, b: Rectangle) -> float:
-    """Return the smallest distance of two rectangles [m]; negative if they overlap."""
-    dx = max(a.x_from_m - b.x_to_m, b.x_from_m - a.x_to_m)
-    dy = max(a.y_from_m - b.y_to_m, b.y_from_m - a.y_to_m)
-    return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
 
 
 def _tables(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -101,34 +86,10 @@ def _column(draft: Draft, sections: Sequence[str], field: str) -> Iterator[tuple
                 yield Place(section, index, field), row[field]
 
 
-def _roof(draft: Draft, where: Where) -> Iterator[Fault]:
-    for row in draft["roof"]:
-        yield from _sides("roof", 0, row, _us_first(draft))
-        yield from _whole_rectangle("roof", 0, row)
-        outline = rectangle(row)
-        if outline is not None:
-            yield from _within(outline, draft, where)
-
-
-def _within(outline: Rectangle, draft: Draft, where: Where) -> Iterator[Fault]:
-    """Yield the sides of arrays that are outside the roof."""
-    for index, array in enumerate(draft["arrays"]):
-        for side in SIDES:
-            value, edge, is_low = array.get(side), getattr(outline, side), "from" in side
-            if value is None or (value >= edge if is_low else value <= edge):
-                continue
-            given, limit = (pair(at, Quantity.PLAN, _us_first(draft)) for at in (value, edge))
-            label = side.removesuffix("_m").replace("_", " ")
-            wanted = f"give {limit} or {'more' if is_low else 'less'}"
-            text = f"{label} is {given}, outside the roof; {wanted}, or correct the outline at"
-            yield Fault(Place("arrays", index, side), f"{text} {where(Place('roof', 0, side))}")
-
-
 def _arrays(draft: Draft, where: Where) -> Iterator[Fault]:
     for index, row in enumerate(draft["arrays"]):
         yield from _slope(index, row)
         yield from _friction(index, row)
-        yield from _sides("arrays", index, row, _us_first(draft))
 
 
 def _slope(index: int, row: DraftRow) -> Iterator[Fault]:
@@ -168,33 +129,11 @@ def _by_speed(array: DraftRow) -> list[str]:
     return [name for name in ("mu_fast", "mu_static") if array.get(name) not in same]
 
 
-def _sides(section: str, index: int, row: DraftRow, us_first: bool) -> Iterator[Fault]:
-    for axis in "xy":
-        low, high = row.get(f"{axis}_from_m"), row.get(f"{axis}_to_m")
-        if low is None or high is None or low < high:
-            continue
-        given, least = (pair(value, Quantity.PLAN, us_first) for value in (high, low))
-        text = f"{axis} to is {given}; give more than {axis} from, {least}"
-        yield Fault(Place(section, index, f"{axis}_to_m"), text)
-
-
 def _objects(draft: Draft, where: Where) -> Iterator[Fault]:
     for index, row in enumerate(draft["objects"]):
-        yield from _sides("objects", index, row, _us_first(draft))
-        yield from _whole_rectangle("objects", index, row)
         if row.get("kind") is ObjectKind.EDGE_WITH_PARAPET and row.get("height_m", 1.0) is None:
             text = "height is missing; give the parapet's height above the roof"
             yield Fault(Place("objects", index, "height_m"), text)
-
-
-def _whole_rectangle(section: str, index: int, row: DraftRow) -> Iterator[Fault]:
-    blank = [side for side in SIDES if side in row and row[side] is None]
-    if not 0 < len(blank) < len(SIDES):
-        return
-    for side in blank:
-        label = side.removesuffix("_m").replace("_", " ")
-        text = f"{label} is missing; give all four sides of the rectangle, or none"
-        yield Fault(Place(section, index, side), text)
 
 
 def _clearances(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -203,8 +142,9 @@ def _clearances(draft: Draft, where: Where) -> Iterator[Fault]:
     yield from _known(draft, "clearances", "array", arrays, "Arrays")
     yield from _known(draft, "clearances", "object", objects | arrays, "Objects or Arrays")
     yield from _repeated(draft, where)
+    shapes = shapes_of(draft)
     for index, row in enumerate(draft["clearances"]):
-        yield from _room(index, row, objects | arrays, _us_first(draft))
+        yield from _room(index, row, shapes, us_first(draft))
 
 
 def _known(
@@ -212,17 +152,8 @@ def _known(
 ) -> Iterator[Fault]:
     for place, value in _column(draft, (section,), field):
         if value not in ids:
-            text = f"{field} is '{value}', which is not in {sheets}; {_suggestion(value, ids)}"
+            text = f"{field} is '{value}', which is not in {sheets}; {suggestion(value, ids)}"
             yield Fault(place, text)
-
-
-def _suggestion(value: str, ids: Collection[str]) -> str:
-    folded = {name.casefold(): name for name in ids}
-    close = difflib.get_close_matches(value.casefold(), folded, n=1)
-    if close:
-        return f"did you mean '{folded[close[0]]}'?"
-    names = ", ".join(list(ids)[:8])
-    return f"give one of {names}" if names else "add it there first"
 
 
 def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -238,26 +169,26 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
             yield Fault(Place("clearances", index, "array"), text)
 
 
-def _room(
-    index: int, row: DraftRow, scene: Mapping[str, DraftRow], us_first: bool
-) -> Iterator[Fault]:
+def _room(index: int, row: DraftRow, shapes: Mapping[str, Shape], is_us: bool) -> Iterator[Fault]:
     array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
     if array is not None and array == other:
         text = f"object is '{other}', the array itself; give an object or another array"
         yield Fault(Place("clearances", index, "object"), text)
         return
-    a, b = (rectangle(scene.get(str(name), {})) for name in (array, other))
+    a, b = (shapes.get(str(name)) for name in (array, other))
     if a is None or b is None or provided is None:
         return
+    boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
+    noun = "rectangles" if boxes else "outlines"
     gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
-    given = pair(provided, Quantity.SIZE, us_first)
+    given = pair(provided, Quantity.SIZE, is_us)
     if gap < -1e-9:
         text = f"provided clearance is {given}, but {array} and {other} overlap in plan; correct"
-        yield Fault(place, f"{text} their rectangles")
+        yield Fault(place, f"{text} their {noun}")
     elif provided > gap + max(GAP_TOLERANCE * gap, GAP_TOLERANCE_M):
-        most = pair(max(gap, 0.0), Quantity.SIZE, us_first)
+        most = pair(max(gap, 0.0), Quantity.SIZE, is_us)
         text = f"provided clearance is {given}, but {array} and {other} are {most} apart in plan"
-        yield Fault(place, f"{text}; reduce it, or correct the rectangles")
+        yield Fault(place, f"{text}; reduce it, or correct the {noun}")
 
 
 def _links(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -306,10 +237,6 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:
             yield Fault(place, text)
         elif first is not place:
             yield Fault(place, f"provision is '{key}', already given at {where(first)}; delete one")
-
-
-def _us_first(draft: Draft) -> bool:
-    return all(row.get("units_first") is not UnitsFirst.SI for row in draft["project"])
 
 
 def _directional(draft: Draft, where: Where) -> Iterator[Fault]:

@@ -65,12 +65,15 @@ class Cell:
         A plausible value, in the US unit of `unit` where that is a quantity.
     unit : Quantity or str
         Quantity with a choice of units, or a fixed unit; empty for none.
+    need : str
+        In words, where it is required unless something else is given; empty for all others.
     """
 
     label: str
     help: str
     example: str | float | int | dt.date
     unit: Quantity | str = ""
+    need: str = ""
 
 
 class Frozen(BaseModel):
@@ -171,6 +174,16 @@ class Entry:
     def quantity(self) -> Quantity | None:
         """The quantity of the number, if its unit can be chosen."""
         return self.cell.unit if isinstance(self.cell.unit, Quantity) else None
+
+    @property
+    def need(self) -> str:
+        """Whether it is required, in words."""
+        return self.cell.need or ("required" if self.is_required else "optional")
+
+    @property
+    def is_expected(self) -> bool:
+        """Whether a row usually has it: it is required, or required unless something is given."""
+        return self.is_required or bool(self.cell.need)
 
     @property
     def spoken(self) -> str:

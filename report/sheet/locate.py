@@ -341,7 +341,7 @@ def _unseen(
     If a table has an unknown heading, no field counts as absent: the heading may be a renamed one.
     """
     unseen = [entry for entry in entries(section.model) if entry.name not in seen]
-    absent = [e.name for e in unseen if not e.is_required and not others]
+    absent = [e.name for e in unseen if not e.is_expected and not others]
     problems = [
         f"{first.address}: heading '{entry.cell.label}' is missing; {FRESH}"
         for entry in unseen

@@ -191,8 +191,7 @@ def _write_hints(sheet: Worksheet, top: int, fields: Sequence[Entry], units: Uni
         style.put(sheet, top + offset, 1, name, color=style.GRAY, size=9)
     for column, entry in enumerate(fields, start=2):
         unit = _unit(entry, units)
-        needed = "required" if entry.is_required else "optional"
-        texts = (needed, _allowed(entry, unit.si if unit else 1.0), _example(entry, unit))
+        texts = (entry.need, _allowed(entry, unit.si if unit else 1.0), _example(entry, unit))
         for row, text in enumerate(texts, start=top):
             is_example = row == top + 2
             hint = style.put(sheet, row, column, text, color=style.GRAY, size=9, italic=is_example)
@@ -205,7 +204,7 @@ def _write_hints(sheet: Worksheet, top: int, fields: Sequence[Entry], units: Uni
 
 def _write_header(sheet: Worksheet, row: int, column: int, entry: Entry, units: UnitsFirst) -> None:
     cell = style.put(sheet, row, column, _header(entry, units), bold=True, color=style.WHITE)
-    cell.fill = style.REQUIRED_FILL if entry.is_required else style.OPTIONAL_FILL
+    cell.fill = style.REQUIRED_FILL if entry.is_expected else style.OPTIONAL_FILL
     cell.border = style.BOX
     sheet.row_dimensions[row].height = 44
 

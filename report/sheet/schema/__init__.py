@@ -41,13 +41,24 @@ from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Revision, Site, edition_of
 from report.sheet.schema.roof import Roof
-from report.sheet.schema.scene import Array, Clearance, Rectangle, RoofObject, slope_rad
+from report.sheet.schema.scene import (
+    ROOF,
+    SIDES,
+    Array,
+    Clearance,
+    RoofObject,
+    Vertex,
+    slope_rad,
+)
+from report.sheet.shapes import Point, Polygon, Rectangle, Shape, ring
 from solver.rules.provisions import OVERRIDABLE
 
 __all__ = [
     "MAX_TEXT",
     "PROVISION_KEYS",
+    "ROOF",
     "SECTIONS",
+    "SIDES",
     "AccelUnit",
     "Array",
     "Baseline",
@@ -63,6 +74,7 @@ __all__ = [
     "Options",
     "Override",
     "Polarity",
+    "Polygon",
     "Project",
     "ProjectInput",
     "RecordedAt",
@@ -74,6 +86,7 @@ __all__ = [
     "RuleSetName",
     "Scaling",
     "Sdc",
+    "Shape",
     "Site",
     "SiteClass",
     "SlopeUnit",
@@ -82,6 +95,7 @@ __all__ = [
     "StructureType",
     "TargetInput",
     "UnitsFirst",
+    "Vertex",
     "YesNo",
     "coefficients",
     "edition_of",
@@ -196,6 +210,7 @@ class ProjectInput(Frozen):
     options: Options = Options()
     target: TargetInput = TargetInput()
     overrides: tuple[Override, ...] = ()
+    outlines: tuple[Vertex, ...] = ()
 
     @model_validator(mode="after")
     def _spell_ids_alike(self) -> ProjectInput:
@@ -213,6 +228,25 @@ class ProjectInput(Frozen):
         links = tuple(row.model_copy(update={"array": spelled(row.array)}) for row in self.links)
         object.__setattr__(self, "clearances", clearances)  # the model itself is frozen
         object.__setattr__(self, "links", links)
+        corners = tuple(row.model_copy(update={"name": spelled(row.name)}) for row in self.outlines)
+        object.__setattr__(self, "outlines", corners)
+        return self
+
+    @model_validator(mode="after")
+    def _place(self) -> ProjectInput:
+        """Give arrays, objects and the roof their outlines."""
+        rings: dict[str, list[Point]] = {}
+        for row in self.outlines:
+            name = ROOF if row.name.casefold() == ROOF else row.name
+            rings.setdefault(name, []).append((row.x_m, row.y_m))
+        outlines = {name: ring(points) for name, points in rings.items()}
+        for section in ("arrays", "objects"):
+            placed = tuple(row.outlined(outlines.get(row.id, ())) for row in getattr(self, section))
+            object.__setattr__(self, section, placed)
+        object.__setattr__(self, "roof", self.roof.outlined(outlines.get(ROOF, ())))
+        lost = [row.id for row in self.arrays if row.placed is None]
+        if lost:
+            raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
         return self
 
 
@@ -341,5 +375,14 @@ SECTIONS = (
         "Overrides of provisions",
         "Each is printed in the package with its reason.",
         Override,
+    ),
+    _table(
+        "outlines",
+        "Outlines",
+        "Outlines",
+        "Optional: arrays, objects and the roof that are no rectangles. One row for each vertex, in"
+        " order around the outline; leave the four sides of the rectangle blank.",
+        Vertex,
+        may_be_absent=True,
     ),
 )

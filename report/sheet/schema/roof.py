@@ -9,22 +9,23 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.sheet.fields import Cell, Frozen
-from report.sheet.schema.scene import Rectangle
+from report.sheet.fields import Cell
+from report.sheet.schema.scene import Placed
 from report.words.units import Quantity
 
 
 def _side(side: str, example: float) -> Cell:
     return Cell(
         f"Roof {side}",
-        "Roof edge in the coordinates of the arrays. Give all four sides, or none.",
+        "Roof edge in the coordinates of the arrays. Give all four sides, or none. Another shape:"
+        " its outline on the sheet Outlines, under the name roof.",
         example,
         Quantity.PLAN,
     )
 
 
-class Roof(Frozen):
-    """The rectangle that bounds the roof, if given, and north."""
+class Roof(Placed):
+    """The outline of the roof, if given, and north."""
 
     x_from_m: Annotated[float | None, _side("x from", 0.0)] = None
     x_to_m: Annotated[float | None, _side("x to", 360.0)] = None
@@ -39,11 +40,3 @@ class Roof(Frozen):
             "deg",
         ),
     ] = 90.0
-
-    @property
-    def outline(self) -> Rectangle | None:
-        """The roof in plan, if given."""
-        x_from, x_to, y_from, y_to = self.x_from_m, self.x_to_m, self.y_from_m, self.y_to_m
-        if x_from is None or x_to is None or y_from is None or y_to is None:
-            return None
-        return Rectangle(x_from, x_to, y_from, y_to)

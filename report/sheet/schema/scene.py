@@ -6,10 +6,9 @@ Read `report.sheet.schema` first.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Self
 
-from pydantic import Field
+from pydantic import Field, PrivateAttr
 
 from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import (
@@ -23,13 +22,19 @@ from report.sheet.schema.choices import (
     SlopeUnit,
     Text,
 )
+from report.sheet.shapes import Point, Polygon, Rectangle, Shape
 from report.words.units import Quantity
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
-from solver.model import Friction
+from solver.model import DefectError, Friction
 
 ImportanceCell = Annotated[float, Field(ge=1.0, le=1.5)]
 MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]
 RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
+
+
+OR_OUTLINE = "required, or an outline"
+ROOF = "roof"
+"""Name of the roof on the sheet Outlines."""
 
 
 def slope_rad(value: float, unit: SlopeUnit) -> float:
@@ -39,27 +44,48 @@ def slope_rad(value: float, unit: SlopeUnit) -> float:
     return math.atan(value / (100.0 if unit is SlopeUnit.PERCENT else 12.0))
 
 
-@dataclass(frozen=True, slots=True)
-class Rectangle:
-    """A rectangle in roof plan [m]."""
-
-    x_from_m: float
-    x_to_m: float
-    y_from_m: float
-    y_to_m: float
-
-
-def _plan(edge: str) -> Cell:
+def _plan(edge: str, need: str = "") -> Cell:
     examples = {"x from": 20.0, "x to": 100.0, "y from": 15.0, "y to": 75.0}
     return Cell(
         edge,
-        "Rectangle in roof plan, from any fixed corner of the roof.",
+        "Rectangle in roof plan, from any fixed corner of the roof. Another shape: leave all four"
+        " blank and give its outline on the sheet Outlines.",
         examples[edge],
         Quantity.PLAN,
+        need,
     )
 
 
-class Array(Frozen):
+class Placed(Frozen):
+    """What has a place in roof plan: by the four sides of a rectangle, or by an outline."""
+
+    _outline: tuple[Point, ...] = PrivateAttr(())
+
+    def outlined(self, points: tuple[Point, ...]) -> Self:
+        """Return the same with an outline [m] in place of a rectangle; empty for none."""
+        other = self.model_copy()
+        other._outline = points
+        return other
+
+    @property
+    def placed(self) -> Shape | None:
+        """Its shape in roof plan, if given."""
+        return Polygon(self._outline) if self._outline else rectangle(self)
+
+
+def rectangle(sides: object) -> Rectangle | None:
+    """Return the rectangle of a row that has all four sides."""
+    x_from, x_to, y_from, y_to = (getattr(sides, side) for side in SIDES)
+    if x_from is None or x_to is None or y_from is None or y_to is None:
+        return None
+    return Rectangle(x_from, x_to, y_from, y_to)
+
+
+SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
+"""Fields of a rectangle in roof plan."""
+
+
+class Array(Placed):
     """A ballasted array that moves as one block."""
 
     id: Annotated[Id, Cell("ID", "Short and unique, such as A1.", "A1")]
@@ -104,10 +130,10 @@ class Array(Frozen):
             Quantity.SIZE,
         ),
     ]
-    x_from_m: Annotated[float, _plan("x from")]
-    x_to_m: Annotated[float, _plan("x to")]
-    y_from_m: Annotated[float, _plan("y from")]
-    y_to_m: Annotated[float, _plan("y to")]
+    x_from_m: Annotated[float | None, _plan("x from", OR_OUTLINE)] = None
+    x_to_m: Annotated[float | None, _plan("x to", OR_OUTLINE)] = None
+    y_from_m: Annotated[float | None, _plan("y from", OR_OUTLINE)] = None
+    y_to_m: Annotated[float | None, _plan("y to", OR_OUTLINE)] = None
     downslope_deg: Annotated[
         float,
         Field(ge=0.0, le=360.0),
@@ -221,12 +247,14 @@ class Array(Frozen):
         return self.support_spacing_m if self.base_m is None else self.base_m
 
     @property
-    def rectangle(self) -> Rectangle:
+    def shape(self) -> Shape:
         """The array in roof plan."""
-        return Rectangle(self.x_from_m, self.x_to_m, self.y_from_m, self.y_to_m)
+        if self.placed is None:
+            raise DefectError(f"array {self.id} has no place in plan")
+        return self.placed
 
 
-class RoofObject(Frozen):
+class RoofObject(Placed):
     """An object on the roof, or a roof edge."""
 
     id: Annotated[Id, Cell("ID", "Short and unique, such as RTU-1.", "RTU-1")]
@@ -256,13 +284,19 @@ class RoofObject(Frozen):
         Cell("Importance factor I_p", "Of an object or unlike array; not used for edges.", 1.0),
     ] = 1.0
 
-    @property
-    def rectangle(self) -> Rectangle | None:
-        """The object in roof plan, if given."""
-        x_from, x_to, y_from, y_to = self.x_from_m, self.x_to_m, self.y_from_m, self.y_to_m
-        if x_from is None or x_to is None or y_from is None or y_to is None:
-            return None
-        return Rectangle(x_from, x_to, y_from, y_to)
+
+class Vertex(Frozen):
+    """A vertex of the outline of an array, an object or the roof."""
+
+    name: Annotated[
+        Id,
+        Cell("Outline of", f"ID of an array or an object, or {ROOF} for the roof.", "A1"),
+    ]
+    x_m: Annotated[
+        float,
+        Cell("x", "Vertices in order around the outline, one to a row.", 20.0, Quantity.PLAN),
+    ]
+    y_m: Annotated[float, Cell("y", "In the coordinates of the arrays.", 15.0, Quantity.PLAN)]
 
 
 class Clearance(Frozen):

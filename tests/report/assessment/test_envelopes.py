@@ -5,20 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
 import stand_in
 from report.assessment.envelopes import (
-    closest,
-    corners,
     design_envelope,
     hull,
     keep_clear_m,
     runs_envelope,
 )
-from report.sheet.checks import gap_m
-from report.sheet.schema import Rectangle
+from report.sheet.shapes import Polygon, Rectangle, closest, gap_m
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +43,7 @@ def test_every_governing_run_stays_in_the_envelope_of_the_runs(done):
             along, across = np.asarray(path.u_m), np.asarray(path.across_m)
             x = along * math.cos(turn) - across * math.sin(turn)
             y = along * math.sin(turn) + across * math.cos(turn)
-            for corner in corners(array.array.rectangle):
+            for corner in array.array.shape.points:
                 points = np.column_stack((corner[0] + x, corner[1] + y))
                 assert margins(outline, points).min() > -1e-6
 
@@ -53,20 +51,22 @@ def test_every_governing_run_stays_in_the_envelope_of_the_runs(done):
 def test_the_envelope_of_the_runs_reaches_no_farther_than_their_largest_prd(done):
     for array in done.arrays:
         largest = max(run.result.prd_m for m in array.motions for run in m.runs)
-        reach = [point_gap(array.array.rectangle, point) for point in runs_envelope(array)]
+        reach = [point_gap(array.array.shape, point) for point in runs_envelope(array)]
         # The circumscribed polygon of 24 sides is 0.9 % outside of its circle.
         assert max(reach) <= largest / math.cos(math.pi / 24) + 1e-12
 
 
-def point_gap(rectangle, point):
-    return max(gap_m(rectangle, Rectangle(point[0], point[0], point[1], point[1])), 0.0)
+def point_gap(shape, point):
+    if isinstance(shape, Polygon):
+        return shapely.Polygon(shape.points).distance(shapely.Point(point))
+    return max(gap_m(shape, Rectangle(point[0], point[0], point[1], point[1])), 0.0)
 
 
 def test_the_design_envelope_contains_the_offset_and_is_close_to_it(done):
     for array in done.arrays:
-        reach = [point_gap(array.array.rectangle, point) for point in design_envelope(array)]
+        reach = [point_gap(array.array.shape, point) for point in design_envelope(array)]
         assert max(reach) == pytest.approx(array.design_m, rel=0.009)
-        for corner in corners(array.array.rectangle):
+        for corner in array.array.shape.points:
             circle = np.linspace(0.0, 2.0 * np.pi, 100)
             points = array.design_m * np.column_stack((np.cos(circle), np.sin(circle))) + corner
             assert margins(design_envelope(array), points).min() > -1e-9
@@ -100,3 +100,22 @@ def test_a_hull_contains_its_points_and_is_convex(points):
     assert set(outline) <= {(float(x), float(y)) for x, y in points}
     if len(outline) > 2:
         assert margins(outline, points).min() > -1e-9
+
+
+L_SHAPE = Polygon(((0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (4.0, 4.0), (4.0, 10.0), (0.0, 10.0)))
+
+
+@pytest.mark.parametrize("design_m", [0.5, 2.0])
+def test_the_envelope_of_an_outline_is_as_far_away_as_it_moves_everywhere(done, design_m):
+    class Outlined:
+        shape = L_SHAPE
+
+    moved = replace(done.arrays[0], array=Outlined(), design_m=design_m)
+    outline = Polygon(design_envelope(moved))
+    reach = [point_gap(L_SHAPE, point) for point in outline.points]
+    assert min(reach) >= design_m - 1e-9
+    # The circumscribed polygon of 24 sides is 0.9 % outside of its circle.
+    assert max(reach) <= design_m / math.cos(math.pi / 24) + 1e-9
+    # Five corners round off; in the notch two strips of the width of the move overlap.
+    exact = 64.0 + 40.0 * design_m + (5.0 * math.pi / 4.0 - 1.0) * design_m**2
+    assert exact <= outline.area_m2 <= exact * 1.01

@@ -12,9 +12,9 @@ import stand_in
 from report.assessment.neighbors import NearbyKind, bare_edges, neighbors, unplaced
 from report.assessment.project import assess
 from report.motions.prepare import prepare
-from report.sheet.checks import gap_m
 from report.sheet.read import read
 from report.sheet.schema import ProjectInput, Rectangle
+from report.sheet.shapes import gap_m
 from sheets import FT, INCH, make, project
 
 OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 * FT}
@@ -198,6 +198,58 @@ def test_a_pair_is_listed_exactly_if_it_is_within_reach(design, size, x, y):
     item = {"id": "RTU-1", "kind": "fixed object", "x_from_m": x, "x_to_m": x + size,
             "y_from_m": y, "y_to_m": y + size}  # fmt: skip
     pairs = by_pair(having(done, design_m=design, objects=[item], clearances=[]))
-    gap = gap_m(done.arrays[0].array.rectangle, Rectangle(x, x + size, y, y + size))
+    gap = gap_m(done.arrays[0].array.shape, Rectangle(x, x + size, y, y + size))
     assert (("A1", "RTU-1") in pairs) is (gap <= 2.0 * design)
     assert all(neighbor.is_missing and not neighbor.contradictions for neighbor in pairs.values())
+
+
+L_ROOF = [(0, 0), (220, 0), (220, 100), (120, 100), (120, 170), (0, 170)]
+
+
+def vertices(name, points):
+    return [{"name": name, "x_m": x * FT, "y_m": y * FT} for x, y in points]
+
+
+def test_a_unit_in_the_notch_of_an_outlined_array_is_as_far_as_its_nearer_leg(done):
+    # A1 without its upper right quarter, and a unit 5 ft and 7 ft from the legs around it.
+    blank = dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))
+    first, *others = (array.model_dump() for array in done.project.arrays)
+    notch = [(20, 20), (100, 20), (100, 50), (60, 50), (60, 75), (20, 75)]
+    unit = stand_in.roof_object("RTU-1", "fixed object", 67, 75, 55, 65)
+    rows = [stand_in.clearance("A1", "RTU-1", 10 * FT)]
+    near = having(done, arrays=[first | blank, *others], outlines=vertices("A1", notch),
+                  objects=[unit], clearances=rows)  # fmt: skip
+    pair = by_pair(near)["A1", "RTU-1"]
+    assert pair.gap_m == pytest.approx(5 * FT)
+    (text,) = pair.shortcomings(True)
+    assert text.endswith("correct the clearance or the outlines")
+
+
+def test_the_edges_of_an_l_shaped_roof_are_its_sides():
+    data = stand_in.project(outlines=vertices("roof", L_ROOF))
+    edges = bare_edges(data)
+    assert [edge.name for edge in edges] == [
+        "east edge of the roof (side 2)",
+        "north edge of the roof (side 3)",
+        "east edge of the roof (side 4)",
+        "west edge of the roof (side 6)",
+    ]  # the objects N edge and S edge cover the others
+    start, end = edges[2].ends
+    assert start == pytest.approx((120 * FT, 100 * FT))
+    assert end == pytest.approx((120 * FT, 170 * FT))
+
+
+def test_an_oblique_edge_is_covered_by_an_oblique_strip():
+    triangle = [(0, 0), (200, 0), (0, 200)]
+    strip = [(200, 0), (201, 0.5), (101, 100.5), (100, 100)]  # along half of side 2
+    edge = {"id": "E", "kind": "edge without parapet"}
+    data = stand_in.project(
+        arrays=[stand_in.array("A1", 1.0)], objects=[edge], clearances=[],
+        outlines=[*vertices("roof", triangle), *vertices("E", strip)],
+    )  # fmt: skip
+    names = [edge.name for edge in bare_edges(data)]
+    assert names == ["south edge of the roof (side 1)", "northeast edge of the roof (side 2)",
+                     "west edge of the roof (side 3)"]  # fmt: skip
+    start, end = bare_edges(data)[1].ends
+    assert end == pytest.approx((0.0, 200 * FT))
+    assert math.dist(start, (100 * FT, 100 * FT)) < 1.0 * FT

@@ -12,7 +12,7 @@ import ezdxf
 import pytest
 
 import stand_in
-from report.assessment.envelopes import corners, design_envelope
+from report.assessment.envelopes import design_envelope
 from report.drawing.dxf import APPLICATION, write_dxf
 from report.drawing.layers import Layer
 from report.drawing.plan import gap_lines, plan_drawing
@@ -83,8 +83,8 @@ def test_lines_are_read_back_to_the_same_coordinates(done, us_first):
 @pytest.mark.parametrize(("us_first", "unit_m"), [(True, FT), (False, 1.0)])
 def test_outlines_are_the_rectangles_of_the_workbook(done, us_first, unit_m):
     space = read(write_dxf(plan_drawing(done if us_first else in_si(done)))).modelspace()
-    shapes = {array.id: array.rectangle for array in done.project.arrays}
-    shapes |= {item.id: item.rectangle for item in done.project.objects}
+    shapes = {array.id: array.shape for array in done.project.arrays}
+    shapes |= {item.id: item.placed for item in done.project.objects}
     kinds = {"ARRAY", "OBJECT", "ROOF-PARAPET", "ROOF-EDGE"}
     drawn = {
         line.get_xdata(APPLICATION)[0].value: line.get_points("xy")
@@ -93,7 +93,7 @@ def test_outlines_are_the_rectangles_of_the_workbook(done, us_first, unit_m):
     }
     assert drawn.keys() == shapes.keys()
     for name, shape in shapes.items():
-        for point, corner in zip(drawn[name], corners(shape), strict=True):
+        for point, corner in zip(drawn[name], shape.points, strict=True):
             assert point == pytest.approx([at / unit_m for at in corner], abs=1e-6)
 
 

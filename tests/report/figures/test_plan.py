@@ -53,6 +53,39 @@ def crowded():
     return stand_in.assess_input(data, stand_in.motions(3, seconds=8.0))
 
 
+L_FT = ((20, 20), (100, 20), (100, 50), (60, 50), (60, 75), (20, 75))
+ROOF_FT = ((0, 0), (240, 0), (240, 90), (150, 160), (0, 160))
+PARAPET_FT = ((240, 90), (241, 91), (151, 161), (150, 160))
+
+
+def vertices(name, points):
+    return [{"name": name, "x_m": x * FOOT, "y_m": y * FOOT} for x, y in points]
+
+
+@pytest.fixture(scope="module")
+def outlined():
+    """An array around a unit, a roof with an oblique side, and a parapet along it."""
+    sides = dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))
+    data = stand_in.project(
+        arrays=[
+            stand_in.array("A1", 2.0) | sides,
+            stand_in.array("A2", 2.0, x=120, y=20, x_to_m=180 * FOOT, y_to_m=75 * FOOT),
+        ],
+        objects=[
+            stand_in.roof_object("RTU-1", "fixed object", 67, 75, 55, 65),
+            {"id": "NE", "kind": "edge with parapet", "height_m": 30 * INCH_M},
+        ],
+        clearances=[
+            stand_in.clearance("A1", "RTU-1", 5 * FOOT),
+            stand_in.clearance("A1", "A2", 20 * FOOT),
+        ],
+        outlines=[
+            *vertices("A1", L_FT), *vertices("roof", ROOF_FT), *vertices("NE", PARAPET_FT)
+        ],
+    )  # fmt: skip
+    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
+
+
 def outline(x_to, y_to, **more):
     return {"x_from_m": 0.0, "x_to_m": x_to * FOOT, "y_from_m": 0.0, "y_to_m": y_to * FOOT} | more
 
@@ -77,7 +110,7 @@ def extents(drawn):
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("name", ["done", "crowded"])
+@pytest.mark.parametrize("name", ["done", "crowded", "outlined"])
 def test_no_label_touches_another_or_leaves_the_sheet(request, name, size):
     drawn = figure(request.getfixturevalue(name), size)
     found = extents(drawn)
@@ -121,6 +154,39 @@ def test_every_array_object_and_clearance_is_on_the_large_plan(done):
     for gap in done.clearances:
         for template, value in zip(INCHES, (gap.clearance.provided_m, gap.required_m), strict=True):
             assert template.format(value / INCH_M) in found
+
+
+def on_roof(drawn, points):
+    """Points on paper as points of the plan [ft]."""
+    box = next(patch for patch in drawn.axes[0].patches if patch.get_gid() == "A2")
+    x0, y0 = box.get_xy()
+    per_ft = box.get_width() / 60.0
+    return [(120.0 + (x - x0) / per_ft, 20.0 + (y - y0) / per_ft) for x, y in points]
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_an_outline_is_drawn_as_it_is(outlined, size):
+    drawn = figure(outlined, size)
+    patches = {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
+    found = on_roof(drawn, patches["A1"].get_xy()[:-1])
+    assert found == [pytest.approx(point) for point in L_FT]
+
+
+def test_a_gap_is_drawn_between_its_two_nearest_points(outlined):
+    drawn = figure(outlined, LANDSCAPE)
+    ends = [tuple(zip(*line.get_data(), strict=True))[:2] for line in drawn.axes[0].lines]
+    found = [on_roof(drawn, pair) for pair in ends if len(pair) == 2]
+    # RTU-1 is 5 ft from the lower leg, which it faces from x = 67 ft to 75 ft.
+    assert any(pair == [pytest.approx((71.0, 50.0)), pytest.approx((71.0, 55.0))] for pair in found)
+
+
+def test_the_name_of_an_outlined_array_is_within_it(outlined):
+    drawn = figure(outlined, LANDSCAPE)
+    (box,) = (box for text, box in extents(drawn) if text.get_text() == "A1")
+    ((x, y),) = on_roof(drawn, [((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2)])
+    assert 20.0 < x < 100.0
+    assert 20.0 < y < 75.0
+    assert x < 60.0 or y < 50.0
 
 
 def test_a_clearance_that_is_not_satisfied_is_hatched_and_marked(done):

@@ -30,12 +30,12 @@ def changed(path, **values):
 def test_the_outline_is_read_back_as_written(tmp_path):
     data = read_workbook(make(tmp_path, roof=ROOF)).input
     assert same(data, project(roof=ROOF))
-    assert data.roof.outline.x_to_m == pytest.approx(300 * FT)
+    assert data.roof.placed.x_to_m == pytest.approx(300 * FT)
 
 
 def test_without_an_outline_north_is_up(tmp_path):
     roof = read_workbook(make(tmp_path)).input.roof
-    assert roof.outline is None
+    assert roof.placed is None
     assert roof.north_deg == 90.0
 
 

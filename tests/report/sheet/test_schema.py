@@ -6,7 +6,6 @@ import math
 import pytest
 from pydantic import ValidationError
 
-from report.sheet.checks import gap_m
 from report.sheet.fields import Bounds, YesNo, entries
 from report.sheet.schema import (
     PROVISION_KEYS,
@@ -21,6 +20,7 @@ from report.sheet.schema import (
     SlopeUnit,
     slope_rad,
 )
+from report.sheet.shapes import gap_m
 from report.words.units import LENGTHS, WEIGHTS, Quantity
 from sheets import INCH, project
 from solver.formats import UNIT_CHOICES
@@ -158,9 +158,9 @@ def test_input_models_are_frozen_and_accept_no_other_fields():
 
 def test_rectangles_come_with_arrays_and_with_objects_that_have_all_sides():
     data = project()
-    assert data.arrays[0].rectangle.x_to_m == pytest.approx(30.48)
-    assert data.objects[1].rectangle is None
-    assert data.objects[0].rectangle.y_from_m == pytest.approx(24.384)
+    assert data.arrays[0].shape.x_to_m == pytest.approx(30.48)
+    assert data.objects[1].placed is None
+    assert data.objects[0].placed.y_from_m == pytest.approx(24.384)
     assert data.site.rule_set is RuleSetName.PV1
 
 

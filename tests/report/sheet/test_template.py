@@ -11,7 +11,7 @@ from sheets import make, project
 
 SHEETS = [
     "README", "Project", "Site", "Arrays", "Friction tests", "Objects", "Clearances", "Motions",
-    "Building", "Spectrum", "Links", "Options",
+    "Building", "Spectrum", "Links", "Options", "Outlines",
 ]  # fmt: skip
 
 

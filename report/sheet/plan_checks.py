@@ -1,0 +1,239 @@
+"""Checks of what the workbook gives in roof plan: rectangles, outlines, and what is on the roof.
+
+Read `report.sheet.checks` first, which runs them; `report.sheet.shapes` has the geometry.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
+from report.sheet.references import suggestion
+from report.sheet.schema import ROOF, SIDES, Polygon, Rectangle, Shape, UnitsFirst
+from report.sheet.shapes import Point, crossing, outside, ring
+from report.words.units import Quantity, pair
+
+LEAST_VERTICES = 3
+_PLACED = ("arrays", "objects")
+
+
+@dataclass(frozen=True, slots=True)
+class _Outline:
+    """The rows of an outline: the first of them, and the vertices; none if a cell is unreadable."""
+
+    name: str
+    first: int
+    vertices: tuple[Point, ...]
+
+    @property
+    def place(self) -> Place:
+        """The cell that names it first."""
+        return Place("outlines", self.first, "name")
+
+
+def us_first(draft: Draft) -> bool:
+    """Whether US units come first."""
+    return all(row.get("units_first") is not UnitsFirst.SI for row in draft["project"])
+
+
+def shapes_of(draft: Draft) -> dict[str, Shape]:
+    """Return the shape of each array and object that has a valid one, by id."""
+    outlines = _outlines(draft)
+    rows = {row["id"]: row for section in _PLACED for row in draft[section] if "id" in row}
+    found = {name: _shape(row, outlines.get(name)) for name, row in rows.items()}
+    return {name: shape for name, shape in found.items() if shape is not None}
+
+
+def plan_faults(draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield what is wrong with the shapes in plan."""
+    yield from _rectangles(draft)
+    yield from _outline_rows(draft, where)
+    yield from _doubled(draft, where)
+    yield from _on_the_roof(draft, where)
+
+
+def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:
+    if outline is None:
+        return _rectangle(row)
+    return _polygon(outline)
+
+
+def _rectangle(row: DraftRow) -> Rectangle | None:
+    """Return a row's rectangle, if all four sides are given and in order."""
+    given = [row[side] for side in SIDES if row.get(side) is not None]
+    if len(given) < len(SIDES):
+        return None
+    x_from, x_to, y_from, y_to = given
+    return Rectangle(*given) if x_from < x_to and y_from < y_to else None
+
+
+def _polygon(outline: _Outline) -> Polygon | None:
+    """Return the polygon of an outline, if it is one."""
+    points = ring(outline.vertices)
+    if len(points) < LEAST_VERTICES or crossing(points) is not None:
+        return None
+    return Polygon(points)
+
+
+def _outlines(draft: Draft) -> dict[str, _Outline]:
+    """Return the outlines by name, in the order of the workbook."""
+    rows: dict[str, list[tuple[int, DraftRow]]] = {}
+    for index, row in enumerate(draft["outlines"]):
+        if "name" in row:
+            name = ROOF if row["name"].casefold() == ROOF else row["name"]
+            rows.setdefault(name, []).append((index, row))
+    return {
+        name: _Outline(name, found[0][0], _vertices([row for _, row in found]))
+        for name, found in rows.items()
+    }
+
+
+def _vertices(rows: list[DraftRow]) -> tuple[Point, ...]:
+    is_whole = all("x_m" in row and "y_m" in row for row in rows)
+    return tuple((row["x_m"], row["y_m"]) for row in rows) if is_whole else ()
+
+
+def _rectangles(draft: Draft) -> Iterator[Fault]:
+    outlines = _outlines(draft)
+    for section in ("roof", *_PLACED):
+        for index, row in enumerate(draft[section]):
+            yield from _in_order(section, index, row, us_first(draft))
+            yield from _whole(section, index, row)
+            if section == "arrays" and row.get("id") not in outlines:
+                yield from _somewhere(index, row)
+
+
+def _in_order(section: str, index: int, row: DraftRow, is_us: bool) -> Iterator[Fault]:
+    for axis in "xy":
+        low, high = row.get(f"{axis}_from_m"), row.get(f"{axis}_to_m")
+        if low is None or high is None or low < high:
+            continue
+        given, least = (pair(value, Quantity.PLAN, is_us) for value in (high, low))
+        text = f"{axis} to is {given}; give more than {axis} from, {least}"
+        yield Fault(Place(section, index, f"{axis}_to_m"), text)
+
+
+def _whole(section: str, index: int, row: DraftRow) -> Iterator[Fault]:
+    blank = _blank_sides(row)
+    if not 0 < len(blank) < len(SIDES):
+        return
+    for side in blank:
+        text = f"{_label(side)} is missing; give all four sides of the rectangle, or none"
+        yield Fault(Place(section, index, side), text)
+
+
+def _blank_sides(row: DraftRow) -> list[str]:
+    return [side for side in SIDES if side in row and row[side] is None]
+
+
+def _label(side: str) -> str:
+    return side.removesuffix("_m").replace("_", " ")
+
+
+def _somewhere(index: int, row: DraftRow) -> Iterator[Fault]:
+    """Yield an array that is nowhere in plan."""
+    if len(_blank_sides(row)) == len(SIDES):
+        wanted = "give all four sides of the rectangle, or an outline on the sheet Outlines"
+        yield Fault(Place("arrays", index, "x_from_m"), f"x from is missing; {wanted}")
+
+
+def _outline_rows(draft: Draft, where: Where) -> Iterator[Fault]:
+    ids = [row["id"] for section in _PLACED for row in draft[section] if "id" in row]
+    for outline in _outlines(draft).values():
+        if outline.name not in (ROOF, *ids):
+            yield Fault(
+                outline.place,
+                f"outline of '{outline.name}', which is not in Arrays or Objects;"
+                f" {suggestion(outline.name, [*ids, ROOF])}",
+            )
+        if outline.name == ROOF and ROOF in map(str.casefold, ids):
+            text = "outline of 'roof', which is also the ID of an array or object"
+            yield Fault(outline.place, f"{text}; give that another ID")
+        yield from _ring_faults(outline, us_first(draft))
+    yield from _scattered(draft, where)
+
+
+def _ring_faults(outline: _Outline, is_us: bool) -> Iterator[Fault]:
+    if not outline.vertices:
+        return
+    points = ring(outline.vertices)
+    if len(set(points)) < LEAST_VERTICES:
+        count = len(set(points))
+        text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
+        yield Fault(outline.place, f"{text}; give at least {LEAST_VERTICES}, one to a row")
+        return
+    at = crossing(points)
+    if at is not None:
+        text = f"outline of {outline.name} touches or crosses itself near {spot(at, is_us)}"
+        yield Fault(outline.place, f"{text}; give its vertices in order, none of them twice")
+
+
+def spot(at: Point, is_us: bool) -> str:
+    """Return a point of the plan in words."""
+    x, y = (pair(value, Quantity.PLAN, is_us) for value in at)
+    return f"x {x}, y {y}"
+
+
+def _scattered(draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield the rows at which an outline goes on after rows of another one."""
+    last: dict[str, int] = {}
+    for index, row in enumerate(draft["outlines"]):
+        name = row.get("name")
+        if name is None:
+            continue
+        before = last.get(name.casefold(), index - 1)
+        if before != index - 1:
+            at = where(Place("outlines", before, "name"))
+            text = f"outline of '{name}' goes on here after {at}; put all of its rows together"
+            yield Fault(Place("outlines", index, "name"), text)
+        last[name.casefold()] = index
+
+
+def _doubled(draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield rectangles of what has an outline as well."""
+    outlines = _outlines(draft)
+    rows = [(section, i, row) for section in _PLACED for i, row in enumerate(draft[section])]
+    named = [(section, i, row, row.get("id", "")) for section, i, row in rows]
+    named += [("roof", 0, row, ROOF) for row in draft["roof"]]
+    for section, index, row, name in named:
+        if name in outlines and any(row.get(side) is not None for side in SIDES):
+            side = next(side for side in SIDES if row.get(side) is not None)
+            text = f"{_label(side)} is given, and {name} has an outline at"
+            at = where(outlines[name].place)
+            wanted = "leave the four sides blank, or delete the outline"
+            yield Fault(Place(section, index, side), f"{text} {at}; {wanted}")
+
+
+def _on_the_roof(draft: Draft, where: Where) -> Iterator[Fault]:
+    outlines = _outlines(draft)
+    for row in draft["roof"]:
+        roof = _shape(row, outlines.get(ROOF))
+        if roof is None:
+            continue
+        at = outlines[ROOF].place if ROOF in outlines else Place("roof", 0, "x_from_m")
+        for index, array in enumerate(draft["arrays"]):
+            own = outlines.get(array.get("id", ""))
+            if isinstance(roof, Rectangle) and own is None:
+                yield from _beyond(roof, index, array, draft, where)
+                continue
+            shape = _shape(array, own)
+            found = outside(shape, roof) if shape is not None else None
+            if found is not None:
+                text = f"{array.get('id')} is outside the roof near {spot(found, us_first(draft))}"
+                place = Place("arrays", index, "x_from_m") if own is None else own.place
+                yield Fault(place, f"{text}; correct it, or the outline of the roof at {where(at)}")
+
+
+def _beyond(
+    roof: Rectangle, index: int, array: DraftRow, draft: Draft, where: Where
+) -> Iterator[Fault]:
+    """Yield the sides of a rectangular array that are outside a rectangular roof."""
+    for side in SIDES:
+        value, edge, is_low = array.get(side), getattr(roof, side), "from" in side
+        if value is None or (value >= edge if is_low else value <= edge):
+            continue
+        given, limit = (pair(at, Quantity.PLAN, us_first(draft)) for at in (value, edge))
+        wanted = f"give {limit} or {'more' if is_low else 'less'}"
+        text = f"{_label(side)} is {given}, outside the roof; {wanted}, or correct the outline at"
+        yield Fault(Place("arrays", index, side), f"{text} {where(Place('roof', 0, side))}")

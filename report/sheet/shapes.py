@@ -1,0 +1,289 @@
+"""Shapes in roof plan: rectangles and polygons, the gap between two, and the points where it is.
+
+Knows no sheet and no workbook. Two rectangles take closed forms and load no library.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+Point = tuple[float, float]
+
+NEAR_M = 1e-6
+"""Differences in plan [m] that are rounding error."""
+_MOST_COORDINATES = 12  # tried as sides of the room for a name
+
+
+@dataclass(frozen=True, slots=True)
+class Rectangle:
+    """A rectangle in roof plan [m], parallel to the axes; of no width, a line."""
+
+    x_from_m: float
+    x_to_m: float
+    y_from_m: float
+    y_to_m: float
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """Its corners, counterclockwise."""
+        x0, x1, y0, y1 = self.x_from_m, self.x_to_m, self.y_from_m, self.y_to_m
+        return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+
+    @property
+    def bounds(self) -> Rectangle:
+        """Itself."""
+        return self
+
+    @property
+    def area_m2(self) -> float:
+        """Its area."""
+        return (self.x_to_m - self.x_from_m) * (self.y_to_m - self.y_from_m)
+
+
+@dataclass(frozen=True, slots=True)
+class Polygon:
+    """A polygon in roof plan: its vertices [m] in order, the first not repeated."""
+
+    points: tuple[Point, ...]
+
+    @property
+    def bounds(self) -> Rectangle:
+        """The smallest rectangle around it."""
+        x, y = zip(*self.points, strict=True)
+        return Rectangle(min(x), max(x), min(y), max(y))
+
+    @property
+    def area_m2(self) -> float:
+        """Its area."""
+        return abs(signed_area_m2(self.points))
+
+
+Shape = Rectangle | Polygon
+
+
+def signed_area_m2(points: tuple[Point, ...]) -> float:
+    """Return the area [m2] within a ring; negative if its points are clockwise."""
+    return 0.5 * sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in sides(points))
+
+
+def sides(points: tuple[Point, ...]) -> Iterator[tuple[Point, Point]]:
+    """Yield the sides of a ring, each from a vertex to the next."""
+    return zip(points, (*points[1:], *points[:1]), strict=True)
+
+
+def ring(points: Sequence[Point]) -> tuple[Point, ...]:
+    """Return vertices counterclockwise from the first, which is not repeated at the end."""
+    open_points = tuple(points[:-1] if len(points) > 1 and points[0] == points[-1] else points)
+    if signed_area_m2(open_points) >= 0.0:
+        return open_points
+    return open_points[0], *open_points[:0:-1]
+
+
+def around(shapes: Iterable[Shape]) -> Rectangle:
+    """Return the smallest rectangle around shapes."""
+    x, y = zip(*(point for shape in shapes for point in shape.points), strict=True)
+    return Rectangle(min(x), max(x), min(y), max(y))
+
+
+def gap_m(a: Shape, b: Shape) -> float:
+    """Return the smallest distance of two shapes in plan [m]; negative if they overlap.
+
+    Of rectangles that overlap, minus the shortest move parallel to an axis that separates them; of
+    other shapes, minus the smaller side of the rectangle around their common area.
+    """
+    if isinstance(a, Rectangle) and isinstance(b, Rectangle):
+        dx = max(a.x_from_m - b.x_to_m, b.x_from_m - a.x_to_m)
+        dy = max(a.y_from_m - b.y_to_m, b.y_from_m - a.y_to_m)
+        return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
+    one, other = solid(a), solid(b)
+    overlap = _depth_m(one.intersection(other))
+    return -overlap if overlap > 0.0 else float(one.distance(other))
+
+
+def _depth_m(area: Any) -> float:
+    """Return the largest smaller side of the rectangles around the parts of an area [m]."""
+    boxes = [part.bounds for part in _parts(area)]
+    return max((min(x1 - x0, y1 - y0) for x0, y0, x1, y1 in boxes), default=0.0)
+
+
+def _parts(area: Any) -> list[Any]:
+    """Return the polygons of an area; none for points and lines, where shapes only touch."""
+    parts = getattr(area, "geoms", (area,))
+    return [part for part in parts if part.geom_type == "Polygon" and not part.is_empty]
+
+
+def closest(a: Shape, b: Shape) -> tuple[Point, Point]:
+    """Return a point of each shape at their smallest distance, midway along facing sides."""
+    if isinstance(a, Rectangle) and isinstance(b, Rectangle):
+        xa, xb = _nearest((a.x_from_m, a.x_to_m), (b.x_from_m, b.x_to_m))
+        ya, yb = _nearest((a.y_from_m, a.y_to_m), (b.y_from_m, b.y_to_m))
+        return (xa, ya), (xb, yb)
+    common = _parts(solid(a).intersection(solid(b)))
+    if common:
+        inside = max(common, key=lambda part: part.area).representative_point()
+        return (inside.x, inside.y), (inside.x, inside.y)
+    return _facing_sides(a, b)[1:]
+
+
+def _nearest(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
+    """Return the closest points of two ranges; the middle of the overlap if they overlap."""
+    if a[1] <= b[0]:
+        return a[1], b[0]
+    if b[1] <= a[0]:
+        return a[0], b[1]
+    middle = (max(a[0], b[0]) + min(a[1], b[1])) / 2
+    return middle, middle
+
+
+def _facing_sides(a: Shape, b: Shape) -> tuple[float, Point, Point]:
+    """Return the closest points of shapes that do not overlap, midway along facing sides.
+
+    Of all sides at the smallest distance, those that face each other over the longest stretch;
+    before the points, its length [m].
+    """
+    import numpy as np
+    import shapely
+
+    own, others = ([side for side in sides(s.points) if side[0] != side[1]] for s in (a, b))
+    distances = shapely.distance(shapely.linestrings(own)[:, None], shapely.linestrings(others))
+    near = np.argwhere(distances <= distances.min() + NEAR_M)
+    facing = [_facing(own[i], others[j]) for i, j in near]
+    return max(facing, key=lambda found: found[0])
+
+
+def _facing(a: tuple[Point, Point], b: tuple[Point, Point]) -> tuple[float, Point, Point]:
+    """Return the length [m] over which two sides face each other, and their closest points."""
+    import shapely
+
+    (x, y), (x1, y1) = a
+    long = math.hypot(x1 - x, y1 - y)
+    ux, uy = (x1 - x) / long, (y1 - y) / long
+    along = sorted((px - x) * ux + (py - y) * uy for px, py in b)
+    across = [(py - y) * ux - (px - x) * uy for px, py in b]
+    low, high = max(along[0], 0.0), min(along[1], long)
+    if high > low and abs(across[0] - across[1]) <= NEAR_M:
+        middle, aside = (low + high) / 2, across[0]
+        foot = (x + middle * ux, y + middle * uy)
+        return high - low, foot, (foot[0] - aside * uy, foot[1] + aside * ux)
+    line = shapely.shortest_line(shapely.LineString(a), shapely.LineString(b))
+    start, end = line.coords
+    return 0.0, (start[0], start[1]), (end[0], end[1])
+
+
+def outside(shape: Shape, limit: Shape) -> Point | None:
+    """Return a point of a shape that is outside another one; None if there is none."""
+    parts = _parts(solid(shape).difference(solid(limit)))
+    deep = [part for part in parts if _depth_m(part) > NEAR_M]
+    if not deep:
+        return None
+    inside = max(deep, key=lambda part: part.area).representative_point()
+    return inside.x, inside.y
+
+
+def crossing(points: tuple[Point, ...]) -> Point | None:
+    """Return a point at which a ring touches or crosses itself; None if there is none."""
+    from shapely import Polygon as Ring
+    from shapely.validation import explain_validity
+
+    reason = explain_validity(Ring(points))
+    if reason == "Valid Geometry":
+        return None
+    x, y = reason.partition("[")[2].rstrip("]").split()
+    return float(x), float(y)
+
+
+def spans_near(shape: Shape, start: Point, end: Point, within_m: float) -> list[list[Point]]:
+    """Return the vertices of each part of a shape that lies within a distance of a line [m]."""
+    import shapely
+
+    band = shapely.LineString((start, end)).buffer(within_m, cap_style="flat")
+    common = solid(shape).intersection(band)
+    parts = [part for part in getattr(common, "geoms", (common,)) if not part.is_empty]
+    return [[(x, y) for x, y in shapely.get_coordinates(part)] for part in parts]
+
+
+def merged(rings: Sequence[Sequence[Point]]) -> tuple[Point, ...]:
+    """Return the outline around rings that overlap; what they enclose is within it."""
+    import shapely
+
+    union = shapely.union_all([shapely.Polygon(points) for points in rings if len(points) > 2])
+    return ring([(x, y) for x, y in union.exterior.coords])
+
+
+def mean(points: Sequence[Point]) -> Point:
+    """Return the mean of points."""
+    x, y = (sum(axis) / len(axis) for axis in zip(*points, strict=True))
+    return x, y
+
+
+def label_point(shape: Shape) -> Point:
+    """Return a point well inside of a shape, for its name: of a rectangle, the middle."""
+    return mean(room(shape).points)
+
+
+@lru_cache(maxsize=4096)
+def room(shape: Shape) -> Rectangle:
+    """Return a large rectangle within a shape: where its name has room."""
+    if isinstance(shape, Rectangle):
+        return shape
+    import shapely
+
+    (x, y), (on_x, on_y) = shapely.maximum_inscribed_circle(solid(shape)).coords
+    half = math.dist((x, y), (on_x, on_y)) * math.sqrt(0.5)
+    best = Rectangle(x - half, x + half, y - half, y + half)
+    boxes = [Rectangle(*xs, *ys) for xs in _ranges(shape, 0) for ys in _ranges(shape, 1)]
+    is_within = shapely.covers(solid(shape), [shapely.box(*_corners(box)) for box in boxes])
+    within = [box for box, found in zip(boxes, is_within, strict=True) if found]
+    return max((best, *within), key=lambda box: box.area_m2)
+
+
+def _ranges(shape: Polygon, axis: int) -> list[tuple[float, float]]:
+    """Return the ranges between coordinates of vertices; of many vertices, of some."""
+    found = sorted({point[axis] for point in shape.points})
+    some = found[:: math.ceil(len(found) / _MOST_COORDINATES)]
+    return [(low, high) for k, low in enumerate(some) for high in some[k + 1 :]]
+
+
+def _corners(box: Rectangle) -> tuple[float, float, float, float]:
+    return box.x_from_m, box.y_from_m, box.x_to_m, box.y_to_m
+
+
+def between(a: Shape, b: Shape) -> Shape | None:
+    """Return the area between two shapes, along facing sides; None if corners are the nearest.
+
+    Where they overlap, their common area.
+    """
+    if isinstance(a, Rectangle) and isinstance(b, Rectangle):
+        x = _span((a.x_from_m, a.x_to_m), (b.x_from_m, b.x_to_m))
+        y = _span((a.y_from_m, a.y_to_m), (b.y_from_m, b.y_to_m))
+        return Rectangle(*x, *y)
+    common = _parts(solid(a).intersection(solid(b)))
+    if common:
+        largest = max(common, key=lambda part: part.area)
+        return Polygon(ring([(x, y) for x, y in largest.exterior.coords]))
+    long, start, end = _facing_sides(a, b)
+    if long <= NEAR_M or math.dist(start, end) <= NEAR_M:
+        return None
+    share = 0.5 * long / math.dist(start, end)
+    dx, dy = -share * (end[1] - start[1]), share * (end[0] - start[0])
+    before, after = ([(x + k * dx, y + k * dy) for x, y in (start, end)] for k in (-1, 1))
+    return Polygon(ring([*before, *after[::-1]]))
+
+
+def _span(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, float]:
+    """Return the range between two ranges, or their overlap."""
+    inner = sorted((max(a[0], b[0]), min(a[1], b[1])))
+    return inner[0], inner[1]
+
+
+@lru_cache(maxsize=4096)
+def solid(shape: Shape) -> Any:
+    """Return a shape as the library knows it; a line where it has no width."""
+    import shapely
+
+    points = tuple(dict.fromkeys(shape.points))
+    return shapely.Polygon(points) if len(points) > 2 else shapely.LineString(points)

@@ -1,0 +1,191 @@
+"""Outlines in the workbook: read back as written, checked by cell, optional."""
+
+import pytest
+from openpyxl import load_workbook
+
+from report.sheet.read import read
+from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
+from report.sheet.template import write_template
+from sheets import FT, edit, make, problems, project, read_workbook, same
+
+L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))
+ROOF_FT = ((0, -1), (300, -1), (300, 121), (150, 121), (150, 140), (0, 140))
+BLANK = dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))
+
+
+def vertices(name, points):
+    return [{"name": name, "x_m": x * FT, "y_m": y * FT} for x, y in points]
+
+
+def outlined(points=L_FT, *, roof=(), clearances=()):
+    """Changes to the project: A1 by an outline."""
+    first, second = (array.model_dump() for array in project().arrays)
+    return {
+        "arrays": [first | BLANK, second],
+        "outlines": [*vertices("A1", points), *vertices(ROOF, roof)],
+        "clearances": list(clearances),
+    }
+
+
+def in_meters(points):
+    return [pytest.approx((x * FT, y * FT)) for x, y in points]
+
+
+@pytest.mark.parametrize("units", list(UnitsFirst))
+def test_outlines_are_read_back_as_written(tmp_path, units):
+    changes = outlined(roof=ROOF_FT)
+    data = read_workbook(make(tmp_path, units, **changes)).input
+    assert same(data, project(**changes))
+    assert list(data.arrays[0].shape.points) == in_meters(L_FT)
+    assert isinstance(data.arrays[1].shape, Rectangle)
+    assert list(data.roof.placed.points) == in_meters(ROOF_FT)
+
+
+def test_a_closed_or_clockwise_outline_is_the_same_shape(tmp_path):
+    backwards = (*L_FT[::-1], L_FT[-1])
+    data = read_workbook(make(tmp_path, **outlined(backwards))).input
+    first, *rest = L_FT[::-1]
+    assert list(data.arrays[0].shape.points) == in_meters([first, *rest[::-1]])
+
+
+def test_a_workbook_without_the_sheet_is_read(tmp_path):
+    path = edit(make(tmp_path), lambda book: book.remove(book["Outlines"]))
+    assert same(read_workbook(path).input, project())
+
+
+def test_the_blank_sheet_asks_for_sides_or_an_outline(tmp_path):
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    sheet = load_workbook(path)["Arrays"]
+    hints = {cell.value for row in sheet.iter_rows() for cell in row}
+    assert "required, or an outline" in hints
+
+
+def changed(tmp_path, change, **more):
+    """The problems of a workbook with an outline of A1 in B7:D13, after a change to the sheet."""
+    path = make(tmp_path, **outlined(**more))
+    return problems(edit(path, lambda book: change(book["Outlines"])))
+
+
+def test_an_unknown_name_is_told_by_its_cell(tmp_path):
+    def change(sheet):
+        for row in range(8, 14):
+            sheet[f"B{row}"] = "A11"
+
+    found = changed(tmp_path, change)
+    assert found[-1] == (
+        "Outlines!B8: outline of 'A11', which is not in Arrays or Objects; did you mean 'A1'?"
+    )
+    assert found[0].endswith(
+        "x from is missing; give all four sides of the rectangle, or an outline on the sheet"
+        " Outlines"
+    )
+
+
+def test_two_vertices_are_no_outline(tmp_path):
+    path = make(tmp_path, **outlined())
+
+    def change(book):
+        for row in range(10, 14):
+            for column in "BCD":
+                book["Outlines"][f"{column}{row}"] = None
+
+    assert problems(edit(path, change)) == (
+        "Outlines!B8: A1 has 2 vertices; give at least 3, one to a row",
+    )
+
+
+def test_an_outline_that_crosses_itself_is_told_with_the_point(tmp_path):
+    def change(sheet):
+        sheet["C9"], sheet["D9"] = 30, 90  # across the upper side
+
+    (found,) = changed(tmp_path, change)
+    assert found.startswith("Outlines!B8: outline of A1 touches or crosses itself near x ")
+    assert found.endswith("; give its vertices in order, none of them twice")
+
+
+@pytest.mark.parametrize("typed", ["abc", "inf", "nan", None])
+def test_a_coordinate_that_is_no_number_is_told_by_its_cell(tmp_path, typed):
+    def change(sheet):
+        sheet["D9"] = typed
+
+    (found,) = changed(tmp_path, change)
+    assert found.startswith("Outlines!D9: y is ")
+    assert found.endswith("; give a number [ft]")
+
+
+def test_an_outline_in_two_places_is_refused(tmp_path):
+    def change(sheet):
+        sheet["B11"] = "A2"
+
+    found = changed(tmp_path, change)
+    assert (
+        "Outlines!B12: outline of 'A1' goes on here after Outlines!B10; put all of its rows"
+        " together" in found
+    )
+
+
+def test_a_rectangle_and_an_outline_of_the_same_name_are_refused(tmp_path):
+    path = make(tmp_path, **outlined() | {"arrays": [a.model_dump() for a in project().arrays]})
+    (found,) = problems(path)
+    assert found.startswith("Arrays!")
+    assert found.endswith(
+        ": x from is given, and A1 has an outline at Outlines!B8; leave the four sides blank, or"
+        " delete the outline"
+    )
+
+
+def test_the_roof_is_no_id_where_it_has_an_outline(tmp_path):
+    changes = outlined(roof=ROOF_FT)
+    item = project().objects[0].model_dump() | {"id": "Roof"}
+    found = problems(make(tmp_path, **changes | {"objects": [item]}))
+    assert found == (
+        "Outlines!B14: outline of 'roof', which is also the ID of an array or object; give that"
+        " another ID",
+    )
+
+
+def test_an_array_that_spans_the_notch_of_the_roof_is_outside(tmp_path):
+    roof = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
+    found = problems(make(tmp_path, **outlined(roof=roof)))
+    assert len(found) == 1  # A2 spans the notch; A1, an L, is beside it
+    assert found[0].startswith("Arrays!")
+    assert "A2 is outside the roof near x " in found[0]
+    assert found[0].endswith("; correct it, or the outline of the roof at Outlines!B14")
+
+
+def test_an_outlined_array_outside_of_a_rectangular_roof_is_told_at_its_outline(tmp_path):
+    roof = {"x_from_m": 0.0, "x_to_m": 300 * FT, "y_from_m": 0.0, "y_to_m": 74 * FT}
+    arrays = [array.model_dump() for array in project().arrays[:1]]
+    changes = outlined() | {"arrays": [arrays[0] | BLANK], "roof": roof}
+    (found,) = problems(make(tmp_path, **changes))
+    assert found.startswith("Outlines!B8: A1 is outside the roof near x ")
+
+
+def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
+    # RTU-1 stands in the notch of A1: 10 ft from one leg, 5 ft from the other.
+    unit = project().objects[0].model_dump()
+    unit |= {"x_from_m": 70 * FT, "x_to_m": 80 * FT, "y_from_m": 50 * FT, "y_to_m": 60 * FT}
+
+    def row(feet):
+        return {"array": "A1", "object": "RTU-1", "direction": "any", "provided_m": feet * FT}
+
+    changes = outlined(clearances=[row(5.0)]) | {"objects": [unit]}
+    assert read(make(tmp_path / "fits", **changes)).problems == ()
+    changes = outlined(clearances=[row(6.0)]) | {"objects": [unit]}
+    (found,) = problems(make(tmp_path / "short", **changes))
+    assert "A1 and RTU-1 are 60.0 in (1524 mm) apart in plan" in found
+    assert found.endswith("reduce it, or correct the outlines")
+
+
+def test_an_object_may_have_an_outline():
+    item = project().objects[1].model_dump()
+    data = project(objects=[item], clearances=[], outlines=vertices("old", L_FT))
+    assert isinstance(data.objects[0].placed, Polygon)
+    assert {row.name for row in data.outlines} == {"OLD"}
+
+
+def test_an_array_without_a_place_is_no_input():
+    changes = outlined() | {"outlines": []}
+    with pytest.raises(ValueError, match="no rectangle and no outline of A1"):
+        project(**changes)

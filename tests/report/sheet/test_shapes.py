@@ -1,0 +1,197 @@
+"""Gaps between outlines: by hand, by sampling their boundaries, and as between rectangles."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from report.sheet.shapes import (
+    Polygon,
+    Rectangle,
+    around,
+    between,
+    closest,
+    crossing,
+    gap_m,
+    label_point,
+    merged,
+    outside,
+    ring,
+    room,
+    spans_near,
+)
+
+# An L: 10 m x 10 m without its upper right 6 m x 6 m.
+L_SHAPE = Polygon(((0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (4.0, 4.0), (4.0, 10.0), (0.0, 10.0)))
+
+
+def corners_of(box):
+    return Polygon(box.points)
+
+
+@pytest.mark.parametrize(
+    ("other", "gap"),
+    [
+        (Rectangle(6, 8, 6, 8), 2.0),  # within the notch, 2 m from both legs
+        (Rectangle(7, 8, 6, 8), 2.0),  # 3 m from one leg, 2 m from the other
+        (Rectangle(13, 14, 8, 9), 5.0),  # 3-4-5 from the corner (10, 4)
+        (Rectangle(4, 6, 4, 6), 0.0),  # touches both legs
+        (Rectangle(10, 12, 0, 1), 0.0),
+        (Rectangle(3, 6, 6, 8), -1.0),  # 1 m into the upright leg
+        (Rectangle(1, 2, 1, 3), -1.0),  # within it: the smaller side
+    ],
+)
+def test_the_gap_to_an_l_shape_by_hand(other, gap):
+    assert gap_m(L_SHAPE, other) == pytest.approx(gap, abs=1e-12)
+    assert gap_m(other, L_SHAPE) == pytest.approx(gap, abs=1e-12)
+    assert gap_m(L_SHAPE, other) == pytest.approx(gap_m(L_SHAPE, corners_of(other)), abs=1e-12)
+
+
+def test_closest_points_are_midway_along_facing_sides():
+    assert closest(L_SHAPE, Rectangle(7, 9, 6, 8)) == ((8.0, 4.0), (8.0, 6.0))
+    assert closest(L_SHAPE, Rectangle(13, 14, 8, 9)) == ((10.0, 4.0), (13.0, 8.0))
+
+
+def test_an_area_and_its_bounds_by_hand():
+    assert L_SHAPE.area_m2 == 64.0
+    assert L_SHAPE.bounds == Rectangle(0.0, 10.0, 0.0, 10.0)
+    assert around([L_SHAPE, Rectangle(-1.0, 2.0, 3.0, 12.0)]) == Rectangle(-1.0, 10.0, 0.0, 12.0)
+
+
+boxes = st.tuples(*[st.floats(-20.0, 20.0), st.floats(0.1, 20.0)] * 2).map(
+    lambda r: Rectangle(r[0], r[0] + r[1], r[2], r[2] + r[3])
+)
+
+
+@given(boxes, boxes)
+def test_polygons_of_four_right_angles_are_as_far_apart_as_rectangles(a, b):
+    gap = gap_m(a, b)
+    assume(not 0.0 < abs(gap) < 1e-6)
+    found = gap_m(corners_of(a), corners_of(b))
+    assert found == pytest.approx(gap, abs=1e-9) if gap >= 0.0 else found <= 0.0
+
+
+@st.composite
+def stars(draw):
+    """A polygon around a point, by rising angles: neither convex nor crossing itself."""
+    count = draw(st.integers(3, 9))
+    x, y = draw(st.floats(-15.0, 15.0)), draw(st.floats(-15.0, 15.0))
+    radii = draw(st.lists(st.floats(1.0, 8.0), min_size=count, max_size=count))
+    turns = [(k + draw(st.floats(0.1, 0.9))) * 2.0 * math.pi / count for k in range(count)]
+    points = [(x + r * math.cos(a), y + r * math.sin(a)) for r, a in zip(radii, turns, strict=True)]
+    return Polygon(ring(points))
+
+
+def sampled(shape, count=400):
+    points = np.array([*shape.points, shape.points[0]])
+    shares = np.linspace(0.0, 1.0, count)[:, None]
+    return np.concatenate([a + shares * (b - a) for a, b in itertools.pairwise(points)])
+
+
+@settings(deadline=None, max_examples=40)
+@given(stars(), stars())
+def test_the_gap_is_that_between_densely_sampled_boundaries(a, b):
+    assume(crossing(a.points) is None)
+    assume(crossing(b.points) is None)
+    gap = gap_m(a, b)
+    p, q = sampled(a), sampled(b)
+    least = min(float(np.hypot(*(q - point).T).min()) for point in p)
+    step = 16.0 / 399
+    if gap >= 0.0:
+        assert least - step <= gap <= least + 1e-9
+    else:
+        assert least < step or _contains(a, b) or _contains(b, a)
+
+
+def _contains(outer, inner):
+    """Whether each vertex is within, by the winding of angles (no library)."""
+    ends = np.array([*outer.points, outer.points[0]])
+    for point in inner.points:
+        angles = np.unwrap(np.arctan2(*(ends - point).T[::-1]))
+        if abs(angles[-1] - angles[0]) < math.pi:
+            return False
+    return True
+
+
+@settings(deadline=None, max_examples=40)
+@given(stars(), stars())
+def test_closest_points_lie_on_the_shapes_at_the_gap(a, b):
+    assume(crossing(a.points) is None)
+    assume(crossing(b.points) is None)
+    gap = gap_m(a, b)
+    start, end = closest(a, b)
+    assert math.dist(start, end) == pytest.approx(max(gap, 0.0), abs=2e-6)
+    for point, shape in ((start, a), (end, b)):
+        assert shapely.Polygon(shape.points).distance(shapely.Point(point)) <= 1e-6
+
+
+def test_a_ring_is_counterclockwise_and_not_closed():
+    clockwise = [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)]
+    assert ring(clockwise) == ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+    assert ring(L_SHAPE.points) == L_SHAPE.points
+
+
+@pytest.mark.parametrize(
+    ("points", "at"),
+    [
+        ([(0, 0), (1, 1), (1, 0), (0, 1)], (0.5, 0.5)),  # a bow tie
+        ([(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)], (2.0, 0.0)),  # a vertex on a side
+        ([(0, 0), (2, 0), (2, 2), (0, 2)], None),
+    ],
+)
+def test_a_ring_that_crosses_itself_is_found(points, at):
+    assert crossing(tuple(points)) == at
+
+
+def test_what_is_outside_of_an_l_shaped_roof():
+    assert outside(Rectangle(1, 9, 1, 3), L_SHAPE) is None
+    assert outside(Rectangle(0, 4, 0, 10), L_SHAPE) is None  # along its sides
+    # All corners of this strip are inside; its middle crosses the notch.
+    bridge = Polygon(((1.0, 9.0), (9.0, 1.0), (9.0, 2.0), (2.0, 9.0)))
+    x, y = outside(bridge, L_SHAPE)
+    assert x > 4.0
+    assert y > 4.0
+
+
+def test_the_parts_of_a_strip_near_an_oblique_side():
+    strip = Polygon(((0.0, 0.1), (0.1, 0.0), (3.1, 3.0), (3.0, 3.1)))
+    (part,) = spans_near(strip, (0.0, 0.0), (10.0, 10.0), 0.3)
+    along = [(x + y) / math.sqrt(2.0) for x, y in part]
+    assert min(along) == pytest.approx(0.1 / math.sqrt(2.0))
+    assert max(along) == pytest.approx(6.1 / math.sqrt(2.0))
+    assert spans_near(strip, (0.0, 5.0), (5.0, 10.0), 0.3) == []
+
+
+def test_merged_rings_have_no_holes():
+    sides = [((0, 0), (5, 0), (5, 1), (0, 1)), ((4, 0), (5, 0), (5, 5), (4, 5)),
+             ((0, 4), (5, 4), (5, 5), (0, 5)), ((0, 0), (1, 0), (1, 5), (0, 5))]  # fmt: skip
+    assert Polygon(merged(sides)).area_m2 == 25.0
+
+
+def test_the_room_of_an_l_shape_is_its_larger_leg():
+    long_leg = Polygon(((0, 0), (20, 0), (20, 4), (4, 4), (4, 10), (0, 10)))
+    assert room(long_leg) == Rectangle(0, 20, 0, 4)
+    assert label_point(long_leg) == (10.0, 2.0)
+    assert room(Rectangle(0, 1, 0, 2)) == Rectangle(0, 1, 0, 2)
+
+
+@settings(deadline=None, max_examples=30)
+@given(stars())
+def test_the_room_is_within(shape):
+    assume(crossing(shape.points) is None)
+    box = room(shape)
+    assert box.area_m2 > 0.0
+    assert outside(box, shape) is None
+
+
+def test_the_area_between_shapes():
+    notch = between(L_SHAPE, Rectangle(7.0, 9.0, 6.0, 8.0))
+    assert notch.bounds == Rectangle(7.0, 9.0, 4.0, 6.0)
+    assert between(L_SHAPE, Rectangle(10.0, 12.0, 0.0, 1.0)) is None
+    assert between(L_SHAPE, Rectangle(13, 14, 8, 9)) is None
+    common = between(L_SHAPE, Rectangle(3.0, 6.0, 6.0, 8.0))
+    assert common.area_m2 == 2.0
