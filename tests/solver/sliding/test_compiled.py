@@ -1,0 +1,56 @@
+"""What set-up compiles is all that a report with three components runs."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from places import ROOT, TESTS
+
+CODE = """
+import json
+from numba.core.dispatcher import Dispatcher
+from solver.kernels import fixed_steps, one_axis, oscillator, rivals, row, two_axes
+from solver.sliding.compiled import PARTS
+
+def compiled():
+    return {
+        f"{module.__name__}.{name} {signature}"
+        for module in (fixed_steps, one_axis, oscillator, rivals, row, two_axes)
+        for name, kernel in vars(module).items()
+        if isinstance(kernel, Dispatcher)
+        for signature in kernel.signatures
+    }
+
+for name in PARTS:
+    PARTS[name]()
+before = compiled()
+import stand_in
+from report.assessment.evidence import support
+support(stand_in.assess_input(stand_in.project(), stand_in.motions(2, seconds=8.0)))
+print(json.dumps([sorted(compiled() - before), sorted(before)]))
+"""
+
+
+@pytest.fixture(scope="module")
+def signatures():
+    done = subprocess.run(
+        [sys.executable, "-c", CODE],
+        cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"},
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=300,
+    )
+    return json.loads(done.stdout)
+
+
+def test_a_report_compiles_nothing_that_set_up_has_not(signatures):
+    assert signatures[0] == []
+
+
+def test_both_friction_laws_are_compiled(signatures):
+    assert sum("slide_plane" in name for name in signatures[1]) == 2
