@@ -1,4 +1,7 @@
-"""Where the time of `roofslip report` goes, by stage: medians of fresh processes.
+"""Where the time of `roofslip report` goes, by stage, and what the command takes: medians.
+
+The stages run one after the other in one process; the command has a second one, which draws and
+writes the tables meanwhile. Processor time is user and system time of both processes.
 
 Run from the top: .venv/bin/python tests/bench/report_stages.py [RUNS] [PROJECT]
 """
@@ -8,9 +11,11 @@ from __future__ import annotations
 import gc
 import json
 import platform
+import resource
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -49,10 +54,20 @@ def child(project: Path) -> None:
     from report.package.html import pages
 
     html = pages(assessment, evidence)
-    stage("PDF, with imports")
-    from report.typeset.pdf import lay_out
+    stage("pictures as PDF operators, with imports")
+    from concurrent.futures import Future
 
-    package = lay_out(html)
+    from report.typeset.pdf import draw_ahead, lay_out, sources
+
+    drawn = Future()
+    drawn.set_result(draw_ahead(sources(html)))
+    stage("PDF")
+    package = lay_out(html, drawn)
+    stage("plan.dxf, with imports")
+    from report.drawing.dxf import write_dxf
+    from report.drawing.plan import plan_drawing
+
+    write_dxf(plan_drawing(assessment))
     stage("result tables")
     from report.results.tables import tables
 
@@ -63,31 +78,59 @@ def child(project: Path) -> None:
     print(json.dumps({"laps": laps, "bytes": sizes}))
 
 
+def twice(project: Path, out: Path) -> None:
+    """Make a report as the command does, then again in the same process; print the seconds."""
+    from report.cli.report import make
+    from report.cli.terminal import no_collections
+
+    seconds = []
+    with no_collections():
+        for _ in range(2):
+            started = time.perf_counter()
+            make(project, out, None, lambda doing: None)
+            seconds.append(time.perf_counter() - started)
+    print(json.dumps(seconds))
+
+
+def fresh(*arguments: str) -> tuple[str, float, float]:
+    """Run this file in a fresh process: what it prints, its time and its processor time [s]."""
+    before, started = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    done = subprocess.run(
+        [sys.executable, *arguments], cwd=ROOT, check=True, capture_output=True, text=True
+    )
+    wall, after = time.perf_counter() - started, resource.getrusage(resource.RUSAGE_CHILDREN)
+    return (
+        done.stdout,
+        wall,
+        after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
+    )
+
+
 def main() -> None:
-    """Print the median of each stage and of the whole process."""
+    """Print the median of each stage, of the command, and of a report in a warm process."""
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 5
-    project = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT / "projects" / "example"
-    stages, walls = [], []
-    for _ in range(runs + 1):
-        started = time.perf_counter()
-        done = subprocess.run(
-            [sys.executable, __file__, "--child", str(project)],
-            cwd=ROOT,
-            check=True,
-            capture_output=True,
-            text=True,
-        )
-        walls.append(time.perf_counter() - started)
-        stages.append(json.loads(done.stdout)["laps"])
+    project = sys.argv[2] if len(sys.argv) > 2 else str(ROOT / "projects" / "example")
+    stages, commands, warm = [], [], []
+    with tempfile.TemporaryDirectory() as out:
+        for _ in range(runs + 1):
+            stages.append(json.loads(fresh(__file__, "--child", project)[0])["laps"])
+            commands.append(fresh("-m", "report.cli", "report", project, "--out", out)[1:])
+            warm.append(json.loads(fresh(__file__, "--twice", project, out)[0])[1])
     print(f"{platform.machine()}, Python {platform.python_version()}, median of {runs} runs")
     for name in stages[-1]:
-        print(f"{name:56}{statistics.median(laps[name] for laps in stages[1:]):8.4f} s")
-    print(f"{'whole process':56}{statistics.median(walls[1:]):8.4f} s")
+        print(f"{name:64}{statistics.median(laps[name] for laps in stages[1:]):8.4f} s")
+    walls, busy = zip(*commands[1:], strict=True)
+    print(f"{'the command, with its second process':64}{statistics.median(walls):8.4f} s")
+    print(f"{'the command, processor time':64}{statistics.median(busy):8.4f} s")
+    print(f"{'a report in a process that is warm':64}{statistics.median(warm[1:]):8.4f} s")
 
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--child"]:
         sys.path.insert(0, str(ROOT))
         child(Path(sys.argv[2]))
+    elif sys.argv[1:2] == ["--twice"]:
+        sys.path.insert(0, str(ROOT))
+        twice(Path(sys.argv[2]), Path(sys.argv[3]))
     else:
         main()
