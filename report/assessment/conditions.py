@@ -10,14 +10,13 @@ from collections.abc import Iterator, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.friction_rows import friction_rows
 from report.assessment.neighbors import PlanNeighbor
-from report.assessment.verdict import Consequence, Row
+from report.assessment.verdict import Row
 from report.motions.history import PreparedMotion
 from report.sheet.schema import ProjectInput
 from report.words.units import Quantity, compared, number, pair
 from solver.records.acceptance import Acceptance
-from solver.records.acceptance_row import AcceptanceRow
+from solver.records.acceptance_row import AcceptanceRow, Consequence
 from solver.rules.hazard import HazardBasis, site_specific_reason
 
 DRIFT_M = 0.010
@@ -111,7 +110,7 @@ def motion_rows(acceptance: Acceptance, arrays: Sequence[ArrayAssessment]) -> tu
 
 
 def _motion_row(missed: AcceptanceRow, *, takes_analysis: bool) -> Row:
-    is_ng = missed.consequence.value == Consequence.NG.value
+    is_ng = missed.consequence is Consequence.NG
     unit = " s" if missed.unit == "s" else ""
     sign = "≥" if missed.is_at_least else "≤"
     return Row(
@@ -151,23 +150,6 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Row, 
         )
         for neighbor in nearby
         for text in neighbor.shortcomings(us_first)
-    )
-
-
-def friction_test_rows(data: ProjectInput) -> tuple[Row, ...]:
-    """Return the rows on the friction tests."""
-    return tuple(
-        Row(
-            id="friction_tests",
-            title=row.title,
-            found=row.found,
-            limit=row.limit,
-            basis="friction tests",
-            is_satisfied=row.satisfied,
-            consequence=Consequence.CONDITION,
-            remedy="Obtain the friction test report and complete the sheet Friction tests.",
-        )
-        for row in friction_rows(data)
     )
 
 

@@ -6,10 +6,11 @@ Each row that is not satisfied is a condition, not NG. Read `solver.friction_tes
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from report.assessment.verdict import Row
 from report.sheet.schema import ProjectInput
 from solver.friction_tests import Series, Surface, series
+from solver.records.acceptance_row import Consequence
 
 LEAST_RUNS = 3
 """Runs in each condition, of which the kinetic coefficients are averaged (PV1-2012)."""
@@ -18,33 +19,17 @@ NOT_GIVEN = "not given"
 _STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FrictionRow:
-    """What is found of the friction tests beside what is required.
-
-    Attributes
-    ----------
-    title, found, limit : str
-    satisfied : bool
-    """
-
-    title: str
-    found: str
-    limit: str
-    satisfied: bool
-
-
 def tested(data: ProjectInput) -> tuple[Series, ...]:
     """Return the runs of a project by report and condition."""
     return series(row.run(data.friction_tests.report) for row in data.friction_runs)
 
 
-def friction_rows(data: ProjectInput) -> tuple[FrictionRow, ...]:
+def friction_rows(data: ProjectInput) -> tuple[Row, ...]:
     """Return the rows on the friction tests."""
     return _on_file(data), _standard(data), _wet_and_dry(data)
 
 
-def _on_file(data: ProjectInput) -> FrictionRow:
+def _on_file(data: ProjectInput) -> Row:
     tests = data.friction_tests
     date = tests.date.isoformat() if tests.date else ""
     stated = (("laboratory", tests.laboratory), ("report number", tests.report), ("date", date))
@@ -52,28 +37,28 @@ def _on_file(data: ProjectInput) -> FrictionRow:
     given = [value for _, value in stated if value]
     if missing and given:
         given.append(f"{', '.join(missing)} {NOT_GIVEN}")
-    return FrictionRow(
+    return _row(
         title="Friction test report on file",
         found="; ".join(given) or NOT_GIVEN,
         limit="laboratory, report number, date",
-        satisfied=not missing,
+        is_satisfied=not missing,
     )
 
 
-def _standard(data: ProjectInput) -> FrictionRow:
+def _standard(data: ProjectInput) -> Row:
     tests = data.friction_tests
     by_standard = bool(_STANDARD.search(tests.standard))
     standard = f"standard {tests.standard or NOT_GIVEN}"
     accreditation = f"accreditation {tests.accreditation or NOT_GIVEN}"
-    return FrictionRow(
+    return _row(
         title="Tested to ASTM G115",
         found=f"{standard}; {accreditation}",
         limit="ASTM G115, accredited laboratory",
-        satisfied=by_standard and bool(tests.accreditation),
+        is_satisfied=by_standard and bool(tests.accreditation),
     )
 
 
-def _wet_and_dry(data: ProjectInput) -> FrictionRow:
+def _wet_and_dry(data: ProjectInput) -> Row:
     counts = {(one.report, one.surface): len(one.runs) for one in tested(data)}
     reports = dict.fromkeys(report for report, _ in counts)
     found = [
@@ -83,12 +68,25 @@ def _wet_and_dry(data: ProjectInput) -> FrictionRow:
         )
         for report in reports
     ]
-    return FrictionRow(
+    return _row(
         title="Wet and dry, three runs each",
         found="; ".join(found) or "no runs",
         limit=f"{LEAST_RUNS} runs or more in each condition",
-        satisfied=bool(reports)
+        is_satisfied=bool(reports)
         and all(counts.get((r, s), 0) >= LEAST_RUNS for r in reports for s in Surface),
+    )
+
+
+def _row(*, title: str, found: str, limit: str, is_satisfied: bool) -> Row:
+    return Row(
+        id="friction_tests",
+        title=title,
+        found=found,
+        limit=limit,
+        basis="friction tests",
+        is_satisfied=is_satisfied,
+        consequence=Consequence.CONDITION,
+        remedy="Obtain the friction test report and complete the sheet Friction tests.",
     )
 
 

@@ -20,12 +20,12 @@ from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.conditions import (
     array_rows,
     friction_row,
-    friction_test_rows,
     motion_rows,
     plan_rows,
     project_rows,
 )
 from report.assessment.friction import SHIFT, with_friction
+from report.assessment.friction_rows import friction_rows
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
 from report.assessment.runs import MotionRun, nan_is_worst, run_motion
@@ -251,7 +251,7 @@ def _assess(
         acceptance=acceptance,
         rows=(
             *project_rows(data, shaking.prepared),
-            *friction_test_rows(data),
+            *friction_rows(data),
             *motion_rows(acceptance, arrays),
             *(row for item in arrays for row in array_rows(data, item)),
             *plan_rows(data, nearby),

@@ -9,6 +9,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
+from solver.records.acceptance_row import Consequence
+
 
 class Verdict(StrEnum):
     """Verdict on a project, an array or a clearance."""
@@ -21,13 +23,6 @@ class Verdict(StrEnum):
     def is_permitted(self) -> bool:
         """Whether it is not NG."""
         return self is not Verdict.NG
-
-
-class Consequence(StrEnum):
-    """What a row that is not satisfied leads to."""
-
-    NG = "NG"
-    CONDITION = "condition"
 
 
 _BY_CONSEQUENCE = {Consequence.NG: Verdict.NG, Consequence.CONDITION: Verdict.CONDITIONS}

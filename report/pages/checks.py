@@ -9,7 +9,7 @@ from markupsafe import Markup, escape
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.remedies import Remedy
-from report.assessment.verdict import Consequence, Row
+from report.assessment.verdict import Row
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
@@ -29,6 +29,7 @@ from report.pages.symbols import with_symbols
 from report.sheet.schema import Array, ObjectKind
 from report.typeset.equations import symbol
 from report.words.units import Quantity, compared, number, ratio
+from solver.records.acceptance_row import Consequence
 from solver.rules.provisions import OVERRIDABLE, SEPARATION_KEYS, Basis, Check, Neighbor
 
 

@@ -147,7 +147,7 @@ def _sentences(package: PackageData) -> Iterator[str]:
         yield from (_array(array, found) for array in package.data.arrays)
     for one, fit in _fits(package):
         yield _fit(one, fit)
-    unsatisfied = [row.title for row in friction_rows(package.data) if not row.satisfied]
+    unsatisfied = [row.title for row in friction_rows(package.data) if not row.is_satisfied]
     if unsatisfied:
         yield f"Conditions: not satisfied are {', '.join(f'“{title}”' for title in unsatisfied)}."
 

@@ -8,12 +8,12 @@ from collections.abc import Iterator, Mapping
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.verdict import Consequence
 from report.pages.front import verdict_sentence
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, stamp
 from report.typeset.equations import symbol
 from report.words.counts import capitalized, counted, spelled
 from report.words.units import number, ratio
+from solver.records.acceptance_row import Consequence
 
 
 def letter(package: PackageData) -> Mapping[str, object]:

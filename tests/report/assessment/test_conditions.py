@@ -5,7 +5,8 @@ import datetime as dt
 import pytest
 
 import stand_in
-from report.assessment.verdict import Consequence, Verdict, worst
+from report.assessment.verdict import Verdict, worst
+from solver.records.acceptance_row import Consequence
 
 STATED = {
     "peer_reviewer": "Reviewer of record",

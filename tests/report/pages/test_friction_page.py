@@ -69,7 +69,7 @@ def rows(**changes):
 
 def test_a_complete_report_satisfies_every_row():
     found = rows(friction_tests=REPORT, friction_runs=runs())
-    assert [row.satisfied for row in found.values()] == [True] * 3
+    assert [row.is_satisfied for row in found.values()] == [True] * 3
     assert [row.found for row in found.values()] == [
         "Example Laboratories; FT-118; 2025-06-12",
         "standard ASTM G115-10; accreditation ISO/IEC 17025, no. 1234.01",
@@ -79,7 +79,7 @@ def test_a_complete_report_satisfies_every_row():
 
 def test_a_workbook_without_tests_satisfies_no_row_and_says_so(package):
     found = rows()
-    assert [row.satisfied for row in found.values()] == [False] * 3
+    assert [row.is_satisfied for row in found.values()] == [False] * 3
     assert [row.found for row in found.values()] == [
         "not given", "standard not given; accreditation not given", "no runs",
     ]  # fmt: skip
@@ -98,7 +98,7 @@ def test_a_workbook_without_tests_satisfies_no_row_and_says_so(package):
 def test_a_report_without_its_identity_is_not_on_file(field):
     row = rows(friction_tests=REPORT | {field: None if field == "date" else ""})
     one = row["Friction test report on file"]
-    assert not one.satisfied
+    assert not one.is_satisfied
     name = {"report": "report number"}.get(field, field)
     assert one.found.endswith(f"; {name} not given")
 
@@ -116,12 +116,12 @@ def test_a_report_without_its_identity_is_not_on_file(field):
 )
 def test_the_standard_is_recognized(standard, is_satisfied):
     found = rows(friction_tests=REPORT | {"standard": standard})["Tested to ASTM G115"]
-    assert found.satisfied is is_satisfied
+    assert found.is_satisfied is is_satisfied
 
 
 def test_a_laboratory_without_accreditation_does_not_satisfy_the_standard():
     found = rows(friction_tests=REPORT | {"accreditation": ""})["Tested to ASTM G115"]
-    assert (found.satisfied, found.found) == (
+    assert (found.is_satisfied, found.found) == (
         False, "standard ASTM G115-10; accreditation not given",
     )  # fmt: skip
 
@@ -140,7 +140,7 @@ def test_a_laboratory_without_accreditation_does_not_satisfy_the_standard():
 )
 def test_fewer_than_three_runs_in_a_condition_leave_the_row_unsatisfied(given, found):
     row = rows(friction_runs=given)["Wet and dry, three runs each"]
-    assert (row.satisfied, row.found) == (False, found)
+    assert (row.is_satisfied, row.found) == (False, found)
 
 
 def test_runs_and_means_are_in_the_table_and_the_smaller_mean_is_said_to_govern(package):

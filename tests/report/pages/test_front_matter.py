@@ -8,7 +8,6 @@ from html import unescape
 import pytest
 
 import stand_in
-from report.assessment.verdict import Consequence
 from report.pages.checks import provisions
 from report.pages.cover import cover
 from report.pages.front import verdict_sentence
@@ -17,6 +16,7 @@ from report.pages.references import codes, references
 from report.pages.registry import package_data
 from report.pages.symbols import SYMBOLS
 from report.sheet.schema import Options
+from solver.records.acceptance_row import Consequence
 
 MOTIONS = stand_in.motions(3, seconds=4.0)
 
