@@ -64,6 +64,75 @@ class Spectra:
         return np.isin(self.periods_s, 1.0 / BAND_HZ) & np.isfinite(self.target_g)
 
 
+MOST_EXCESS = 1.30
+"""Mean of the motions / target above which the motions are said to exceed it: in no code."""
+
+LEAST_MEAN = 0.995
+"""Mean of the motions / target below which the motions fall short: 1.00 to the digits printed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Departure:
+    """The mean of the motions below its target, or far above it.
+
+    Attributes
+    ----------
+    titles : tuple of str
+        Components that depart, the farthest first.
+    target : str
+    ratio, period_s : float
+        Mean / target farthest from 1 in any component, and the period [s] at which it is.
+    from_s, to_s : float
+        Shortest and longest period [s] at which any component is beyond the limit.
+    is_short : bool
+        Whether the motions fall short of the target.
+    """
+
+    titles: tuple[str, ...]
+    target: str
+    ratio: float
+    period_s: float
+    from_s: float
+    to_s: float
+    is_short: bool
+
+
+def departures(spectra: Sequence[Spectra]) -> tuple[Departure, ...]:
+    """Return where the mean of the motions misses its target, from 0.1 to 33.3 Hz, by target."""
+    places = dict.fromkeys((part.is_ground, part.target.name) for part in spectra)
+    found = (
+        _departure([s for s in spectra if (s.is_ground, s.target.name) == place], is_short)
+        for place in places
+        for is_short in (True, False)
+    )
+    return tuple(each for each in found if each is not None)
+
+
+def _departure(parts: Sequence[Spectra], is_short: bool) -> Departure | None:
+    ratios = [(part, part.mean_g / part.target_g) for part in parts]
+    beyond = [
+        (part, np.where(is_beyond, ratio, np.nan))
+        for part, ratio in ratios  # NaN without a target: beyond no limit
+        if (is_beyond := ratio < LEAST_MEAN if is_short else ratio > MOST_EXCESS).any()
+    ]
+    if not beyond:
+        return None
+    farthest = np.nanmin if is_short else np.nanmax
+    beyond.sort(key=lambda each: float(farthest(each[1])), reverse=not is_short)
+    worst, ratio = beyond[0]
+    at = int(np.flatnonzero(ratio == farthest(ratio))[0])
+    periods = np.concatenate([part.periods_s[np.isfinite(ratio)] for part, ratio in beyond])
+    return Departure(
+        titles=tuple(part.title for part, _ in beyond),
+        target=worst.target.name,
+        ratio=float(ratio[at]),
+        period_s=float(worst.periods_s[at]),
+        from_s=float(periods.min()),
+        to_s=float(periods.max()),
+        is_short=is_short,
+    )
+
+
 def spectra(assessment: Assessment) -> tuple[Spectra, ...]:
     """Return the spectra of each component that occurs: at the roof, then on the ground."""
     goals, motions = assessment.targets, assessment.shaking.motions

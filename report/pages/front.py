@@ -10,9 +10,11 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.certainty import Certainty
 from report.assessment.remedies import Remedy
+from report.assessment.spectra import Spectra, departures
 from report.assessment.verdict import Verdict
 from report.pages.certainty import directions
 from report.pages.checks import all_checks, clearance_table, conditions, troubles
+from report.pages.motions import departure_sentence
 from report.pages.parts import (
     PackageData,
     Table,
@@ -47,13 +49,15 @@ def sheet(package: PackageData) -> Mapping[str, str]:
     }
 
 
-def summary(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, object]:
+def summary(
+    package: PackageData, remedies: Sequence[Remedy], spectra: Sequence[Spectra]
+) -> Mapping[str, object]:
     """Return the summary page: governing numbers and all verdicts."""
     return {
         "verdict": stamp(package.assessment.verdict),
         "conditions": conditions(package),
         "sentence": verdict_sentence(package),
-        "numbers": _numbers(package),
+        "numbers": (*_numbers(package), *_missed_targets(package, spectra)),
         "arrays": _array_table(package),
         "clearances": clearance_table(package, brief=True),
         "troubles": troubles(package),
@@ -145,6 +149,20 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
         ),
         *_exceptional(package),
     )
+
+
+def _missed_targets(
+    package: PackageData, spectra: Sequence[Spectra]
+) -> Sequence[tuple[str, str, str]]:
+    """Return where the motions miss their target, and what follows."""
+    return [
+        (
+            f"Motions {'below' if found.is_short else 'above'} their target",
+            departure_sentence(found),
+            package.part("motions"),
+        )
+        for found in departures(spectra)
+    ]
 
 
 def _exceptional(package: PackageData) -> Sequence[tuple[str, str, str]]:

@@ -11,7 +11,13 @@ from markupsafe import Markup, escape
 from report.assessment.conditions import DRIFT_M, drifts
 from report.assessment.evidence import Evidence
 from report.assessment.highpass import Beyond
-from report.assessment.spectra import PRINTED_S, Spectra
+from report.assessment.spectra import (
+    MOST_EXCESS,
+    PRINTED_S,
+    Departure,
+    Spectra,
+    departures,
+)
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.targets import OWN
@@ -290,6 +296,29 @@ def target_words(package: PackageData) -> Sequence[str]:
     return texts
 
 
+def departure_sentence(found: Departure) -> str:
+    """Return where the motions miss their target, and what follows."""
+    first, *others = found.titles
+    also = f" ({'; '.join(others).lower()} likewise)" if others else ""
+    ratio, at = number(found.ratio, 2), f"at a period of {found.period_s:.3g} s"
+    where = (
+        "there alone"
+        if found.from_s == found.to_s
+        else f"at periods from {found.from_s:.2g} to {found.to_s:.2g} s"
+    )
+    if found.is_short:
+        return (
+            f"{first}{also}: the mean of the motions falls to {ratio} times the target "
+            f"({found.target}) {at}; it is below the target {where}. Weaker shaking gives smaller "
+            "displacements: scale or replace the motions, or justify the difference."
+        )
+    return (
+        f"{first}{also}: the mean of the motions reaches {ratio} times the target "
+        f"({found.target}) {at}; it exceeds {number(MOST_EXCESS, 2)} times the target {where}. The "
+        "displacements are those of the stronger motions, and are not reduced."
+    )
+
+
 _GROUND = {
     OWN: "Target of ground motions: the project-specific spectrum (workbook sheet Spectrum).",
     "": "Ground motions have no target: the workbook gives neither a spectrum nor S_1, F_v and "
@@ -316,7 +345,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "drift": drift_table(package, preparations),
         "beyond": [beyond_table(package, beyond)] if beyond else [],
         "building": building_part(package, motions, preparations) if has_ground(package) else None,
-        "target": target_words(package),
+        "target": (*target_words(package), *map(departure_sentence, departures(spectra))),
         "achieved": achieved_table(spectra),
         "spectra": tuple(spectrum_table(part) for part in spectra),
         "events": event_table(package.data.motions),

@@ -67,7 +67,7 @@ PAGES = (
     Page(
         id="summary",
         title="Summary",
-        fill=lambda package, evidence: front.summary(package, evidence.remedies),
+        fill=lambda package, evidence: front.summary(package, evidence.remedies, evidence.spectra),
         template="summary.html",
     ),
     Page(

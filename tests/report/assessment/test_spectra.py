@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import stand_in
-from report.assessment.spectra import BAND_HZ, spectra
+from report.assessment.spectra import BAND_HZ, Spectra, departures, spectra
+from report.motions.targets import TargetSpectrum
 from report.pages import motions as page
 from report.sheet.schema import RecordedAt
 from solver.records.spectrum import response_spectrum
@@ -124,3 +125,55 @@ def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_tar
     assert across.sa_g[1] == pytest.approx(alone / G, rel=1e-12)
     assert [row.cells[0] for row in page.spectrum_table(across).rows] == ["Mean of 3 motions [g]"]
     assert not page.achieved_table([across]).rows
+
+
+FLAT = TargetSpectrum(name="AC156", at=lambda freq_hz: np.full(freq_hz.shape, 0.5), from_s=0.1,
+                      to_s=10.0)  # fmt: skip
+
+
+def relative(title, ratios, target=FLAT, *, is_ground=False):
+    """Spectra of two motions whose mean is a ratio of the target at 0.5, 1, 2, 5 and 20 s."""
+    mean = 0.5 * np.array(ratios)
+    return Spectra(
+        ids=("M1", "M2"),
+        periods_s=np.array([0.5, 1.0, 2.0, 5.0, 20.0]),
+        sa_g=np.array([0.9 * mean, 1.1 * mean]),
+        target=target,
+        title=title,
+        is_ground=is_ground,
+    )
+
+
+def said(*parts):
+    return [page.departure_sentence(found) for found in departures(parts)]
+
+
+def test_motions_that_reach_their_target_or_have_none_are_not_said_to_miss_it():
+    nowhere = TargetSpectrum(name="", at=FLAT.at, from_s=np.inf, to_s=0.0)
+    assert said(relative("Horizontal", [1.0, 1.29, 1.1, 1.0, 0.1])) == []
+    assert said(relative("Ground, horizontal", [0.1] * 5, nowhere, is_ground=True)) == []
+
+
+def test_motions_below_their_target_are_named_with_ratio_period_band_and_what_follows():
+    (text,) = said(relative("Ground, horizontal", [1.1, 1.0, 0.7, 0.4, 0.1], is_ground=True))
+    assert text == (
+        "Ground, horizontal: the mean of the motions falls to 0.40 times the target (AC156) at a "
+        "period of 5 s; it is below the target at periods from 2 to 5 s. Weaker shaking gives "
+        "smaller displacements: scale or replace the motions, or justify the difference."
+    )
+
+
+def test_the_component_farthest_above_the_target_speaks_for_those_of_one_target():
+    texts = said(
+        relative("Horizontal", [1.0, 1.5, 1.0, 1.0, 9.0]),
+        relative("Transverse", [1.4, 1.6, 1.0, 0.9, 9.0]),
+        relative("Vertical", [1.0] * 5),
+    )
+    short, excess = texts
+    assert short.startswith("Transverse: the mean of the motions falls to 0.90 times the target")
+    assert "period of 5 s; it is below the target there alone." in short
+    assert excess == (
+        "Transverse (horizontal likewise): the mean of the motions reaches 1.60 times the target "
+        "(AC156) at a period of 1 s; it exceeds 1.30 times the target at periods from 0.5 to 1 s. "
+        "The displacements are those of the stronger motions, and are not reduced."
+    )

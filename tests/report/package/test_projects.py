@@ -196,6 +196,18 @@ def test_the_schools_building_and_its_ground_motions_are_described(school):
     assert re.search(r"Ground, horizontal 7 \d\.\d\d \d\.\d\d [3-5]\.\d\d [3-5]\.\d\d", motions)
 
 
+def test_the_school_says_in_words_where_its_motions_exceed_their_targets(school):
+    """The building amplifies short periods; the ground motions were made for long ones."""
+    for title in ("1 Summary", "5 Roof motions"):
+        text = school.part(title)
+        for place, target in (("Transverse", "AC156"), ("Ground, transverse", "ASCE 7 design")):
+            found = re.search(rf"{place} \(.{{0,8}}horizontal likewise\): the mean of the motions "
+                              rf"reaches (\d\.\d\d) times the target \({target}", text)  # fmt: skip
+            assert 7.0 < float(found[1]) < 9.0
+        assert "not reduced" in text
+        assert "below the target" not in text
+
+
 def test_the_school_prints_si_units_first(school):
     assert "289 mm (11.4 in)" in school.part("1 Summary")
     assert not re.search(r"\d in \(\d+ mm\)", school.whole)

@@ -182,7 +182,7 @@ def test_each_ng_says_what_would_do_with_the_values_found():
         assert "S_DS" not in text
     assert table.rows[-1].cells[1] == symbol("S_DS")
     assert len(table.rows) == len(found)
-    summary = front.summary(package, found)
+    summary = front.summary(package, found, ())
     assert summary["answers"] == texts
 
 

@@ -87,7 +87,7 @@ def test_an_array_for_which_one_block_is_not_adequate_is_ng_everywhere(both):
         "Enter 0.400, the smallest value of its blocks, as its friction coefficient, or provide"
         " stiffer links."
     )
-    assert front.summary(both, ())["sentence"] == "Marked NG: 1 of 2 arrays."
+    assert front.summary(both, (), ())["sentence"] == "Marked NG: 1 of 2 arrays."
     assert (
         "(part 12 compares A1, A2 with a row"
         in front.basis(both, certainty(both.assessment))["linked"]

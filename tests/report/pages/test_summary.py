@@ -24,7 +24,7 @@ DEPARTURE = {
 def numbers(**options):
     data = stand_in.project(options=options)
     done = stand_in.assess_input(data, stand_in.motions(3, seconds=8.0))
-    return {label: text for label, text, _ in summary(package_data(done), ())["numbers"]}
+    return {label: text for label, text, _ in summary(package_data(done), (), ())["numbers"]}
 
 
 def test_neither_is_named_where_there_is_none():
