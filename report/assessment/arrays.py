@@ -13,6 +13,7 @@ from enum import StrEnum
 
 from report.assessment.runs import RUNGS, MotionRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
+from solver.model import Scene
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, Basis, Check, Prescriptive, RuleSet
 from solver.sliding import least_model
@@ -191,58 +192,78 @@ def assess_array(
     motions_qualify : bool
         Whether the motions satisfy what the rule set requires for a value from analysis.
     """
-    site, is_reviewed = data.site, data.options.peer_reviewed
+    site = data.site
     prescriptive = provisions.prescriptive_displacement(
         rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
     )
     asked = data.options.statistic
     basis = None if asked is Statistic.RULE_SET else Basis(asked.value)
     directions = _by_direction(rules, runs, basis)
-    floor_m = 0.0 if is_reviewed else rules["analysis_floor"] * prescriptive.value_m
+    analysis = directions[Direction.ANY]
+    floor_m = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
+    limits = _limits(data, rules, array, n_motions=len(runs))
+    has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
+    route = _route(has_value, limits.analysis, limits.prescriptive)
     scenes = [run.scene for motion in runs for run in motion.runs]
-    supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
-    analysis_checks = provisions.analysis_checks(
-        rules,
-        slope_rad=array.slope_rad,
-        n_motions=len(runs),
-        sdc=site.sdc,
-        is_reviewed=is_reviewed,
-    )
-    prescriptive_checks = provisions.prescriptive_checks(
-        rules, slope_rad=array.slope_rad, mu=array.least_mu
-    )
-    has_value = motions_qualify and directions[Direction.ANY].basis is not Basis.TOO_FEW
-    route = _route(has_value, analysis_checks, prescriptive_checks)
     return ArrayAssessment(
         array=array,
         motions=runs,
-        analysis=directions[Direction.ANY],
+        analysis=analysis,
         directions=directions,
         chosen=directions if needed is runs else _by_direction(rules, needed, basis),
         needed=needed,
         prescriptive=prescriptive,
         floor_m=floor_m,
         route=route,
-        design_m=_design_m(route, runs, directions[Direction.ANY], prescriptive, floor_m),
+        design_m=_design_m(route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
-        tipping=max(
-            (tipping(scene, supports) for scene in scenes), key=lambda t: (t.ratio, t.demand)
-        ),
+        tipping=_nearest_to_tipping(array, scenes),
         uplift=min(map(uplift, scenes), key=lambda u: u.n_min_g),
-        checks=provisions.array_checks(
+        checks=limits.both,
+        analysis_checks=limits.analysis,
+        prescriptive_checks=limits.prescriptive,
+        # The lighter side of a section is at most half of the array.
+        interconnection_n=provisions.interconnection_strength_n(
+            rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
+        ),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Limits:
+    """The limits of an array: of both routes, and of each."""
+
+    both: tuple[Check, ...]
+    analysis: tuple[Check, ...]
+    prescriptive: tuple[Check, ...]
+
+
+def _limits(data: ProjectInput, rules: RuleSet, array: Array, *, n_motions: int) -> _Limits:
+    return _Limits(
+        both=provisions.array_checks(
             rules,
             cg_height_m=array.cg_height_m,
             support_spacing_m=array.support_spacing_m,
             base_m=array.base_dimension_m,
             slope_rad=array.slope_rad,
         ),
-        analysis_checks=analysis_checks,
-        prescriptive_checks=prescriptive_checks,
-        # The lighter side of a section is at most half of the array.
-        interconnection_n=provisions.interconnection_strength_n(
-            rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
+        analysis=provisions.analysis_checks(
+            rules,
+            slope_rad=array.slope_rad,
+            n_motions=n_motions,
+            sdc=data.site.sdc,
+            is_reviewed=data.options.peer_reviewed,
+        ),
+        prescriptive=provisions.prescriptive_checks(
+            rules, slope_rad=array.slope_rad, mu=array.least_mu
         ),
     )
+
+
+def _nearest_to_tipping(array: Array, scenes: Sequence[Scene]) -> Tipping:
+    supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
+    checks = (tipping(scene, supports) for scene in scenes)
+    return max(checks, key=lambda check: (check.ratio, check.demand))
 
 
 def _route(has_value: bool, analysis: Sequence[Check], prescriptive: Sequence[Check]) -> Route:

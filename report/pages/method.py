@@ -43,34 +43,53 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 def motion_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]:
     """Return the equations of motion and the yield accelerations of an array."""
-    theta, mu = array.array.slope_rad, array.array.friction.mu_static
-    phi = math.atan(mu)
-    degrees, friction = number(math.degrees(theta), 3), number(math.degrees(phi), 3)
-    down, up = math.tan(phi - theta), math.tan(phi + theta)
     return (
         *_friction_lines(array),
+        *_force_lines(array),
+        _rest_line(array),
+        *_sliding_lines(package),
+        *_yield_lines(array),
+    )
+
+
+def _force_lines(array: ArrayAssessment) -> Sequence[Line]:
+    """Return the normal and the driving force."""
+    theta = array.array.slope_rad
+    degrees, added = number(math.degrees(theta), 3), Markup("{}, with {} added")
+    return (
         Line(
             latex=r"N=m\left[(g+a_v)\cos\theta+a_h\sin\theta\right]",
-            reference=Markup("Eq. 6, with {} added").format(symbol("a_v")),
+            reference=added.format("Eq. 6", symbol("a_v")),
             steps=((f"Roof at rest: N/(m g) = cos {degrees}°", number(math.cos(theta), 4)),),
         ),
         Line(
             latex=r"G=m\left[(g+a_v)\sin\theta-a_h\cos\theta\right]",
-            reference=Markup("Eq. 7, with {} added").format(symbol("a_v")),
+            reference=added.format("Eq. 7", symbol("a_v")),
             steps=((f"Roof at rest: G/(m g) = sin {degrees}°", number(math.sin(theta), 4)),),
         ),
-        Line(
-            latex=r"\left|G\right|\leq\mu N\;\Rightarrow\;\mathrm{rests}",
-            reference="Eqs. 8, 9",
-            steps=(
-                (
-                    f"Roof at rest: {number(math.sin(theta), 4)} compared with "
-                    f"{number(mu, 3)} × {number(math.cos(theta), 4)}",
-                    number(mu * math.cos(theta), 4)
-                    + (", rests" if math.tan(theta) <= mu else ", slides"),
-                ),
+    )
+
+
+def _rest_line(array: ArrayAssessment) -> Line:
+    """Return the condition of no slip, with the roof at rest."""
+    theta, mu = array.array.slope_rad, array.array.friction.mu_static
+    outcome = "rests" if math.tan(theta) <= mu else "slides"
+    compared = f"{number(math.sin(theta), 4)} compared with {number(mu, 3)}"
+    return Line(
+        latex=r"\left|G\right|\leq\mu N\;\Rightarrow\;\mathrm{rests}",
+        reference="Eqs. 8, 9",
+        steps=(
+            (
+                f"Roof at rest: {compared} × {number(math.cos(theta), 4)}",
+                f"{number(mu * math.cos(theta), 4)}, {outcome}",
             ),
         ),
+    )
+
+
+def _sliding_lines(package: PackageData) -> Sequence[Line]:
+    """Return the equations of sliding, along the slope and in two axes."""
+    return (
         Line(
             latex=r"m\ddot{s}=G-\mu N\,\mathrm{sign}(\dot{s})",
             reference="Eqs. 11–18, along the slope",
@@ -88,6 +107,16 @@ def motion_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]
             f"cross-slope displacement. {package.part('model').capitalize()} lists where this "
             "applies.",
         ),
+    )
+
+
+def _yield_lines(array: ArrayAssessment) -> Sequence[Line]:
+    """Return the friction angle and the accelerations at which sliding begins."""
+    theta, mu = array.array.slope_rad, array.array.friction.mu_static
+    phi = math.atan(mu)
+    degrees, friction = number(math.degrees(theta), 3), number(math.degrees(phi), 3)
+    down, up = math.tan(phi - theta), math.tan(phi + theta)
+    return (
         Line(
             latex=r"\phi=\arctan\mu",
             reference="friction angle",

@@ -17,6 +17,7 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.evidence import Evidence
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
+from report.assessment.runs import HeadingRun, MotionRun
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.results.evidence import acceptance, certainty, neighbor, remedy
@@ -24,6 +25,8 @@ from report.sheet.schema import Direction
 from solver.building.roof import RoofMotion
 from solver.model import Motion
 from solver.rules.provisions import Check
+from solver.sliding.tipping import Tipping
+from solver.sliding.uplift import Uplift
 
 SCHEMA_VERSION = 2
 """Raised where a key of results.json changes its name or meaning; 0.1 wrote none."""
@@ -103,6 +106,24 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
         "slope_rad": item.array.slope_rad,
         "mu": item.array.mu,
         "friction": asdict(item.array.friction),
+        **_design(item),
+        "model_asked_for": item.array.model,
+        "model_is_enough": item.is_model_enough,
+        "directions": {direction: _direction(item, direction) for direction in item.directions},
+        "peaks": [_peaks(motion) for motion in item.motions],
+        "interconnection_n": item.interconnection_n,
+        "tipping": _tipping(item.tipping),
+        "uplift": _uplift(item.uplift),
+        "route": item.route,
+        "checks": [_check(check) for check in item.checks],
+        "analysis_checks": [_check(check) for check in item.analysis_checks],
+        "prescriptive_checks": [_check(check) for check in item.prescriptive_checks],
+        "runs": [_run(motion, run) for motion in item.motions for run in motion.runs],
+    }
+
+
+def _design(item: ArrayAssessment) -> dict[str, Any]:
+    return {
         "computed_m": item.analysis.value_m,
         "computed_basis": item.analysis.basis,
         "mean_prd_m": item.analysis.mean_m,
@@ -113,62 +134,59 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
         "floor_m": item.floor_m,
         "design_m": item.design_m,
         "design_governs": item.governs,
-        "model_asked_for": item.array.model,
-        "model_is_enough": item.is_model_enough,
-        "directions": {
-            direction: {
-                "mean_m": analysis.mean_m,
-                "largest_m": analysis.largest_m,
-                "computed_m": analysis.value_m,
-                "design_m": item.directional_m(direction),
-                "design_by_chosen_model_m": item.chosen_toward_m(direction),
-            }
-            for direction, analysis in item.directions.items()
-        },
-        "peaks": [
-            {
-                "motion": motion.motion.id,
-                **{f"{d.value}_m": motion.peak_m(d) for d in Direction},
-            }
-            for motion in item.motions
-        ],
-        "interconnection_n": item.interconnection_n,
-        "tipping": {
-            "demand": item.tipping.demand,
-            "capacity": item.tipping.capacity,
-            "held_ratio": item.tipping.at_rest_ratio,
-            "sliding_ratio": item.tipping.sliding_ratio,
-            "ok": item.tipping.is_ok,
-        },
-        "uplift": {
-            "n_min_g": item.uplift.n_min_g,
-            "t_first_s": item.uplift.t_first_s,
-            "duration_s": item.uplift.duration_s,
-            "times": item.uplift.times,
-        },
-        "route": item.route,
-        "checks": [_check(check) for check in item.checks],
-        "analysis_checks": [_check(check) for check in item.analysis_checks],
-        "prescriptive_checks": [_check(check) for check in item.prescriptive_checks],
-        "runs": [
-            {
-                "motion": motion.motion.id,
-                "along": run.heading.component,
-                "polarity": run.heading.sign,
-                "scale": motion.motion.scale,
-                "dt_s": motion.motion.dt_s,
-                **asdict(run.result),
-                "rung": int(run.solution.rung),
-                "model": run.solution.rung.title,
-                "reason": run.solution.reason,
-                "next_rung": int(run.solution.next_rung),
-                "next_effect_m": run.solution.next_effect_m,
-                "error_m": run.result.error_m,
-                "friction_demand": run.solution.friction_demand,
-            }
-            for motion in item.motions
-            for run in motion.runs
-        ],
+    }
+
+
+def _direction(item: ArrayAssessment, direction: Direction) -> dict[str, Any]:
+    analysis = item.directions[direction]
+    return {
+        "mean_m": analysis.mean_m,
+        "largest_m": analysis.largest_m,
+        "computed_m": analysis.value_m,
+        "design_m": item.directional_m(direction),
+        "design_by_chosen_model_m": item.chosen_toward_m(direction),
+    }
+
+
+def _peaks(motion: MotionRun) -> dict[str, Any]:
+    peaks = {f"{direction.value}_m": motion.peak_m(direction) for direction in Direction}
+    return {"motion": motion.motion.id, **peaks}
+
+
+def _tipping(item: Tipping) -> dict[str, Any]:
+    return {
+        "demand": item.demand,
+        "capacity": item.capacity,
+        "held_ratio": item.at_rest_ratio,
+        "sliding_ratio": item.sliding_ratio,
+        "ok": item.is_ok,
+    }
+
+
+def _uplift(item: Uplift) -> dict[str, Any]:
+    return {
+        "n_min_g": item.n_min_g,
+        "t_first_s": item.t_first_s,
+        "duration_s": item.duration_s,
+        "times": item.times,
+    }
+
+
+def _run(motion: MotionRun, run: HeadingRun) -> dict[str, Any]:
+    return {
+        "motion": motion.motion.id,
+        "along": run.heading.component,
+        "polarity": run.heading.sign,
+        "scale": motion.motion.scale,
+        "dt_s": motion.motion.dt_s,
+        **asdict(run.result),
+        "rung": int(run.solution.rung),
+        "model": run.solution.rung.title,
+        "reason": run.solution.reason,
+        "next_rung": int(run.solution.next_rung),
+        "next_effect_m": run.solution.next_effect_m,
+        "error_m": run.result.error_m,
+        "friction_demand": run.solution.friction_demand,
     }
 
 
