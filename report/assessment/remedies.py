@@ -12,7 +12,7 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from enum import StrEnum
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import THREADS, Assessment
 from report.assessment.trials import (
@@ -148,10 +148,13 @@ def _in_vain(trials: Trials, row: Clearance | None) -> str:
     given, array = trials.given, trials.array
     if few := _too_few(array):
         return few
-    if row is None or alone(given, given.project, displaced(array, 0.0, array.floor_m), row).ok:
+    is_prescriptive = array.route is Route.PRESCRIPTIVE
+    least_m = array.prescriptive.value_m if is_prescriptive else array.floor_m
+    if row is None or alone(given, given.project, displaced(array, 0.0, least_m), row).ok:
         return ""
     if alone(given, given.project, displaced(array, 0.0, 0.0), row).ok:
-        return "the floor alone requires more than is provided"
+        least = "prescriptive displacement" if is_prescriptive else "floor"
+        return f"the {least} alone requires more than is provided"
     return "the minimum separation of the rule set is more than is provided"
 
 
@@ -189,7 +192,8 @@ def _s_ds(trials: Sequence[Trials], number: int, row: Clearance | None) -> Remed
             lambda s_ds: all(one.holds(row, s_ds=s_ds) for one in trials), start, end, S_DS_STRIDES
         )
     most = held[-1] / 100 if held else math.nan
-    floor = "" if given.project.options.peer_reviewed else " and the floor"
+    takes_floor = any(one.array.route is Route.ANALYSIS and one.array.floor_m for one in trials)
+    floor = " and the floor" if takes_floor else ""
     scaled = (
         f"all motions scaled in proportion to S_DS, the prescriptive displacement{floor} by "
         f"formula, seismic design category {site.sdc.value}"

@@ -12,7 +12,7 @@ from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, assess_array
+from report.assessment.arrays import ArrayAssessment, Route, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import array_with_friction
 from report.assessment.project import Assessment
@@ -88,6 +88,7 @@ class Trials:
         self.given = given
         self.array = array
         self._pool = pool
+        self._was_permitted = _is_permitted(given, array)
         self._governing: dict[tuple[int, int], ArrayAssessment] = {}
         self._all: dict[tuple[int, int], ArrayAssessment] = {}
 
@@ -131,7 +132,7 @@ class Trials:
         return self._all[mu, s_ds]
 
     def _passes(self, trial: ArrayAssessment, row: Clearance | None, s_ds: int) -> bool:
-        if not is_final(trial):
+        if not is_final(trial) or (self._was_permitted and not _is_permitted(self.given, trial)):
             return False
         return row is None or alone(self.given, self._data(s_ds), trial, row).ok
 
@@ -170,6 +171,12 @@ def _other_runs(array: Array, given: MotionRun, first: MotionRun) -> MotionRun:
 def with_s_ds(data: ProjectInput, s_ds_g: float) -> ProjectInput:
     """Return an input with another S_DS [g]; the seismic design category remains as given."""
     return data.model_copy(update={"site": data.site.model_copy(update={"s_ds_g": s_ds_g})})
+
+
+def _is_permitted(given: Assessment, array: ArrayAssessment) -> bool:
+    """Whether the limits of the route of an array hold, those on its motions included."""
+    is_qualified = array.route is Route.PRESCRIPTIVE or given.acceptance.qualifies
+    return is_qualified and all(check.ok for check in array.limits)
 
 
 def is_final(array: ArrayAssessment) -> bool:

@@ -311,6 +311,15 @@ def test_the_clearance_that_fails_says_what_would_do(conditions):
     gaps = conditions.part("9 Clearances")
     assert re.search(r"2 A2 RTU-1 fixed object, across .* 21\.6 549 12\.0 305 1\.80 NG", gaps)
     assert "2 Provided separation 12.0 in (305 mm) ≥ 21.6 in (549 mm) exact" in gaps
+    assert "none: the prescriptive displacement alone requires more than is provided" in gaps
+    assert "and the floor" not in gaps
+
+
+def test_friction_may_not_fall_below_the_limit_of_the_prescriptive_route(conditions):
+    """The motions lack components: with less friction there is neither route."""
+    margins = conditions.results["certainty"]["margins"]
+    least = [row["least_mu"] for row in margins if row["clearance"] != "2"]
+    assert least == [pytest.approx(0.40)] * 6
 
 
 def test_the_limits_have_a_row_for_each_that_is_not_given(conditions):
