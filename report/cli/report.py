@@ -149,7 +149,7 @@ def load() -> None:
     import report.drawing.dxf
     import report.figures.charts
     import report.package.html
-    import report.results.tables  # noqa: F401
+    import report.results.xlsx  # noqa: F401
     from report.pages.pictures import load_charts
     from report.typeset.pdf import draw_ahead
 

@@ -36,6 +36,15 @@ def test_help_names_the_commands_and_imports_nothing_heavy():
         assert f"\n  {command} " in done.stdout
 
 
+def test_what_only_the_second_process_needs_is_not_loaded_with_the_tasks_for_it():
+    code = (
+        "import sys, report.drawing.dxf, report.package.html, report.results.tables; "
+        "print(sorted({'ezdxf', 'matplotlib', 'pandas', 'ziamath'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["[]"]
+
+
 def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):
     first = run("new", tmp_path / "job")
     assert first.exit_code == 0
