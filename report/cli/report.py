@@ -78,8 +78,10 @@ def check(source: Path) -> None:
               help="Of a former revision: the package states what changed.")  # fmt: skip
 def report(source: Path, out: Path | None, since: Path | None) -> None:
     """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary."""
-    with input_errors(source), Progress() as progress, no_collections():
-        assessment, folder, files, changed = make(source, out, since, progress)
+    from report.beside import beside
+
+    with input_errors(source), Progress() as progress, no_collections(), beside() as second:
+        assessment, folder, files, changed = make(source, out, since, progress, second)
     _print_summary(assessment)
     if changed.is_asked_for:
         _print_changes(assessment, changed)
@@ -89,23 +91,16 @@ def report(source: Path, out: Path | None, since: Path | None) -> None:
 
 
 def make(
-    source: Path, out: Path | None, since: Path | None, progress: Callable[[str], None]
-) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
-    """Read a workbook, run its motions, and write the package and the tables."""
-    from report.beside import beside
-
-    with beside() as second:
-        return _make(source, out, since, progress, second)
-
-
-def _make(
     source: Path,
     out: Path | None,
     since: Path | None,
     progress: Callable[[str], None],
     second: Executor,
 ) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
-    """Make a package with the help of a second process, which draws and writes the tables."""
+    """Read a workbook, run its motions, and write the package and the tables.
+
+    A second process (`report.beside`) draws and writes what it can meanwhile.
+    """
     second.submit(load)
     from report.assessment.changes import NO_FORMER
     from report.assessment.evidence import support

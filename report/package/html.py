@@ -7,50 +7,64 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor, Future
+from dataclasses import dataclass
 from typing import Any
 
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment
 from report.beside import SameProcess
-from report.pages import front
+from report.pages import front, inputs, method
 from report.pages.cover import cover
 from report.pages.letter import letter
 from report.pages.parts import Line
 from report.pages.pictures import Pictures, draw_assessment, draw_evidence
 from report.pages.registry import package_data, pages_of, parts
-from report.typeset.equations import formulas
+from report.typeset.equations import Formula, formulas
 from report.typeset.pdf import TEMPLATES
 
 
-def begin(assessment: Assessment, changes: Changes, second: Executor) -> Future[Pictures]:
-    """Begin with the pictures that need no evidence, while it is computed."""
-    return second.submit(draw_assessment, package_data(assessment, changes))
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Begun:
+    """What needs no evidence: pictures, and equations by their LaTeX."""
+
+    pictures: Future[Pictures]
+    equations: Future[dict[str, Formula]]
+
+
+def begin(assessment: Assessment, changes: Changes, second: Executor) -> Begun:
+    """Begin with what needs no evidence, while it is computed."""
+    package = package_data(assessment, changes)
+    steps = _latex((method.page(package), inputs.inputs(package)))
+    return Begun(
+        pictures=second.submit(draw_assessment, package), equations=second.submit(formulas, steps)
+    )
 
 
 def pages(
     assessment: Assessment,
     evidence: Evidence,
     changes: Changes = NO_FORMER,
-    begun: Future[Pictures] | None = None,
+    begun: Begun | None = None,
     second: Executor | None = None,
 ) -> str:
     """Return the calculation package as HTML, with what changed if a former one is named.
 
     Parameters
     ----------
-    begun : Future, optional
+    begun : Begun, optional
         What `begin` returned.
     second : Executor, optional
-        Where it was begun: the equations are typeset there too.
+        Where it was begun: the other pictures are drawn there too.
     """
     second = second or SameProcess()
     begun = begun or begin(assessment, changes, second)
     package = package_data(assessment, changes)
+    drawn = second.submit(draw_evidence, package, evidence)
     listed = parts(package)
     content = {page.id: page.fill(package, evidence) for page in pages_of(package)}
-    equations = second.submit(formulas, sorted({line.latex for line in _lines(content)}))
-    drawn_here = draw_evidence(package, evidence)
+    ready = begun.equations.result()
+    equations = ready | formulas(set(_latex(content)) - ready.keys())
     return _html(
         {
             "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
@@ -61,12 +75,16 @@ def pages(
             "below": {subpart.id: subpart for part in listed for subpart in part.parts},
             "templates": {page.id: page.template for page in pages_of(package)},
             "ref": package.part,
-            "equations": equations.result(),
-            "pictures": {**begun.result(), **drawn_here},
+            "equations": equations,
+            "pictures": {**begun.pictures.result(), **drawn.result()},
             "content": content,
             **content,
         }
     )
+
+
+def _latex(content: Any) -> list[str]:
+    return list(dict.fromkeys(line.latex for line in _lines(content)))
 
 
 def _lines(content: Any) -> Iterator[Line]:
