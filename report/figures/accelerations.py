@@ -17,7 +17,7 @@ from report.figures.history import envelope
 from report.words.units import G_MPS2
 from solver.model import Floats, Motion
 
-_ROW_IN, _TOP_IN, _BOTTOM_IN = 0.42, 0.22, 0.3
+_ROW_IN, _TOP_IN, _BOTTOM_IN = 0.37, 0.22, 0.3
 _POINTS = 360  # in a history; with fewer the peaks stand apart as if the motion were slow
 _LABELS = 0.14  # width of the labels of the rows, in columns
 _COLUMNS = ("Record", "Transverse", "Vertical")

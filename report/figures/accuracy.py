@@ -24,7 +24,7 @@ def work_precision(rivals: Rivals, us_first: bool) -> str:
     """Return the error in PRD against steps per sampling interval, one line per method."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     with style():
-        figure, axes = framed(1.85, 0.55, 2.5, 0.1, 0.42)
+        figure, axes = framed(1.95, 0.62, 2.75, 0.1, 0.5)
         for name in dict.fromkeys(run.method.name for run in rivals.runs):
             _draw(axes, [run for run in rivals.runs if run.method.name == name and not run.failed])
         floor = max(rivals.doubled, FLOOR)

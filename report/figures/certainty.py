@@ -6,7 +6,7 @@ Computes only the levels and the layout; legible in gray: black lines with their
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -43,7 +43,7 @@ def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool
     degrees = np.degrees(surface.slopes_rad)
     mean = np.maximum(surface.mean_m, LEAST_M) / unit.si
     with style():
-        figure, axes = framed(2.25, 0.5, 0.1, 0.08, 0.5)
+        figure, axes = framed(2.3, 0.5, 0.1, 0.14, 0.5)
         grid_mu, grid_deg = np.meshgrid(surface.mus, degrees)
         lost = np.isnan(mean)
         axes.plot(grid_mu[~lost], grid_deg[~lost], "+", color=GREY, markersize=3.5)
@@ -51,6 +51,8 @@ def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool
         _lines(axes, surface, mean)
         for array in arrays:
             _dot(axes, array, hollow=array.id in surface.others)
+        for (mu, slope), names in _places(arrays).items():
+            _name(axes, mu, slope, names)
         axes.set_xlabel("Friction coefficient μ at low velocity", fontsize=TYPE_PT)
         axes.set_ylabel("Slope [deg]", fontsize=TYPE_PT)
         axes.tick_params(labelsize=TYPE_PT)
@@ -105,8 +107,21 @@ def _dot(axes: Axes, array: ArrayAssessment, *, hollow: bool) -> None:
         markeredgewidth=1.3,
         zorder=5,
     )
+
+
+def _places(arrays: Sequence[ArrayAssessment]) -> Mapping[tuple[float, float], Sequence[str]]:
+    """Return the names of the arrays at each friction and slope [deg]: equal ones share a dot."""
+    places: dict[tuple[float, float], list[str]] = {}
+    for array in arrays:
+        place = (round(array.array.mu, 3), round(math.degrees(array.array.slope_rad), 2))
+        places.setdefault(place, []).append(array.id)
+    return places
+
+
+def _name(axes: Axes, mu: float, degrees: float, names: Sequence[str]) -> None:
+    more = f" and {len(names) - 2} more" if len(names) > 2 else ""
     axes.annotate(
-        tick_text(array.id),
+        ", ".join(map(tick_text, names[:2])) + more,
         (mu, degrees),
         (7, 5),
         textcoords="offset points",

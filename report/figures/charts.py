@@ -12,21 +12,15 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.spectra import Spectra
 from report.figures.accelerations import accelerations
 from report.figures.base import (
     ACCENT,
     FAMILY,
     GREY,
     INK,
-    WIDTH_IN,
-    Broken,
-    bare,
     framed,
     load_fonts,
     style,
@@ -37,6 +31,7 @@ from report.figures.history import MAX_POINTS, envelope, histories
 from report.figures.hodograph import hodographs
 from report.figures.plan import is_wide, roof_plan
 from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, SMALL
+from report.figures.spectra import spectra
 from report.words.units import Quantity, Unit
 
 __all__ = [
@@ -56,59 +51,6 @@ __all__ = [
     "roof_plan",
     "spectra",
 ]
-
-
-def spectra(parts: Sequence[Spectra]) -> str:
-    """Return the spectra: motions thin, mean and target thick, one panel per component."""
-    with style():
-        height = 0.62 + _PANEL_IN[min(len(parts), 3)] * len(parts)
-        figure = Figure(figsize=(WIDTH_IN, height))
-        figure.subplots_adjust(
-            left=0.07, right=0.99, top=1 - 0.22 / height, bottom=0.4 / height, hspace=0.2
-        )
-        panels = np.atleast_1d(figure.subplots(len(parts), 1, sharex=True))
-        for axes, part in zip(panels, parts, strict=True):
-            each = Broken()
-            for row in part.sa_g:
-                each.add(part.periods_s, row)
-            axes.plot(each.x, each.y, color=GREY, linewidth=0.45, label="each motion")
-            axes.plot(part.periods_s, part.mean_g, color=ACCENT, linewidth=1.8, label="mean")
-            axes.plot(
-                part.periods_s,
-                part.target_g,
-                color=INK,
-                linewidth=1.8,
-                linestyle=(0, (5, 1.5)),
-                label="target",
-            )
-            _spectrum_axes(axes, part)
-        panels[0].legend(loc="upper right")
-        panels[-1].set_xlabel("Period T [s]")
-        return svg_text(figure)
-
-
-def _spectrum_axes(axes: Axes, part: Spectra) -> None:
-    axes.set_xscale("log")
-    axes.set_xlim(_PERIOD_TICKS[0], part.periods_s[-1])
-    axes.set_ylim(0, None)
-    axes.xaxis.set_major_locator(FixedLocator(_PERIOD_TICKS))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_ylabel("Pseudo-acc. [g]")
-    goal = part.target.name or "none"
-    axes.set_title(f"{part.title} (target: {goal})", loc="left", weight="semibold", pad=3)
-    axes.grid(True)
-    axes.axvline(1 / 1.3, color=INK, linewidth=0.6, linestyle=":")
-    axes.text(1.04 / 1.3, 0.98, "1.3 Hz", transform=axes.get_xaxis_transform(), va="top")
-    bare(axes)
-
-
-_PANEL_IN = {
-    1: 2.0,
-    2: 1.9,
-    3: 1.25,
-}  # panel height by number of panels: all fit on the page of the text
-_PERIOD_TICKS = (0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0)
 
 
 def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
@@ -149,7 +91,7 @@ def _label_in(names: Sequence[str]) -> float:
 
 def _row_in(count: int) -> float:
     """Return the height of a row of a chart with `count` rows [in]."""
-    return min(0.48, 5.4 / count)
+    return min(0.4, 5.4 / count)
 
 
 def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
@@ -226,7 +168,7 @@ def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -
             for count, gap in enumerate(gaps, start=start)
         ]
         figure, axes = framed(
-            1.3 + min(_row_in(len(gaps)), 0.34) * len(gaps), _label_in(names), 0.1, 0.48, 0.75
+            1.3 + min(_row_in(len(gaps)), 0.3) * len(gaps), _label_in(names), 0.1, 0.48, 0.75
         )
         axes.barh(
             rows - 0.18,

@@ -10,13 +10,13 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 
-from report.figures.base import ACCENT, ACROSS, GREY, INK, bare, framed, style, svg_text
+from report.figures.base import ACCENT, ACROSS, GREY, INK, WIDTH_IN, bare, framed, style, svg_text
+from report.figures.labels import TYPE_PT, width_in
 from report.sheet.schema import Array
 from report.words.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface
 from solver.model import Friction
 
-TYPE_PT = 9.0
 _TYPE: Any = dict.fromkeys(
     ("font.size", "axes.labelsize", "xtick.labelsize", "ytick.labelsize", "legend.fontsize"),
     TYPE_PT,
@@ -30,7 +30,8 @@ _FITS: Mapping[Surface, dict[str, Any]] = {
     Surface.WET: {"color": ACCENT, "linestyle": (0, (3, 1.5))},
 }
 _POINTS = 200
-_LABEL_GAP = 0.08  # least distance of two labels, as a share of the height
+_LEADER_IN = 0.15
+_LABEL_GAP = 0.12  # least distance of two labels, as a share of the height
 
 
 def friction_by_velocity(
@@ -53,7 +54,9 @@ def friction_by_velocity(
     most = 1.08 * max(run.velocity_mps for run in shown) or unit.si
     v = np.linspace(0.0, most, _POINTS)
     with style(), mpl.rc_context(_TYPE):
-        figure, axes = framed(2.65, 0.62, 1.2, 0.3, 0.52)
+        laws = _laws(arrays)
+        labels_in = max(width_in(_law_words(law, names)) for law, names in laws.items())
+        figure, axes = framed(2.3, 0.62, labels_in + _LEADER_IN + 0.08, 0.3, 0.52)
         for surface, look in _MARKS.items():
             those = [run for run in shown if run.surface is surface]
             if those:
@@ -69,7 +72,6 @@ def friction_by_velocity(
         for surface, fit in fits.items():
             curve = [fit.law.at(one) for one in v]
             axes.plot(v / unit.si, curve, linewidth=1.0, label=f"fit, {surface}", **_FITS[surface])
-        laws = _laws(arrays)
         for law in laws:
             curve = [law.at(one) for one in v]
             axes.plot(v / unit.si, curve, color=INK, linewidth=1.6)
@@ -86,7 +88,7 @@ def _laws(arrays: Sequence[Array]) -> Mapping[Friction, str]:
     for array in arrays:
         found.setdefault(array.friction, []).append(array.id)
     return {
-        law: ids[0] if len(ids) == 1 else f"{ids[0]} and {len(ids) - 1} more"
+        law: ", ".join(ids) if len(ids) <= 2 else f"{ids[0]} and {len(ids) - 1} more"
         for law, ids in found.items()
     }
 
@@ -101,20 +103,25 @@ def _mu_axis(axes: Axes, runs: Sequence[float], laws: Sequence[float]) -> None:
 def _label_laws(axes: Axes, laws: Mapping[Friction, str], most: float) -> None:
     """Label each law at its end, moving labels apart upward."""
     low, high = axes.get_ylim()
+    wide_in = axes.get_position().width * WIDTH_IN
     last = -math.inf
     for law in sorted(laws, key=lambda one: one.at(most)):
         end = (law.at(most) - low) / (high - low)
         last = max(end, last + _LABEL_GAP)
-        mu = number(law.mu_slow, 3) if law.mu_fast == law.mu_slow else "μ(v)"
         axes.annotate(
-            f"{laws[law]}: {mu}",
+            _law_words(law, laws[law]),
             (1.0, end),
-            (1.03, last),
+            (1.0 + _LEADER_IN / wide_in, last),
             xycoords="axes fraction",
             textcoords="axes fraction",
             va="center",
             arrowprops={"arrowstyle": "-", "linewidth": 0.5, "color": GREY, "shrinkB": 0},
         )
+
+
+def _law_words(law: Friction, names: str) -> str:
+    mu = number(law.mu_slow, 3) if law.mu_fast == law.mu_slow else "μ(v)"
+    return f"{names}: {mu}"
 
 
 def _finish(axes: Axes, unit: Unit) -> None:

@@ -29,9 +29,11 @@ from report.words.units import Quantity, Unit, number, pair
 from solver.model import Floats, SlideHistory
 
 MAX_POINTS = 150  # in a history; a panel is 150 pt wide
-ROW_IN = 0.86
-TRACE = 0.83  # of the width of a panel: the labels stand to the right of the lines
-LABEL_IN = 0.13  # between two labels
+ROW_IN = 0.76
+TRACE = 0.82  # of the width of a panel: the labels stand to the right of the lines
+LABEL_IN = 0.16  # between two labels
+TITLE_IN = 0.09  # from the highest level down to a label that clears the title
+MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
 
@@ -50,7 +52,7 @@ def histories(
         figure = Figure(figsize=(WIDTH_IN, ROW_IN * grid.rows + 0.3))
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         axes.set_axis_off()
-        axes.set_xlim(-0.08 * grid.columns, grid.columns)
+        axes.set_xlim(-0.1 * grid.columns, grid.columns)
         axes.set_ylim(-grid.rows - 0.3, 0.0)
         _rules(axes, grid, len(motions))
         _traces(axes, grid)
@@ -77,7 +79,7 @@ class _Grid:
         ]
         high = max([0.0, *(float(line.max()) for line in drawn if line.size)]) / unit.si
         low = min([0.0, *(float(line.min()) for line in drawn if line.size)]) / unit.si
-        self.ticks = [float(t) for t in MaxNLocator(4).tick_values(low, high or 1.0)]
+        self.ticks = _levels(low, high or 1.0)
         self.low, self.high = self.ticks[0], self.ticks[-1]
         self.seconds = max(run.seconds for run in motions)
 
@@ -91,6 +93,15 @@ class _Grid:
         return -(index // self.columns) - 0.95 + 0.72 * share
 
 
+def _levels(low: float, high: float) -> list[float]:
+    """Return round levels around a range, few enough for their labels."""
+    for count in (4, 3, 2, 1):
+        levels = [float(t) for t in MaxNLocator(count).tick_values(low, high)]
+        if len(levels) <= MOST_LEVELS:
+            break
+    return levels
+
+
 def _rules(axes: Axes, grid: _Grid, count: int) -> None:
     """Draw the levels and ticks of all panels, each kind as one line with gaps."""
     levels, zeros, ticks = Broken(), Broken(), Broken()
@@ -101,12 +112,12 @@ def _rules(axes: Axes, grid: _Grid, count: int) -> None:
             (levels if value else zeros).add([left, right], [level, level])
             if index % grid.columns == 0:
                 label = number(value, 0 if abs(grid.ticks[1] - grid.ticks[0]) >= 1 else 1)
+                label += f" {grid.unit.symbol}" if value == grid.high else ""
                 axes.text(left - 0.012, level, label, ha="right", va="center")
         if index >= grid.last:
             _times(axes, grid, index, ticks)
     for line, color in ((levels, PALE), (zeros, GREY), (ticks, INK)):
         axes.plot(line.x, line.y, color=color, linewidth=0.5, clip_on=False)
-    axes.text(grid.x(0, 0.0) - 0.012, -0.13, f"u [{grid.unit.symbol}]", ha="right")
 
 
 def _times(axes: Axes, grid: _Grid, index: int, ticks: Broken) -> None:
@@ -150,6 +161,8 @@ def _names(axes: Axes, grid: _Grid, index: int, history: SlideHistory) -> None:
     short = LABEL_IN / ROW_IN - (levels[-1] - levels[0])
     if len(ends) == 2 and short > 0.0:
         levels = [levels[0] - short / 2, levels[1] + short / 2]
+    over = max(levels[-1] - (grid.y(index, grid.high) - TITLE_IN / ROW_IN), 0.0)
+    levels = [level - over for level in levels]
     for (name, _), level in zip(ends, levels, strict=True):
         axes.text(grid.x(index, grid.seconds) + 0.015, level, name, va="center")
 

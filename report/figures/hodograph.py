@@ -20,7 +20,7 @@ from report.words.units import Quantity
 from solver.model import Floats, SlideHistory
 
 COLUMNS = 7
-TALL_IN = 1.05  # of the paths of a row, at most
+TALL_IN = 0.9  # of the paths of a row, at most
 TITLE_IN, FOOT_IN, APART_IN = 0.2, 0.3, 0.1
 STEP_IN = 0.008  # between points of a path: what print resolves
 

@@ -94,7 +94,7 @@ def draw_coordinates(plan: PlanSheet, extent: Rectangle) -> None:
     words = f"y [{unit.symbol}]"
     _write(
         plan,
-        centered(box.x0 - 0.62 + width_in(words) / 2, box.y1 + 0.12, width_in(words), LINE_IN),
+        centered(box.x0 - 0.62 + width_in(words) / 2, box.y1 + 0.17, width_in(words), LINE_IN),
         words,
     )
 

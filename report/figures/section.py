@@ -17,7 +17,7 @@ from report.words.units import Quantity, number, pair
 DRAWN_DEG = (8.0, 15.0)
 """Flatter roofs are drawn at the first slope, so that it shows; steeper ones at the second."""
 
-_HEIGHT_IN, _SPLIT_IN = 2.2, 3.75
+_HEIGHT_IN, _SPLIT_IN = 2.0, 3.75
 _TYPE: Any = {"font.size": 9.0}
 _ARROW = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0, "linewidth": 1.1}
 _LINE = {"arrowstyle": "<|-|>", "mutation_scale": 6, "shrinkA": 0, "shrinkB": 0, "linewidth": 0.6}
@@ -37,7 +37,7 @@ class _Roof(NamedTuple):
 
 
 def array_section(array: Array, us_first: bool) -> str:
-    """Return the section with h, b, slope and friction, and the forces during downslope slip."""
+    """Return the section with b, c, slope and friction, and the forces during downslope slip."""
     drawn = math.radians(drawn_slope_deg(array))
     with style(), mpl.rc_context(_TYPE):
         figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN))
@@ -46,8 +46,8 @@ def array_section(array: Array, us_first: bool) -> str:
         axes.set_ylim(0.0, _HEIGHT_IN)
         axes.set_axis_off()
         rise = math.tan(drawn)
-        _section(axes, _Roof(0.15, 0.62 + 3.0 * rise, drawn), array, us_first)
-        _free_body(axes, _Roof(_SPLIT_IN + 0.45, 0.85 + 2.0 * rise, drawn))
+        _section(axes, _Roof(0.15, 0.58 + 3.0 * rise, drawn), array, us_first)
+        _free_body(axes, _Roof(_SPLIT_IN + 0.45, 0.72 + 2.0 * rise, drawn))
         for x, text in ((0.1, "Section, not to scale"), (_SPLIT_IN + 0.1, "Free body")):
             axes.text(x, _HEIGHT_IN - 0.08, text, va="top", weight="semibold")
         return svg_text(figure)
@@ -88,7 +88,7 @@ def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
     axes.annotate(
         f"μ = {_friction(array)}",
         roof.at(1.95, 0.0),
-        _below(roof, 1.75, 0.42),
+        _below(roof, 1.75, 0.56),
         ha="center",
         va="top",
         arrowprops={"arrowstyle": "-", "linewidth": 0.6, "color": INK},

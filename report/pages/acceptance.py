@@ -26,11 +26,11 @@ def acceptance_table(acceptance: Acceptance) -> Table:
     return Table(
         caption="Limits on the motions for analysis, at the roof as run",
         columns=(
-            TableColumn(head="Limit", align="left", share=4.6),
-            TableColumn(head="Found", share=0.8),
-            TableColumn(head="Limit value", share=1.2),
-            TableColumn(head="Worst", align="left", share=1.7),
-            TableColumn(head="Result", align="left", share=0.9),
+            TableColumn(head="Limit", align="left", share=4.75),
+            TableColumn(head="Found", share=0.7),
+            TableColumn(head="Limit value", share=0.95),
+            TableColumn(head="Worst", align="left", share=1.5),
+            TableColumn(head="Result", align="left", share=1.05),
         ),
         rows=tuple(_acceptance_row(row) for row in acceptance.rows),
         notes=tuple(_notes(acceptance)),

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import platform
-import textwrap
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from importlib import metadata
 from itertools import groupby, zip_longest
 from string import ascii_uppercase, digits
@@ -29,10 +28,11 @@ LIBRARIES = (
     "weasyprint",
 )
 METHOD = "exact in one axis, to a tolerance in two; linear acceleration between samples"
-_RECORD_WIDTHS = (10, 12, 9, 10, 10, 64)
-_SECOND_WIDTHS = (10, sum(_RECORD_WIDTHS[1:-1]), 64)
-MOST_COLUMNS = 4
-"""Rows of a table of the workbook that stand side by side."""
+WIDEST = 125.0
+"""Width of a table of the workbook, in letters."""
+
+MOST_LETTERS = 24
+"""Width of a column at most, in letters: a longer entry has several lines."""
 
 
 def echo_page(package: PackageData) -> Mapping[str, object]:
@@ -53,9 +53,10 @@ def echo(
 ) -> tuple[tuple[str, tuple[Table, ...]], ...]:
     """Return the name of each sheet, and its cells as tables: entered values once.
 
-    Single cells stand in two columns of the page. A table of the workbook stands with one column
-    for each of its rows. Cells left blank share a note with the defaults that they stand for.
-    Cells at the addresses that changed are bold, and their rows have a bar in the margin.
+    Single cells stand in two columns of the page. A table of the workbook stands as it is there;
+    a column with one entry in all rows is in a note. Cells left blank share a note with the
+    defaults that they stand for. Cells at the addresses that changed are bold, and their rows have
+    a bar in the margin.
     """
     return tuple(
         (sheet, tuple(_tables(tuple(group), changed)))
@@ -113,45 +114,92 @@ def _single(row: EchoRow | None, changed: Set[str]) -> tuple[str, str, str]:
 
 
 def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[Table]:
-    """Yield a table of the workbook, a few of its rows at a time, with a line for each column."""
-    by_number = [tuple(cells) for _, cells in groupby(rows, key=_row_number)]
-    for start in range(0, len(by_number), MOST_COLUMNS):
-        yield _columns_of_rows(by_number[start : start + MOST_COLUMNS], changed)
-
-
-def _columns_of_rows(parts: Sequence[Sequence[EchoRow]], changed: Set[str]) -> Table:
-    numbers = [_row_number(cells[0]) for cells in parts]
-    lines: dict[str, dict[str, EchoRow]] = {}
-    for cells in parts:
-        for row in cells:
-            lines.setdefault(_column_letters(row), {})[_row_number(row)] = row
-    given = {
-        letters: line
-        for letters, line in lines.items()
-        if not all(_is_in_note(row, changed) for row in line.values())
+    """Yield a table of the workbook, a few of its columns at a time, as it stands there."""
+    lines = {
+        number: {_column_letters(row): row for row in cells}
+        for number, cells in groupby(rows, key=_row_number)
     }
-    blank = [next(iter(line.values())) for key, line in lines.items() if key not in given]
+    letters = list(dict.fromkeys(_column_letters(row) for row in rows))
+    columns = {name: [line[name] for line in lines.values() if name in line] for name in letters}
+    blank = [cells[0] for cells in columns.values() if all(_is_in_note(r, changed) for r in cells)]
+    given = [cells for cells in columns.values() if cells[0] not in blank]
+    equal = [cells[0] for cells in given if _is_equal(cells, len(lines), changed)]
+    shown = [cells for cells in given if cells[0] not in equal]
+    notes = (*_same(equal), *_blanks(blank, whole_column=True))
+    chunks = list(_chunks(shown)) or [[given[0]]]
+    for count, chunk in enumerate(chunks, start=1):
+        yield _columns(lines, chunk, changed, notes if count == len(chunks) else ())
+
+
+def _is_equal(cells: Sequence[EchoRow], rows: int, changed: Set[str]) -> bool:
+    """Whether several rows have one entry in a column, so that it is printed once."""
+    entered = {_as_entered(row, row.unit) for row in cells}
+    return (
+        1 < rows == len(cells)
+        and len(entered) == 1
+        and not any(_is_changed(row, changed) for row in cells)
+    )
+
+
+def _same(cells: Sequence[EchoRow]) -> Iterator[str]:
+    """Yield what every row has alike, in one line."""
+    if cells:
+        names = (
+            f"{_column_letters(row)} {row.label} {_as_entered(row, row.unit)}" for row in cells
+        )
+        yield f"In every row: {'; '.join(names)}."
+
+
+def _chunks(columns: Sequence[Sequence[EchoRow]]) -> Iterator[Sequence[Sequence[EchoRow]]]:
+    """Yield columns that fit side by side, the first one repeated."""
+    chunk: list[Sequence[EchoRow]] = []
+    for cells in columns:
+        if sum(map(_width, [*chunk, cells])) > WIDEST:
+            yield chunk
+            chunk = [columns[0]]
+        chunk.append(cells)
+    if chunk:
+        yield chunk
+
+
+def _width(cells: Sequence[EchoRow]) -> float:
+    """Return the width of a column in letters: of its entries, and of the words above."""
+    entries = max(min(len(_as_entered(row, "")), MOST_LETTERS) for row in cells)
+    return 3.0 + max(entries, *map(len, (*cells[0].label.split(), cells[0].unit)))
+
+
+def _columns(
+    lines: Mapping[str, Mapping[str, EchoRow]],
+    chunk: Sequence[Sequence[EchoRow]],
+    changed: Set[str],
+    notes: Sequence[str],
+) -> Table:
+    letters = [_column_letters(cells[0]) for cells in chunk]
     return Table(
         caption="",
         columns=(
-            TableColumn(head="Column", align="left", share=0.7),
-            TableColumn(head="Field", align="left", share=2.2),
-            TableColumn(head="Unit", align="left", share=0.6),
-            *(TableColumn(head=f"Row {number}", align="left", share=1.6) for number in numbers),
+            TableColumn(head="Row", align="left", share=5.0),
+            *(
+                TableColumn(
+                    head=f"{name} {cells[0].label}",
+                    unit=cells[0].unit,
+                    align="left",
+                    share=_width(cells),
+                )
+                for name, cells in zip(letters, chunk, strict=True)
+            ),
         ),
         rows=tuple(
             TableRow(
                 cells=(
-                    letters,
-                    next(iter(line.values())).label,
-                    next(iter(line.values())).unit,
-                    *(_entered(line[n], "", changed) if n in line else "" for n in numbers),
+                    number,
+                    *(_entered(line[n], "", changed) if n in line else "" for n in letters),
                 ),
-                kind=_bar(line.values(), changed),
+                kind=_bar((line.get(n) for n in letters), changed),
             )
-            for letters, line in given.items()
+            for number, line in lines.items()
         ),
-        notes=tuple(_blanks(blank, whole_column=True)),
+        notes=tuple(notes),
         kind="compact",
     )
 
@@ -197,37 +245,54 @@ def _column_letters(row: EchoRow) -> str:
     return row.cell.rstrip(digits)
 
 
-def _even(texts: Sequence[str], widths: Sequence[int]) -> str:
-    return "".join(text.ljust(width) for text, width in zip(texts, widths, strict=True)).rstrip()
+def records(rows: Sequence[RecordFile]) -> Table:
+    """Return the record files with their hashes; what all files have alike is in a note."""
+    alike = {name: len({show(row) for row in rows}) == 1 for name, show in _ALIKE.items()}
+    own = [name for name, is_alike in alike.items() if not is_alike]
+    same = [f"{name} {_ALIKE[name](rows[0])}" for name, is_alike in alike.items() if is_alike]
+    return Table(
+        caption="Records as read",
+        columns=(
+            TableColumn(head="Motion", align="left", share=0.48),
+            TableColumn(head="Component", align="left", share=0.72),
+            *(TableColumn(head=name, align="left", share=0.55) for name in own),
+            TableColumn(head="Peak [g]", share=0.52),
+            TableColumn(head="File", align="left", share=1.06),
+            TableColumn(head="SHA-256", align="left", share=4.0 - 0.55 * len(own)),
+        ),
+        rows=tuple(
+            TableRow(
+                cells=(
+                    shortened(row.motion_id, 12),
+                    row.component,
+                    *(_ALIKE[name](row) for name in own),
+                    number(row.peak_g, 4),
+                    row.name,
+                    row.sha256,
+                )
+            )
+            for row in rows
+        ),
+        notes=(*([f"Every record: {', '.join(same)}."] if same else []), *_notes(rows)),
+        kind="compact digest",
+    )
 
 
-def records(rows: Sequence[RecordFile]) -> str:
-    """Return the record files with their hashes as lines of aligned columns."""
-    heads = ("Motion", "Component", "Samples", "Step [s]", "Peak [g]", "File, SHA-256")
-    lines = [_even(heads, _RECORD_WIDTHS)]
+_ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
+    "Format": lambda row: row.format,
+    "Samples": lambda row: str(row.npts),
+    "Step [s]": lambda row: f"{row.dt_s:g}",
+}
+
+
+def _notes(rows: Sequence[RecordFile]) -> Iterator[str]:
     for row in rows:
-        texts = (
-            shortened(row.motion_id, _RECORD_WIDTHS[0] - 1),
-            row.component,
-            str(row.npts),
-            f"{row.dt_s:g}",
-            number(row.peak_g, 4),
-            row.name,
-        )
-        lines.append(_even(texts, _RECORD_WIDTHS))
-        lines.append(_even(("", row.format, row.sha256), _SECOND_WIDTHS))
-        lines += [f"{'':10}note: {part}" for part in _notes(row)]
-    return "\n".join(lines)
+        for note in row.notes:
+            yield f"{row.motion_id} {row.component}: {note}"
 
 
-def _notes(row: RecordFile) -> Iterator[str]:
-    for note in row.notes:
-        yield from textwrap.wrap(note, 104)
-
-
-def software() -> Mapping[str, str]:
+def software() -> str:
     """Return the software with its versions."""
-    return {
-        "roofslip": metadata.version("roofslip"),
-        "python": platform.python_version(),
-    } | {name: metadata.version(name) for name in LIBRARIES}
+    libraries = (f"{name} {metadata.version(name)}" for name in LIBRARIES)
+    own = f"roofslip {metadata.version('roofslip')}", f"python {platform.python_version()}"
+    return ", ".join((*own, *libraries))

@@ -26,7 +26,7 @@ from report.pages.parts import (
 )
 from report.pages.remedies import table
 from report.pages.symbols import with_symbols
-from report.sheet.schema import Array, ObjectKind
+from report.sheet.schema import Array, Direction, ObjectKind
 from report.typeset.equations import symbol
 from report.words.units import Quantity, compared, number, ratio
 from solver.records.acceptance_row import Consequence
@@ -37,29 +37,32 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
     """Return the clearances: required and provided separation."""
     fmt = package.fmt
     factor = " × I" if package.assessment.rules.importance_in_separation else ""
+    directions = (
+        [TableColumn(head="Direction", align="left", share=1.05)] if _by_direction(package) else []
+    )
     more = (
         ()
         if brief
         else (
             *fmt.columns("Displ.", share=0.75),
-            TableColumn(head="Array", align="left", share=0.8),
-            TableColumn(head="Direction", align="left", share=1.05),
+            TableColumn(head="Array", align="left", share=0.75),
+            *directions,
             TableColumn(head="Factor" + factor, share=0.85),
-            TableColumn(head="Clause", align="left", share=2.15),
+            TableColumn(head="Clause", align="left", share=1.85),
         )
     )
     return Table(
         caption="Clearances: required and provided separation",
         columns=(
             TableColumn(head="No.", share=0.45),
-            TableColumn(head="From", align="left", share=0.9),
-            TableColumn(head="To", align="left", share=1.1),
-            TableColumn(head="Condition", align="left", share=2.2),
+            TableColumn(head="From", align="left", share=0.85),
+            TableColumn(head="To", align="left", share=1.05),
+            TableColumn(head="Condition", align="left", share=3.1 if brief else 2.6),
             *more,
             *fmt.columns("Required", share=0.85),
             *fmt.columns("Provided", share=0.85),
             TableColumn(head="D/C", share=0.65),
-            TableColumn(head="Verdict", align="center", share=0.95),
+            TableColumn(head="Verdict", align="center", share=1.3),
         ),
         rows=tuple(
             _clearance_row(package, count, gap, brief)
@@ -67,6 +70,12 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
         ),
         kind="" if brief else "compact",
     )
+
+
+def _by_direction(package: PackageData) -> bool:
+    """Whether any clearance takes the displacement in one direction."""
+    gaps = package.assessment.clearances
+    return any(gap.governing_direction is not Direction.ANY for gap in gaps)
 
 
 def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief: bool) -> TableRow:
@@ -80,7 +89,7 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
         else (
             *fmt.cells(gap.design_m),
             gap.governing_array,
-            gap.governing_direction.value,
+            *([gap.governing_direction.value] if _by_direction(package) else []),
             number(gap.factor, 2) + package.mark(key),
             package.clause(key),
         )
@@ -166,12 +175,12 @@ def requirements(package: PackageData) -> Table:
     return Table(
         caption="Requirements beside the numeric limits",
         columns=(
-            TableColumn(head="Item", align="left", share=0.9),
-            TableColumn(head="Requirement", align="left", share=2.8),
-            TableColumn(head="Found", align="left", share=2.0),
+            TableColumn(head="Item", align="left", share=0.8),
+            TableColumn(head="Requirement", align="left", share=2.6),
+            TableColumn(head="Found", align="left", share=2.5),
             TableColumn(head="Required", align="left", share=2.0),
-            TableColumn(head="Basis", align="left", share=1.5),
-            TableColumn(head="Verdict", align="center", share=1.5),
+            TableColumn(head="Basis", align="left", share=1.75),
+            TableColumn(head="Verdict", align="center", share=1.35),
         ),
         rows=tuple(
             TableRow(
@@ -327,7 +336,7 @@ def _interconnection(package: PackageData) -> Table:
             *fmt.columns("Required", Quantity.WEIGHT),
             *fmt.columns("Provided", Quantity.WEIGHT),
             TableColumn(head="D/C", share=0.8),
-            TableColumn(head="Clause", align="left", share=1.4),
+            TableColumn(head="Clause", align="left", share=1.9),
         ),
         rows=tuple(
             TableRow(
@@ -366,10 +375,10 @@ def provisions(package: PackageData) -> Mapping[str, object]:
         "table": Table(
             caption=f"Numbers of {rules.name} used in this package",
             columns=(
-                TableColumn(head="Provision", align="left", share=4.6),
+                TableColumn(head="Provision", align="left", share=5.2),
                 TableColumn(head="Value", share=0.9),
                 TableColumn(head="Clause", align="left", share=1.7),
-                TableColumn(head="Status", align="left", share=1.9),
+                TableColumn(head="Status", align="left", share=1.5),
             ),
             rows=tuple(
                 TableRow(

@@ -23,7 +23,7 @@ from report.motions.history import PreparedMotion
 from report.motions.targets import OWN
 from report.pages.acceptance import acceptance_table, event_table, strength_table
 from report.pages.building import building_part
-from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
 from report.pages.symbols import with_symbols
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
@@ -60,9 +60,9 @@ def motion_table(motions: Sequence[Motion], preparations: Sequence[PreparedMotio
             TableColumn(head="Motion", align="left", share=1.0),
             TableColumn(head="Source", align="left", share=3.7),
             *where,
-            TableColumn(head="Peak", unit="record, g", share=0.95),
-            TableColumn(head="Peak", unit="transv., g", share=0.95),
-            TableColumn(head="Peak", unit="vertical, g", share=1.0),
+            TableColumn(head="Peak", unit="record, g", share=1.0),
+            TableColumn(head="Peak", unit="transv., g", share=1.0),
+            TableColumn(head="Peak", unit="vertical, g", share=1.1),
             TableColumn(head="Step", unit="s", share=0.7),
             TableColumn(head="Duration", unit="s", share=0.85),
             TableColumn(head="Scaling", align="left", share=1.5),
@@ -196,23 +196,10 @@ def beyond_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
     )
 
 
-def spectrum_table(part: Spectra) -> Table:
-    """Return target, achieved ordinates and their ratios at a few periods."""
-    at = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
-    target, sa = part.target_g[at], part.sa_g[:, at]
-    count = f"{len(part.ids)} motion{'s' if len(part.ids) > 1 else ''}"
-    rows = [_ordinates(f"Mean of {count} [g]", sa.mean(axis=0))]
-    if part.target.name:
-        share = sa / target
-        rows = [
-            _ordinates(f"Target, {part.target.name} [g]", target),
-            *rows,
-            _ordinates("Mean / target", share.mean(axis=0), kind="total", decimals=2),
-            _ordinates("Smallest motion / target", share.min(axis=0), kind="total", decimals=2),
-            _ordinates("Largest motion / target", share.max(axis=0), kind="total", decimals=2),
-        ]
+def spectrum_table(spectra: Sequence[Spectra]) -> Table:
+    """Return target, achieved ordinates and their ratios at a few periods, by component."""
     return Table(
-        caption=f"{part.title}: pseudo-acceleration, 5 % damping, achieved and target",
+        caption="Pseudo-acceleration, 5 % damping, achieved and target",
         columns=(
             TableColumn(head="Period", align="left", share=2.9),
             *(
@@ -220,13 +207,33 @@ def spectrum_table(part: Spectra) -> Table:
                 for period in PRINTED_S
             ),
         ),
-        rows=tuple(rows),
+        rows=tuple(row for part in spectra for row in _spectrum_rows(part)),
         kind="compact",
     )
 
 
-def _ordinates(name: str, values: Floats, *, kind: str = "", decimals: int = 3) -> TableRow:
-    return TableRow(cells=(name, *(number(float(value), decimals) for value in values)), kind=kind)
+def _spectrum_rows(part: Spectra) -> Sequence[TableRow]:
+    at = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
+    target, sa = part.target_g[at], part.sa_g[:, at]
+    count = f"{len(part.ids)} motion{'s' if len(part.ids) > 1 else ''}"
+    title = Markup("<b>{}</b>").format(part.title)
+    head = TableRow(cells=(Wide(title, 1 + len(PRINTED_S)),), kind="total group")
+    mean = _ordinates(f"Mean of {count} [g]", sa.mean(axis=0))
+    if not part.target.name:
+        return head, mean
+    share = sa / target
+    return (
+        head,
+        _ordinates(f"Target, {part.target.name} [g]", target),
+        mean,
+        _ordinates("Mean / target", share.mean(axis=0), decimals=2),
+        _ordinates("Smallest motion / target", share.min(axis=0), decimals=2),
+        _ordinates("Largest motion / target", share.max(axis=0), decimals=2),
+    )
+
+
+def _ordinates(name: str, values: Floats, *, decimals: int = 3) -> TableRow:
+    return TableRow(cells=(name, *(number(float(value), decimals) for value in values)))
 
 
 def achieved_table(spectra: Sequence[Spectra]) -> Table:
@@ -347,7 +354,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "building": building_part(package, motions, preparations) if has_ground(package) else None,
         "target": (*target_words(package), *map(departure_sentence, departures(spectra))),
         "achieved": achieved_table(spectra),
-        "spectra": tuple(spectrum_table(part) for part in spectra),
+        "spectra": spectrum_table(spectra),
         "events": event_table(package.data.motions),
         "acceptance": acceptance_table(package.assessment.acceptance),
         "strength": strength_table(package.assessment.acceptance.motions),

@@ -33,7 +33,9 @@ from solver.rules.provisions import (
 NO_VALUE = "none"
 BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
-WHOLE_ROWS = 24  # longer tables may break across pages, with the heading repeated
+SHORT_LETTERS = 64
+"""Length of numbers that fit beside an equation."""
+WHOLE_ROWS = 6  # longer tables may break across pages, with the heading repeated
 OK, NG = "OK", "NG"
 
 
@@ -144,6 +146,12 @@ class Line:
     reference: str
     steps: tuple[tuple[str, str], ...] = ()
     note: str = ""
+
+    @property
+    def is_long(self) -> bool:
+        """Whether its numbers are too long to stand beside the equation."""
+        texts = (f"{Markup(left).striptags()} = {right}" for left, right in self.steps)
+        return any(len(text) > SHORT_LETTERS for text in texts)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

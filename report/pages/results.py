@@ -36,7 +36,13 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the results of every array, without the charts."""
-    return {"arrays": [array_results(package, array) for array in package.assessment.arrays]}
+    return {
+        "meaning": "PRD is the largest distance in plan from the starting position, relative to "
+        "the roof; down, up and across are the largest displacements downslope, upslope and "
+        "cross-slope. Time is that of the PRD, N/(m g) the minimum of the governing run. The file "
+        "results.xlsx has every run in both systems of units.",
+        "arrays": [array_results(package, array) for array in package.assessment.arrays],
+    }
 
 
 def array_results(package: PackageData, array: ArrayAssessment) -> Mapping[str, object]:
@@ -81,16 +87,16 @@ def _peaks(package: PackageData, array: ArrayAssessment) -> Table:
     return Table(
         caption=f"Array {array.id}: PRD of every motion in every run",
         columns=(
-            TableColumn(head="Motion", align="left", share=1.1),
+            TableColumn(head="Motion", align="left"),
             *(
-                TableColumn(head=f"PRD of each run, {first}", unit=_short(heading))
+                TableColumn(head=f"PRD of each run, {first}", unit=_short(heading), share=0.95)
                 for heading in headings
             ),
-            *fmt.columns("Governing PRD"),
+            *fmt.columns("Governing PRD", share=1.08),
             *(TableColumn(head=f"Largest of all runs, {first}", unit=d.value) for d in _WAYS),
             *(TableColumn(head=f"Residual, {first}", unit=way) for way in ("down", "across")),
-            TableColumn(head="Time of PRD", unit="s", share=0.9),
-            TableColumn(head="N/(m g)", share=1.0),
+            TableColumn(head="Time", unit="s", share=0.85),
+            TableColumn(head="N/(m g)", share=1.2),
             TableColumn(head="Status", align="left", share=1.05),
         ),
         rows=(
@@ -98,11 +104,8 @@ def _peaks(package: PackageData, array: ArrayAssessment) -> Table:
             *_statistics(package, array, len(headings)),
         ),
         notes=(
-            f"{_meaning(headings)}; bold: the governing run. PRD is the largest distance in plan "
-            "from the starting position, relative to the roof. Largest of all runs: downslope, "
-            f"upslope and cross-slope; {_use(array)}. The columns to the right "
-            "belong to the governing run; N/(m g) is its minimum. The file results.xlsx has every "
-            "run in both systems of units.",
+            f"{_meaning(headings)}; bold: the governing run, to which the columns to the right "
+            f"belong. Largest of all runs: {_use(array)}.",
             *_stand_in(package, array),
         ),
         kind="compact",
@@ -130,12 +133,12 @@ def _headings(array: ArrayAssessment) -> tuple[Heading, ...]:
 
 
 def _short(heading: Heading) -> str:
-    return f"{'transv.' if heading.swapped else 'rec.'} {heading.name[-1]}"
+    return f"{'tr.' if heading.swapped else 'rec.'} {heading.name[-1]}"
 
 
 def _meaning(headings: Sequence[Heading]) -> str:
     """Return the meaning of the run headings."""
-    two = "; transv.: the transverse component" if any(h.swapped for h in headings) else ""
+    two = "; tr.: the transverse component" if any(h.swapped for h in headings) else ""
     return f"Rec.: the horizontal record along the slope{two}; −: reversed"
 
 
@@ -233,7 +236,7 @@ def _floor_words(package: PackageData, clause: str) -> str:
     if package.data.options.peer_reviewed:
         return "none; the analysis is peer reviewed"
     share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
-    return f"{share} % of the prescriptive displacement, {clause}"
+    return f"{share} % of prescriptive, {clause}"
 
 
 def comparison(package: PackageData) -> Mapping[str, object]:

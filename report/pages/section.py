@@ -26,7 +26,7 @@ def picture(package: PackageData) -> Picture:
     return Picture(
         svg=array_section(array, package.fmt.us_first),
         caption=f"Array {array.id}: section, and forces during downslope slip with the inertia"
-        " forces of the roof acceleration. h: height of the center of gravity; b: spacing of the"
+        " forces of the roof acceleration. c: height of the center of gravity; b: spacing of the"
         f" supports.{slope} {_weights(package)} Ballast for wind by others.",
         alt=f"Section through array {array.id} with its free body",
     )

@@ -17,6 +17,7 @@ from markupsafe import Markup, escape
 from solver.model import DefectError
 
 SIZE_PT = 11.0
+WIDE_PT = 175.0  # of a page 482 pt wide
 _SIZE = re.compile(r'<svg [^>]*?width="([\d.]+)" height="([\d.]+)" viewBox="([-\d. ]+)"')
 _PATH = re.compile(r'<path d="([^"]+)"')
 _BAR = re.compile(r"<rect [^>]+>")
@@ -40,6 +41,11 @@ class Formula:
     def size(self) -> str:
         """Its size on the page, as a style."""
         return f"width: {self.width_pt:.2f}pt; height: {self.height_pt:.2f}pt"
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether it leaves no room for its numbers beside it."""
+        return self.width_pt > WIDE_PT
 
 
 def data_uri(svg: str) -> str:

@@ -1,6 +1,7 @@
 """The echo of the input, and the list of records."""
 
 import math
+from dataclasses import replace
 
 from report.motions.components import RecordFile
 from report.pages import appendix
@@ -38,7 +39,7 @@ def test_cells_left_blank_share_a_note_with_their_defaults():
     assert made.notes == ("Left blank: B6 Checked by; B7 Hazard basis = mapped values.",)
 
 
-def test_a_table_of_the_workbook_has_a_line_for_each_column():
+def test_a_table_of_the_workbook_stands_as_it_is_there():
     made = table(
         row("B8", "ID", "A1", "A1"),
         row("C8", "Weight", "100", "444.8 N", "lb"),
@@ -47,10 +48,11 @@ def test_a_table_of_the_workbook_has_a_line_for_each_column():
         row("C9", "Weight", "=2*C8", "889.6 N", "lb"),
         row("D9", "Model", value="choose (default)"),
     )
-    assert [column.head for column in made.columns] == ["Column", "Field", "Unit", "Row 8", "Row 9"]
+    assert [column.head for column in made.columns] == ["Row", "B ID", "C Weight"]
+    assert [column.unit for column in made.columns] == ["", "", "lb"]
     assert [line.cells for line in made.rows] == [
-        ("B", "ID", "", "A1", "A2"),
-        ("C", "Weight", "lb", "100", "=2*C8: 889.6 N"),
+        ("8", "A1", "100"),
+        ("9", "A2", "=2*C8: 889.6 N"),
     ]
     assert made.notes == ("Left blank: D Model = choose.",)
 
@@ -62,19 +64,46 @@ def test_a_column_blank_in_some_rows_shows_the_default_there():
         row("B9", "ID", "A2", "A2"),
         row("C9", "Model", value="choose (default)"),
     )
-    assert made.rows[1].cells == ("C", "Model", "", "one axis", "choose (default)")
+    assert [line.cells for line in made.rows] == [
+        ("8", "A1", "one axis"),
+        ("9", "A2", "choose (default)"),
+    ]
 
 
-def test_every_cell_of_a_long_table_is_printed():
+ALIKE = (
+    row("B8", "ID", "A1", "A1"),
+    row("C8", "Slack", "60", "1.524 m", "in"),
+    row("B9", "ID", "A2", "A2"),
+    row("C9", "Slack", "60", "1.524 m", "in"),
+)
+
+
+def test_one_entry_in_every_row_is_printed_once():
+    made = table(*ALIKE)
+    assert [line.cells for line in made.rows] == [("8", "A1"), ("9", "A2")]
+    assert made.notes == ("In every row: C Slack 60 in.",)
+
+
+def test_an_entry_that_changed_stays_in_its_row():
+    ((_, (made,)),) = appendix.echo(ALIKE, {"S!C9"})
+    assert [line.cells for line in made.rows] == [("8", "A1", "60"), ("9", "A2", "<b>60</b>")]
+    assert [line.kind for line in made.rows] == ["", "changed"]
+
+
+def test_every_cell_of_a_wide_table_is_printed_beside_its_name():
+    letters = "BCDEFGHIJKLM"
     rows = [
-        row(f"{letter}{number}", letter, f"{letter}-{number}", "x")
+        row(f"{letter}{number}", f"{letter} of some length", f"{letter}-entry-{number}", "x")
         for number in range(8, 19)
-        for letter in "BC"
+        for letter in letters
     ]
     ((_, tables),) = appendix.echo(rows)
     printed = {cell for made in tables for line in made.rows for cell in line.cells}
     assert {echoed.typed for echoed in rows} <= printed
-    assert len(tables) == 3
+    assert len(tables) > 1
+    for made in tables:
+        assert made.columns[1].head == "B B of some length"
+        assert sum(column.share for column in made.columns) < appendix.WIDEST + 6.0
 
 
 def test_a_record_shows_its_format_and_what_was_noted():
@@ -90,6 +119,13 @@ def test_a_record_shows_its_format_and_what_was_noted():
         hold_s=math.nan,
         notes=("uneven times were resampled",),
     )
-    text = " ".join(appendix.records([record]).split())
-    assert "M1 vertical 100 0.02 0.2500 records/a.V2A | Up GeoNet V2A " + "ab" * 32 in text
-    assert "note: uneven times were resampled" in text
+    other = replace(record, motion_id="M2", npts=200, notes=())
+    made = appendix.records([record])
+    assert made.rows[0].cells == ("M1", "vertical", "0.2500", "records/a.V2A | Up", "ab" * 32)
+    assert made.notes == (
+        "Every record: Format GeoNet V2A, Samples 100, Step [s] 0.02.",
+        "M1 vertical: uneven times were resampled",
+    )
+    made = appendix.records([record, other])
+    assert [line.cells[2] for line in made.rows] == ["100", "200"]
+    assert made.notes[0] == "Every record: Format GeoNet V2A, Step [s] 0.02."

@@ -1,0 +1,113 @@
+"""Response spectra: each component on logarithmic axes, and as ratio to its target.
+
+Computes only the layout; legible in gray (line style and width carry the meaning).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+
+from report.assessment.spectra import Spectra
+from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, Broken, bare, style, svg_text
+from solver.model import Floats
+
+_ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.92, 0.26, 0.5, 0.24
+_LEFT_IN, _FIRST_IN, _APART_IN, _RIGHT_IN = 0.46, 2.1, 0.52, 0.1
+_FEW_S, _MANY_S = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0), (0.03, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+_LEVELS_G = tuple(step * 10.0**power for power in range(-4, 2) for step in (1, 2, 5))
+LEAST_G = 1e-4
+"""Ordinate below which nothing is drawn [g]."""
+
+_CORNER_S = 1 / 1.3
+"""Longest period that the acceptance of AC156 covers."""
+
+_DASHES = (0, (5, 1.5))
+_THIN = 2  # the narrow panel shows every second period: the wide one has all of them
+
+
+def spectra(parts: Sequence[Spectra]) -> str:
+    """Return a row per component: spectra over period, and their ratio to the target.
+
+    Every motion is a thin line, the mean a thick one, the target dashed. A component without a
+    target has no ratio.
+    """
+    height = _TOP_IN + (_ROW_IN + _TITLE_IN) * len(parts) + _FOOT_IN
+    ratio_in = WIDTH_IN - _LEFT_IN - _FIRST_IN - _APART_IN - _RIGHT_IN
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, height))
+
+        def panel(left_in: float, wide_in: float, row: int) -> Axes:
+            low_in = height - _TOP_IN - (row + 1) * (_ROW_IN + _TITLE_IN)
+            box = (left_in / WIDTH_IN, low_in / height, wide_in / WIDTH_IN, _ROW_IN / height)
+            return figure.add_axes(box)
+
+        for row, part in enumerate(parts):
+            axes = panel(_LEFT_IN, _FIRST_IN, row)
+            _ordinates(axes, part)
+            _finish(axes, part, _FEW_S, is_last=row == len(parts) - 1)
+            if part.target.name:
+                axes = panel(_LEFT_IN + _FIRST_IN + _APART_IN, ratio_in, row)
+                _ratios(axes, part)
+                _finish(axes, part, _MANY_S, is_last=row == len(parts) - 1)
+        marks, names = figure.axes[0].get_legend_handles_labels()
+        figure.legend(marks, names, loc="upper right", ncols=3, borderaxespad=0.1)
+        return svg_text(figure)
+
+
+def _ordinates(axes: Axes, part: Spectra) -> None:
+    seen = np.concatenate([part.sa_g.ravel(), part.target_g])
+    seen = seen[np.isfinite(seen) & (seen > LEAST_G)]
+    low, high = (0.85 * seen.min(), 1.3 * seen.max()) if seen.size else (0.1, 1.0)
+    axes.set_ylim(low, high)
+    axes.set_yscale("log", nonpositive="mask")
+    _lines(axes, part.periods_s[::_THIN], part.sa_g[:, ::_THIN])
+    axes.plot(
+        part.periods_s, part.target_g, color=INK, linewidth=1.4, linestyle=_DASHES, label="target"
+    )
+    levels = _LEVELS_G if high < 30.0 * low else _LEVELS_G[::3]
+    axes.yaxis.set_major_locator(FixedLocator(levels))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.set_title(f"{part.title} [g]", loc="left", weight="semibold", pad=3)
+
+
+def _ratios(axes: Axes, part: Spectra) -> None:
+    ratios = part.sa_g / part.target_g
+    _lines(axes, part.periods_s, ratios)
+    axes.axhline(1.0, color=INK, linewidth=1.4, linestyle=_DASHES)
+    low, high = np.nanmin(ratios), np.nanmax(ratios)
+    axes.set_ylim(min(low, 1.0) - 0.04, max(high, 1.0) + 0.04)
+    axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+    axes.set_title(f"{part.title} / target, {part.target.name}", loc="left", weight="semibold",
+                   pad=3)  # fmt: skip
+    if not part.is_ground:
+        axes.axvline(_CORNER_S, color=INK, linewidth=0.6, linestyle=":")
+        axes.text(_CORNER_S, 1.03, "1.3 Hz", transform=axes.get_xaxis_transform(), ha="left")
+
+
+def _lines(axes: Axes, periods_s: Floats, rows: Floats) -> None:
+    """Draw every motion, as one line with gaps, and the mean."""
+    each = Broken()
+    for row in rows:
+        each.add(periods_s, row)
+    axes.plot(each.x, each.y, color=GREY, linewidth=0.6, label="each motion")
+    axes.plot(periods_s, rows.mean(axis=0), color=ACCENT, linewidth=1.8, label="mean")
+
+
+def _finish(axes: Axes, part: Spectra, ticks: Sequence[float], *, is_last: bool) -> None:
+    axes.set_xscale("log")
+    axes.set_xlim(ticks[0], part.periods_s[-1])
+    axes.xaxis.set_major_locator(FixedLocator(ticks))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+    if is_last:
+        axes.set_xlabel("Period T [s]")
+    else:
+        axes.tick_params(labelbottom=False)
+    axes.grid(True)
+    bare(axes)

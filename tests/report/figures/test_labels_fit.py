@@ -1,0 +1,121 @@
+"""In every figure of a package, no text leaves the picture and no two texts overlap."""
+
+import itertools
+
+import matplotlib.figure
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+
+import stand_in
+from report.assessment.evidence import support
+from report.figures import records
+from report.figures.base import load_fonts
+from report.pages.pictures import draw_assessment, draw_evidence
+from report.pages.registry import package_data
+from report.sheet.schema import UnitsFirst
+from report.suite.info import PERIODS_S, spectra_g
+from report.typeset.pdf import TEMPLATES
+from solver.records.record import Record
+
+DPI = 400  # extents are rounded to pixels
+TOUCH_IN = 0.01
+LEAST_PT = 8.5
+
+
+class Drawn:
+    """Extents of the texts [in] of each figure that was saved, with the size of the figure."""
+
+    def __init__(self):
+        self.figures = []
+
+    def take(self, figure):
+        figure.set_dpi(DPI)
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        renderer = canvas.get_renderer()
+        inches = figure.dpi_scale_trans.inverted()
+        hidden = set(out_of_sight(figure))
+        texts = [t for t in figure.findobj(Text) if t.get_visible() and t not in hidden]
+        seen = [t for t in texts if t.get_text().strip()]
+        # Of an annotation without its arrow.
+        boxes = [Text.get_window_extent(t, renderer).transformed(inches) for t in seen]
+        self.figures.append((seen, boxes, figure.get_size_inches()))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def fonts():
+    load_fonts(TEMPLATES / "fonts")
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Collect every figure as it is saved, within the style that it is drawn in."""
+    seen, save = Drawn(), matplotlib.figure.Figure.savefig
+
+    def savefig(figure, *args, **more):
+        save(figure, *args, **more)
+        seen.take(figure)
+
+    monkeypatch.setattr(matplotlib.figure.Figure, "savefig", savefig)
+    return seen
+
+
+def out_of_sight(figure):
+    """Tick labels beyond the limits of their axis: not drawn, but with an extent."""
+    for axes in figure.findobj(lambda artist: hasattr(artist, "xaxis")):
+        for axis in (axes.xaxis, axes.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            slack = 1e-9 * (high - low)
+            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
+                if not low - slack <= tick.get_loc() <= high + slack:
+                    yield from (tick.label1, tick.label2)
+
+
+def faults(drawn):
+    """Texts that are too small, beyond the edge or on one another."""
+    for number, (texts, boxes, (wide, tall)) in enumerate(drawn.figures):
+        pairs = [
+            (text.get_text(), text.get_fontsize(), box)
+            for text, box in zip(texts, boxes, strict=True)
+        ]
+        for text, size, box in pairs:
+            if size < LEAST_PT:
+                yield number, text, size
+            if min(box.x0, box.y0, wide - box.x1, tall - box.y1) < 0.0:
+                yield number, text, box.extents.round(2).tolist(), wide, tall
+        for (a, _, box), (b, _, other) in itertools.combinations(pairs, 2):
+            apart_x = max(box.x0, other.x0) - min(box.x1, other.x1)
+            apart_y = max(box.y0, other.y0) - min(box.y1, other.y1)
+            if max(apart_x, apart_y) < -TOUCH_IN:
+                yield number, a, b
+
+
+@pytest.mark.parametrize("units", UnitsFirst)
+def test_in_a_package(drawn, units):
+    data = stand_in.project()
+    data = data.model_copy(
+        update={"project": data.project.model_copy(update={"units_first": units})}
+    )
+    assessment = stand_in.assess_input(data, stand_in.motions(7, seconds=12.0))
+    package = package_data(assessment)
+    draw_assessment(package)
+    draw_evidence(package, support(assessment))
+    assert len(drawn.figures) >= 12
+    assert not list(faults(drawn))
+
+
+def test_in_pictures_of_records(drawn, noise):
+    some = [Record(name=f"HN{k}", dt_s=0.01, a_mps2=noise / (1 + k)) for k in range(4)]
+    records.records_png(some, PERIODS_S, spectra_g(some))
+    assert not list(faults(drawn))
+
+
+def test_a_text_beyond_the_edge_and_two_that_overlap_are_found(drawn):
+    for places in ([(0.9, 0.5)], [(0.3, 0.5), (0.32, 0.5)]):
+        drawn.figures.clear()
+        figure = matplotlib.figure.Figure(figsize=(2.0, 1.0))
+        for x, y in places:
+            figure.text(x, y, "a long label" if len(places) == 1 else "label", fontsize=9.0)
+        drawn.take(figure)
+        assert len(list(faults(drawn))) == 1
