@@ -19,7 +19,8 @@ from solver.model import Floats
 _ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.92, 0.26, 0.5, 0.24
 _LEFT_IN, _FIRST_IN, _APART_IN, _RIGHT_IN = 0.46, 2.1, 0.52, 0.1
 _FEW_S, _MANY_S = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0), (0.03, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
-_LEVELS_G = tuple(step * 10.0**power for power in range(-4, 2) for step in (1, 2, 5))
+_LEVELS = tuple(step * 10.0**power for power in range(-4, 2) for step in (1, 2, 5))
+_FACTOR = 3.0  # a ratio beyond it is drawn on a logarithmic axis
 LEAST_G = 1e-4
 """Ordinate below which nothing is drawn [g]."""
 
@@ -69,11 +70,14 @@ def _ordinates(axes: Axes, part: Spectra) -> None:
     axes.plot(
         part.periods_s, part.target_g, color=INK, linewidth=1.4, linestyle=_DASHES, label="target"
     )
-    levels = _LEVELS_G if high < 30.0 * low else _LEVELS_G[::3]
+    _plain_levels(axes, _LEVELS if high < 30.0 * low else _LEVELS[::3])
+    axes.set_title(f"{part.title} [g]", loc="left", weight="semibold", pad=3)
+
+
+def _plain_levels(axes: Axes, levels: Sequence[float]) -> None:
     axes.yaxis.set_major_locator(FixedLocator(levels))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.set_title(f"{part.title} [g]", loc="left", weight="semibold", pad=3)
 
 
 def _ratios(axes: Axes, part: Spectra) -> None:
@@ -81,8 +85,13 @@ def _ratios(axes: Axes, part: Spectra) -> None:
     _lines(axes, part.periods_s, ratios)
     axes.axhline(1.0, color=INK, linewidth=1.4, linestyle=_DASHES)
     low, high = np.nanmin(ratios), np.nanmax(ratios)
-    axes.set_ylim(min(low, 1.0) - 0.04, max(high, 1.0) + 0.04)
-    axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+    if high > _FACTOR:
+        axes.set_ylim(0.85 * min(low, 1.0), 1.2 * high)
+        axes.set_yscale("log")
+        _plain_levels(axes, _LEVELS if high < 20.0 else _LEVELS[::3])
+    else:
+        axes.set_ylim(min(low, 1.0) - 0.04, max(high, 1.0) + 0.04)
+        axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
     axes.set_title(f"{part.title} / target, {part.target.name}", loc="left", weight="semibold",
                    pad=3)  # fmt: skip
     if not part.is_ground:

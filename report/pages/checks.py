@@ -9,7 +9,7 @@ from markupsafe import Markup, escape
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.remedies import Remedy
-from report.assessment.verdict import Row
+from report.assessment.verdict import Row, Verdict
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import (
@@ -44,25 +44,25 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
         ()
         if brief
         else (
-            *fmt.columns("Displ.", share=0.75),
+            *fmt.columns("Displ.", share=0.72),
             TableColumn(head="Array", align="left", share=0.75),
             *directions,
-            TableColumn(head="Factor" + factor, share=0.85),
-            TableColumn(head="Clause", align="left", share=1.85),
+            TableColumn(head="Factor" + factor, share=0.75),
+            TableColumn(head="Clause", align="left", share=2.1),
         )
     )
     return Table(
         caption="Clearances: required and provided separation",
         columns=(
-            TableColumn(head="No.", share=0.45),
-            TableColumn(head="From", align="left", share=0.85),
-            TableColumn(head="To", align="left", share=1.05),
-            TableColumn(head="Condition", align="left", share=3.1 if brief else 2.6),
+            TableColumn(head="No.", share=0.42),
+            TableColumn(head="From", align="left", share=0.9),
+            TableColumn(head="To", align="left", share=1.3),
+            TableColumn(head="Condition", align="left", share=3.1 if brief else 2.2),
             *more,
-            *fmt.columns("Required", share=0.85),
-            *fmt.columns("Provided", share=0.85),
-            TableColumn(head="D/C", share=0.65),
-            TableColumn(head="Verdict", align="center", share=1.3),
+            *fmt.columns("Required", share=0.8),
+            *fmt.columns("Provided", share=0.8),
+            TableColumn(head="D/C", share=0.62),
+            TableColumn(head="Verdict", align="center", share=_verdict_share(package)),
         ),
         rows=tuple(
             _clearance_row(package, count, gap, brief)
@@ -70,6 +70,12 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
         ),
         kind="" if brief else "compact",
     )
+
+
+def _verdict_share(package: PackageData) -> float:
+    """Return a width for the longest verdict on a clearance."""
+    verdicts = {gap.verdict for gap in package.assessment.clearances}
+    return 1.7 if Verdict.CONDITIONS in verdicts else 0.95
 
 
 def _by_direction(package: PackageData) -> bool:
