@@ -74,6 +74,7 @@ class Table:
     rows: tuple[TableRow, ...]
     notes: tuple[str, ...] = ()
     kind: str = ""
+    whole_rows: int = WHOLE_ROWS
 
     @property
     def heads(self) -> tuple[tuple[str, int, str, str], ...]:
@@ -99,7 +100,7 @@ class Table:
     @property
     def hold(self) -> str:
         """Style that keeps a short table on one page and lets a long one break."""
-        return "whole" if len(self.rows) <= WHOLE_ROWS else "split"
+        return "whole" if len(self.rows) <= self.whole_rows else "split"
 
     @property
     def has_units(self) -> bool:

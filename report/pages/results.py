@@ -18,6 +18,9 @@ from solver.model import Heading, Status
 from solver.records.acceptance_row import Consequence
 from solver.rules.provisions import Basis
 
+PEAK_ROWS = 16
+"""The PRDs of usual suites stay on one page, with their mean and the design value."""
+
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
 _SHORT = {
     Status.OK: "at rest",
@@ -109,6 +112,7 @@ def _peaks(package: PackageData, array: ArrayAssessment) -> Table:
             *_stand_in(package, array),
         ),
         kind="compact",
+        whole_rows=PEAK_ROWS,
     )
 
 

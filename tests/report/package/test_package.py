@@ -14,7 +14,7 @@ from places import GOLDEN as GOLDEN_TEXTS
 from report.motions.components import Components
 from report.motions.history import shake
 from report.pages.motions import drifts
-from report.typeset.pdf import lay_out
+from report.typeset.pdf import TEMPLATES, lay_out
 from solver.model import DefectError
 from solver.records.record import Record
 
@@ -124,6 +124,14 @@ def test_the_document_says_what_it_is(pdf):
     assert "B Records and software" in titles
 
 
+@pytest.mark.parametrize("name", ["package.css", "verification.css"])
+def test_no_type_is_smaller_than_eight_and_a_half_points(name):
+    style = (TEMPLATES / name).read_text(encoding="utf-8")
+    sizes = [float(size) for size in re.findall(r"font(?:-size)?: ([\d.]+)pt", style)]
+    assert sizes
+    assert min(sizes) >= 8.5
+
+
 def test_only_shipped_fonts_are_used(pdf):
     names = set(re.findall(rb"/BaseFont /[A-Z]{6}\+([\w-]+)", pdf))
     for page in PdfReader(io.BytesIO(pdf)).pages:
@@ -142,7 +150,7 @@ def test_contents_name_the_sheet_of_each_part(texts):
 
 
 def test_unverified_values_carry_a_dagger_and_confirmed_ones_do_not(whole):
-    assert "50 % of the prescriptive displacement, PV1-2012†" in whole
+    assert "50 % of prescriptive, PV1-2012†" in whole
     assert "60 in × (1.566 − 0.4)" in whole
     assert "60† in" not in whole
 

@@ -182,7 +182,7 @@ def test_the_three_verdicts_are_defined(html):
 
 
 def test_every_document_is_listed_exactly_where_it_is_cited(html):
-    body = html[html.index("<body") :]
+    body = html[html.index("<body>") :]
     start = body.index('<h2 class="plain">References')
     before, listed = plain(body[:start]), plain(body[start:])
     for name in ("PV1-2012", "ASCE 7-16", "IBC 1613.3", "AC156", "Housner", "Ishiyama", "G115-10"):
