@@ -253,12 +253,12 @@ def records(rows: Sequence[RecordFile]) -> Table:
     return Table(
         caption="Records as read",
         columns=(
-            TableColumn(head="Motion", align="left", share=0.48),
-            TableColumn(head="Component", align="left", share=0.72),
+            TableColumn(head="Motion", align="left", share=0.45),
+            TableColumn(head="Component", align="left", share=0.68),
             *(TableColumn(head=name, align="left", share=0.55) for name in own),
-            TableColumn(head="Peak [g]", share=0.52),
-            TableColumn(head="File", align="left", share=1.06),
-            TableColumn(head="SHA-256", align="left", share=4.0 - 0.55 * len(own)),
+            TableColumn(head="Peak [g]", share=0.5),
+            TableColumn(head="File", align="left", share=1.04),
+            TableColumn(head="SHA-256", align="left", share=4.15 - 0.55 * len(own)),
         ),
         rows=tuple(
             TableRow(

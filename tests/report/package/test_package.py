@@ -326,7 +326,7 @@ def test_the_way_from_ground_to_roof_is_said_with_its_numbers():
     peaks = f"{roof.ground_peak_mps2 / stand_in.G:.3f} {roof.roof_peak_mps2 / stand_in.G:.3f}"
     assert f"G1 record {peaks}" in whole
     assert "with ground records transferred through the building of part 5" in whole
-    assert "Ground, horizontal: pseudo-acceleration" in whole
+    assert "Ground, horizontal Target" in whole
     assert "the two-period design response spectrum of ASCE 7" in whole
     assert "0.793 g" in whole
 

@@ -153,8 +153,8 @@ def test_the_echo_marks_changed_cells_and_their_rows():
     assert made.notes == ("Left blank: B8 B8.",)
     table = (row("B8", "a"), row("C8", "<i>"), row("B9", "b"), row("C9", "d"))
     ((_, (made,)),) = echo(table, {"S!C8"})
-    assert [line.kind for line in made.rows] == ["", "changed"]
-    assert made.rows[1].cells[3:] == ("<b>&lt;i&gt;</b>", "d")
+    assert [line.kind for line in made.rows] == ["changed", ""]
+    assert [line.cells[2] for line in made.rows] == ["<b>&lt;i&gt;</b>", "d"]
 
 
 def test_a_missing_file_and_a_folder_are_input_errors(tmp_path):
