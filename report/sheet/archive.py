@@ -188,7 +188,7 @@ def _scans_by_title(archive: zipfile.ZipFile) -> dict[str, Scan]:
     """
     scans = scan_parts({name: _content(archive, name) for name in archive.namelist()})
     found = {}
-    for title, part in _sheet_parts(archive):
+    for title, part in sheet_parts(archive):
         if part not in scans:
             raise InputError(
                 f"sheet '{title}': its part {part or '(no name)'} is missing; {REOPEN}"
@@ -197,7 +197,7 @@ def _scans_by_title(archive: zipfile.ZipFile) -> dict[str, Scan]:
     return found
 
 
-def _sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
+def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
     """Return each sheet's title with the name of its part, as openpyxl resolves it."""
     relations = _tree(archive, "xl/_rels/workbook.xml.rels")
     targets = {item.get("Id"): _part(item.get("Target", "")) for item in relations}
