@@ -153,14 +153,17 @@ def unplaced(data: ProjectInput) -> tuple[str, ...]:
 def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:
     """Return the parts of the roof outline along which no object is an edge, if it is given."""
     outline = data.roof.placed
-    if outline is None:
-        return ()
     strips = [item.placed for item in data.objects if item.kind in EDGES]
     placed = [strip for strip in strips if strip is not None]
+    return () if outline is None else bare_sides(outline, placed, data.roof.north_deg)
+
+
+def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tuple[BareEdge, ...]:
+    """Return the parts of an outline along which no strip lies."""
     return tuple(
-        BareEdge(f"{_compass(side.outward_deg - data.roof.north_deg)} {side.title}", ends)
+        BareEdge(f"{_compass(side.outward_deg - north_deg)} {side.title}", ends)
         for side in _sides(outline)
-        for ends in _bare(side, placed)
+        for ends in _bare(side, strips)
     )
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import click
 
 from report.cli.motion import motion
+from report.cli.plan import plan
 from report.cli.report import check, new, report
 from report.cli.slide import slide
 from report.cli.verify import verify
@@ -24,5 +25,5 @@ def main() -> None:
     """
 
 
-for command in (check, motion, new, report, slide, verify):
+for command in (check, motion, new, plan, report, slide, verify):
     main.add_command(command)

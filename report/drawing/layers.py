@@ -19,6 +19,7 @@ class Layer(Enum):
     PARAPET = ("ROOF-PARAPET", 7, False)
     BARE_EDGE = ("ROOF-EDGE-NOT-GIVEN", 1, True)
     ARRAY = ("ARRAY", 5, False)
+    UNLIKE = ("ARRAY-UNLIKE", 9, False)
     OBJECT = ("OBJECT", 8, False)
     CLEARANCE = ("CLEARANCE", 3, False)
     CLEARANCE_NG = ("CLEARANCE-NG", 1, False)

@@ -74,6 +74,7 @@ def _layer(item: RoofObject) -> Layer:
     edges = {
         ObjectKind.EDGE_WITH_PARAPET: Layer.PARAPET,
         ObjectKind.EDGE_WITHOUT_PARAPET: Layer.EDGE,
+        ObjectKind.UNLIKE_ARRAY: Layer.UNLIKE,
     }
     return edges.get(item.kind, Layer.OBJECT)
 

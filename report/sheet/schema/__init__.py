@@ -20,6 +20,7 @@ from report.sheet.schema.choices import (
     AccelUnit,
     Baseline,
     Direction,
+    LayerKind,
     Model,
     ObjectKind,
     Polarity,
@@ -46,6 +47,7 @@ from report.sheet.schema.scene import (
     SIDES,
     Array,
     Clearance,
+    DrawingLayer,
     RoofObject,
     Vertex,
     slope_rad,
@@ -65,8 +67,10 @@ __all__ = [
     "BuildingInput",
     "Clearance",
     "Direction",
+    "DrawingLayer",
     "FrictionTestRow",
     "FrictionTests",
+    "LayerKind",
     "Links",
     "Model",
     "MotionInput",
@@ -211,6 +215,7 @@ class ProjectInput(Frozen):
     target: TargetInput = TargetInput()
     overrides: tuple[Override, ...] = ()
     outlines: tuple[Vertex, ...] = ()
+    layers: tuple[DrawingLayer, ...] = ()
 
     @model_validator(mode="after")
     def _spell_ids_alike(self) -> ProjectInput:
@@ -383,6 +388,15 @@ SECTIONS = (
         "Optional: arrays, objects and the roof that are no rectangles. One row for each vertex, in"
         " order around the outline; leave the four sides of the rectangle blank.",
         Vertex,
+        may_be_absent=True,
+    ),
+    _table(
+        "layers",
+        "Layers",
+        "Layers of the roof drawing",
+        "Optional, for roofslip plan read: what is drawn on each layer. The layers of plan.dxf are"
+        " known without a row.",
+        DrawingLayer,
         may_be_absent=True,
     ),
 )

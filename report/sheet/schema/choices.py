@@ -93,6 +93,18 @@ class SlopeUnit(StrEnum):
     IN_PER_12 = "in/12"
 
 
+class LayerKind(StrEnum):
+    """What the closed lines on a layer of a roof drawing are."""
+
+    ARRAY = "array"
+    FIXED = "fixed object"
+    UNLIKE_ARRAY = "unlike array"
+    EDGE_WITH_PARAPET = "edge with parapet"
+    EDGE_WITHOUT_PARAPET = "edge without parapet"
+    ROOF = "roof"
+    NOT_READ = "not read"
+
+
 class ObjectKind(StrEnum):
     """What an array could strike or fall from."""
 

@@ -14,6 +14,7 @@ from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import (
     Direction,
     Id,
+    LayerKind,
     Model,
     NotNegative,
     ObjectKind,
@@ -297,6 +298,18 @@ class Vertex(Frozen):
         Cell("x", "Vertices in order around the outline, one to a row.", 20.0, Quantity.PLAN),
     ]
     y_m: Annotated[float, Cell("y", "In the coordinates of the arrays.", 15.0, Quantity.PLAN)]
+
+
+class DrawingLayer(Frozen):
+    """A layer of a roof drawing, and what is drawn on it."""
+
+    layer: Annotated[
+        RequiredText, Cell("Layer", "Name of a layer of the roof drawing.", "A-ROOF-PV")
+    ]
+    kind: Annotated[
+        LayerKind,
+        Cell("Drawn on it", "What the closed polylines on the layer are.", "array"),
+    ]
 
 
 class Clearance(Frozen):

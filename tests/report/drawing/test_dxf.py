@@ -85,7 +85,7 @@ def test_outlines_are_the_rectangles_of_the_workbook(done, us_first, unit_m):
     space = read(write_dxf(plan_drawing(done if us_first else in_si(done)))).modelspace()
     shapes = {array.id: array.shape for array in done.project.arrays}
     shapes |= {item.id: item.placed for item in done.project.objects}
-    kinds = {"ARRAY", "OBJECT", "ROOF-PARAPET", "ROOF-EDGE"}
+    kinds = {"ARRAY", "ARRAY-UNLIKE", "OBJECT", "ROOF-PARAPET", "ROOF-EDGE"}
     drawn = {
         line.get_xdata(APPLICATION)[0].value: line.get_points("xy")
         for line in space.query("LWPOLYLINE")

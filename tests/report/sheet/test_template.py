@@ -12,6 +12,7 @@ from sheets import make, project
 SHEETS = [
     "README", "Project", "Site", "Arrays", "Friction tests", "Objects", "Clearances", "Motions",
     "Building", "Spectrum", "Links", "Options", "Outlines",
+    "Layers",
 ]  # fmt: skip
 
 

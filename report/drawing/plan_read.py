@@ -1,0 +1,255 @@
+"""What a roof drawing says of the plan: arrays, objects, edges and the roof, by layer and name.
+
+Knows no file and no cells (`report.drawing.read_dxf`, `report.drawing.fill`). Read `plan_of` first.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
+from report.drawing.layers import Layer
+from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
+from report.sheet.plan_checks import LEAST_VERTICES
+from report.sheet.schema import LayerKind
+from report.sheet.shapes import Point, Polygon, Rectangle, Shape, crossing, ring, sides, solid
+from report.words.units import LENGTHS
+
+LAYERS: Mapping[str, LayerKind] = {
+    Layer.OUTLINE.title: LayerKind.ROOF,
+    Layer.EDGE.title: LayerKind.EDGE_WITHOUT_PARAPET,
+    Layer.PARAPET.title: LayerKind.EDGE_WITH_PARAPET,
+    Layer.ARRAY.title: LayerKind.ARRAY,
+    Layer.UNLIKE.title: LayerKind.UNLIKE_ARRAY,
+    Layer.OBJECT.title: LayerKind.FIXED,
+} | {
+    layer.title: LayerKind.NOT_READ
+    for layer in (Layer.BARE_EDGE, Layer.CLEARANCE, Layer.CLEARANCE_NG, Layer.DESIGN, Layer.RUNS,
+                  Layer.NOTES, Layer.NORTH)
+}  # fmt: skip
+"""What is drawn on the layers of the plan that `report` writes."""
+
+MAX_NAME = 40
+LEAST_AREA_M2 = 1e-3
+ROUNDED_M = 1e-5
+"""Sides within this of an axis [m] are parallel to it; vertices within this of a line are on it."""
+
+_HEIGHT = re.compile(r"(.*?),\s*height\s+([0-9.]+)\s*(in|ft|mm|cm|m)\b.*", re.IGNORECASE)
+_STEMS = {LayerKind.ARRAY: "A", LayerKind.FIXED: "OBJ-", LayerKind.UNLIKE_ARRAY: "PV-"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Place:
+    """An array, an object, an edge or the roof as drawn.
+
+    Attributes
+    ----------
+    handle, layer : str
+        Of its line; empty for an edge that is a side of the roof.
+    height_m : float
+        As written inside of it; NaN if it is not.
+    note : str
+        What was assumed; empty for nothing.
+    """
+
+    name: str
+    kind: LayerKind
+    shape: Shape
+    handle: str
+    layer: str
+    height_m: float
+    note: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoofPlan:
+    """The plan as drawn, and what was not understood; `roof` has one place or none."""
+
+    roof: tuple[Place, ...]
+    arrays: tuple[Place, ...]
+    objects: tuple[Place, ...]
+    unread: tuple[Unread, ...]
+
+
+def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]) -> RoofPlan:
+    """Return the plan of a drawing.
+
+    Parameters
+    ----------
+    unit_m : float
+        Size of the unit of the drawing [m].
+    layers : mapping of str to LayerKind
+        What is drawn on layers, in addition to `LAYERS`; capitals do not distinguish layers.
+    """
+    kinds = {name.casefold(): kind for name, kind in (*LAYERS.items(), *layers.items())}
+    unread = [item for item in drawing.unread if _is_of_interest(item.layer, kinds)]
+    known: list[tuple[Drawn, LayerKind, Shape]] = []
+    for line in drawing.lines:
+        kind = kinds.get(line.layer.casefold())
+        found = _shape(line, unit_m)
+        if kind is None:
+            unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
+        elif kind is not LayerKind.NOT_READ and isinstance(found, str):
+            unread.append(_unread(line, found))
+        elif kind is not LayerKind.NOT_READ and not isinstance(found, str):
+            known.append((line, kind, found))
+    places = _named(known, drawing.texts, unit_m, unread)
+    roofs = sorted((p for p in places if p.kind is LayerKind.ROOF), key=lambda p: -p.shape.area_m2)
+    for extra in roofs[1:]:
+        unread.append(Unread(handle=extra.handle, layer=extra.layer, reason="a second roof"))
+    objects = [p for p in places if p.kind not in (LayerKind.ROOF, LayerKind.ARRAY)]
+    is_ours = any(line.is_ours for line, kind, _ in known if kind is LayerKind.ROOF)
+    if roofs and not is_ours:
+        objects += _edges(roofs[0].shape, objects)
+    return RoofPlan(
+        roof=tuple(roofs[:1]),
+        arrays=tuple(p for p in places if p.kind is LayerKind.ARRAY),
+        objects=tuple(objects),
+        unread=tuple(unread),
+    )
+
+
+def _is_of_interest(layer: str, kinds: Mapping[str, LayerKind]) -> bool:
+    return kinds.get(layer.casefold()) is not LayerKind.NOT_READ
+
+
+def _unread(line: Drawn, reason: str) -> Unread:
+    return Unread(handle=line.handle, layer=line.layer, reason=reason)
+
+
+def _shape(line: Drawn, unit_m: float) -> Shape | str:
+    """Return the shape of a line [m], or why it is none."""
+    points = _straightened(ring([(x * unit_m, y * unit_m) for x, y in line.points]))
+    if len(points) < LEAST_VERTICES:
+        return "a closed line without an area"
+    at = crossing(points)
+    if at is not None:
+        x, y = (value / unit_m for value in at)
+        return f"a line that touches or crosses itself near {x:.6g}, {y:.6g}"
+    shape = Polygon(points)
+    if shape.area_m2 < LEAST_AREA_M2:
+        return "a closed line without an area"
+    return _box(shape) or shape
+
+
+def _straightened(points: tuple[Point, ...]) -> tuple[Point, ...]:
+    """Return a ring without vertices that lie on the line between their neighbors."""
+    kept = list(points)
+    k = 0
+    while len(kept) > LEAST_VERTICES - 1 and k < len(kept):
+        (x0, y0), (x, y), (x1, y1) = kept[k - 1], kept[k], kept[(k + 1) % len(kept)]
+        long = math.hypot(x1 - x0, y1 - y0)
+        off = abs((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0))
+        if long > 0.0 and off <= ROUNDED_M * long:
+            kept.pop(k)
+        else:
+            k += 1
+    return tuple(kept)
+
+
+def _box(shape: Polygon) -> Rectangle | None:
+    """Return a polygon as a rectangle, if it is one that is parallel to the axes."""
+    is_right = all(
+        min(abs(x1 - x0), abs(y1 - y0)) <= ROUNDED_M for (x0, y0), (x1, y1) in sides(shape.points)
+    )
+    return shape.bounds if is_right and len(shape.points) == 4 else None
+
+
+def _named(
+    known: Sequence[tuple[Drawn, LayerKind, Shape]],
+    texts: Sequence[Words],
+    unit_m: float,
+    unread: list[Unread],
+) -> list[Place]:
+    """Return the places with their names: written by `report`, of their block, or inside of them.
+
+    A name that is taken leaves its line unread; a line without a name gets one.
+    """
+    inside = _texts_inside(known, texts, unit_m)
+    taken: dict[str, str] = {}
+    counts: Counter[LayerKind] = Counter()
+    places = []
+    written = [
+        _name_and_height(line, words) for (line, *_), words in zip(known, inside, strict=True)
+    ]
+    given = {name.casefold() for name, _ in written}
+    for (line, kind, shape), (name, height_m) in zip(known, written, strict=True):
+        note = ""
+        if kind is LayerKind.ROOF:
+            name = "roof"
+        elif not name:
+            name = _free_name(kind, counts, given)
+            note = "no text inside"
+        elif name.casefold() in taken:
+            reason = f"a second '{name}', the name of {taken[name.casefold()]}"
+            unread.append(_unread(line, reason))
+            continue
+        if kind is not LayerKind.ROOF:
+            taken[name.casefold()] = line.handle
+        places.append(
+            Place(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
+                  height_m=height_m, note=note)
+        )  # fmt: skip
+    return places
+
+
+def _free_name(kind: LayerKind, counts: Counter[LayerKind], taken: set[str]) -> str:
+    while True:
+        counts[kind] += 1
+        name = f"{_STEMS.get(kind, 'EDGE-')}{counts[kind]}"
+        if name.casefold() not in taken:
+            return name
+
+
+def _name_and_height(line: Drawn, words: Sequence[Words]) -> tuple[str, float]:
+    """Return the name of a line, and the height [m] written with it; NaN for none."""
+    own = [text for text in words if text.layer == line.layer] or list(words)
+    text = max(own, key=lambda found: found.at[1]).text if own else ""
+    match = _HEIGHT.fullmatch(text)
+    height_m = float(match[2]) * LENGTHS[match[3].lower()] if match else math.nan
+    name = line.name or (match[1] if match else text)
+    return name[:MAX_NAME].strip(), height_m
+
+
+def _texts_inside(
+    known: Sequence[tuple[Drawn, LayerKind, Shape]], texts: Sequence[Words], unit_m: float
+) -> list[list[Words]]:
+    """Return the texts inside of each line; a text belongs to the smallest line around it."""
+    import shapely
+
+    inside: list[list[Words]] = [[] for _ in known]
+    order = sorted(range(len(known)), key=lambda k: known[k][2].area_m2)
+    tree = shapely.STRtree([solid(known[k][2]) for k in order])
+    for text in texts:
+        at = shapely.Point(text.at[0] * unit_m, text.at[1] * unit_m)
+        found = tree.query(at, predicate="intersects")
+        if len(found):
+            inside[order[min(found)]].append(text)
+    return inside
+
+
+def _edges(roof: Shape, objects: Sequence[Place]) -> Iterator[Place]:
+    """Yield the sides of the roof along which no edge is drawn, as strips outside of it."""
+    edges = (LayerKind.EDGE_WITH_PARAPET, LayerKind.EDGE_WITHOUT_PARAPET)
+    strips = [item.shape for item in objects if item.kind in edges]
+    taken = {item.name.casefold() for item in objects}
+    counts: Counter[LayerKind] = Counter()
+    # Without a parapet the separation is the larger one.
+    kind = LayerKind.EDGE_WITHOUT_PARAPET
+    for edge in bare_sides(Polygon(roof.points), strips, 90.0):
+        name = _free_name(kind, counts, taken)
+        yield Place(name=name, kind=kind, shape=_strip(*edge.ends), handle="", layer="",
+                    height_m=math.nan, note=f"{edge.name}, taken as without parapet")  # fmt: skip
+
+
+def _strip(start: Point, end: Point) -> Shape:
+    """Return a strip to the right of a line: outside of a counterclockwise outline."""
+    long = math.dist(start, end)
+    dx, dy = (EDGE_STRIP_M * (end[1] - start[1]) / long, EDGE_STRIP_M * (start[0] - end[0]) / long)
+    (x0, y0), (x1, y1) = start, end
+    shape = Polygon(ring([start, end, (x1 + dx, y1 + dy), (x0 + dx, y0 + dy)]))
+    return _box(shape) or shape

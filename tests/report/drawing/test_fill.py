@@ -1,0 +1,149 @@
+"""A plan from a drawing fills a workbook, and loses nothing that is in it."""
+
+import zipfile
+
+import pytest
+from click.testing import CliRunner
+from openpyxl import load_workbook
+
+from report.cli.main import main
+from report.sheet.read import read
+from report.sheet.schema import Polygon, UnitsFirst
+from report.sheet.template import write_template
+from sheets import FT, edit, make, project
+from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
+
+
+def run(*words):
+    return CliRunner().invoke(main, ["plan", "read", *map(str, words)])
+
+
+def drawing(tmp_path, version="R2018"):
+    sketch = Sketch(version)
+    sketch.ring("ROOF-OUTLINE", ROOF_FT)
+    sketch.ring("ARRAY", L_FT, "A1")
+    sketch.ring("ARRAY", BOX_FT, "A2")
+    sketch.ring("ROOF-PARAPET", ((0, 160), (240, 160), (240, 161), (0, 161)), "N, height 36.0 in")
+    return sketch.saved(tmp_path)
+
+
+@pytest.fixture(params=list(UnitsFirst))
+def blank(request, tmp_path):
+    path = tmp_path / "new" / "input.xlsx"
+    path.parent.mkdir()
+    write_template(path, units=request.param)
+    return path
+
+
+def test_a_blank_workbook_is_filled(tmp_path, blank):
+    done = run(drawing(tmp_path), blank)
+    assert done.exit_code == 0, done.output
+    assert "A1: array, 6 vertices" in done.output
+    draft = read(blank).draft
+    assert [row["id"] for row in draft["arrays"]] == ["A1", "A2"]
+    assert draft["arrays"][0]["x_from_m"] is None
+    assert draft["arrays"][1]["x_to_m"] == pytest.approx(200 * FT, abs=1e-6)
+    assert [(row["name"], round(row["x_m"] / FT), round(row["y_m"] / FT))
+            for row in draft["outlines"]] == [("A1", x, y) for x, y in L_FT]  # fmt: skip
+    assert draft["roof"][0]["x_to_m"] == pytest.approx(240 * FT, abs=1e-6)
+    ids = [row["id"] for row in draft["objects"]]
+    assert ids == ["N", "EDGE-1", "EDGE-2", "EDGE-3"]
+    assert draft["objects"][0]["height_m"] == pytest.approx(36 * 0.0254)
+    assert not [p for p in read(blank).problems if p[0].section in ("roof", "objects", "outlines")]
+
+
+def test_places_that_are_filled_stay_unless_they_may_be_replaced(tmp_path):
+    path = make(tmp_path)
+    before = path.read_bytes()
+    done = run(drawing(tmp_path), tmp_path)
+    assert done.exit_code == 2
+    assert "the place of A1 is filled already; add --replace to overwrite it" in done.output
+    assert "Objects!" in done.output  # N
+    assert path.read_bytes() == before
+
+
+def test_replacing_changes_the_places_and_keeps_the_rest(tmp_path):
+    path = make(tmp_path, clearances=[])
+    assert run(drawing(tmp_path), tmp_path, "--replace").exit_code == 0
+    data, was = read(path).project, project(clearances=[])
+    assert isinstance(data.arrays[0].shape, Polygon)
+    keep = {"x_from_m", "x_to_m", "y_from_m", "y_to_m"}
+    for array, old in zip(data.arrays, was.arrays, strict=True):
+        pairs = zip(array.model_dump(exclude=keep).values(),
+                    old.model_dump(exclude=keep).values(), strict=True)  # fmt: skip
+        assert all(a == pytest.approx(b) if isinstance(b, float) else a == b for a, b in pairs)
+    assert [item.id for item in data.objects] == [
+        "RTU-1", "OLD", "N", "S", "EDGE-1", "EDGE-2", "EDGE-3"
+    ]  # fmt: skip
+    assert data.motions == was.motions
+
+
+def test_an_outline_is_replaced_by_the_one_that_is_drawn_now(tmp_path):
+    path = make(tmp_path, clearances=[])
+    assert run(drawing(tmp_path), tmp_path, "--replace").exit_code == 0
+    sketch = Sketch()
+    sketch.ring("ARRAY", ((20, 20), (100, 20), (60, 75)), "A1")
+    sketch.ring("ARRAY", ((130, 20), (190, 20), (160, 75)), "A2")
+    path_of_other = sketch.saved(tmp_path)
+    assert run(path_of_other, tmp_path, "--replace").exit_code == 0
+    data = read(path).project
+    assert [row.name for row in data.outlines] == ["A1"] * 3 + ["A2"] * 3
+    assert data.arrays[0].shape.area_m2 == pytest.approx(80 * 55 / 2 * FT**2)
+    assert data.arrays[1].x_from_m is None
+
+
+def test_formulas_and_all_other_parts_stay(tmp_path):
+    path = make(tmp_path, clearances=[])
+    edit(path, lambda book: book["Arrays"].__setitem__("H8", "=40000+2000"))
+    with zipfile.ZipFile(path) as archive:
+        before = {name: archive.read(name) for name in archive.namelist()}
+    done = run(drawing(tmp_path), tmp_path, "--replace")
+    assert "Formulas keep their former values until Excel or LibreOffice saves it." in done.output
+    with zipfile.ZipFile(path) as archive:
+        after = {name: archive.read(name) for name in archive.namelist()}
+    assert before.keys() == after.keys()
+    different = {name for name in before if before[name] != after[name]}
+    assert len(different) <= 5  # Arrays, Objects, Outlines, the roof, and when to compute
+    assert load_workbook(path)["Arrays"]["H8"].value == "=40000+2000"
+
+
+def test_layers_of_the_workbook_name_what_is_drawn(tmp_path):
+    path = make(tmp_path, clearances=[], layers=[{"layer": "PV", "kind": "array"}])
+    sketch = Sketch()
+    sketch.ring("pv", BOX_FT, "A9")
+    done = run(sketch.saved(tmp_path), tmp_path)
+    assert done.exit_code == 0, done.output
+    assert [row.get("id") for row in read(path).draft["arrays"]] == ["A1", "A2", "A9"]
+
+
+def test_a_drawing_without_a_unit_asks_for_it(tmp_path, blank):
+    path = drawing(tmp_path, "R12")
+    done = run(path, blank)
+    assert done.exit_code == 2
+    assert "states no unit; add --units with one of in, ft, mm, cm, m" in done.output
+    assert run(path, blank, "--units", "ft").exit_code == 0
+
+
+def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path, blank):
+    sketch = Sketch()
+    ring = sketch.ring("MODULES", BOX_FT)
+    done = run(sketch.saved(tmp_path), blank)
+    assert done.exit_code == 2
+    assert "nothing to fill in: give the layers on the sheet Layers" in done.output
+    listed = f"layer MODULES, a closed line on a layer that is not in Layers: {ring.dxf.handle}"
+    assert listed in done.output
+
+
+def test_polygons_need_the_sheet_outlines(tmp_path):
+    path = make(tmp_path, clearances=[])
+    edit(path, lambda book: book.remove(book["Outlines"]))
+    done = run(drawing(tmp_path), tmp_path, "--replace")
+    assert done.exit_code == 2
+    assert "Outlines: the sheet is missing; copy it from a fresh workbook" in done.output
+
+
+@pytest.mark.parametrize("name", ["none.dxf", "."])
+def test_a_drawing_that_is_not_there_is_told(tmp_path, blank, name):
+    done = run(tmp_path / name, blank)
+    assert done.exit_code == 2
+    assert "cannot be read" in done.output

@@ -1,0 +1,226 @@
+"""Roof drawings as others draw them: by layer, by name, in any version and unit."""
+
+import math
+from itertools import pairwise
+
+import pytest
+import shapely
+from ezdxf.math import UCS
+
+import stand_in
+from report.drawing.dxf import write_dxf
+from report.drawing.plan import plan_drawing
+from report.drawing.read_dxf import read_dxf
+from report.sheet.schema import LayerKind, Polygon, Rectangle
+from sheets import FT, INCH
+from sketch import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan
+
+
+def warehouse(version="R2018", unit="ft"):
+    sketch = Sketch(version, unit)
+    sketch.ring("ROOF-OUTLINE", ROOF_FT)
+    sketch.ring("ARRAY", L_FT, "A1")
+    sketch.ring("ARRAY", BOX_FT, "A2")
+    sketch.ring("OBJECT", UNIT_FT, "RTU-1, height 42.0 in (1067 mm)")
+    return sketch
+
+
+def in_feet(points):
+    return [pytest.approx((x * FT, y * FT), abs=1e-6) for x, y in points]
+
+
+@pytest.mark.parametrize("version", ["R12", "R2000", "R2018"])
+@pytest.mark.parametrize("unit", list(UNITS))
+def test_a_roof_is_read_in_its_version_and_unit(tmp_path, version, unit):
+    path = warehouse(version, unit).saved(tmp_path)
+    found = plan(path, unit if version == "R12" else None)
+    assert [place.name for place in found.arrays] == ["A1", "A2"]
+    assert list(found.arrays[0].shape.points) == in_feet(L_FT)
+    assert isinstance(found.arrays[1].shape, Rectangle)
+    assert list(found.arrays[1].shape.points) == in_feet(BOX_FT)
+    item = found.objects[0]
+    assert (item.name, item.kind) == ("RTU-1", LayerKind.FIXED)
+    assert item.height_m == pytest.approx(42 * INCH)
+    assert list(found.roof[0].shape.points) == in_feet(ROOF_FT)
+    assert found.unread == ()
+
+
+def test_a_drawing_of_r12_states_no_unit(tmp_path):
+    assert read_dxf(warehouse("R12").saved(tmp_path)).unit == ""
+
+
+def test_the_sides_of_the_roof_that_have_no_edge_become_edges(tmp_path):
+    sketch = warehouse()
+    sketch.ring("ROOF-PARAPET", ((0, 160), (240, 160), (240, 161), (0, 161)), "N")
+    edges = plan(sketch.saved(tmp_path)).objects[1:]
+    assert [(edge.name, edge.kind.value) for edge in edges] == [
+        ("N", "edge with parapet"),
+        ("EDGE-1", "edge without parapet"),
+        ("EDGE-2", "edge without parapet"),
+        ("EDGE-3", "edge without parapet"),
+    ]
+    south = edges[1].shape
+    assert isinstance(south, Rectangle)
+    assert list(south.points) == in_feet(((0, -1), (240, -1), (240, 0), (0, 0)))
+    assert "south edge of the roof" in edges[1].note
+
+
+def test_the_edges_of_an_oblique_roof_are_strips_outside_of_it(tmp_path):
+    sketch = Sketch()
+    sketch.ring("ROOF-OUTLINE", ((0, 0), (100, 0), (0, 100)))
+    found = plan(sketch.saved(tmp_path))
+    roof = shapely.Polygon(found.roof[0].shape.points)
+    lengths = [100.0, 100.0 * math.sqrt(2.0), 100.0]
+    for edge, long in zip(found.objects, lengths, strict=True):
+        strip = shapely.Polygon(edge.shape.points)
+        assert strip.area == pytest.approx(FT * long * FT)
+        assert strip.intersection(roof).area == pytest.approx(0.0, abs=1e-9)
+        assert strip.distance(roof) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_an_arc_is_read_as_chords_within_3_mm(tmp_path):
+    # A half disc of 10 m radius by a bulge of 1, and a circle of 2 m radius.
+    sketch = Sketch(unit="m")
+    sketch.space.add_lwpolyline(
+        [(-10, 0, 0), (10, 0, 1)], format="xyb", close=True, dxfattribs={"layer": "ARRAY"}
+    )
+    sketch.space.add_circle((30, 0), 2, dxfattribs={"layer": "OBJECT"})
+    found = plan(sketch.saved(tmp_path))
+    half = found.arrays[0].shape
+    assert half.area_m2 == pytest.approx(50 * math.pi, rel=1e-3)
+    assert all(math.hypot(*point) == pytest.approx(10.0, abs=1e-9) for point in half.points)
+    middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in pairwise(half.points)]
+    assert all(
+        math.hypot(*point) > 10.0 - 0.003 - 1e-9 for point in middles if abs(point[1]) > 1e-6
+    )
+    assert max(y for _, y in half.points) == pytest.approx(10.0, abs=0.003)
+    assert found.objects[0].shape.area_m2 == pytest.approx(4 * math.pi, rel=5e-3)
+
+
+def test_an_arc_turns_the_way_of_its_bulge(tmp_path):
+    # A quarter of a circle about (0, 0), outward, and the same cut out of a square.
+    bulge = math.tan(math.pi / 8.0)
+    sketch = Sketch(unit="m")
+    for points in ([(0, 0, 0), (9, 0, bulge), (0, 9, 0)],
+                   [(9, 0, 0), (9, 9, 0), (0, 9, -bulge)]):  # fmt: skip
+        sketch.space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": "ARRAY"})
+    outward, inward = (place.shape.area_m2 for place in plan(sketch.saved(tmp_path)).arrays)
+    most = 2.0 / 3.0 * 0.003 * 4.5 * math.pi  # of chords within 3 mm of the arc
+    assert 0.0 < math.pi * 81.0 / 4.0 - outward < most
+    assert 0.0 < inward - 81.0 * (1.0 - math.pi / 4.0) < most
+
+
+def test_blocks_are_read_where_they_are_put_with_their_attribute_as_name(tmp_path):
+    sketch = Sketch()
+    block = sketch.document.blocks.new("UNIT")
+    block.add_lwpolyline([(0, 0), (4, 0), (4, 2), (0, 2)], close=True)  # on layer 0
+    for name, at, turn in (("RTU-1", (100, 50), 0), ("RTU-2", (50, 20), 90)):
+        look = {"layer": "OBJECT", "rotation": turn, "xscale": 2, "yscale": 2}
+        sketch.space.add_blockref("UNIT", at, dxfattribs=look).add_attrib("TAG", name)
+    outer = sketch.document.blocks.new("OUTER")
+    outer.add_blockref("UNIT", (1, 1), dxfattribs={"layer": "OBJECT"})
+    sketch.space.add_blockref("OUTER", (200, 100))
+    found = plan(sketch.saved(tmp_path)).objects
+    assert [place.name for place in found] == ["RTU-1", "RTU-2", "OBJ-1"]
+    wanted = [(100, 108, 50, 54), (46, 50, 20, 28), (201, 205, 101, 103)]
+    for place, sides in zip(found, wanted, strict=True):
+        box = place.shape.bounds
+        got = (box.x_from_m, box.x_to_m, box.y_from_m, box.y_to_m)
+        assert got == pytest.approx([side * FT for side in sides])
+
+
+def test_what_is_drawn_in_a_rotated_ucs_is_read_in_world_coordinates(tmp_path):
+    cos, sin = math.cos(0.5), math.sin(0.5)
+    ucs = UCS(origin=(50, 10, 0), ux=(cos, sin, 0), uz=(0, 0, 1))
+    sketch = Sketch()
+    header = sketch.document.header
+    header["$UCSORG"], header["$UCSXDIR"] = (50, 10, 0), (cos, sin, 0)
+    header["$UCSYDIR"] = (-sin, cos, 0)
+    points = [(p.x, p.y) for p in ucs.points_to_wcs([(0, 0), (40, 0), (40, 20), (0, 20)])]
+    sketch.ring("ARRAY", points)
+    shape = plan(sketch.saved(tmp_path)).arrays[0].shape
+    assert isinstance(shape, Polygon)
+    assert list(shape.points) == in_feet(points)
+    assert shape.area_m2 == pytest.approx(800 * FT**2)
+
+
+def test_a_mirrored_polyline_is_read_where_it_appears(tmp_path):
+    sketch = Sketch()
+    look = {"layer": "ARRAY", "extrusion": (0, 0, -1)}
+    sketch.space.add_lwpolyline(
+        [(-10, 0), (-30, 0), (-30, 20), (-10, 20)], close=True, dxfattribs=look
+    )
+    box = plan(sketch.saved(tmp_path)).arrays[0].shape.bounds
+    assert (box.x_from_m, box.x_to_m) == pytest.approx((10 * FT, 30 * FT))
+
+
+def test_r12_without_handles_and_with_own_layers_is_read(tmp_path):
+    path = tmp_path / "roof.dxf"
+    path.write_bytes(LIBRECAD_R12.replace("\n", "\r\n").encode())
+    (array,) = plan(path, "m", {"pv": LayerKind.ARRAY}).arrays
+    assert array.name == "A7"
+    assert array.shape == Rectangle(0.0, 10.0, 0.0, 5.0)
+
+
+@pytest.fixture(scope="module")
+def reported():
+    """A project with an L-shaped array and a roof with an oblique side, as assessed."""
+    sides = dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))
+    first, *others = (array.model_dump() for array in stand_in.project().arrays)
+    vertices = [
+        {"name": name, "x_m": x * FT, "y_m": y * FT}
+        for name, ring in (("A1", L_FT), ("roof", ((0, 0), (220, 0), (220, 170), (-9, 170))))
+        for x, y in ring
+    ]
+    data = stand_in.project(arrays=[first | sides, *others], outlines=vertices)
+    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
+
+
+def test_a_plan_that_report_wrote_reads_back_to_itself(reported, tmp_path):
+    path = tmp_path / "plan.dxf"
+    path.write_bytes(write_dxf(plan_drawing(reported)))
+    found = plan(path)
+    data = reported.project
+    assert found.unread == ()
+    assert [place.name for place in found.arrays] == [array.id for array in data.arrays]
+    kinds = {place.name: place.kind.value for place in found.objects}
+    assert kinds == {item.id: item.kind.value for item in data.objects}
+    rows = (*data.arrays, *data.objects, data.roof)
+    for place, row in zip((*found.arrays, *found.objects, *found.roof), rows, strict=True):
+        assert type(place.shape) is type(row.placed)
+        for point, wanted in zip(place.shape.points, row.placed.points, strict=True):
+            assert point == pytest.approx(wanted, abs=1e-9)
+    for place, item in zip(found.objects, data.objects, strict=True):
+        if item.height_m is None:
+            assert math.isnan(place.height_m)
+        else:
+            assert place.height_m == pytest.approx(item.height_m)
+
+
+def test_what_was_not_understood_is_listed_with_handle_and_layer(tmp_path):
+    sketch = warehouse()
+    line = sketch.space.add_line((0, 0), (1, 1), dxfattribs={"layer": "ARRAY"})
+    opened = sketch.space.add_lwpolyline([(0, 0), (5, 0), (5, 5)], dxfattribs={"layer": "ARRAY"})
+    vent = sketch.ring("VENTS", UNIT_FT)
+    crossed = sketch.ring("ARRAY", ((0, 0), (10, 10), (10, 0), (0, 10)))
+    flat = sketch.ring("ARRAY", ((0, 0), (10, 0), (5, 0)))
+    twice = sketch.ring("ARRAY", ((210, 20), (230, 20), (230, 40), (210, 40)), "A1")
+    sketch.space.add_line((0, 0), (1, 1), dxfattribs={"layer": "NOTES"})
+    listed = plan(sketch.saved(tmp_path)).unread
+    found = {(item.handle, item.layer): item.reason for item in listed}
+    owner = next(p.handle for p in plan(sketch.saved(tmp_path)).arrays if p.name == "A1")
+    assert found == {
+        (line.dxf.handle, "ARRAY"): "a LINE",
+        (opened.dxf.handle, "ARRAY"): "an open LWPOLYLINE",
+        (vent.dxf.handle, "VENTS"): "a closed line on a layer that is not in Layers",
+        (crossed.dxf.handle, "ARRAY"): "a line that touches or crosses itself near 5, 5",
+        (flat.dxf.handle, "ARRAY"): "a closed line without an area",
+        (twice.dxf.handle, "ARRAY"): f"a second 'A1', the name of {owner}",
+    }
+
+
+def test_outlines_without_a_text_get_a_name_that_is_free(tmp_path):
+    sketch = Sketch()
+    sketch.ring("ARRAY", BOX_FT)
+    sketch.ring("ARRAY", L_FT, "A1")
+    assert [place.name for place in plan(sketch.saved(tmp_path)).arrays] == ["A2", "A1"]
