@@ -29,6 +29,7 @@ from report.sheet.shapes import gap_m
 from report.sheet.site_checks import site_faults
 from report.words.units import Quantity, pair
 from solver.model import INCH_M
+from solver.rules.rulesets import ALLOWED
 
 MAX_SLOPE_DEG = 45.0
 GAP_TOLERANCE = 0.01
@@ -237,6 +238,12 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:
             yield Fault(place, text)
         elif first is not place:
             yield Fault(place, f"provision is '{key}', already given at {where(first)}; delete one")
+    for row, override in enumerate(draft["overrides"]):
+        key, value = override.get("provision", ""), override.get("value")
+        allowed = ALLOWED.get(key)
+        if allowed and value is not None and not allowed.has(value):
+            text = f"value is {value:g} for {key}; give {allowed.words}"
+            yield Fault(Place("overrides", row, "value"), text)
 
 
 def _directional(draft: Draft, where: Where) -> Iterator[Fault]:

@@ -70,6 +70,54 @@ OVERRIDABLE: Mapping[str, str] = {
 }
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Allowed:
+    """Range of a value that may replace a number of a rule set."""
+
+    low: float
+    high: float
+    is_whole: bool = False
+
+    def has(self, value: float) -> bool:
+        """Whether a value is within the range."""
+        return self.low <= value <= self.high and not (self.is_whole and value % 1.0)
+
+    @property
+    def words(self) -> str:
+        """The range in words."""
+        return f"a {'whole ' if self.is_whole else ''}number from {self.low:g} to {self.high:g}"
+
+
+# Outside of these, a number has another unit or no meaning. A factor below 1 on the peaks would
+# give less than was computed.
+ALLOWED: Mapping[str, Allowed] = {
+    "prescriptive_factor_in": Allowed(low=1, high=600),
+    "prescriptive_minimum_in": Allowed(low=0, high=240),
+    "prescriptive_low_sdc_in": Allowed(low=0, high=240),
+    "prescriptive_max_slope_deg": Allowed(low=0, high=30),
+    "prescriptive_min_mu": Allowed(low=0, high=1.5),
+    "analysis_max_slope_deg": Allowed(low=0, high=30),
+    "ibc_max_slope_deg": Allowed(low=0, high=30),
+    "max_stories": Allowed(low=1, high=200, is_whole=True),
+    "max_risk_category": Allowed(low=1, high=4, is_whole=True),
+    "low_profile_in": Allowed(low=1, high=120),
+    "low_profile_ratio": Allowed(low=0.01, high=5),
+    "analysis_min_motions": Allowed(low=1, high=100, is_whole=True),
+    "analysis_mean_motions": Allowed(low=1, high=100, is_whole=True),
+    "analysis_factor": Allowed(low=1, high=10),
+    "analysis_floor": Allowed(low=0, high=1),
+    "separation_like": Allowed(low=0, high=10),
+    "separation_fixed": Allowed(low=0.1, high=10),
+    "separation_parapet": Allowed(low=0, high=10),
+    "separation_edge": Allowed(low=0.1, high=10),
+    "separation_edge_min_in": Allowed(low=0, high=600),
+    "parapet_height_in": Allowed(low=0, high=240),
+    "parapet_over_cg_in": Allowed(low=0, high=240),
+    "interconnection_sds": Allowed(low=0, high=2),
+    "interconnection_min": Allowed(low=0, high=2),
+}
+
+
 class LowProfileLength(StrEnum):
     """The length whose half limits the height of the center of gravity."""
 
@@ -105,12 +153,19 @@ class RuleSet:
         Raises
         ------
         InputError
-            For every key that the rule set does not have.
+            For every key that the rule set does not have, and every value outside of `ALLOWED`.
         """
         unknown = [key for key in changes if key not in self.values]
         if unknown:
             known = ", ".join(self.values)
             raise InputError([f"provision is '{key}'; {self.name} has {known}" for key in unknown])
+        outside = [
+            f"{key} is {value!r:.40}; give {ALLOWED[key].words}"
+            for key, (value, _) in changes.items()
+            if not ALLOWED[key].has(value)
+        ]
+        if outside:
+            raise InputError(outside)
         values = dict(self.values)
         for key, (value, reason) in changes.items():
             values[key] = replace(values[key], value=value, reason=reason)

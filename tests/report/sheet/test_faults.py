@@ -50,6 +50,8 @@ SINGLE_CELLS = [
         "friction coefficient is a formula with no saved value (=0.4+0.05); open the workbook in"
         " Excel or LibreOffice and save it",
     ),
+    ("Options", "C34", -1, "value is -1 for parapet_height_in; give a number from 0 to 240"),
+    ("Options", "C34", 1e9, "value is 1e+09 for parapet_height_in; give a number from 0 to 240"),
     ("Arrays", "D8", "deg", "slope unit is 'deg'; choose degrees, percent or in/12"),
     ("Arrays", "B8", "A" * 41, "ID is 'A{40}'; give text of at most 40 characters"),
     ("Arrays", "B8", None, "ID is missing; give text of at most 40 characters"),

@@ -10,6 +10,7 @@ import pytest
 from solver.model import InputError
 from solver.rules.hazard import EDITIONS
 from solver.rules.provisions import (
+    OVERRIDABLE,
     RULE_SETS,
     Basis,
     Neighbor,
@@ -22,6 +23,7 @@ from solver.rules.provisions import (
     prescriptive_displacement,
     required_separation,
 )
+from solver.rules.rulesets import ALLOWED
 from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
 
 PV1, A16, A22 = (RULE_SETS[name] for name in ("SEAOC PV1-2012", "ASCE 7-16", "ASCE 7-22"))
@@ -243,6 +245,30 @@ def test_an_override_replaces_one_number_and_keeps_its_reason():
     assert prescriptive_in(PV1, 0.5) == pytest.approx(6.0)
     with pytest.raises(InputError, match="provision is 'nonsense'"):
         PV1.overridden({"nonsense": (1.0, "")})
+
+
+def test_every_number_that_may_be_overridden_has_a_range_with_the_numbers_of_the_codes():
+    assert ALLOWED.keys() == OVERRIDABLE.keys()
+    for rules in RULE_SETS.values():
+        assert all(ALLOWED[key].has(row.value) for key, row in rules.values.items())
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("analysis_factor", -1.0, "analysis_factor is -1.0; give a number from 1 to 10"),
+        ("analysis_floor", 1.01, "analysis_floor is 1.01; give a number from 0 to 1"),
+        ("analysis_factor", float("nan"), "analysis_factor is nan; give a number from 1 to 10"),
+        ("max_stories", 6.5, "max_stories is 6.5; give a whole number from 1 to 200"),
+        ("separation_edge", 10**400, "; give a number from 0.1 to 10"),
+    ],
+)
+def test_an_override_outside_of_its_range_is_refused(key, value, words):
+    with pytest.raises(InputError) as caught:
+        PV1.overridden({key: (value, "a reason")})
+    (problem,) = caught.value.problems
+    assert words in problem
+    assert len(problem) < 200
 
 
 def test_the_ac156_spectrum_is_straight_on_log_axes():
