@@ -24,6 +24,9 @@ from solver.model import InputError
 from solver.records.processing import Processing, process, process_together
 from solver.records.record import Record
 
+SHORTEST_S = 1.0
+"""Duration [s] below which a motion is refused: no earthquake record is as short."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordFile:
@@ -152,6 +155,7 @@ def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
             yield Fault(Place("motions", index, field), text)
 
 
+_HORIZONTAL = ("record", "transverse")
 _TO_A_LEVEL = {Scaling.PPA: ("record",), Scaling.TARGET: ("record", "transverse")}
 
 
@@ -164,6 +168,22 @@ def _unscalable(
             goal = "a PPA" if scaling is Scaling.PPA else "a target spectrum"
             text = f"{LABELS[field]} record is all zeros and cannot be scaled to {goal}"
             yield Fault(Place("motions", index, field), f"{text}; change the record or scaling")
+
+
+def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
+    """Yield what is no earthquake motion, as run: too short, or without a horizontal component."""
+    horizontal = records["record"]
+    duration_s = (len(horizontal.a_mps2) - 1) * horizontal.dt_s
+    place = Place("motions", index, "record")
+    if duration_s < SHORTEST_S * (1.0 - 1e-9):
+        text = (
+            f"horizontal record lasts {duration_s:.4g} s as run ({len(horizontal.a_mps2)} samples);"
+            f" give a record of {SHORTEST_S:g} s or more"
+        )
+        yield Fault(place, text)
+    elif not any(records[field].a_mps2.any() for field in _HORIZONTAL if field in records):
+        which = "and transverse records are" if "transverse" in records else "record is"
+        yield Fault(place, f"horizontal {which} all zeros; give a record of the shaking")
 
 
 def _processed(
@@ -183,7 +203,9 @@ def _processed(
     except InputError as error:
         return _faults(index, "record", error)
     kept = dict(zip(components, done, strict=True))
-    faults = list(_unscalable(index, {"scaling": row.scaling}, kept))
+    faults = list(_unscalable(index, {"scaling": row.scaling}, kept)) or list(
+        _no_motion(index, kept)
+    )
     if faults:
         return faults
     has_highpass = row.highpass_hz is not None

@@ -340,10 +340,12 @@ def pasted(values, header="North", name="Pasted!North"):
 
 @pytest.mark.parametrize("name", ["Pasted!North", "pasted!north", "'Pasted'!North"])
 def test_a_pasted_column_is_a_record(tmp_path, name):
-    book = read_workbook(edit(make(tmp_path), pasted([0.1, "0.2", -0.3, 0], name=name)))
-    assert book.motions[1].ax_mps2 == pytest.approx(np.array([0.1, 0.2, -0.3, 0]) * 9.80665)
+    cells = [0.1, "0.2", -0.3, 0] * 26
+    book = read_workbook(edit(make(tmp_path), pasted(cells, name=name)))
+    expected = np.array([0.1, 0.2, -0.3, 0] * 26) * 9.80665
+    assert book.motions[1].ax_mps2 == pytest.approx(expected)
     assert book.records[2].name == name
-    assert book.records[2].npts == 4
+    assert book.records[2].npts == 104
 
 
 PASTED = "Motions!C9: horizontal record:"
@@ -484,7 +486,7 @@ def test_components_of_different_length_are_accepted_with_a_common_end_time(tmp_
 
 
 CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
-    f"{0.01 * i:.2f},{0.1 * i},{0.2 * i},{0.3 * i}\n" for i in range(5)
+    f"{0.01 * i:.2f},{0.1 * i},{0.2 * i},{0.3 * i}\n" for i in range(101)
 )
 
 
@@ -504,7 +506,7 @@ def test_channels_of_one_file_are_components(tmp_path, names):
     for a, slope in zip(
         (first.ax_mps2, first.ay_mps2, first.az_mps2), (0.1, 0.2, 0.3), strict=True
     ):
-        assert a == pytest.approx(slope * 9.80665 * np.arange(5))
+        assert a == pytest.approx(slope * 9.80665 * np.arange(101))
     assert book.records[1].name == f"records/all.csv | {names[1]}".strip()
     assert book.records[1].format == "text"
 
@@ -547,10 +549,11 @@ def test_units_that_differ_between_file_and_sheet_are_reported(tmp_path):
 
 def test_gals_of_a_pasted_column_are_cm_s2(tmp_path):
     def change(book):
-        pasted([100.0, -200.0])(book)
+        pasted([100.0, -200.0] * 51)(book)
         book["Motions"]["F9"] = "gal"
 
-    assert read_workbook(edit(make(tmp_path), change)).motions[1].ax_mps2.tolist() == [1.0, -2.0]
+    motion = read_workbook(edit(make(tmp_path), change)).motions[1]
+    assert motion.ax_mps2.tolist() == [1.0, -2.0] * 51
 
 
 def test_records_are_processed_as_their_row_requests(tmp_path):
@@ -633,6 +636,41 @@ def test_a_part_of_zeros_cannot_be_scaled_either(tmp_path, scaling, goal):
         f"Motions!C8: horizontal record is all zeros and cannot be scaled to {goal}; change the"
         " record or scaling",
     )
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("0\n" * 200, "horizontal record is all zeros; give a record of the shaking"),
+        (
+            "0.1\n-0.1\n",
+            "horizontal record lasts 0.01 s as run (2 samples); give a record of 1 s or more",
+        ),
+        (
+            "0.1\n-0.1\n" * 50,
+            "horizontal record lasts 0.99 s as run (100 samples); give a record of 1 s or more",
+        ),
+    ],
+)
+def test_a_record_without_shaking_is_refused(tmp_path, text, words):
+    # A verdict of OK followed from any of these.
+    path = make(tmp_path)
+    (path.parent / "records" / "still.csv").write_text(text)
+    changed = edit(path, lambda book: book["Motions"].__setitem__("C9", "records/still.csv"))
+    assert problems(changed) == (f"Motions!C9: {words}",)
+
+
+def test_one_horizontal_record_of_zeros_is_read_if_the_other_shakes(tmp_path):
+    path = make(tmp_path)
+    (path.parent / "records" / "still.csv").write_text("0\n" * 200)
+
+    def change(book):
+        sheet = book["Motions"]
+        sheet["C9"], sheet["D9"] = "records/still.csv", "records/x.csv"
+
+    motion = read_workbook(edit(path, change)).motions[1]
+    assert not motion.ax_mps2.any()
+    assert motion.ay_mps2.any()
 
 
 def test_records_are_checked_even_if_their_row_has_other_errors(tmp_path):
