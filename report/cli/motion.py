@@ -202,15 +202,10 @@ def _read(path: Path, units: str | None, dt_s: float) -> MotionFile:
 
 
 def _write(record: Record, out: Path) -> None:
-    from solver.model import InputError
-    from solver.records.record import write_record
+    from solver.files import write_whole
+    from solver.records.record import record_csv
 
-    if out.exists():
-        raise InputError(f"{out}: already exists; give another name, or move the file")
-    try:
-        write_record(out, record, within=_KEPT_WITHIN)
-    except OSError as error:
-        raise InputError(f"{out}: cannot be written ({error.strerror})") from error
+    write_whole(out, record_csv(record, within=_KEPT_WITHIN).encode(), replace=False)
 
 
 def _draw(records: Sequence[Record], out: Path) -> None:
@@ -219,6 +214,7 @@ def _draw(records: Sequence[Record], out: Path) -> None:
     from report.figures.records import MOST, records_png, records_svg
     from report.suite.info import PERIODS_S, spectra_g
     from report.typeset.pdf import TEMPLATES
+    from solver.files import write_whole
     from solver.model import InputError
 
     if len(records) > MOST:
@@ -228,7 +224,4 @@ def _draw(records: Sequence[Record], out: Path) -> None:
     load_fonts(TEMPLATES / "fonts")
     drawing = records_png if out.suffix.lower() == ".png" else records_svg
     picture = drawing(records, PERIODS_S, spectra_g(records))
-    try:
-        out.write_bytes(picture if isinstance(picture, bytes) else picture.encode())
-    except OSError as error:
-        raise InputError(f"{out}: cannot be written ({error.strerror})") from error
+    write_whole(out, picture if isinstance(picture, bytes) else picture.encode())

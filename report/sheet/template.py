@@ -22,6 +22,7 @@ from report.sheet import style
 from report.sheet.fields import Entry, Frozen, Section, entries
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput, UnitsFirst
 from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS, Unit
+from solver.files import write_whole
 
 BLANK_ROWS = 20
 SPARE_ROWS = 5
@@ -91,7 +92,7 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
         style.finish(sheet, units is UnitsFirst.US)
     buffer = io.BytesIO()
     book.save(buffer)
-    path.write_bytes(buffer.getvalue())
+    write_whole(path, buffer.getvalue())
 
 
 def _rows(section: Section, example: ProjectInput | None) -> Sequence[Frozen]:

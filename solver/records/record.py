@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from solver.files import write_whole
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
@@ -96,7 +97,7 @@ def write_record(
     `DECIMALS`, such as those of `solver.synthesis` in g, is read back bit for bit.
     """
     text = record_csv(record, units, within=within, hold_s=hold_s)
-    path.write_text(text, encoding="utf-8", newline="\n")
+    write_whole(path, text.encode())
 
 
 def record_csv(

@@ -204,6 +204,28 @@ def test_convert_never_overwrites_a_file(column, tmp_path):
     assert out.read_text() == "mine"
 
 
+def test_convert_does_not_write_through_a_dangling_link(column, tmp_path):
+    link = tmp_path / "link.csv"
+    link.symlink_to(tmp_path / "elsewhere.csv")
+    done = run("convert", column, link, "--units", "g", "--dt", 0.01)
+    assert done.exit_code == 2
+    assert "already exists" in done.output
+    assert not (tmp_path / "elsewhere.csv").exists()
+
+
+@pytest.mark.parametrize("command", ["convert", "info"])
+def test_a_full_disk_leaves_no_half_file(command, column, tmp_path, monkeypatch):
+    def full(descriptor):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    out = ["--plot", tmp_path / "a.svg"] if command == "info" else [tmp_path / "a.csv"]
+    done = run(command, column, *out, "--units", "g", "--dt", 0.01)
+    assert done.exit_code == 2
+    assert "No space left on device" in done.output
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["one.txt"]
+
+
 def test_convert_into_a_folder_that_is_not_there_exits_2(column, tmp_path):
     done = run("convert", column, tmp_path / "none" / "out.csv", "--dt", 0.02, "--units", "g")
     assert done.exit_code == 2

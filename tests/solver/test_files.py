@@ -1,0 +1,75 @@
+"""A file is written whole or not at all."""
+
+import os
+
+import pytest
+
+from solver.files import write_whole
+from solver.model import InputError
+
+
+def test_a_file_is_written_and_replaced(tmp_path):
+    path = tmp_path / "a.csv"
+    write_whole(path, b"1")
+    write_whole(path, b"2")
+    assert path.read_bytes() == b"2"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["a.csv"]
+    umask = os.umask(0)
+    os.umask(umask)
+    assert path.stat().st_mode & 0o777 == 0o666 & ~umask
+
+
+@pytest.mark.parametrize("kind", ["file", "folder", "dangling link"])
+def test_what_exists_is_not_replaced_unless_asked_for(tmp_path, kind):
+    path = tmp_path / "a.csv"
+    if kind == "file":
+        path.write_bytes(b"old")
+    elif kind == "folder":
+        path.mkdir()
+    else:
+        path.symlink_to(tmp_path / "elsewhere.csv")
+    with pytest.raises(InputError, match="already exists; give another name"):
+        write_whole(path, b"new", replace=False)
+    assert not (tmp_path / "elsewhere.csv").exists()
+    assert [entry.name for entry in tmp_path.iterdir()] == ["a.csv"]
+
+
+def test_a_link_is_replaced_and_not_followed(tmp_path):
+    target = tmp_path / "target.csv"
+    target.write_bytes(b"old")
+    (tmp_path / "a.csv").symlink_to(target)
+    write_whole(tmp_path / "a.csv", b"new")
+    assert target.read_bytes() == b"old"
+    assert (tmp_path / "a.csv").read_bytes() == b"new"
+
+
+@pytest.mark.parametrize("replace", [True, False])
+def test_a_full_disk_leaves_the_former_file_or_none(tmp_path, monkeypatch, replace):
+    path = tmp_path / "a.csv"
+    if replace:
+        path.write_bytes(b"old")
+
+    def full(descriptor):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(InputError, match=r"a\.csv: cannot be written \(No space left"):
+        write_whole(path, b"new", replace=replace)
+    assert [entry.read_bytes() for entry in tmp_path.iterdir()] == ([b"old"] if replace else [])
+
+
+def test_a_name_that_is_too_long_is_an_input_error(tmp_path):
+    with pytest.raises(InputError, match="File name too long"):
+        write_whole(tmp_path / ("x" * 300), b"")
+
+
+def test_a_file_system_without_hard_links_is_written_to(tmp_path, monkeypatch):
+    def refused(source, target):
+        raise PermissionError(1, "Operation not permitted")
+
+    monkeypatch.setattr(os, "link", refused)
+    path = tmp_path / "a.csv"
+    write_whole(path, b"new", replace=False)
+    assert path.read_bytes() == b"new"
+    with pytest.raises(InputError, match="already exists"):
+        write_whole(path, b"newer", replace=False)
