@@ -5,6 +5,7 @@ Read `make` first: one line for each step from workbook to package.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from report.assessment.changes import Changes
     from report.assessment.project import Assessment
 
+OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 SOURCE = click.Path(path_type=Path)
 
 
@@ -41,7 +43,7 @@ def _new_project(folder: Path, units: str) -> Path:
     from solver.model import InputError
 
     path = folder / "input.xlsx"
-    if path.exists():
+    if os.path.lexists(path):  # a dangling link as well
         raise InputError(f"{path}: already exists; choose another folder, or move the file")
     try:
         (folder / "records").mkdir(parents=True, exist_ok=True)
@@ -110,7 +112,7 @@ def make(
     from report.motions.prepare import prepare
     from report.package.html import begin, pages
     from report.results.compare import changes
-    from report.results.publish import publish
+    from report.results.publish import check_apart, publish
     from report.results.since import read_former
     from report.results.tables import tables
     from report.sheet.read import read
@@ -119,6 +121,8 @@ def make(
     progress("reading the workbook")
     former = [read_former(path) for path in (since,) if path]
     sheet = read(source)
+    folder = out or sheet.path.parent / "out"
+    check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
     shaking = prepare(sheet)
     progress("running the motions (the first run compiles the solver)")
     assessment = assess(sheet, shaking)
@@ -134,7 +138,6 @@ def make(
     pdf = lay_out(html, drawn)
     progress("writing the result tables")
     files = {"calc-package.pdf": pdf, "plan.dxf": plan.result(), **listed.result()}
-    folder = out or sheet.path.parent / "out"
     publish(files, folder)
     return assessment, folder, files, changed
 

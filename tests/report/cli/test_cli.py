@@ -45,6 +45,25 @@ def test_what_only_the_second_process_needs_is_not_loaded_with_the_tasks_for_it(
     assert done.stdout.splitlines() == ["[]"]
 
 
+def test_report_never_replaces_its_own_workbook(tmp_path):
+    book = make(tmp_path).rename(tmp_path / "results.xlsx")
+    before = book.read_bytes()
+    (tmp_path / "link").symlink_to(tmp_path)
+    for out in (tmp_path, tmp_path / "records" / "..", tmp_path / "link"):
+        done = run("report", book, "--out", out)
+        assert done.exit_code == 2
+        assert "is an input of this run, and would be replaced by its results.xlsx" in done.output
+    assert book.read_bytes() == before
+
+
+def test_new_does_not_write_through_a_dangling_link(tmp_path):
+    (tmp_path / "input.xlsx").symlink_to(tmp_path / "elsewhere.xlsx")
+    done = run("new", tmp_path)
+    assert done.exit_code == 2
+    assert "already exists" in done.output
+    assert not (tmp_path / "elsewhere.xlsx").exists()
+
+
 def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):
     first = run("new", tmp_path / "job")
     assert first.exit_code == 0

@@ -1,17 +1,14 @@
-"""results.json, and publishing of files: all of them or none."""
+"""results.json: what a machine reads."""
 
 import json
 import math
-import os
 
 import pytest
 
 import stand_in
 from report.assessment.evidence import support
 from report.results.json import results_json
-from report.results.publish import publish
 from report.sheet.schema import Direction
-from solver.model import InputError
 
 
 @pytest.fixture(scope="module")
@@ -118,54 +115,6 @@ def test_a_missing_value_is_null_in_json():
     assert document["clearances"][0]["required_m"] is None
     assert document["clearances"][0]["verdict"] == "NG"
     assert document["verdict"] == "NG"
-
-
-def test_files_are_published_together(tmp_path):
-    publish({"a.txt": b"1", "b.txt": b"2"}, tmp_path / "out")
-    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a.txt", "b.txt"]
-    publish({"a.txt": b"3", "b.txt": b"4"}, tmp_path / "out")
-    assert (tmp_path / "out" / "a.txt").read_bytes() == b"3"
-
-
-def test_a_locked_file_changes_nothing_and_is_named(tmp_path, monkeypatch):
-    publish({"a.txt": b"old a"}, tmp_path)
-    replace = os.replace
-
-    def locked(source, target):
-        if str(target).endswith("c.txt"):
-            raise PermissionError(13, "Permission denied")
-        replace(source, target)
-
-    monkeypatch.setattr(os, "replace", locked)
-    with pytest.raises(InputError, match=r"c\.txt: cannot be replaced .*close it"):
-        publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
-    assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
-    assert (tmp_path / "a.txt").read_bytes() == b"old a"
-
-
-def test_a_folder_in_place_of_a_file_is_reported(tmp_path):
-    (tmp_path / "a.txt").mkdir()
-    with pytest.raises(InputError, match=r"a\.txt: cannot be replaced"):
-        publish({"a.txt": b"1"}, tmp_path)
-    assert (tmp_path / "a.txt").is_dir()
-
-
-def test_a_folder_that_cannot_be_created_is_reported(tmp_path):
-    (tmp_path / "out").write_text("a file")
-    with pytest.raises(InputError, match=r"out: cannot be written .*--out"):
-        publish({"a.txt": b"1"}, tmp_path / "out")
-
-
-def test_a_full_disk_leaves_the_old_package(tmp_path, monkeypatch):
-    publish({"a.txt": b"old"}, tmp_path)
-
-    def full(self, data):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("pathlib.Path.write_bytes", full)
-    with pytest.raises(InputError, match="No space left"):
-        publish({"a.txt": b"new"}, tmp_path)
-    assert [p.read_bytes() for p in tmp_path.iterdir()] == [b"old"]
 
 
 def test_infinite_demand_over_zero_clearance_is_null():
