@@ -16,6 +16,7 @@ from solver.records.units import UNIT_CHOICES, unit_size
 
 MAX_BYTES = 64_000_000
 MAX_LINE = 1000
+MAX_NAME = 255
 
 # Text has no control characters except tab, line ends and form feed.
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f]")
@@ -114,17 +115,24 @@ def open_source(path: Path, *, units: str, dt_s: float) -> Source:
     InputError
         If the arguments are invalid, or the file is missing, too large or not text.
     """
-    name, problems = path.name, []
-    if units and units not in UNIT_CHOICES:
-        problems.append(f"{name}: unit is {units!r}; give one of {', '.join(UNIT_CHOICES)}")
-    if not math.isnan(dt_s) and not (is_finite_number(dt_s) and dt_s > 0.0):
-        problems.append(f"{name}: time step dt is {dt_s!r}; give a number of seconds above 0")
+    name, problems = _name(path), []
+    if not isinstance(units, str) or (units and units not in UNIT_CHOICES):
+        problems.append(f"{name}: unit is {shown(units)}; give one of {', '.join(UNIT_CHOICES)}")
+    unknown = isinstance(dt_s, float) and math.isnan(dt_s)
+    if not unknown and not (is_finite_number(dt_s) and dt_s > 0.0):
+        problems.append(f"{name}: time step dt is {shown(dt_s)}; give a number of seconds above 0")
     raise_any(problems)
     return Source(name=name, lines=_lines(name, _bytes(path)), units=units, dt_s=float(dt_s))
 
 
-def _bytes(path: Path) -> bytes:
+def _name(path: Path) -> str:
+    """Name of a file in messages, shortened if it is longer than any file system allows."""
     name = path.name
+    return name if len(name) <= MAX_NAME else f"{name[:MAX_NAME]}..."
+
+
+def _bytes(path: Path) -> bytes:
+    name = _name(path)
     try:
         if not path.exists():
             raise InputError(f"{name}: no such file; give the path of a record")

@@ -68,7 +68,16 @@ def record_from_values(
         With every value that is not a finite number, counted from 1.
     """
     _check_arguments(name, units, dt_s)
-    values = values.tolist() if isinstance(values, np.ndarray) else values
+    if isinstance(values, str | bytes) or not isinstance(values, Sequence | np.ndarray):
+        raise InputError(f"{name} is {shown(values)}; give one row of real numbers")
+    if isinstance(values, np.ndarray):
+        # Masked samples have values under their mask, and tolist makes whole numbers of dates.
+        if values.dtype.kind not in "fiu" or np.ma.is_masked(values) or values.ndim != 1:
+            raise InputError(
+                f"{name}: an array of {values.ndim} dimensions and type {values.dtype}, or with"
+                " masked values; give one row of real numbers"
+            )
+        values = values.tolist()
     if len(values) < 2:
         raise InputError(f"{name}: a column of {len(values)}; give at least 2 values")
     problems = [
@@ -140,7 +149,9 @@ def _record(name: str, values: Floats, units: str, dt_s: float) -> Record:
 
 def is_finite_number(value: object) -> bool:
     """Whether the value is a number (not a boolean) of magnitude below `BEYOND`."""
-    if isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool):
+    # A difference of dates is an integer to numpy.
+    wrong = isinstance(value, bool | np.timedelta64)
+    if isinstance(value, int | float | np.integer | np.floating) and not wrong:
         return bool(-BEYOND < value < BEYOND)
     return False
 
@@ -164,7 +175,7 @@ def raise_any(problems: Iterable[str]) -> None:
 
 def _check_arguments(name: str, units: str, dt_s: float) -> None:
     problems = []
-    if units not in UNITS:
+    if not isinstance(units, str) or units not in UNITS:
         problems.append(f"{name}: unit is {units!r}; give one of {', '.join(UNITS)}")
     if not (is_finite_number(dt_s) and dt_s > 0.0):
         problems.append(f"{name}: time step dt is {dt_s!r}; give a number of seconds above 0")

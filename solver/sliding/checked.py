@@ -252,7 +252,9 @@ def checked_number(
     name: str, value: object, wanted: str, fits: Callable[[float], bool], problems: list[str]
 ) -> float:
     """Return the value as a float, or NaN with a problem added; text and booleans are refused."""
-    if isinstance(value, Real | np.number) and not isinstance(value, bool | np.bool_):
+    # A difference of dates is a number to numpy.
+    wrong = isinstance(value, bool | np.bool_ | np.timedelta64)
+    if isinstance(value, Real | np.number) and not wrong:
         try:
             number = float(value)
         except (OverflowError, TypeError):

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels import one_axis
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Status
-from solver.sliding.checked import checked_record
+from solver.sliding.checked import checked_number, checked_record
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -106,15 +106,25 @@ def sweep(
         _axis("scales", scales, -math.inf, math.inf, problems),
     ]
     for name, value in (("dt_s", dt_s), ("g_mps2", g_mps2)):
-        if not (math.isfinite(value) and value > 0.0):
-            problems.append(f"{name} is {value!r}; give a number above 0")
+        checked_number(name, value, "a number above 0", _is_size, problems)
     if problems:
         raise InputError(problems)
     return _run(ax, az, float(dt_s), float(g_mps2), axes, progress or (lambda share: None))
 
 
+def _is_size(value: float) -> bool:
+    return 0.0 < value < math.inf
+
+
 def _axis(name: str, values: ArrayLike, above: float, below: float, problems: list[str]) -> Floats:
-    axis = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    try:
+        given = np.atleast_1d(np.asanyarray(values))
+    except (TypeError, ValueError, OverflowError):
+        given = np.empty(0, dtype=object)
+    if given.dtype.kind not in "fiu" or np.ma.is_masked(given):
+        problems.append(f"{name} is not a row of real numbers; give values that `slide` accepts")
+        return np.empty(0)
+    axis = np.asarray(given, dtype=np.float64)
     if axis.ndim != 1 or axis.size == 0:
         problems.append(f"{name} has shape {axis.shape}; give one row of values")
     wrong = axis[~((axis > above) & (axis < below))]

@@ -15,6 +15,7 @@ import report.beside
 import report.package.html
 from places import ROOT
 from report.cli.main import main
+from report.results.publish import STAMP
 from sheets import make, project
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -118,7 +119,8 @@ def test_the_files_are_the_same_without_a_second_process(tmp_path, monkeypatch):
     monkeypatch.setattr(report.beside, "SecondProcess", refused)
     assert run("report", book, "--out", tmp_path / "without").exit_code == 0
     names = {path.name for path in (tmp_path / "with").iterdir()}
-    assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx"}
+    outputs = {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx"}
+    assert names == outputs | {STAMP}
     for name in names:
         assert (tmp_path / "with" / name).read_bytes() == (tmp_path / "without" / name).read_bytes()
 

@@ -12,6 +12,7 @@ from click.testing import CliRunner
 from openpyxl import Workbook
 
 from report.cli.main import main
+from report.results.publish import STAMP
 from report.suite import files
 from report.suite.inputs import ac156_targets, read_seeds
 from solver.formats import read_motion_file, read_record
@@ -58,7 +59,7 @@ def records(folder, motion):
 
 def test_every_file_is_written_and_nothing_else(made):
     names = {f"motion-0{k}-{axis}.csv" for k in (1, 2) for axis in "xyz"}
-    assert {path.name for path in made[0].iterdir()} == names | {"suite.json", "suite.png"}
+    assert {path.name for path in made[0].iterdir()} == names | {"suite.json", "suite.png", STAMP}
     assert (made[0] / "suite.png").read_bytes().startswith(b"\x89PNG")
 
 

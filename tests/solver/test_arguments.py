@@ -1,0 +1,109 @@
+"""Python arguments that are no real numbers: each is an input error, in every public function."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from places import DATA
+from solver import InputError, read_record, scene, slide, slide_history, sweep
+from solver.records.record import record_from_values
+
+RECORD = [0.0, 3.0, -3.0, 0.0]
+
+NOT_A_ROW = [
+    np.array(["2026-01-01", "2026-01-02"], dtype="datetime64[ns]"),
+    np.array([1, 2], dtype="timedelta64[s]"),
+    np.ma.array([1.0, 2.0], mask=[False, True]),
+    np.array([True, False]),
+    np.array([1.0, 2.0j]),
+    ["1.0", "2.0"],
+    [True, False],
+    [1.0, None],
+    [10**400, 0],
+    "accelerations",
+    b"1234",
+    [[1.0, 2.0], [3.0]],
+    np.ones((2, 2)),
+    5.0,
+    {"a": 1.0},
+]
+NOT_A_NUMBER = [
+    np.datetime64("2026-01-01"),
+    np.timedelta64(1, "s"),
+    "0.5",
+    True,
+    np.True_,
+    10**400,
+    None,
+    [0.5],
+    np.ma.masked,
+    1j,
+]
+
+
+def named(value):
+    return f"{type(value).__name__} {value!r:.30}"
+
+
+CALLS = {
+    "slide": lambda a, dt, mu: slide(a, dt, slope_rad=0.0, mu=mu),
+    "scene": lambda a, dt, mu: scene(a, dt, slope_rad=0.0, mu=mu),
+    "slide_history": lambda a, dt, mu: slide_history(a, dt, slope_rad=0.0, mu=mu),
+    "sweep": lambda a, dt, mu: sweep(a, dt, slopes_rad=[0.0], mus=mu, scales=[1.0]),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+@pytest.mark.parametrize("given", NOT_A_ROW, ids=named)
+def test_what_is_no_row_of_real_numbers_is_refused(name, given):
+    with pytest.raises(InputError) as caught:
+        CALLS[name](given, 0.01, 0.5)
+    assert all(len(problem) < 200 for problem in caught.value.problems)
+
+
+@pytest.mark.parametrize("name", CALLS)
+@pytest.mark.parametrize("given", NOT_A_NUMBER, ids=named)
+def test_what_is_no_number_is_refused(name, given):
+    with pytest.raises(InputError) as caught:
+        CALLS[name](RECORD, given, 0.5)
+    assert all(len(problem) < 200 for problem in caught.value.problems)
+    if given is not np.ma.masked:  # in a list, numpy warns and makes it NaN
+        with pytest.raises(InputError):
+            CALLS[name](RECORD, 0.01, [given] if name == "sweep" else given)
+
+
+@pytest.mark.parametrize("given", NOT_A_ROW, ids=named)
+def test_a_record_is_made_of_real_numbers_only(given):
+    with pytest.raises(InputError) as caught:
+        record_from_values("column", given, units="g", dt_s=0.01)
+    assert all(len(problem) < 200 for problem in caught.value.problems)
+
+
+@pytest.mark.parametrize("given", [value for value in NOT_A_NUMBER if value is not None], ids=named)
+def test_the_step_and_the_units_of_a_file_are_checked(given):
+    path = DATA / "motions" / "one.txt"
+    with pytest.raises(InputError, match="time step dt is"):
+        read_record(path, units="g", dt_s=given)
+    with pytest.raises(InputError, match="unit is"):
+        read_record(path, units=given, dt_s=0.01)
+
+
+def test_numbers_of_other_types_are_taken():
+    def prd_m(a, dt_s, mu):
+        return slide(a, dt_s, slope_rad=0.0, mu=mu).prd_m
+
+    expected = prd_m(RECORD, 0.01, 0.2)
+    assert expected > 0.0
+    singles = prd_m(np.array(RECORD, dtype=np.float32), np.float32(0.01), 0.2)
+    assert singles == pytest.approx(expected, rel=1e-6)
+    assert prd_m(np.array([0, 3, -3, 0]), 0.01, Fraction(1, 5)) == expected
+    assert prd_m(np.ma.array(RECORD), 0.01, 0.2) == expected
+
+
+def test_a_name_that_is_too_long_or_not_a_name_is_an_input_error():
+    for path in (Path("x" * 300), Path("a" * 5000), Path("nul\0byte")):
+        with pytest.raises(InputError) as caught:
+            read_record(path, units="g", dt_s=0.01)
+        assert all(len(problem) < 400 for problem in caught.value.problems)
