@@ -7,6 +7,9 @@ the way from workbook to package.
 
 from __future__ import annotations
 
+import os
+import sys
+
 import click
 
 from report.cli.motion import motion
@@ -23,6 +26,11 @@ def main() -> None:
 
     Start with `roofslip new DIR`, fill in DIR/input.xlsx, then run `roofslip report DIR`.
     """
+    try:
+        os.getcwd()
+    except OSError:
+        click.echo("The working folder no longer exists; change to another folder.", err=True)
+        sys.exit(2)
 
 
 for command in (check, motion, new, plan, report, slide, verify):

@@ -7,13 +7,14 @@ next.
 from __future__ import annotations
 
 import gc
+import re
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import click
 
@@ -33,23 +34,52 @@ class UnitChoice(click.Choice[str]):
 
 
 _QUIET_SECONDS = 1.0
+_LONGEST = 2000
+
+# Control characters, and those that separate lines or change the direction of a text.
+_UNSAFE = re.compile(r"[\x00-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
+
+
+def plain(text: object) -> str:
+    """Return a text as a terminal may show it: without control characters, and not too long."""
+    line = _UNSAFE.sub("?", str(text))
+    return line if len(line) <= _LONGEST else f"{line[:_LONGEST]}..."
 
 
 @contextmanager
 def input_errors(source: Path) -> Iterator[None]:
-    """Print input errors, one problem per line, and exit with code 2."""
+    """Print input errors, one problem per line, and exit with code 2.
+
+    So with what the system refuses, such as a file without permission or a folder that is gone.
+    """
     try:
         yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        _refuse(source, [_system_problem(error)])
     except Exception as error:
         from solver.model import InputError
 
         if not isinstance(error, InputError):
             raise
-        count = len(error.problems)
-        click.echo(f"{source}: {count} problem{'s' if count > 1 else ''} found.", err=True)
-        for problem in error.problems:
-            click.echo(f"  {problem}", err=True)
-        sys.exit(2)
+        _refuse(source, error.problems)
+
+
+def _refuse(source: Path, problems: Sequence[str]) -> NoReturn:
+    count = len(problems)
+    click.echo(f"{plain(source)}: {count} problem{'s' if count > 1 else ''} found.", err=True)
+    for problem in problems:
+        click.echo(f"  {plain(problem)}", err=True)
+    sys.exit(2)
+
+
+def _system_problem(error: OSError) -> str:
+    where = f"{error.filename}: " if error.filename else ""
+    return (
+        f"{where}the system refuses it ({error.strerror or error}); correct the path, its rights"
+        " or the space on its disk"
+    )
 
 
 @contextmanager
@@ -74,7 +104,8 @@ class Progress:
 
     def __init__(self) -> None:
         self._started = time.monotonic()
-        self._terminal = sys.stderr.isatty()
+        # Closed, it is None.
+        self._terminal = sys.stderr is not None and sys.stderr.isatty()
 
     def __enter__(self) -> Progress:
         return self

@@ -24,7 +24,12 @@ _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
 _QUOTED = re.compile(r'"[^"]*"|\\.|\[[^\]]*\]')
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff]")
+# With those that separate lines or change the direction of a text, which no font has.
+_CONTROL = re.compile(
+    r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
+)
+LARGEST = 1e15
+"""Magnitude above which a number is refused, so that no change of units can overflow."""
 
 
 class CellError(InputError):
@@ -109,6 +114,8 @@ def read_cell(cell: Found, entry: Entry, model: type[Frozen], unit: str, si: flo
     value = _converted(cell, entry, wanted)
     if isinstance(value, float):
         value *= si
+    if isinstance(value, float | int) and not abs(value) <= LARGEST:
+        raise CellError(f"{_is(cell, entry)}; {wanted}, below {LARGEST:g} in size")
     try:
         return adapter(model, entry.name).validate_python(value)
     except ValidationError as error:

@@ -186,6 +186,10 @@ def _named(book: OpenBook, name: str) -> CellPosition | None:
     return None
 
 
+# Of a sheet of Excel.
+_LAST_COLUMN, _LAST_ROW = 16_384, 1_048_576
+
+
 def _bounds(reference: str) -> tuple[int, int, int, int] | None:
     """Return left, top, right, bottom of a range that states all four."""
     try:
@@ -193,7 +197,10 @@ def _bounds(reference: str) -> tuple[int, int, int, int] | None:
     except (ValueError, TypeError):
         return None
     # A:C has no rows, and a damaged file may say A0.
-    return (left, top, right, bottom) if left and top and right and bottom else None
+    if not (left and top and right and bottom):
+        return None
+    is_on_sheet = max(left, right) <= _LAST_COLUMN and max(top, bottom) <= _LAST_ROW
+    return (left, top, right, bottom) if is_on_sheet else None
 
 
 def _beside_label(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:

@@ -26,6 +26,10 @@ CODES = {rules.code: rules.name for rules in RULE_SETS.values()}
 """Rule sets by their names on the command line."""
 
 _MOST_S_DS_G = 5.0
+
+# Records are written to 0.00001 g: 0.25 % of the least peak below.
+_LEAST_S_DS_G = 0.01
+_LEAST_PEAK_G = 0.004
 _VERTICAL = re.compile(r"(?<![a-z])(up|ud|u-d|vert|vertical|v|z)(?![a-z])", re.IGNORECASE)
 _GENERATED = re.compile(r"motion-\d{2,}-[xyz]\.csv")
 
@@ -126,15 +130,27 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
             f"vertical tail: {tail.sentence}",
         ]
         facts |= {"vertical_source": "AC156", "s_ds_g": s_ds_g, "tail": tail.value}
+    _check_level("horizontal", table.horizontal)
+    _check_level("vertical", vertical)
     return SuiteTargets(
         horizontal=table.horizontal, vertical=vertical, lines=tuple(lines), facts=facts
     )
 
 
 def _s_ds_problems(s_ds_g: float) -> list[str]:
-    if 0.0 < s_ds_g <= _MOST_S_DS_G:
+    if _LEAST_S_DS_G <= s_ds_g <= _MOST_S_DS_G:
         return []
-    return [f"S_DS is {s_ds_g:g} g; give a number greater than 0 and at most {_MOST_S_DS_G:g}"]
+    return [f"S_DS is {s_ds_g:g} g; give a number from {_LEAST_S_DS_G:g} to {_MOST_S_DS_G:g}"]
+
+
+def _check_level(name: str, target: Target) -> None:
+    """Refuse a target whose motions would be lost in the rounding of their files."""
+    peak_g = float(max(target[1]))
+    if peak_g < _LEAST_PEAK_G:
+        raise InputError(
+            f"the {name} target reaches {peak_g:.3g} g; give one of {_LEAST_PEAK_G:g} g or more:"
+            " records are written to 0.00001 g"
+        )
 
 
 def _plateaus(upward: RequiredSpectrum) -> str:

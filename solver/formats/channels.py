@@ -18,6 +18,12 @@ from solver.records.record import UNITS, Record, read_only, shown
 
 MAX_CHANNELS = 1000
 
+MOST_G = 1000.0
+"""Peak [g] above which a record is refused: ten times as much as any instrument records."""
+
+STEPS_S = (1e-6, 10.0)
+"""Range of time steps [s] of accelerograms, with a wide margin."""
+
 # The peak in a header may be rounded or of other processing; a factor of two means another unit.
 _PEAK_WITHIN = 0.01
 _PEAK_FACTOR = 2.0
@@ -68,6 +74,7 @@ def motion_file(
             count = len(channel.a_mps2)
             samples = "1 sample" if count == 1 else f"{count} samples"
             raise InputError(f"{source.name}: found {samples}; give at least 2")
+        _check_size(source, channel)
         a_mps2 = read_only(channel.a_mps2)
         records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
         all_notes += channel.notes if alone else [f"{name}: {note}" for note in channel.notes]
@@ -77,6 +84,22 @@ def motion_file(
         channels=tuple(records),
         notes=tuple(dict.fromkeys(all_notes)),
     )
+
+
+def _check_size(source: Source, channel: Channel) -> None:
+    """Raise if a step or a value is none of an accelerogram: the units or the scale are wrong."""
+    peak_g = float(np.abs(channel.a_mps2).max()) / UNITS["g"]
+    if not peak_g <= MOST_G:
+        raise InputError(
+            f"{source.name}: the values reach {peak_g:.3g} g; give a record of at most {MOST_G:g}"
+            " g, or its units"
+        )
+    low, high = STEPS_S
+    if not low <= channel.dt_s <= high:
+        raise InputError(
+            f"{source.name}: the time step is {channel.dt_s:.3g} s; give a record with steps of"
+            f" {low:g} to {high:g} s"
+        )
 
 
 def check_number(source: Source, channels: int) -> None:

@@ -50,6 +50,30 @@ SINGLE_CELLS = [
         "friction coefficient is a formula with no saved value (=0.4+0.05); open the workbook in"
         " Excel or LibreOffice and save it",
     ),
+    (
+        "Arrays",
+        "H8",
+        1e308,
+        "weight is 1e+308; give a number of more than 0 [lb], below 1e+15 in size",
+    ),
+    (
+        "Arrays",
+        "K8",
+        -1e300,
+        "x from is -1e+300; give a number [ft], below 1e+15 in size",
+    ),
+    (
+        "Project",
+        "B6",
+        "a\u2028b",
+        "project number is 'a?b', with control characters; retype it",
+    ),
+    (
+        "Project",
+        "B6",
+        "a\u202eb\u2066c",
+        "project number is 'a?b?c', with control characters; retype it",
+    ),
     ("Options", "C34", -1, "value is -1 for parapet_height_in; give a number from 0 to 240"),
     ("Options", "C34", 1e9, "value is 1e+09 for parapet_height_in; give a number from 0 to 240"),
     ("Arrays", "D8", "deg", "slope unit is 'deg'; choose degrees, percent or in/12"),

@@ -255,7 +255,7 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
         (("--sds", 1.0), "no target"),
         (
             ("--sds", 0.0, "--code", "pv1"),
-            "S_DS is 0 g; give a number greater than 0 and at most 5",
+            "S_DS is 0 g; give a number from 0.01 to 5",
         ),
         (("--sds", "inf", "--code", "pv1"), "S_DS is inf g"),
         (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "z/h is 1.5; give a number from 0"),
