@@ -61,9 +61,11 @@ def check(source: Path) -> None:
     """Read and validate the input without writing anything."""
     from report.motions.prepare import prepare
     from report.sheet.read import read
+    from report.typeset.letters import check_letters
 
     with input_errors(source):
         sheet = read(source)
+        check_letters(sheet)
         prepare(sheet)
     data = sheet.project
     click.echo(
@@ -116,12 +118,14 @@ def make(
     from report.results.since import read_former
     from report.results.tables import tables
     from report.sheet.read import read
+    from report.typeset.letters import check_letters
     from report.typeset.pdf import draw_ahead, lay_out, sources
 
     progress("reading the workbook")
     former = [read_former(path) for path in (since,) if path]
     sheet = read(source)
     folder = out or sheet.path.parent / "out"
+    check_letters(sheet)
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
     shaking = prepare(sheet)
     progress("running the motions (the first run compiles the solver)")

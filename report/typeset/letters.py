@@ -1,0 +1,90 @@
+"""Which letters can be drawn: those of the fonts of a package, or else of the machine.
+
+Knows no page. Read `undrawable` first.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from functools import cache
+
+from report.sheet.read import Sheet
+from solver.model import InputError
+
+_LISTED = 5
+
+# Label of the fields that figures are lettered with.
+_ID = "ID"
+
+# Every font of a package has them.
+_SURE = re.compile(r"[\n\t\x20-\x7e\xa0-\xff]*")
+
+
+def undrawable(text: str, *, is_in_figures: bool = False) -> str:
+    """Return the letters of a text that no font of a package or of this machine has.
+
+    The figures use the fonts of a package alone.
+    """
+    if _SURE.fullmatch(text):
+        return ""
+    letters = dict.fromkeys(_SURE.sub("", text))
+    has_font = _is_shipped if is_in_figures else _has_font
+    return "".join(letter for letter in letters if not has_font(letter))
+
+
+def _has_font(letter: str) -> bool:
+    return _is_shipped(letter) or _is_on_machine(letter)
+
+
+def _is_shipped(letter: str) -> bool:
+    return ord(letter) in _shipped()
+
+
+@cache
+def _shipped() -> frozenset[int]:
+    """Return the letters that every font of a package has."""
+    from fontTools.ttLib import TTFont
+
+    from report.typeset.pdf import TEMPLATES
+
+    paths = sorted((TEMPLATES / "fonts").glob("*.ttf"))
+    return frozenset.intersection(*(frozenset(TTFont(path).getBestCmap()) for path in paths))
+
+
+@cache
+def _is_on_machine(letter: str) -> bool:
+    """Whether fontconfig, which the renderer asks as well, knows a font with a letter."""
+    try:
+        found = subprocess.run(
+            ["fc-list", f":charset={ord(letter):x}", "family"],
+            capture_output=True,
+            timeout=10.0,
+            check=False,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return bool(found.stdout.strip())
+
+
+def check_letters(sheet: Sheet) -> None:
+    """Refuse the letters of a workbook that would be empty boxes in the package.
+
+    Raises
+    ------
+    InputError
+        With the cell of every text that has such letters.
+    """
+    problems = []
+    for row in sheet.echo:
+        is_in_figures = row.label == _ID
+        if missing := undrawable(row.typed, is_in_figures=is_in_figures):
+            named = ", ".join(f"{letter} (U+{ord(letter):04X})" for letter in missing[:_LISTED])
+            where, remedy = (
+                ("the font of the figures does not have", "write it in other letters")
+                if is_in_figures
+                else ("no font of this machine has", "install one that does, or use other letters")
+            )
+            problems.append(f"{row.sheet}!{row.cell}: {where} {named}; {remedy}")
+    if problems:
+        raise InputError(problems)

@@ -1,0 +1,65 @@
+"""Letters that no font has are named by cell before anything is run."""
+
+import subprocess
+
+import pytest
+from click.testing import CliRunner
+
+from report.cli.main import main
+from report.typeset import letters
+from report.typeset.letters import undrawable
+from sheets import edit, make
+
+
+@pytest.fixture(autouse=True)
+def forget():
+    ask = letters._is_on_machine
+    ask.cache_clear()
+    yield
+    ask.cache_clear()
+
+
+def test_the_letters_of_a_package_can_be_drawn_without_asking_the_machine(monkeypatch):
+    def asked(*arguments, **options):
+        raise AssertionError("asked")
+
+    monkeypatch.setattr(subprocess, "run", asked)
+    assert undrawable("Alameda Warehouse, 3° slope, ½ in, μ = 0.45 — Łódź, Ωδ") == ""
+
+
+def test_a_letter_of_a_font_of_the_machine_can_be_drawn(monkeypatch):
+    def listed(command, **options):
+        found = b"A Font\n" if command[1] == ":charset=5009" else b""
+        return subprocess.CompletedProcess(command, 0, found)
+
+    monkeypatch.setattr(subprocess, "run", listed)
+    assert undrawable("倉庫") == "庫"
+
+
+def test_without_fontconfig_only_the_letters_of_a_package_can_be_drawn(monkeypatch):
+    def absent(*arguments, **options):
+        raise FileNotFoundError
+
+    monkeypatch.setattr(subprocess, "run", absent)
+    assert undrawable("倉a庫倉") == "倉庫"
+
+
+def test_an_id_has_only_letters_of_the_figures(tmp_path, monkeypatch):
+    monkeypatch.setattr(letters, "_is_on_machine", lambda letter: True)
+    book = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("B8", "倉1"))
+    done = CliRunner().invoke(main, ["check", str(book)])
+    assert done.exit_code == 2
+    assert "Motions!B8: the font of the figures does not have 倉 (U+5009); write" in done.output
+
+
+@pytest.mark.parametrize("command", ["check", "report"])
+def test_a_cell_with_letters_without_a_font_is_named(tmp_path, monkeypatch, command):
+    monkeypatch.setattr(letters, "_has_font", lambda letter: letter != "倉")
+    book = edit(make(tmp_path), lambda book: book["Project"].__setitem__("B6", "倉 7"))
+    done = CliRunner().invoke(main, [command, str(book)])
+    assert done.exit_code == 2
+    assert (
+        "Project!B6: no font of this machine has 倉 (U+5009); install one that does, or use other"
+        in done.output
+    )
+    assert not (tmp_path / "out").exists()
