@@ -16,6 +16,8 @@ from solver.records.units import UNIT_CHOICES, unit_size
 
 MAX_BYTES = 64_000_000
 MAX_LINE = 1000
+MAX_LINES = 1_000_000
+"""As many as are read within 10 s if the last one is at fault."""
 MAX_NAME = 255
 
 # Text has no control characters except tab, line ends and form feed.
@@ -148,6 +150,8 @@ def _bytes(path: Path) -> bytes:
 
 def _lines(name: str, data: bytes) -> list[str]:
     lines = _decode(name, data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    if len(lines) > MAX_LINES:
+        raise InputError(f"{name}: found {len(lines):,} lines; give at most {MAX_LINES:,}")
     raise_any(
         f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
         for number, line in enumerate(lines, start=1)

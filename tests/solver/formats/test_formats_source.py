@@ -97,3 +97,8 @@ def test_a_stated_step_must_be_one(file: Any, value: float) -> None:
     source = open_source(file("x"), units="", dt_s=math.nan)
     with pytest.raises(InputError, match=r"roof\.csv:1: found time step .* give a number above 0"):
         source.step(Stated(value=value, rounding=0.0, index=0))
+
+
+def test_a_file_of_too_many_lines_is_refused_before_it_is_parsed(file: Any) -> None:
+    (problem,) = problems_of(file("0\n" * 1_000_001 + "x"))
+    assert problem == "roof.csv: found 1,000,002 lines; give at most 1,000,000"
