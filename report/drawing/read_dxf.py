@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 MB = 1_000_000
 MAX_BYTES = 25 * MB
 MAX_ENTITIES = 20_000
+MAX_VALUES = 1_000_000
 MAX_DEPTH = 8
 MAX_POINTS = 2000
 
@@ -129,6 +130,11 @@ def _check(path: Path) -> None:
         raise InputError("a DWG drawing; save it as DXF (R12 to R2018)")
     if data.startswith(b"AutoCAD Binary DXF"):
         raise InputError("a binary DXF; save it as DXF in text")
+    values = data.count(b"\n") // 2  # each after a line with its code
+    if values > MAX_VALUES:
+        raise InputError(
+            f"{values:,} values, more than {MAX_VALUES:,}; save the layers of the roof plan alone"
+        )
     count = sum(1 for _ in _ENTITY.finditer(data))
     if count > MAX_ENTITIES:
         raise InputError(

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from report.drawing.read_dxf import MAX_ENTITIES, read_dxf
+from report.drawing.read_dxf import MAX_ENTITIES, MAX_VALUES, read_dxf
 from report.sheet.schema import LayerKind
 from sketch import LIBRECAD_R12, Sketch, plan
 from solver.model import InputError
@@ -21,10 +21,14 @@ def hostile(tmp_path, content):
 
 
 def test_a_million_entities_are_refused_with_the_limit(tmp_path):
-    entities = "0\nPOINT\n8\n0\n" * 1_000_000
-    found = hostile(tmp_path, f"0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n")
-    assert f"more than {MAX_ENTITIES:,}" in found
-    assert found.startswith("1,000,00")
+    def entities(count):
+        body = "0\nPOINT\n8\n0\n" * count
+        return f"0\nSECTION\n2\nENTITIES\n{body}0\nENDSEC\n0\nEOF\n"
+
+    found = hostile(tmp_path, entities(1_000_000))
+    assert found.startswith(f"2,000,004 values, more than {MAX_VALUES:,}; save the layers")
+    found = hostile(tmp_path, entities(400_000))
+    assert found.startswith(f"400,003 entities, more than {MAX_ENTITIES:,}; save the layers")
 
 
 def test_a_large_file_is_refused_before_it_is_read(tmp_path):
