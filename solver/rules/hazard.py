@@ -150,19 +150,19 @@ def _pair(
     return maximum, 2.0 / 3.0 * maximum if design is None else design
 
 
-_LIMITS_SHORT_G = (0.167, 0.33, 0.50)
-_LIMITS_1S_G = (0.067, 0.133, 0.20)
+LIMITS_SHORT_G = (0.167, 0.33, 0.50)
+LIMITS_1S_G = (0.067, 0.133, 0.20)
 NEAR_FAULT_S_1_G = 0.75
 
 
 def sdc_short(s_ds_g: float, *, is_essential: bool) -> str:
     """Return the SDC by S_DS (ASCE 7 Table 11.6-1); essential: risk category IV."""
-    return _sdc(s_ds_g, _LIMITS_SHORT_G, is_essential)
+    return _sdc(s_ds_g, LIMITS_SHORT_G, is_essential)
 
 
 def sdc_1s(s_d1_g: float, *, is_essential: bool) -> str:
     """Return the SDC by S_D1 (ASCE 7 Table 11.6-2)."""
-    return _sdc(s_d1_g, _LIMITS_1S_G, is_essential)
+    return _sdc(s_d1_g, LIMITS_1S_G, is_essential)
 
 
 def sdc_near_fault(s_1_g: float, *, is_essential: bool) -> str:

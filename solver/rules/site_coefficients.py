@@ -1,0 +1,94 @@
+"""The site coefficients F_a and F_v of ASCE 7-16, Tables 11.4-1 and 11.4-2, by site class.
+
+ASCE 7-22 has none. A package uses the coefficients that its workbook gives; the workbook shows
+these beside them. Read `site_coefficient`.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from solver.rules.hazard import LEAST_F_A_BY_DEFAULT
+from solver.rules.rulesets import Confidence
+
+BY_DEFAULT = "D (default)"
+"""Site class D where the soil was not investigated."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CoefficientTable:
+    """A table of site coefficients.
+
+    Attributes
+    ----------
+    symbol, edition, clause : str
+    mapped_g : tuple of float
+        Mapped accelerations of the columns [g]; the first and the last one hold beyond them.
+    rows : mapping of site class to tuple of float
+        NaN where the edition asks for a site-specific hazard.
+    """
+
+    symbol: str
+    edition: str
+    clause: str
+    mapped_g: tuple[float, ...]
+    rows: Mapping[str, tuple[float, ...]]
+    confidence: Confidence
+
+
+_D_SHORT = (1.6, 1.4, 1.2, 1.1, 1.0, 1.0)
+_D_1S = (2.4, 2.2, 2.0, 1.9, 1.8, 1.7)
+
+F_A = CoefficientTable(
+    symbol="F_a",
+    edition="ASCE 7-16",
+    clause="ASCE 7-16 Table 11.4-1",
+    mapped_g=(0.25, 0.5, 0.75, 1.0, 1.25, 1.5),
+    rows={
+        "A": (0.8,) * 6,
+        "B": (0.9,) * 6,
+        "C": (1.3, 1.3, 1.2, 1.2, 1.2, 1.2),
+        "D": _D_SHORT,
+        BY_DEFAULT: tuple(max(value, LEAST_F_A_BY_DEFAULT) for value in _D_SHORT),
+        "E": (2.4, 1.7, 1.3, math.nan, math.nan, math.nan),
+        "F": (math.nan,) * 6,
+    },
+    confidence=Confidence.KNOWN,
+)
+
+F_V = CoefficientTable(
+    symbol="F_v",
+    edition="ASCE 7-16",
+    clause="ASCE 7-16 Table 11.4-2",
+    mapped_g=(0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
+    rows={
+        "A": (0.8,) * 6,
+        "B": (0.8,) * 6,
+        "C": (1.5, 1.5, 1.5, 1.5, 1.5, 1.4),
+        "D": _D_1S,
+        BY_DEFAULT: _D_1S,
+        "E": (4.2, math.nan, math.nan, math.nan, math.nan, math.nan),
+        "F": (math.nan,) * 6,
+    },
+    confidence=Confidence.KNOWN,
+)
+
+
+def site_coefficient(table: CoefficientTable, site_class: str, mapped_g: float) -> float:
+    """Return a site coefficient, interpolated along a row; NaN where it is site-specific.
+
+    Raises
+    ------
+    KeyError
+        If the edition has no such site class.
+    """
+    row, heads = table.rows[site_class], table.mapped_g
+    at = min(max(mapped_g, heads[0]), heads[-1])
+    left = min(bisect_right(heads, at), len(heads) - 1) - 1
+    if at == heads[left]:
+        return row[left]
+    share = (at - heads[left]) / (heads[left + 1] - heads[left])
+    return row[left] + share * (row[left + 1] - row[left])
