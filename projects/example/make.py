@@ -37,10 +37,10 @@ def main() -> None:
     for number, motion in enumerate(suite, start=1):
         for record, letter in zip(motion.components, "xyz", strict=True):
             write_record(records / f"RM{number}-{letter}.csv", record, hold_s=motion.hold_s)
-    write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=example())
+    write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=project())
 
 
-def example() -> ProjectInput:
+def project() -> ProjectInput:
     """Return the project: a 360 ft by 240 ft warehouse roof with three slopes and fire lanes."""
     return ProjectInput.model_validate(
         {

@@ -67,6 +67,10 @@ class Cell:
         Quantity with a choice of units, or a fixed unit; empty for none.
     need : str
         In words, where it is required unless something else is given; empty for all others.
+    usual : (float, float)
+        Range beyond which a number is marked, in the unit of `example`; None for the allowed one.
+    is_rare : bool
+        Whether its column belongs to those that are folded at the right of a table.
     """
 
     label: str
@@ -74,6 +78,8 @@ class Cell:
     example: str | float | int | dt.date
     unit: Quantity | str = ""
     need: str = ""
+    usual: tuple[float, float] | None = None
+    is_rare: bool = False
 
 
 class Frozen(BaseModel):
@@ -184,6 +190,15 @@ class Entry:
     def is_expected(self) -> bool:
         """Whether a row usually has it: it is required, or required unless something is given."""
         return self.is_required or bool(self.cell.need)
+
+    @property
+    def expected(self) -> Bounds:
+        """The range beyond which a number is marked, in SI: the usual one, or else the allowed."""
+        if self.cell.usual is None:
+            return self.bounds
+        low, high = self.cell.usual
+        si = self.quantity.us.si if self.quantity else 1.0
+        return Bounds(low=low * si, high=high * si)
 
     @property
     def spoken(self) -> str:

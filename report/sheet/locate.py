@@ -13,6 +13,7 @@ from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet import formerly
+from report.sheet.answers import ANSWER_HEADINGS, STATUS_HEADING
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found
 from report.sheet.fields import Entry, Section, entries
@@ -243,7 +244,8 @@ def find_table(book: OpenBook, section: Section) -> TableFound:
     sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
     _check_reach(book, sheet, top)
     last_column = _last_heading(sheet, top, right)
-    headings = [CellPosition(sheet.title, top, column) for column in range(left, last_column + 1)]
+    positions = [CellPosition(sheet.title, top, column) for column in range(left, last_column + 1)]
+    headings = [p for p in positions if not _is_answer(section, sheet.cell(top, p.column).value)]
     columns, others, seen, problems = _columns(book, section, headings)
     absent, missing = _unseen(section, headings[0], seen, others)
     problems += missing
@@ -258,6 +260,11 @@ def find_table(book: OpenBook, section: Section) -> TableFound:
         absent=absent,
         problems=tuple(problems),
     )
+
+
+def _is_answer(section: Section, heading: object) -> bool:
+    """Whether a heading is that of a column of formulas, which is not read."""
+    return _key(heading) in ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
 
 
 _Place = tuple[Worksheet, int, int, int, range]

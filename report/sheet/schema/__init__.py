@@ -103,11 +103,33 @@ __all__ = [
     "YesNo",
     "coefficients",
     "edition_of",
+    "provision_name",
+    "provision_unit",
     "slope_rad",
 ]
 
 PROVISION_KEYS = OVERRIDABLE
 """Provisions that can be overridden, each with its meaning and unit."""
+
+
+def provision_name(key: str) -> str:
+    """Return the name of a provision in words, as on the sheet Provisions; without its unit."""
+    words = PROVISION_KEYS[key].partition(" [")[0]
+    return words[:1].upper() + words[1:]
+
+
+def provision_unit(key: str) -> str:
+    """Return the unit of a provision; empty for none."""
+    return PROVISION_KEYS[key].partition(" [")[2].rstrip("]")
+
+
+_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in PROVISION_KEYS}
+
+
+def _provision_key(text: str) -> str:
+    """Return the key of a provision given by its name, its key or an earlier key."""
+    name = " ".join(text.partition(" [")[0].split()).casefold()
+    return PROVISIONS.get(text, _KEYS_BY_NAME.get(name, text))
 
 
 class Options(Frozen):
@@ -183,8 +205,12 @@ class Override(Frozen):
 
     provision: Annotated[
         RequiredText,
-        AfterValidator(lambda key: PROVISIONS.get(key, key)),
-        Cell("Provision", "The number to replace, from the list.", "parapet_height_in"),
+        AfterValidator(_provision_key),
+        Cell(
+            "Provision",
+            "The number to replace, from the list; the sheet Provisions has its value and clause.",
+            provision_name("parapet_height_in"),
+        ),
     ]
     value: Annotated[float, Cell("Value", "In the unit stated on the sheet Provisions.", 18.0)]
     reason: Annotated[

@@ -37,11 +37,18 @@ class BuildingInput(Frozen):
             " intended to be a low estimate.",
             0.62,
             "s",
+            usual=(0.05, 3.0),
         ),
     ] = None
     period_2_s: Annotated[
         Period | None,
-        Cell("Period T2", "Second mode, if known. Blank: that of a uniform beam.", 0.2, "s"),
+        Cell(
+            "Period T2",
+            "Second mode, if known. Blank: that of a uniform beam.",
+            0.2,
+            "s",
+            usual=(0.02, 1.0),
+        ),
     ] = None
     transverse_s: Annotated[
         Period | None,
@@ -50,10 +57,14 @@ class BuildingInput(Frozen):
             "First mode in the direction of the transverse record. Blank: equal to T1.",
             0.55,
             "s",
+            usual=(0.05, 3.0),
         ),
     ] = None
     damping_percent: Annotated[
-        Percent, Cell("Damping", "Damping of all modes, in percent of critical.", 5.0, "%")
+        Percent,
+        Cell(
+            "Damping", "Damping of all modes, in percent of critical.", 5.0, "%", usual=(1.0, 10.0)
+        ),
     ] = 5.0
     stiffness_ratio: Annotated[
         Annotated[float, Field(ge=0, le=1000)] | None,

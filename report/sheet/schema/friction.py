@@ -48,18 +48,30 @@ class FrictionTestRow(Frozen):
 
     surface: Annotated[Surface, Cell("Surface", "Condition of the roof surface.", "wet")]
     number: Annotated[Annotated[int, Field(ge=1, le=1000)], Cell("Run", "Number of the run.", 1)]
-    mu: Annotated[Mu, Cell("Kinetic coefficient", "Mean friction coefficient while sliding.", 0.46)]
+    mu: Annotated[
+        Mu,
+        Cell(
+            "Kinetic coefficient",
+            "Mean friction coefficient while sliding.",
+            0.46,
+            usual=(0.3, 0.8),
+        ),
+    ]
     velocity_mps: Annotated[
         NotNegative | None,
         Cell("Velocity", "Sliding velocity. Blank: not reported.", 1.0, Quantity.VELOCITY),
     ] = None
     mu_static: Annotated[
-        Mu | None, Cell("Static coefficient", "At breakaway. Blank: not reported.", 0.52)
+        Mu | None,
+        Cell("Static coefficient", "At breakaway. Blank: not reported.", 0.52, usual=(0.3, 1.0)),
     ] = None
     report: Annotated[
         Id | None,
         Cell(
-            "Report", "Only with runs of several reports. Blank: the report above.", "FT-2025-118"
+            "Report",
+            "Only with runs of several reports. Blank: the report above.",
+            "FT-2025-118",
+            is_rare=True,
         ),
     ] = None
 

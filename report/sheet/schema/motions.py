@@ -60,7 +60,13 @@ class MotionInput(Frozen):
     ] = AccelUnit.FROM_FILE
     dt_s: Annotated[
         Annotated[float, Field(gt=0, le=1)] | None,
-        Cell("Time step", "Leave blank if the file states it or has a time column.", 0.01, "s"),
+        Cell(
+            "Time step",
+            "Leave blank if the file states it or has a time column.",
+            0.01,
+            "s",
+            usual=(0.001, 0.02),
+        ),
     ] = None
     scaling: Annotated[
         Scaling,
@@ -74,7 +80,10 @@ class MotionInput(Frozen):
     scale_value: Annotated[
         Annotated[float, Field(gt=0, le=1000)] | None,
         Cell(
-            "Factor or PPA", "The factor, or the PPA in g; blank for other types of scaling.", 1.0
+            "Factor or PPA",
+            "The factor, or the PPA in g; blank for other types of scaling.",
+            1.0,
+            usual=(0.2, 5.0),
         ),
     ] = None
     polarity: Annotated[
@@ -84,6 +93,7 @@ class MotionInput(Frozen):
             "Both: each horizontal component is run as recorded and reversed, and the larger"
             " displacement is used.",
             "both",
+            is_rare=True,
         ),
     ] = Polarity.BOTH
     source: Annotated[
@@ -104,15 +114,27 @@ class MotionInput(Frozen):
     ] = RecordedAt.ROOF
     from_s: Annotated[
         Annotated[float, Field(ge=0)] | None,
-        Cell("Start time", "Measured from the first sample; blank: first sample.", 2.0, "s"),
+        Cell(
+            "Start time",
+            "Measured from the first sample; blank: first sample.",
+            2.0,
+            "s",
+            is_rare=True,
+        ),
     ] = None
     to_s: Annotated[
         Annotated[float, Field(gt=0)] | None,
-        Cell("End time", "Measured from the first sample; blank: last sample.", 40.0, "s"),
+        Cell(
+            "End time",
+            "Measured from the first sample; blank: last sample.",
+            40.0,
+            "s",
+            is_rare=True,
+        ),
     ] = None
     baseline: Annotated[
         Baseline,
-        Cell("Baseline", "Fitted to the acceleration and subtracted.", "linear"),
+        Cell("Baseline", "Fitted to the acceleration and subtracted.", "linear", is_rare=True),
     ] = Baseline.NONE
     highpass_hz: Annotated[
         Annotated[float, Field(gt=0, le=100)] | None,
@@ -122,19 +144,31 @@ class MotionInput(Frozen):
             " states how much.",
             0.1,
             "Hz",
+            is_rare=True,
         ),
     ] = None
     lowpass_hz: Annotated[
         Annotated[float, Field(gt=0, le=1000)] | None,
-        Cell("Low-pass corner", "Zero-phase; blank for none.", 40.0, "Hz"),
+        Cell("Low-pass corner", "Zero-phase; blank for none.", 40.0, "Hz", is_rare=True),
     ] = None
     order: Annotated[
         Annotated[int, Field(ge=2, le=12)],
-        Cell("Filter order", "Order of both filters. The power at the corner is one half.", 4),
+        Cell(
+            "Filter order",
+            "Order of both filters. The power at the corner is one half.",
+            4,
+            is_rare=True,
+        ),
     ] = 4
     new_dt_s: Annotated[
         Annotated[float, Field(gt=0, le=1)] | None,
-        Cell("New time step", "Resampled without aliasing; blank: unchanged.", 0.005, "s"),
+        Cell(
+            "New time step",
+            "Resampled without aliasing; blank: unchanged.",
+            0.005,
+            "s",
+            is_rare=True,
+        ),
     ] = None
     pad_s: Annotated[
         Annotated[float, Field(gt=0, le=600)] | None,
@@ -143,23 +177,43 @@ class MotionInput(Frozen):
             "Added at the end, for the array to come to rest; blank: none.",
             5.0,
             "s",
+            is_rare=True,
         ),
     ] = None
     event: Annotated[
         Text,
         Cell(
-            "Event", "Earthquake and year of a record; blank for a generated motion.", "Kobe 1995"
+            "Event",
+            "Earthquake and year of a record; blank for a generated motion.",
+            "Kobe 1995",
+            is_rare=True,
         ),
     ] = ""
     magnitude: Annotated[
         Annotated[float, Field(ge=3, le=10)] | None,
-        Cell("M", "Moment magnitude of the event of a record.", 6.9),
+        Cell(
+            "M", "Moment magnitude of the event of a record.", 6.9, usual=(5.0, 8.5), is_rare=True
+        ),
     ] = None
     distance_km: Annotated[
         Annotated[float, Field(ge=0, le=1000)] | None,
-        Cell("R", "Distance of the recording station from the rupture.", 7.1, "km"),
+        Cell(
+            "R",
+            "Distance of the recording station from the rupture.",
+            7.1,
+            "km",
+            usual=(0.0, 150.0),
+            is_rare=True,
+        ),
     ] = None
     v_s30_mps: Annotated[
         Annotated[float, Field(ge=50, le=3000)] | None,
-        Cell("V_s30", "Mean shear-wave velocity of the upper 30 m at the station.", 312.0, "m/s"),
+        Cell(
+            "V_s30",
+            "Mean shear-wave velocity of the upper 30 m at the station.",
+            312.0,
+            "m/s",
+            usual=(150.0, 1500.0),
+            is_rare=True,
+        ),
     ] = None

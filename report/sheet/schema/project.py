@@ -91,31 +91,59 @@ class Site(Frozen):
             "Importance factor I_e",
             "At least 1.0 in risk category I or II, 1.25 in III, 1.5 in IV.",
             1.0,
+            usual=(1.0, 1.5),
         ),
     ]
     s_s_g: Annotated[
         Acceleration | None,
-        Cell("S_S", "Mapped value at 0.2 s. Give S_S and F_a, or S_MS, or S_DS.", 1.97, "g"),
+        Cell(
+            "S_S",
+            "Mapped value at 0.2 s. Give S_S and F_a, or S_MS, or S_DS.",
+            1.97,
+            "g",
+            usual=(0.1, 3.5),
+        ),
     ] = None
     s_1_g: Annotated[
         Acceleration | None,
-        Cell("S_1", "Mapped value at 1 s. At 0.75 g or more the SDC is E or F.", 0.70, "g"),
+        Cell(
+            "S_1",
+            "Mapped value at 1 s. At 0.75 g or more the SDC is E or F.",
+            0.70,
+            "g",
+            usual=(0.03, 1.5),
+        ),
     ] = None
     site_class: Annotated[SiteClass | None, Cell("Site class", "ASCE 7 chapter 20.", "D")] = None
     f_a: Annotated[
         Annotated[float, Field(gt=0, le=10)] | None,
-        Cell("F_a", "Site coefficient at 0.2 s, ASCE 7-16. ASCE 7-22 has none.", 1.2),
+        Cell(
+            "F_a",
+            "Site coefficient at 0.2 s, ASCE 7-16. ASCE 7-22 has none.",
+            1.2,
+            usual=(0.8, 2.4),
+        ),
     ] = None
     f_v: Annotated[
         Annotated[float, Field(gt=0, le=10)] | None,
-        Cell("F_v", "Site coefficient at 1 s, ASCE 7-16. ASCE 7-22 has none.", 1.7),
+        Cell(
+            "F_v", "Site coefficient at 1 s, ASCE 7-16. ASCE 7-22 has none.", 1.7, usual=(0.8, 4.2)
+        ),
     ] = None
     s_ds_g: Annotated[
         Annotated[float, Field(gt=0, le=5)] | None,
-        Cell("S_DS", "Design value, short period. Blank: 2/3 S_MS, unrounded.", 1.566, "g"),
+        Cell(
+            "S_DS",
+            "Design value, short period. Blank: 2/3 S_MS, unrounded.",
+            1.566,
+            "g",
+            usual=(0.1, 2.5),
+        ),
     ] = None
     sdc: Annotated[Sdc, Cell("Seismic design category", "ASCE 7 section 11.6.", "D")]
-    stories: Annotated[int, Field(ge=1, le=200), Cell("Number of stories", "Above grade.", 1)]
+    stories: Annotated[
+        int, Field(ge=1, le=200), Cell("Number of stories", "Above grade.", 1, usual=(1.0, 6.0))
+    ]
     structure_height_m: Annotated[
         Positive,
         Cell(
@@ -123,6 +151,7 @@ class Site(Frozen):
             "Average roof height above the base, ASCE 7 section 13.3.",
             36.0,
             Quantity.PLAN,
+            usual=(8.0, 120.0),
         ),
     ]
     roof_height_m: Annotated[
@@ -132,6 +161,7 @@ class Site(Frozen):
             "Height above the base of the roof that supports the array.",
             36.0,
             Quantity.PLAN,
+            usual=(8.0, 120.0),
         ),
     ]
     edition_name: Annotated[
@@ -144,15 +174,29 @@ class Site(Frozen):
     ] = None
     s_ms_g: Annotated[
         Acceleration | None,
-        Cell("S_MS", "Read from a hazard tool. Blank: F_a S_S, unrounded.", 2.349, "g"),
+        Cell(
+            "S_MS",
+            "Read from a hazard tool. Blank: F_a S_S, unrounded.",
+            2.349,
+            "g",
+            usual=(0.1, 4.0),
+        ),
     ] = None
     s_m1_g: Annotated[
         Acceleration | None,
-        Cell("S_M1", "Read from a hazard tool. Blank: F_v S_1, unrounded.", 0.98, "g"),
+        Cell(
+            "S_M1",
+            "Read from a hazard tool. Blank: F_v S_1, unrounded.",
+            0.98,
+            "g",
+            usual=(0.03, 3.0),
+        ),
     ] = None
     s_d1_g: Annotated[
         Acceleration | None,
-        Cell("S_D1", "Design value, 1 s. Blank: 2/3 S_M1, unrounded.", 0.653, "g"),
+        Cell(
+            "S_D1", "Design value, 1 s. Blank: 2/3 S_M1, unrounded.", 0.653, "g", usual=(0.03, 2.0)
+        ),
     ] = None
     hazard: Annotated[
         HazardBasis,

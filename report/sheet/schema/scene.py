@@ -97,7 +97,12 @@ class Array(Placed):
     mu: Annotated[
         float,
         Field(ge=0.0, le=MOST_MU),
-        Cell("Friction coefficient", "Kinetic, from tests; the smaller of wet and dry.", 0.45),
+        Cell(
+            "Friction coefficient",
+            "Kinetic, from tests; the smaller of wet and dry.",
+            0.45,
+            usual=(0.3, 0.8),
+        ),
     ]
     mu_report: Annotated[
         Text,
@@ -117,10 +122,24 @@ class Array(Placed):
         ),
     ]
     weight_n: Annotated[
-        Positive, Cell("Weight", "Modules, racking and ballast.", 42000.0, Quantity.WEIGHT)
+        Positive,
+        Cell(
+            "Weight",
+            "Modules, racking and ballast.",
+            42000.0,
+            Quantity.WEIGHT,
+            usual=(500.0, 500000.0),
+        ),
     ]
     cg_height_m: Annotated[
-        Positive, Cell("CG height", "Center of gravity above the roof surface.", 9.0, Quantity.SIZE)
+        Positive,
+        Cell(
+            "CG height",
+            "Center of gravity above the roof surface.",
+            9.0,
+            Quantity.SIZE,
+            usual=(4.0, 36.0),
+        ),
     ]
     support_spacing_m: Annotated[
         Positive,
@@ -129,6 +148,7 @@ class Array(Placed):
             "Smallest spacing of the supports on the roof, in either plan direction.",
             40.0,
             Quantity.SIZE,
+            usual=(12.0, 120.0),
         ),
     ]
     x_from_m: Annotated[float | None, _plan("x from", OR_OUTLINE)] = None
@@ -153,6 +173,8 @@ class Array(Placed):
             "Only if tests give velocity-dependent friction: the coefficient at high velocity. The "
             "friction coefficient is then the low-velocity value.",
             0.5,
+            usual=(0.3, 0.9),
+            is_rare=True,
         ),
     ] = None
     mu_rate_s_per_m: Annotated[
@@ -163,6 +185,8 @@ class Array(Placed):
             "velocity). Required with high-velocity friction.",
             30.0,
             "s/m",
+            usual=(1.0, 200.0),
+            is_rare=True,
         ),
     ] = None
     mu_static: Annotated[
@@ -172,6 +196,8 @@ class Array(Placed):
             "Only if tests give it: the coefficient at which slip starts. Blank: the friction "
             "coefficient.",
             0.55,
+            usual=(0.3, 1.0),
+            is_rare=True,
         ),
     ] = None
     model: Annotated[
@@ -181,6 +207,7 @@ class Array(Placed):
             "Choose: the simplest adequate model for each motion. Any other model is run as "
             "requested, and the package states what the automatic choice would give.",
             "choose",
+            is_rare=True,
         ),
     ] = Model.CHOOSE
 
@@ -190,6 +217,7 @@ class Array(Placed):
             "Importance factor I_p",
             "Of the component. Separations of PV1-2012 take the larger I_p of array and neighbor.",
             1.0,
+            is_rare=True,
         ),
     ] = 1.0
     base_m: Annotated[
@@ -200,6 +228,8 @@ class Array(Placed):
             " Blank: the support spacing, which is on the safe side.",
             60.0,
             Quantity.SIZE,
+            usual=(12.0, 240.0),
+            is_rare=True,
         ),
     ] = None
     interconnection_n: Annotated[
@@ -219,6 +249,7 @@ class Array(Placed):
             "Slack of the wiring that leaves the array; compared with the design displacement.",
             48.0,
             Quantity.SIZE,
+            usual=(6.0, 240.0),
         ),
     ] = None
 
@@ -274,6 +305,7 @@ class RoofObject(Placed):
             "Of the object or parapet above the roof; required for an edge with parapet.",
             42.0,
             Quantity.SIZE,
+            usual=(4.0, 240.0),
         ),
     ] = None
     x_from_m: Annotated[float | None, _plan("x from")] = None
@@ -282,7 +314,12 @@ class RoofObject(Placed):
     y_to_m: Annotated[float | None, _plan("y to")] = None
     i_p: Annotated[
         ImportanceCell,
-        Cell("Importance factor I_p", "Of an object or unlike array; not used for edges.", 1.0),
+        Cell(
+            "Importance factor I_p",
+            "Of an object or unlike array; not used for edges.",
+            1.0,
+            is_rare=True,
+        ),
     ] = 1.0
 
 
@@ -322,5 +359,12 @@ class Clearance(Frozen):
         Cell("Direction", "From the array: downslope, upslope, cross-slope, or any.", "any"),
     ]
     provided_m: Annotated[
-        NotNegative, Cell("Provided clearance", "Clear distance in roof plan.", 96.0, Quantity.SIZE)
+        NotNegative,
+        Cell(
+            "Provided clearance",
+            "Clear distance in roof plan.",
+            96.0,
+            Quantity.SIZE,
+            usual=(6.0, 600.0),
+        ),
     ]

@@ -29,7 +29,7 @@ def book():
 
 
 def test_the_workbook_has_the_project_of_the_script(make, book):
-    expected = make.example().model_dump()
+    expected = make.project().model_dump()
     project = book.input.model_dump()
     assert project.keys() == expected.keys()
     assert dict(flatten(project)) == dict(flatten(expected))

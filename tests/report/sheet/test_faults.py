@@ -221,24 +221,24 @@ CONTRADICTIONS = [
     ({"Arrays!C8": 45}, ["Arrays!C8: slope is 45 degrees; give 0 to less than 45 degrees"]),
     ({"Arrays!C9": 120}, ["Arrays!C9: slope is 120 percent; give 0 to less than 100 percent"]),
     (
-        {"Arrays!P8": 0.5},
+        {"Arrays!T8": 0.5},
         [
-            "Arrays!Q8: friction rate is missing; give high-velocity friction and friction rate,"
+            "Arrays!U8: friction rate is missing; give high-velocity friction and friction rate,"
             " or neither"
         ],
     ),
     (
-        {"Arrays!Q9": 20, "Arrays!R9": 0.4},
+        {"Arrays!U9": 20, "Arrays!V9": 0.4},
         [
-            "Arrays!P9: high-velocity friction is missing; give high-velocity friction and friction"
+            "Arrays!T9: high-velocity friction is missing; give high-velocity friction and friction"
             " rate, or neither",
-            "Arrays!R9: static friction is 0.4; give the friction coefficient, 0.45, or more",
+            "Arrays!V9: static friction is 0.4; give the friction coefficient, 0.45, or more",
         ],
     ),
     (
-        {"Arrays!P8": 0.5, "Arrays!Q8": 20, "Arrays!S8": "one axis"},
+        {"Arrays!T8": 0.5, "Arrays!U8": 20, "Arrays!W8": "one axis"},
         [
-            "Arrays!S8: model is 'one axis', which neglects velocity-dependent and static friction;"
+            "Arrays!W8: model is 'one axis', which neglects velocity-dependent and static friction;"
             " select 'choose', or leave high-velocity and static friction blank"
         ],
     ),
@@ -287,8 +287,8 @@ CONTRADICTIONS = [
         ["Motions!Q8: low-pass corner is 20 Hz; give more than the high-pass corner, 20 Hz"],
     ),
     (
-        {"Motions!L9": "ground"},
-        ["Building!B6: period T1 is missing; give it, or a structure type: Motions!L9 is 'ground'"],
+        {"Motions!K9": "ground"},
+        ["Building!B6: period T1 is missing; give it, or a structure type: Motions!K9 is 'ground'"],
     ),
     (
         {"Building!B7": 0.3},
@@ -299,7 +299,7 @@ CONTRADICTIONS = [
         ["Building!B7: period T2 is 0.3 s; give at most period T1, 0.2 s, or leave it blank"],
     ),
     (
-        {"Building!B6": 0.2, "Motions!L9": "ground", "Site!B15": 101},
+        {"Building!B6": 0.2, "Motions!K9": "ground", "Site!B15": 101},
         [
             "Site!B15: number of stories is 101, more than the 100 of the building model; give roof"
             " motions"
@@ -336,7 +336,7 @@ CONTRADICTIONS = [
         ],
     ),
     (
-        {"Motions!H8": "target spectrum", "Motions!L8": "ground", "Building!B6": 0.5},
+        {"Motions!H8": "target spectrum", "Motions!K8": "ground", "Building!B6": 0.5},
         [
             "Site!B12: F_v is missing; Motions!H8 scales a ground motion to the design spectrum,"
             " which requires S_D1, or S_1 and F_v, and T_L",
@@ -465,7 +465,7 @@ def test_a_missing_heading_is_reported(tmp_path):
 
 
 def test_an_optional_column_may_be_deleted(tmp_path):
-    path = edit(make(tmp_path), lambda book: book["Motions"].delete_cols(11))
+    path = edit(make(tmp_path), lambda book: book["Motions"].delete_cols(10))
     book = read_workbook(path)
     assert [motion.source for motion in book.input.motions] == ["", "", ""]
 
@@ -479,8 +479,8 @@ def test_a_renamed_optional_column_is_reported_not_ignored(tmp_path):
 
 
 def test_a_duplicate_heading_is_reported(tmp_path):
-    path = edit(make(tmp_path), typed({"Arrays!P7": "Slope"}))
-    assert problems(path) == ("Arrays!P7: heading 'Slope' appears twice; keep one",)
+    path = edit(make(tmp_path), typed({"Arrays!T7": "Slope"}))
+    assert problems(path) == ("Arrays!T7: heading 'Slope' appears twice; keep one",)
 
 
 @pytest.mark.parametrize(

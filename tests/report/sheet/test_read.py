@@ -208,7 +208,7 @@ def test_units_of_headings_and_cells_are_followed(tmp_path):
 
 def test_a_blank_choice_takes_its_default(tmp_path):
     def change(book):
-        book["Options"]["B5"] = book["Options"]["B6"] = book["Motions"]["J9"] = None
+        book["Options"]["B5"] = book["Options"]["B6"] = book["Motions"]["L9"] = None
 
     book = read_workbook(edit(make(tmp_path), change))
     assert book.input.options == schema.Options()
@@ -220,11 +220,11 @@ def test_a_blank_choice_takes_its_default(tmp_path):
 
 def test_an_unknown_heading_is_listed_in_the_echo(tmp_path):
     def change(book):
-        book["Arrays"]["X7"], book["Arrays"]["X8"] = "Color", "black"
+        book["Arrays"]["AA7"], book["Arrays"]["AA8"] = "Color", "black"
 
     book = read_workbook(edit(make(tmp_path), change))
     (row,) = [row for row in book.echo if row.value.startswith("not an input")]
-    assert (row.sheet, row.cell, row.label) == ("Arrays", "X7", "column 'Color'")
+    assert (row.sheet, row.cell, row.label) == ("Arrays", "AA7", "column 'Color'")
 
 
 def test_every_cell_is_echoed_as_typed_and_as_used(path):
@@ -463,8 +463,8 @@ def test_components_of_different_length_or_step_are_rejected(tmp_path):
     for name, step, count in (("x", 0.01, 50), ("z", 0.02, 40)):
         text = "".join(f"{i * step:.2f},0.1\n" for i in range(count))
         (path.parent / "records" / f"{name}.csv").write_text(text)
-    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}9", None) for c in "BCDEFGHIJ"])
-    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}10", None) for c in "BCDEFGHIJ"])
+    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}9", None) for c in "BCDEFGHIJL"])
+    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}10", None) for c in "BCDEFGHIJL"])
     assert problems(path) == (
         "Motions!E8: vertical record has a time step of 0.02 s, but the horizontal record has 0.01"
         " s; make them equal",
@@ -590,7 +590,7 @@ def test_processing_that_does_not_suit_a_record_is_reported(tmp_path):
 
 def test_a_ground_motion_is_carried_to_the_roof(tmp_path):
     def change(book):
-        book["Motions"]["L8"], book["Building"]["B6"] = "ground", 0.5
+        book["Motions"]["K8"], book["Building"]["B6"] = "ground", 0.5
 
     book = read_workbook(edit(make(tmp_path), change))
     at_roof, prepared = book.motions[0], book.prepared[0]

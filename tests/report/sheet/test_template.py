@@ -1,16 +1,16 @@
-"""The input template: names, tables, help, protection, essential formatting."""
+"""The input template: names, tables, help, formulas, marks, essential formatting."""
 
 import pytest
 from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
 
 from report.sheet.fields import entries
-from report.sheet.schema import SECTIONS, UnitsFirst
+from report.sheet.schema import PROVISION_KEYS, SECTIONS, UnitsFirst, provision_name
 from report.sheet.template import write_template
 from sheets import make, project
 
 SHEETS = [
-    "README", "Project", "Site", "Arrays", "Friction tests", "Objects", "Clearances", "Motions",
+    "Start", "Project", "Site", "Arrays", "Friction tests", "Objects", "Clearances", "Motions",
     "Building", "Spectrum", "Links", "Options", "Outlines",
     "Layers",
 ]  # fmt: skip
@@ -36,7 +36,7 @@ def validation(sheet, cell):
 
 
 def test_sheets_are_in_working_order(blank):
-    assert blank[1].sheetnames == [*SHEETS, "Provisions"]
+    assert blank[1].sheetnames == [*SHEETS, "Provisions", "Tables"]
 
 
 def test_every_single_field_has_a_defined_name(blank):
@@ -55,8 +55,8 @@ def test_every_table_has_its_name_and_twenty_blank_rows(blank):
             sheet, table = names[section.table_name]
             left, top, right, bottom = range_boundaries(table.ref)
             assert bottom - top == 20
-            cells = sheet.iter_rows(top + 1, bottom, left, right, values_only=True)
-            assert all(value is None for row in cells for value in row)
+            cells = [c for row in sheet.iter_rows(top + 1, bottom, left, right) for c in row]
+            assert all(cell.value is None or cell.data_type == "f" for cell in cells)
 
 
 def test_headings_state_the_units_of_the_system(blank):
@@ -75,19 +75,18 @@ def test_table_columns_are_named_as_their_headings(blank):
         assert table.autoFilter is None
 
 
-def test_only_inputs_are_unlocked_and_sheets_are_protected_without_password(blank):
-    for sheet in blank[1].worksheets:
-        assert sheet.protection.sheet
-        assert not sheet.protection.password
-        assert not sheet.protection.insertRows
+def test_no_sheet_is_protected_so_that_its_tables_grow(blank):
+    assert not any(sheet.protection.sheet for sheet in blank[1].worksheets)
+
+
+def test_inputs_are_yellow_and_formulas_are_blue(blank):
     site = blank[1]["Site"]
-    assert site["A5"].protection.locked
-    assert not site["B5"].protection.locked
     assert site["B5"].fill.start_color.rgb == "00FFF6CC"
-
-
-def test_rows_below_the_prepared_ones_are_unlocked_too(blank):
-    assert not blank[1]["Arrays"].column_dimensions["D"].protection.locked
+    assert site["D13"].fill.start_color.rgb == "00E3EDF5"
+    formulas = [c for sheet in blank[1] for row in sheet for c in row if c.data_type == "f"]
+    filled = [c for c in formulas if c.fill.start_color.rgb == "00E3EDF5"]
+    # All but the lines at the top of the sheets and the clauses of the panel.
+    assert len(formulas) - len(filled) < 20
 
 
 def test_choices_are_dropdowns_with_a_message_and_an_alert(blank):
@@ -111,8 +110,8 @@ def test_numbers_are_validated_against_their_range(blank):
 
 def test_clearances_offer_the_arrays_and_objects_but_accept_other_text(blank):
     sheet = blank[1]["Clearances"]
-    assert validation(sheet, "B8").formula1 == "Arrays!$B$8:$B$500"
-    assert validation(sheet, "C8").formula1 == "Objects!$B$8:$B$500"
+    assert validation(sheet, "B8").formula1 == "live_array_names"
+    assert validation(sheet, "C8").formula1 == "live_names"
     assert not validation(sheet, "C8").showErrorMessage
 
 
@@ -121,17 +120,24 @@ def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank):
     sheet, table = tables(book)["links_table"]
     headings = [cell.value for cell in sheet[table.ref][0]]
     unit = "lb/in" if units is UnitsFirst.US else "kN/m"
-    assert headings == ["Array", "Block friction", f"Link stiffness [{unit}]", "Link damping"]
-    assert validation(sheet, "B8").formula1 == "Arrays!$B$8:$B$500"
+    assert headings == [
+        "Status",
+        "Array",
+        "Block friction",
+        f"Link stiffness [{unit}]",
+        "Link damping",
+    ]
+    assert validation(sheet, "B8").formula1 == "live_array_names"
     assert [sheet[f"{c}6"].value for c in "CE"] == ["0.40, 0.45, 0.50", "0.02"]
     assert float(sheet["D6"].value) == (5000 if units is UnitsFirst.US else 876)
 
 
 def test_overrides_offer_the_provisions(blank):
     book = blank[1]
-    target = validation(book["Options"], "B34").formula1
-    first = target.split("!")[1].split(":")[0].replace("$", "")
-    assert book["Provisions"][first].value == "prescriptive_factor_in"
+    assert validation(book["Options"], "B34").formula1 == "rule_names"
+    cells = book.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
+    names = [row[0].value for row in book["Provisions"][cells]]
+    assert names == [provision_name(key) for key in PROVISION_KEYS]
 
 
 def test_no_cell_has_two_validations(blank):
@@ -147,6 +153,8 @@ def test_messages_satisfy_the_limits_of_excel(blank):
             assert len(rule.promptTitle) <= 32
             assert len(rule.prompt) <= 255
             assert len(rule.error) <= 225
+            assert len(rule.error) > len(rule.errorTitle)
+            assert rule.error != rule.prompt
             assert len(rule.formula1) <= 255
 
 
@@ -167,12 +175,14 @@ def test_defaults_are_filled_and_the_rest_is_blank(blank):
     assert all(book["Site"].cell(row, 2).value is None for row in range(5, 18))
 
 
-def test_readme_lists_the_steps_and_the_commands(blank):
-    text = "\n".join(
-        str(value) for row in blank[1]["README"].values for value in row if value is not None
-    )
-    for part in ("roofslip check FOLDER", "roofslip report FOLDER", "records", "Unprotect"):
+def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
+    sheet = blank[1]["Start"]
+    text = "\n".join(str(value) for row in sheet.values for value in row if value is not None)
+    for part in ("roofslip check FOLDER", "roofslip report FOLDER", "records", "Colors"):
         assert part in text
+    assert [sheet[f"A{row}"].value for row in range(4, 10)] == list("123456")
+    (picture,) = sheet._images
+    assert picture._data()[:4] == b"\x89PNG"
 
 
 def test_values_of_a_project_are_written_in_the_units_of_the_sheets_without_rounding_error(
@@ -187,7 +197,7 @@ def test_a_project_with_many_arrays_gets_a_larger_table(tmp_path):
     array = project().arrays[0].model_dump()
     arrays = [array | {"id": f"A{i}"} for i in range(40)]
     book = load_workbook(make(tmp_path, arrays=arrays, clearances=[]))
-    assert book["Arrays"].tables["arrays_table"].ref == "B7:W52"
+    assert book["Arrays"].tables["arrays_table"].ref == "A7:Z52"
 
 
 def test_a_text_that_looks_like_a_formula_is_written_as_text(tmp_path):

@@ -1,0 +1,319 @@
+"""The live formulas of the sheet, recalculated by LibreOffice, equal the package's numbers."""
+
+import importlib.util
+import itertools
+import math
+from dataclasses import dataclass
+
+import pytest
+from openpyxl import Workbook
+from recalculated import recalculated
+
+from places import ROOT
+from report.assessment.clearances import _importance, _neighbor, are_alike
+from report.sheet.read import read
+from report.sheet.schema import ProjectInput, SiteClass, UnitsFirst
+from report.sheet.template import write_template
+from report.words.units import PRESSURES, Quantity, number, ratio
+from sheets import INCH, LB, project, same
+from solver.rules import hazard
+from solver.rules.provisions import Neighbor, prescriptive_displacement, required_separation
+from solver.rules.rulesets import RULE_SETS, RuleSet
+from solver.rules.site_coefficients import F_A, F_V, site_coefficient
+
+PROJECTS = ("example", "school", "conditions")
+
+
+def of_script(name: str) -> ProjectInput:
+    spec = importlib.util.spec_from_file_location(name, ROOT / "projects" / name / "make.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.project()
+
+
+def site(**changes):
+    return project().site.model_dump() | changes
+
+
+def edge_cases() -> dict[str, ProjectInput]:
+    """Values at limits, both unit systems, every rule set, I_p, overrides and odd ids."""
+    base = project()
+    arrays = [row.model_dump() for row in base.arrays]
+    alike = arrays[1] | {"slope_value": math.tan(math.radians(0.5)) * 12, "slope_unit": "in/12"}
+    motions = [row.model_dump() for row in base.motions]
+    return {
+        "threshold": project(site=site(s_ds_g=0.5, s_1_g=None, sdc="D")),
+        "low-category": project(site=site(s_ds_g=0.45, s_1_g=None, sdc="C")),
+        "below-0.4": project(site=site(s_ds_g=0.33, s_1_g=None, sdc="D")),
+        "near-fault": project(site=site(s_1_g=0.75, risk_category="IV", i_e=1.5, sdc="F")),
+        "given-twice": project(site=site(s_ms_g=2.349, s_ds_g=1.566, s_m1_g=0.98, sdc="D")),
+        "asce-16": project(
+            site=site(
+                rule_set="ASCE 7-16", i_e=1.25, risk_category="III", s_ds_g=None, s_s_g=1.313,
+                f_a=1.2, s_1_g=0.455, f_v=1.845, site_class="D (default)", sdc="D",
+            )
+        ),
+        "asce-22": project(site=site(rule_set="ASCE 7-22", s_ds_g=1.4, site_class="CD")),
+        "pv1-by-22": project(site=site(edition_name="ASCE 7-22", s_ds_g=0.7, site_class="DE")),
+        "importance": project(
+            arrays=[arrays[0] | {"i_p": 1.5}, alike],
+            site=site(i_e=1.25, risk_category="III"),
+            objects=[row.model_dump() | {"i_p": 1.25} for row in base.objects],
+        ),
+        "overrides": project(
+            overrides=[
+                {"provision": "separation_edge", "value": 2.5, "reason": "agreed"},
+                {"provision": "prescriptive_factor_in", "value": 50.0, "reason": "agreed"},
+            ]
+        ),
+        "odd-ids": project(
+            arrays=[arrays[0] | {"id": "A*"}, arrays[1] | {"id": "A?~"}],
+            clearances=[
+                row.model_dump() | {"array": {"A1": "A*", "A2": "A?~"}[row.array]}
+                for row in base.clearances[1:]
+            ],
+        ),
+        "friction": project(
+            arrays=[arrays[0] | {"mu_fast": 0.5, "mu_rate_s_per_m": 20.0}, alike],
+            motions=motions,
+        ),
+        "no-room": project(
+            clearances=[row.model_dump() | {"provided_m": 0.0} for row in base.clearances]
+        ),
+        "turned": project(
+            arrays=[arrays[0] | {"downslope_deg": 359.5}, alike | {"downslope_deg": 0.4}]
+        ),
+    }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Filled:
+    """A project and its sheet, recalculated."""
+
+    data: ProjectInput
+    book: Workbook
+
+    @property
+    def rules(self) -> RuleSet:
+        changes = {row.provision: (row.value, row.reason) for row in self.data.overrides}
+        return RULE_SETS[self.data.site.rule_set].overridden(changes)
+
+    @property
+    def prescriptive_m(self) -> float:
+        site = self.data.site
+        return prescriptive_displacement(
+            self.rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
+        ).value_m
+
+    def named(self, name: str):
+        sheet, cell = self.book.defined_names[name].attr_text.split("!")
+        return self.book[sheet.strip("'")][cell.replace("$", "")].value
+
+    def column(self, table: str, heading: str) -> list:
+        sheet = next(s for s in self.book if table in s.tables)
+        cells = sheet[sheet.tables[table].ref]
+        at = [str(cell.value).partition(" [")[0] for cell in cells[0]].index(heading)
+        return [row[at].value for row in cells[1:]]
+
+    def beside(self, sheet: str, label: str, column: int = 2):
+        rows = self.book[sheet].iter_rows(min_col=1, max_col=4)
+        return next(row[column - 1].value for row in rows if row[0].value == label)
+
+
+CASES = {**dict.fromkeys(PROJECTS), **edge_cases()}
+
+
+@pytest.fixture(scope="module")
+def filled(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("answers")
+    cases = {name: data or of_script(name) for name, data in CASES.items()}
+    cases |= {f"{name}-SI": cases[name] for name in ("importance", "asce-16", "overrides")}
+    paths = []
+    for name, data in cases.items():
+        paths.append(folder / f"{name}.xlsx")
+        is_si = name.endswith("-SI") or data.project.units_first is UnitsFirst.SI
+        units = UnitsFirst.SI if is_si else UnitsFirst.US
+        write_template(paths[-1], units=units, example=data)
+    books = recalculated(paths, folder)
+    return {
+        name: Filled(data, book) for (name, data), book in zip(cases.items(), books, strict=True)
+    }
+
+
+@pytest.fixture(params=[*CASES, "importance-SI", "asce-16-SI", "overrides-SI"])
+def case(request, filled):
+    return filled[request.param]
+
+
+def test_no_formula_gives_an_error(case):
+    cells = (cell for sheet in case.book for row in sheet for cell in row)
+    assert [c.coordinate for c in cells if c.data_type == "e"] == []
+
+
+def test_the_seismic_parameters_are_those_of_the_package(case):
+    values = case.data.site.parameters
+    for name in ("s_ms", "s_m1", "s_ds", "s_d1"):
+        wanted, found = getattr(values, name), case.named(f"live_{name}")
+        if wanted is None:
+            assert found in (None, "")
+        else:
+            assert number(found, 3) == number(wanted, 3)
+            assert found == pytest.approx(wanted, rel=1e-12)
+
+
+def test_the_category_is_the_least_of_the_package(case):
+    values, data = case.data.site.parameters, case.data.site
+    wanted = hazard.controlling_sdc(
+        s_ds_g=values.s_ds,
+        s_d1_g=values.s_d1,
+        s_1_g=data.s_1_g,
+        is_essential=data.risk_category == "IV",
+    )
+    assert case.named("live_sdc") == wanted
+
+
+@pytest.mark.parametrize(
+    ("table", "name", "mapped"), [(F_A, "live_f_a", "s_s_g"), (F_V, "live_f_v", "s_1_g")]
+)
+def test_site_coefficients_are_those_of_the_tables(case, table, name, mapped):
+    data, found = case.data.site, case.named(name)
+    at = getattr(data, mapped)
+    if at is None or data.site_class is None:
+        assert found in (None, "")
+    elif not data.edition.has_site_coefficients:
+        assert found == "none in ASCE 7-22"
+    else:
+        wanted = site_coefficient(table, data.site_class.value, at)
+        assert number(found, 3) == number(wanted, 3)
+
+
+def test_the_prescriptive_displacement_is_that_of_the_package(case):
+    wanted = case.prescriptive_m
+    assert number(case.named("live_prescriptive_in"), 1) == number(wanted / INCH, 1)
+    label = "Prescriptive displacement"
+    both = sorted(case.beside("Site", label, column) for column in (2, 3))
+    assert both == pytest.approx([wanted / INCH, wanted / 1e-3], rel=1e-12)
+
+
+def test_the_four_separations_are_those_of_the_package(case):
+    data = case.data
+    largest = max(row.i_p for row in (*data.arrays, *data.objects))
+    labels = {
+        Neighbor.LIKE: "Separation, like arrays",
+        Neighbor.FIXED: "Separation, fixed object or unlike array",
+        Neighbor.PARAPET: "Separation, edge with qualifying parapet",
+        Neighbor.EDGE: "Separation, edge without qualifying parapet",
+    }
+    for neighbor, label in labels.items():
+        importance = data.site.i_e if neighbor.is_edge else largest
+        wanted = required_separation(
+            case.rules, neighbor, design_m=case.prescriptive_m, importance=importance
+        )
+        both = sorted(case.beside("Site", label, column) for column in (2, 3))
+        assert both == pytest.approx([wanted / INCH, wanted / 1e-3], rel=1e-12)
+
+
+def test_the_ratio_of_each_clearance_is_that_of_the_package(case):
+    data, rules = case.data, case.rules
+    arrays = {row.id: row for row in data.arrays}
+    objects = {row.id: row for row in data.objects}
+    neighbors = case.column("clearances_table", "Neighbor")
+    required = case.column("clearances_table", "Required, prescriptive")
+    ratios = case.column("clearances_table", "D/C, prescriptive")
+    heading = next(
+        str(c.value) for c in case.book["Clearances"][7] if str(c.value).startswith("Required")
+    )
+    unit = Quantity.SIZE.us if "[in]" in heading else Quantity.SIZE.si
+    for count, row in enumerate(data.clearances):
+        near = arrays[row.array]
+        if row.object in arrays:
+            other = arrays[row.object]
+            neighbor = Neighbor.LIKE if are_alike(near, other) else Neighbor.UNLIKE
+            i_p = max(near.i_p, other.i_p)
+        else:
+            neighbor = _neighbor(rules, objects[row.object], near)
+            i_p = max(near.i_p, objects[row.object].i_p)
+        importance = _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
+        wanted = required_separation(
+            rules, neighbor, design_m=case.prescriptive_m, importance=importance
+        )
+        assert neighbors[count] == neighbor.value
+        assert number(required[count], unit.decimals) == number(wanted / unit.si, unit.decimals)
+        of_package = wanted / row.provided_m if row.provided_m > 0.0 else math.inf
+        shown = ratios[count]
+        assert (shown if shown == "∞" else number(shown, 2)) == ratio(of_package)
+
+
+def test_weight_per_area_is_that_of_the_package(case):
+    symbols = [str(c.value) for c in case.book["Arrays"][7]]
+    unit = Quantity.PRESSURE.us if "Weight per area [psf]" in symbols else Quantity.PRESSURE.si
+    found = case.column("arrays_table", "Weight per area")
+    for array, value in zip(case.data.arrays, found, strict=False):
+        area = (array.x_to_m - array.x_from_m) * (array.y_to_m - array.y_from_m)
+        wanted = array.weight_n / area / PRESSURES[unit.symbol]
+        assert number(value, unit.decimals) == number(wanted, unit.decimals)
+
+
+def test_a_complete_sheet_says_so_on_every_sheet(case):
+    for sheet in case.book.worksheets[1:-2]:
+        options = case.data.options
+        lacks_reviewer = options.peer_reviewed and not options.peer_reviewer
+        wanted = "No cells missing"
+        if sheet.title == "Options" and lacks_reviewer:
+            wanted = "3 cells missing"  # reviewer, license, date
+        assert sheet["A3"].value == wanted, sheet.title
+
+
+def test_the_reader_takes_what_libreoffice_saved(filled, tmp_path):
+    """The recalculated book itself, with formulas as LibreOffice writes them."""
+    name = "importance-SI"
+    path = tmp_path / f"{name}.xlsx"
+    write_template(path, units=UnitsFirst.SI, example=filled[name].data)
+    before = read(path).project
+    recalculated([path], tmp_path)
+    assert same(read(tmp_path / "recalculated" / path.name).project, before)
+
+
+def test_every_site_class_and_interval_of_the_tables(tmp_path):
+    """Coefficients over a grid of site classes and mapped values, 40 sheets of one class each."""
+    classes = [c for c in SiteClass if c.value in F_A.rows]
+    values = (0.2, 0.25, 0.6, 0.75, 0.9, 1.25, 1.4, 1.5, 2.0)
+    pairs = list(itertools.product(classes, values))[::3]
+    paths = []
+    for count, (site_class, s_s) in enumerate(pairs):
+        paths.append(tmp_path / f"{count}.xlsx")
+        data = project(site=site(site_class=site_class, s_s_g=s_s, s_1_g=s_s / 2.5))
+        write_template(paths[-1], units=UnitsFirst.US, example=data)
+    for (site_class, s_s), book in zip(pairs, recalculated(paths, tmp_path), strict=True):
+        for table, at, row in ((F_A, s_s, 11), (F_V, s_s / 2.5, 12)):
+            wanted = site_coefficient(table, site_class.value, at)
+            found = book["Site"][f"D{row}"].value
+            if math.isnan(wanted):
+                assert found == "site-specific", (site_class, at)
+            else:
+                assert found == pytest.approx(wanted, abs=1e-12), (site_class, at)
+
+
+def test_other_units_in_the_headings_change_no_answer(tmp_path):
+    from openpyxl import load_workbook
+
+    path = tmp_path / "kips.xlsx"
+    write_template(path, units=UnitsFirst.US, example=project())
+    book = load_workbook(path)
+    arrays = book["Arrays"]
+    arrays["H7"] = "Weight [kip]"
+    arrays.tables["arrays_table"].tableColumns[7].name = "Weight [kip]"
+    for row in (8, 9):
+        arrays[f"H{row}"] = arrays[f"H{row}"].value / 1000
+    for sheet in book:
+        for cells in sheet.iter_rows():
+            for cell in cells:
+                if cell.data_type == "f":
+                    cell.value = str(cell.value).replace("Weight '[lb']", "Weight '[kip']")
+    book.save(path)
+    (again,) = recalculated([path], tmp_path)
+    found = Filled(project(), again).column("arrays_table", "Weight per area")
+    for array, value in zip(project().arrays, found, strict=False):
+        assert value == pytest.approx(
+            array.weight_n / LB / (80 * 60 if array.id == "A1" else 90 * 60)
+        )

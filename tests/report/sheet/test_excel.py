@@ -1,0 +1,183 @@
+"""What Excel 2016 asks of the written workbook, looked up in its parts."""
+
+import re
+from zipfile import ZipFile
+
+import defusedxml.ElementTree
+import pytest
+from openpyxl import load_workbook
+from recalculated import recalculated
+
+from report.sheet.fields import Place
+from report.sheet.read import read
+from report.sheet.schema import UnitsFirst
+from report.sheet.template import write_template
+from sheets import edit, make, project, same
+
+MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+# Of Excel 2007 and later; IFERROR is the newest.
+FUNCTIONS = {
+    "ABS", "AND", "ATAN", "CHAR", "CODE", "COUNT", "COUNTA", "COUNTIF", "DEGREES", "FALSE", "FIND",
+    "IF", "IFERROR", "INDEX", "ISERROR", "ISNUMBER", "LEFT", "LOWER", "MATCH", "MAX", "MID", "MIN",
+    "MOD", "N", "NA", "OFFSET", "OR", "RADIANS", "ROUNDUP", "ROWS", "SUBSTITUTE", "SUM",
+    "SUMPRODUCT", "TRIM", "UPPER",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=["blank", "filled"])
+def parts(request, tmp_path_factory):
+    path = tmp_path_factory.mktemp("parts") / "input.xlsx"
+    example = project() if request.param == "filled" else None
+    write_template(path, units=UnitsFirst.US, example=example)
+    with ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def elements(parts, tag, folder="xl/"):
+    for name, data in parts.items():
+        if name.startswith(folder) and name.endswith(".xml"):
+            yield from defusedxml.ElementTree.fromstring(data).iter(f"{MAIN}{tag}")
+
+
+def formulas(parts):
+    """Every formula of cells, tables, names, formats and validations."""
+    for tag in ("f", "calculatedColumnFormula", "definedName", "formula", "formula1", "formula2"):
+        yield from (item.text or "" for item in elements(parts, tag))
+
+
+def outside_quotes(formula):
+    return re.sub(r'"[^"]*"', '""', formula)
+
+
+def test_no_formula_is_an_array_formula(parts):
+    assert {item.get("t") for item in elements(parts, "f")} == {None}
+    assert not any("{" in outside_quotes(text) for text in formulas(parts))
+
+
+def test_every_function_was_in_excel_before_2016(parts):
+    used = {
+        name for text in formulas(parts) for name in re.findall(r"([A-Z]+)\(", outside_quotes(text))
+    }
+    assert used <= FUNCTIONS
+    assert not any("_xlfn" in text for text in formulas(parts))
+
+
+def test_no_sheet_is_protected_and_nothing_refers_to_another_file(parts):
+    assert list(elements(parts, "sheetProtection")) == []
+    assert not any("externalLink" in name for name in parts)
+    assert not any(re.search(r"\[\d+\]", outside_quotes(text)) for text in formulas(parts))
+
+
+def test_texts_of_validations_and_formats_are_short_enough(parts):
+    for item in elements(parts, "dataValidation"):
+        assert len(item.get("promptTitle")) <= 32
+        assert len(item.get("prompt")) < 256
+        assert len(item.get("error")) < 226
+        for text in (child.text for child in item):
+            assert len(text) < 256
+    for rule in elements(parts, "cfRule"):
+        for formula in rule:
+            assert len(formula.text) < 256
+
+
+def test_formulas_of_a_column_are_those_that_new_rows_get(parts):
+    columns = list(elements(parts, "calculatedColumnFormula"))
+    cells = {item.text for item in elements(parts, "f")}
+    assert len(columns) > 10
+    assert {column.text for column in columns} <= cells
+
+
+def test_every_name_used_is_defined(parts):
+    names = {item.get("name") for item in elements(parts, "definedName")}
+    used = {
+        name
+        for text in formulas(parts)
+        for name in re.findall(r"\b(?:live|rule|unit|lacks|sdc)_\w+", outside_quotes(text))
+    }
+    assert used <= names
+
+
+def half_filled(book):
+    """What a person has typed: a project without date, an array without weight, odd values."""
+    book["Project"]["B5"] = "Depot"
+    arrays = book["Arrays"]
+    for cell, value in {"B8": "A1", "C8": 2.0, "D8": "degrees", "E8": 0.9, "G8": "Tray"}.items():
+        arrays[cell] = value
+    arrays["B9"] = " "
+    objects = book["Objects"]
+    objects["B8"], objects["C8"] = "NORTH", "edge with parapet"
+    objects["B9"], objects["C9"], objects["E9"] = "RTU-1", "fixed object", 5
+    motions = book["Motions"]
+    motions["B8"], motions["C8"], motions["H8"] = "M1", "records/x.csv", "PPA"
+    book["Options"]["B6"] = "Yes"
+
+
+def test_a_half_filled_sheet_counts_what_is_missing(tmp_path):
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    (book,) = recalculated([edit(path, half_filled)], tmp_path)
+    said = {sheet.title: sheet["A3"].value for sheet in book.worksheets[1:-2]}
+    assert said["Project"] == "4 cells missing"  # number, prepared by, date, revision
+    assert said["Arrays"] == "8 cells missing"  # weight, CG, spacing, four sides, downslope
+    assert book["Arrays"]["A8"].value == 8
+    assert book["Arrays"]["A9"].value is None
+    assert [book["Objects"][f"A{row}"].value for row in (8, 9)] == [1, 3]  # height; three sides
+    assert said["Objects"] == "4 cells missing"
+    assert said["Motions"] == "1 cell missing"  # the PPA
+    assert said["Options"] == "3 cells missing"  # of the peer review
+    assert said["Clearances"] == said["Links"] == "No cells missing"
+
+
+def test_a_blank_sheet_asks_for_arrays_and_motions(tmp_path):
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.SI)
+    (book,) = recalculated([path], tmp_path)
+    for title in ("Arrays", "Motions"):
+        assert book[title]["A3"].value == "Fill in at least one row"
+    assert book["Site"]["A3"].value == "8 cells missing"  # seven, and a value for S_DS
+
+
+def test_nothing_is_read_from_the_answers(tmp_path):
+    def overwrite(book):
+        site, arrays, clearances = book["Site"], book["Arrays"], book["Clearances"]
+        site["D13"] = 99.0
+        arrays["A8"], arrays["R8"], arrays["S9"] = 7, "oops", -1
+        clearances["F8"], clearances["I9"] = "like array", 0.01
+
+    path = make(tmp_path)
+    before = read(path)
+    after = read(edit(path, overwrite))
+    assert same(after.project, before.project)
+    assert after.echo == before.echo
+
+
+def test_a_row_that_has_formulas_only_is_blank(tmp_path):
+    sheet = read(make(tmp_path))
+    assert len(sheet.project.arrays) == 2
+    assert Place("arrays", 2, "id") not in sheet.addresses
+
+
+def test_a_second_reading_and_writing_keeps_formulas_marks_and_names(tmp_path):
+    path = make(tmp_path)
+    before = load_workbook(path)
+    before.save(tmp_path / "again.xlsx")
+    after = load_workbook(tmp_path / "again.xlsx")
+    assert set(after.defined_names) == set(before.defined_names)
+    assert after["Arrays"]["A8"].value == before["Arrays"]["A8"].value
+    for name in ("Arrays", "Site"):
+        assert len(after[name].conditional_formatting) == len(before[name].conditional_formatting)
+    assert len(after["Start"]._images) == 1
+
+
+def test_rare_columns_are_folded_until_one_is_filled(tmp_path):
+    blank = tmp_path / "blank.xlsx"
+    write_template(blank, units=UnitsFirst.US)
+    sheet = load_workbook(blank)["Arrays"]
+    letters = {c.value: c.column_letter for c in sheet[7]}
+    rare = sheet.column_dimensions[letters["High-velocity friction"]]
+    assert (rare.outlineLevel, rare.hidden) == (1, True)
+    assert sheet.column_dimensions[letters["Weight [lb]"]].outlineLevel == 0
+    arrays = [row.model_dump() | {"i_p": 1.25} for row in project().arrays]
+    filled = load_workbook(make(tmp_path, arrays=arrays))["Arrays"]
+    assert not filled.column_dimensions[letters["Importance factor I_p"]].hidden
+    assert filled.column_dimensions[letters["Kind of array"]].hidden
