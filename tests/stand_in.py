@@ -228,6 +228,7 @@ def book(data=None, shaking=None):
                     format="text",
                     npts=len(motion.ax_mps2),
                     dt_s=motion.dt_s,
+                    npts_trimmed=0,
                     notes=(),
                     hold_s=math.nan,
                     peak_g=float(np.abs(values).max() / G),

@@ -167,6 +167,70 @@ class ArrayAssessment:
         return max(self.motions, key=lambda run: nan_is_worst(run.governing.prd_m))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RouteLimits:
+    """The limits of an array that follow from the input alone, and the route that they leave.
+
+    Attributes
+    ----------
+    both, analysis, prescriptive : tuple of Check
+        Limits of both routes, and of each.
+    route : Route
+    """
+
+    both: tuple[Check, ...]
+    analysis: tuple[Check, ...]
+    prescriptive: tuple[Check, ...]
+    route: Route
+
+    @property
+    def on_route(self) -> tuple[Check, ...]:
+        """Every limit that must be satisfied on the route taken."""
+        taken = self.analysis if self.route is Route.ANALYSIS else self.prescriptive
+        return (*self.both, *taken)
+
+
+def limits_of(
+    data: ProjectInput, rules: RuleSet, array: Array, *, n_motions: int, has_value: bool
+) -> RouteLimits:
+    """Return the limits of an array.
+
+    Parameters
+    ----------
+    n_motions : int
+    has_value : bool
+        Whether the motions are enough for a value from analysis, and qualify for it.
+    """
+    analysis = provisions.analysis_checks(
+        rules,
+        slope_rad=array.slope_rad,
+        n_motions=n_motions,
+        sdc=data.site.sdc,
+        is_reviewed=data.options.peer_reviewed,
+    )
+    prescriptive = provisions.prescriptive_checks(
+        rules, slope_rad=array.slope_rad, mu=array.least_mu
+    )
+    return RouteLimits(
+        both=provisions.array_checks(
+            rules,
+            cg_height_m=array.cg_height_m,
+            support_spacing_m=array.support_spacing_m,
+            base_m=array.base_dimension_m,
+            slope_rad=array.slope_rad,
+        ),
+        analysis=analysis,
+        prescriptive=prescriptive,
+        route=_route(has_value, analysis, prescriptive),
+    )
+
+
+def statistic_basis(data: ProjectInput) -> Basis | None:
+    """Return the statistic that a workbook requests; None for that of the rule set."""
+    asked = data.options.statistic
+    return None if asked is Statistic.RULE_SET else Basis(asked.value)
+
+
 def by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
     """Return the array with an id."""
     return next(array for array in arrays if array.id == wanted)
@@ -196,14 +260,12 @@ def assess_array(
     prescriptive = provisions.prescriptive_displacement(
         rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
     )
-    asked = data.options.statistic
-    basis = None if asked is Statistic.RULE_SET else Basis(asked.value)
+    basis = statistic_basis(data)
     directions = _by_direction(rules, runs, basis)
     analysis = directions[Direction.ANY]
     floor_m = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
-    limits = _limits(data, rules, array, n_motions=len(runs))
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
-    route = _route(has_value, limits.analysis, limits.prescriptive)
+    limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
     scenes = [run.scene for motion in runs for run in motion.runs]
     return ArrayAssessment(
         array=array,
@@ -214,8 +276,8 @@ def assess_array(
         needed=needed,
         prescriptive=prescriptive,
         floor_m=floor_m,
-        route=route,
-        design_m=_design_m(route, runs, analysis, prescriptive, floor_m),
+        route=limits.route,
+        design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, scenes),
         uplift=min(map(uplift, scenes), key=lambda u: u.n_min_g),
@@ -225,37 +287,6 @@ def assess_array(
         # The lighter side of a section is at most half of the array.
         interconnection_n=provisions.interconnection_strength_n(
             rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
-        ),
-    )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Limits:
-    """The limits of an array: of both routes, and of each."""
-
-    both: tuple[Check, ...]
-    analysis: tuple[Check, ...]
-    prescriptive: tuple[Check, ...]
-
-
-def _limits(data: ProjectInput, rules: RuleSet, array: Array, *, n_motions: int) -> _Limits:
-    return _Limits(
-        both=provisions.array_checks(
-            rules,
-            cg_height_m=array.cg_height_m,
-            support_spacing_m=array.support_spacing_m,
-            base_m=array.base_dimension_m,
-            slope_rad=array.slope_rad,
-        ),
-        analysis=provisions.analysis_checks(
-            rules,
-            slope_rad=array.slope_rad,
-            n_motions=n_motions,
-            sdc=data.site.sdc,
-            is_reviewed=data.options.peer_reviewed,
-        ),
-        prescriptive=provisions.prescriptive_checks(
-            rules, slope_rad=array.slope_rad, mu=array.least_mu
         ),
     )
 

@@ -100,13 +100,8 @@ def check_clearance(
     """Return a clearance with its required separation, the larger of the two between arrays."""
     near = by_id(arrays, row.array)
     others = [a for a in arrays if a.id == row.object]
-    facing = [(near, row.direction)]
-    facing += [
-        (other, facing_direction(near.array, other.array, row.direction)) for other in others
-    ]
-    if not data.options.directional:  # the rule sets know no direction
-        facing = [(array, Direction.ANY) for array, _ in facing]
-    governing, direction = max(facing, key=lambda a: nan_is_worst(a[0].design_toward_m(a[1])))
+    sides = facing(data, arrays, row)
+    governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].design_toward_m(a[1])))
     design_m = governing.design_toward_m(direction)
     if others:
         # As entered: a trial with other friction on one side does not make them unlike.
@@ -132,6 +127,22 @@ def check_clearance(
             rules, neighbor, design_m=design_m, importance=importance
         ),
     )
+
+
+def facing(
+    data: ProjectInput, arrays: Sequence[ArrayAssessment], row: Clearance
+) -> Sequence[tuple[ArrayAssessment, Direction]]:
+    """Return the arrays on either side of a clearance, each with the direction toward it."""
+    near = by_id(arrays, row.array)
+    sides = [(near, row.direction)]
+    sides += [
+        (other, facing_direction(near.array, other.array, row.direction))
+        for other in arrays
+        if other.id == row.object
+    ]
+    if not data.options.directional:  # the rule sets know no direction
+        return [(array, Direction.ANY) for array, _ in sides]
+    return sides
 
 
 def _importance(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: float) -> float:

@@ -13,7 +13,7 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.verdict import Row
 from report.motions.history import PreparedMotion
-from report.sheet.schema import ProjectInput
+from report.sheet.schema import Array, ProjectInput
 from report.words.units import Quantity, compared, number, pair
 from solver.records.acceptance import Acceptance
 from solver.records.acceptance_row import AcceptanceRow, Consequence
@@ -106,10 +106,17 @@ def motion_rows(acceptance: Acceptance, arrays: Sequence[ArrayAssessment]) -> tu
     What makes a value from analysis NG is a condition where no array takes that value.
     """
     takes_analysis = any(item.route is Route.ANALYSIS for item in arrays)
-    return tuple(_motion_row(missed, takes_analysis=takes_analysis) for missed in acceptance.missed)
+    return tuple(motion_row(missed, takes_analysis=takes_analysis) for missed in acceptance.missed)
 
 
-def _motion_row(missed: AcceptanceRow, *, takes_analysis: bool) -> Row:
+def motion_row(missed: AcceptanceRow, *, takes_analysis: bool) -> Row:
+    """Return a limit on the motions that they miss.
+
+    Parameters
+    ----------
+    takes_analysis : bool
+        Whether any array takes the value from analysis.
+    """
     is_ng = missed.consequence is Consequence.NG
     unit = " s" if missed.unit == "s" else ""
     sign = "≥" if missed.is_at_least else "≤"
@@ -161,20 +168,21 @@ def drifts(prepared: PreparedMotion) -> bool:
 def array_rows(data: ProjectInput, assessed: ArrayAssessment) -> tuple[Row, ...]:
     """Return the rows of an array."""
     return (
-        *_fire_lanes(data, assessed),
-        _interconnection(data, assessed),
+        fire_lanes(data, assessed.array),
+        interconnection(data, assessed.array, assessed.interconnection_n),
         _slack(data, assessed),
     )
 
 
-def _fire_lanes(data: ProjectInput, assessed: ArrayAssessment) -> Iterator[Row]:
+def fire_lanes(data: ProjectInput, array: Array) -> Row:
+    """Return whether an array fits between fire lanes."""
     us_first = data.project.units_first == "US"
-    plan = assessed.array.shape.bounds
+    plan = array.shape.bounds
     largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
-    yield Row(
+    return Row(
         id="fire_lanes",
         title="Largest plan dimension between fire lanes",
-        subject=assessed.array.id,
+        subject=array.id,
         found=pair(largest, Quantity.PLAN, us_first),
         limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, us_first)}",
         basis="fire code†",
@@ -184,14 +192,15 @@ def _fire_lanes(data: ProjectInput, assessed: ArrayAssessment) -> Iterator[Row]:
     )
 
 
-def _interconnection(data: ProjectInput, assessed: ArrayAssessment) -> Row:
+def interconnection(data: ProjectInput, array: Array, required: float) -> Row:
+    """Return whether the strength between the parts of an array is as required [N]."""
     us_first = data.project.units_first == "US"
-    provided, required = assessed.array.interconnection_n, assessed.interconnection_n
+    provided = array.interconnection_n
     shown, had = compared(required, math.nan if provided is None else provided)
     return Row(
         id="interconnection",
         title="Interconnection strength provided",
-        subject=assessed.array.id,
+        subject=array.id,
         found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first, had),
         limit=f"≥ {pair(required, Quantity.WEIGHT, us_first, shown)}",
         basis=data.site.rule_set,

@@ -24,6 +24,7 @@ from report.assessment.conditions import (
     plan_rows,
     project_rows,
 )
+from report.assessment.foresight import ruled
 from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_rows import friction_rows
 from report.assessment.links import LinkedArray, assess_linked
@@ -105,21 +106,23 @@ class Assessment:
 
     def array_verdict(self, item: ArrayAssessment) -> Verdict:
         """Return the verdict on an array: its values, limits, rows and clearances."""
-        is_sound = (
-            not math.isnan(item.design_m)
-            and item.is_model_enough
-            and item.tipping.is_ok
-            and all(linked.is_rigid_enough for linked in self.linked_of(item))
-            and all(check.ok for check in item.limits)
-            and (item.route is Route.PRESCRIPTIVE or self.acceptance.qualifies)
-            and all(run.result.status is Status.OK for m in item.motions for run in m.runs)
-        )
+        is_rigid = all(linked.is_rigid_enough for linked in self.linked_of(item))
         return worst(
             [
-                _verdict(is_sound),
+                _verdict(not math.isnan(item.design_m) and is_rigid and self.is_sound(item)),
                 *(gap.verdict for gap in self.gaps_of(item.array.id)),
                 *(row.verdict for row in self.rows_of(item.array.id)),
             ]
+        )
+
+    def is_sound(self, item: ArrayAssessment) -> bool:
+        """Whether an array satisfies its limits, and its motions, model and runs are adequate."""
+        return (
+            item.is_model_enough
+            and item.tipping.is_ok
+            and all(check.ok for check in item.limits)
+            and (item.route is Route.PRESCRIPTIVE or self.acceptance.qualifies)
+            and all(run.result.status is Status.OK for m in item.motions for run in m.runs)
         )
 
     @property
@@ -213,9 +216,7 @@ def _assess(
         of linked blocks, and the verdicts with those for less friction.
     """
     site = data.site
-    rules = provisions.RULE_SETS[site.rule_set].overridden(
-        {row.provision: (row.value, row.reason) for row in data.overrides}
-    )
+    rules = ruled(data)
     started = time.perf_counter()
     # Runs in two axes and of rows release the GIL: two proceed in parallel.
     with ThreadPoolExecutor(THREADS) as pool:

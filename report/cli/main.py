@@ -1,8 +1,8 @@
 """The command line: every command by name. Only the modules of this folder print and catch.
 
-Heavy imports stay inside the commands so that `--help` is quick. Exit codes: 0 done, 2 input
-error, 1 internal error (with the traceback) or failed verification checks. Read `report` for
-the way from workbook to package.
+Heavy imports stay inside the commands so that `--help` is quick. Exit codes: 0 done, whatever the
+verdict; 3 with --fail-on-ng where it is NG; 2 input error; 1 internal error (with the traceback) or
+failed verification checks. Read `report` for the way from workbook to package.
 """
 
 from __future__ import annotations
@@ -12,11 +12,15 @@ import sys
 
 import click
 
+from report.cli.batch import batch
+from report.cli.check import check
+from report.cli.doctor import doctor
 from report.cli.motion import motion
 from report.cli.plan import plan
-from report.cli.report import check, new, report
+from report.cli.report import new, report
 from report.cli.slide import slide
 from report.cli.verify import verify
+from report.cli.watch import watch
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 96})
@@ -33,5 +37,5 @@ def main() -> None:
         sys.exit(2)
 
 
-for command in (check, motion, new, plan, report, slide, verify):
+for command in (batch, check, doctor, motion, new, plan, report, slide, verify, watch):
     main.add_command(command)

@@ -1,11 +1,13 @@
-"""The commands on a project: `roofslip new`, `check` and `report`.
+"""The commands `roofslip new` and `roofslip report`.
 
 Read `make` first: one line for each step from workbook to package.
 """
 
 from __future__ import annotations
 
+import json
 import os
+import sys
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
@@ -13,15 +15,27 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import Progress, input_errors, no_collections
+from report.cli.terminal import (
+    AS_JSON,
+    FAIL_ON_NG,
+    NOT_OK,
+    QUIET,
+    SCHEMA_VERSION,
+    Progress,
+    input_errors,
+    no_collections,
+    plain,
+)
 
 if TYPE_CHECKING:
-    from report.assessment.arrays import ArrayAssessment
     from report.assessment.changes import Changes
     from report.assessment.project import Assessment
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 SOURCE = click.Path(path_type=Path)
+
+STEPS = 5
+"""Steps that `make` reports."""
 
 
 @click.command()
@@ -57,41 +71,36 @@ def _new_project(folder: Path, units: str) -> Path:
 
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
-def check(source: Path) -> None:
-    """Read and validate the input without writing anything."""
-    from report.motions.prepare import prepare
-    from report.sheet.read import read
-    from report.typeset.letters import check_letters
-
-    with input_errors(source):
-        sheet = read(source)
-        check_letters(sheet)
-        prepare(sheet)
-    data = sheet.project
-    click.echo(
-        f"{sheet.path}: no problems found. {len(data.arrays)} arrays, {len(data.clearances)} "
-        f"clearances, {len(data.motions)} motions, S_DS {data.site.s_ds:.3f} g, "
-        f"{data.site.rule_set}."
-    )
-
-
-@click.command()
-@click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--out", type=SOURCE, help="Output folder; default: out/ beside the input.")
 @click.option("--since", type=SOURCE, metavar="RESULTS.JSON",
               help="Of a former revision: the package states what changed.")  # fmt: skip
-def report(source: Path, out: Path | None, since: Path | None) -> None:
+@FAIL_ON_NG
+@QUIET
+@AS_JSON
+def report(
+    source: Path,
+    out: Path | None,
+    since: Path | None,
+    fail_on_ng: bool,
+    quiet: bool,
+    as_json: bool,
+) -> None:
     """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary."""
     from report.beside import beside
 
-    with input_errors(source), Progress() as progress, no_collections(), beside() as second:
-        assessment, folder, files, changed = make(source, out, since, progress, second)
-    _print_summary(assessment)
-    if changed.is_asked_for:
-        _print_changes(assessment, changed)
-    click.echo("")
-    for name in files:
-        click.echo(folder / name)
+    with (
+        input_errors(source, as_json=as_json),
+        Progress(STEPS, quiet=quiet) as progress,
+        no_collections(),
+        beside() as second,
+    ):
+        made = make(source, out, since, progress, second)
+    if as_json:
+        click.echo(_json(*made))
+    elif not quiet:
+        _print(*made)
+    if fail_on_ng and not made[0].verdict.is_permitted:
+        sys.exit(NOT_OK)
 
 
 def make(
@@ -159,33 +168,32 @@ def load() -> None:
     draw_ahead([])
 
 
-def _print_summary(assessment: Assessment) -> None:
-    from report.pages.registry import package_data
+def _print(
+    assessment: Assessment, folder: Path, files: Mapping[str, bytes], changed: Changes
+) -> None:
+    from report.cli.summary import summary
 
-    us_first = assessment.project.project.units_first == "US"
-    columns = ("array", "computed", "prescriptive", "design", "governing clearance", "D/C", "")
-    rows = [_summary_row(assessment, item, us_first) for item in assessment.arrays]
-    widths = [max(map(len, column)) for column in zip(columns, *rows, strict=True)]
-    for row in (columns, *rows):
-        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
-        click.echo("  ".join(cells).rstrip())
-    for warning in assessment.warnings:
-        click.echo(f"warning: {warning}")
-    see = f"see {package_data(assessment).part('model')} of the package"
-    for item in assessment.arrays:
-        if not item.tipping.is_ok:
-            click.echo(f"warning: array {item.id} starts to tip; {see}")
-    for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
-        text = f"one rigid block has not been shown to be adequate for array {name}"
-        click.echo(f"warning: {text}; {see}")
-    checks = [*assessment.building_checks, *(c for a in assessment.arrays for c in a.limits)]
-    for failed in (c for c in checks if not c.ok):
-        click.echo(f"warning: {failed.provision.clause} is not satisfied: {failed.title}")
-    for missed in assessment.conditions:
-        where = f"{missed.subject}, " if missed.subject else ""
-        text = f"{where}{missed.title}: {missed.found}; {missed.limit} required"
-        click.echo(f"{missed.consequence.value}: {text}")
-    click.echo(f"verdict: {assessment.verdict.value}")
+    for line in summary(assessment):
+        click.echo(plain(line))
+    if changed.is_asked_for:
+        _print_changes(assessment, changed)
+    click.echo("")
+    for name in files:
+        click.echo(folder / name)
+
+
+def _json(
+    assessment: Assessment, folder: Path, files: Mapping[str, bytes], changed: Changes
+) -> str:
+    from report.cli.summary import document
+
+    about = {
+        "schema_version": SCHEMA_VERSION,
+        "workbook": str(assessment.sheet.path),
+        "errors": [],
+    }
+    written = {"files": [str(folder / name) for name in files]}
+    return json.dumps(about | document(assessment) | written, ensure_ascii=False)
 
 
 def _print_changes(assessment: Assessment, changed: Changes) -> None:
@@ -194,23 +202,3 @@ def _print_changes(assessment: Assessment, changed: Changes) -> None:
 
     where = package_data(assessment, changed).part("changes")
     click.echo(f"since revision {changed.revision}: {counted(changed)}; see {where} of the package")
-
-
-def _summary_row(assessment: Assessment, item: ArrayAssessment, us_first: bool) -> tuple[str, ...]:
-    from report.words.units import Quantity, pair, ratio
-
-    def shown(value_m: float) -> str:
-        if value_m != value_m:
-            return "none"
-        return pair(value_m, Quantity.DISPLACEMENT, us_first)
-
-    gap = assessment.governing_clearance(item.id)
-    clearance = (f"to {gap.across_from(item.id)}", ratio(gap.demand_capacity)) if gap else ()
-    return (
-        item.id,
-        shown(item.analysis.value_m),
-        shown(item.prescriptive.value_m),
-        shown(item.design_m),
-        *(clearance or ("none given", "")),
-        assessment.array_verdict(item).value,
-    )

@@ -7,6 +7,7 @@ next.
 from __future__ import annotations
 
 import gc
+import json
 import re
 import sys
 import time
@@ -34,6 +35,7 @@ class UnitChoice(click.Choice[str]):
 
 
 _QUIET_SECONDS = 1.0
+_BAR = 20
 _LONGEST = 2000
 
 # Control characters, and those that separate lines or change the direction of a text.
@@ -46,9 +48,24 @@ def plain(text: object) -> str:
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]}..."
 
 
+SCHEMA_VERSION = 1
+"""Raised where a key that `--json` prints changes its name or meaning."""
+
+INPUT_ERROR, NOT_OK = 2, 3
+"""Exit codes: an error in the input, and NG where that is asked for."""
+
+QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
+AS_JSON = click.option(
+    "--json", "as_json", is_flag=True, help="Print JSON in SI units, with the units in the keys."
+)
+FAIL_ON_NG = click.option(
+    "--fail-on-ng", is_flag=True, help=f"Exit with code {NOT_OK} where the verdict is NG."
+)
+
+
 @contextmanager
-def input_errors(source: Path) -> Iterator[None]:
-    """Print input errors, one problem per line, and exit with code 2.
+def input_errors(source: Path, *, as_json: bool = False) -> Iterator[None]:
+    """Print input errors, one problem per line or as JSON, and exit with code 2.
 
     So with what the system refuses, such as a file without permission or a folder that is gone.
     """
@@ -57,21 +74,25 @@ def input_errors(source: Path) -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as error:
-        _refuse(source, [_system_problem(error)])
+        _refuse(source, [_system_problem(error)], as_json=as_json)
     except Exception as error:
         from solver.model import InputError
 
         if not isinstance(error, InputError):
             raise
-        _refuse(source, error.problems)
+        _refuse(source, error.problems, as_json=as_json)
 
 
-def _refuse(source: Path, problems: Sequence[str]) -> NoReturn:
+def _refuse(source: Path, problems: Sequence[str], *, as_json: bool) -> NoReturn:
+    if as_json:
+        about = {"schema_version": SCHEMA_VERSION, "workbook": str(source)}
+        click.echo(json.dumps(about | {"errors": problems}, ensure_ascii=False))
+        sys.exit(INPUT_ERROR)
     count = len(problems)
     click.echo(f"{plain(source)}: {count} problem{'s' if count > 1 else ''} found.", err=True)
     for problem in problems:
         click.echo(f"  {plain(problem)}", err=True)
-    sys.exit(2)
+    sys.exit(INPUT_ERROR)
 
 
 def _system_problem(error: OSError) -> str:
@@ -97,15 +118,25 @@ def no_collections() -> Iterator[None]:
 
 
 class Progress:
-    """Prints the current step: one updated line on a terminal, plain lines elsewhere.
+    """Prints the current step: a bar that is updated on a terminal, plain lines elsewhere.
 
     Plain lines start after one second, so that quick commands print none.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, steps: int = 0, *, quiet: bool = False) -> None:
+        """Begin.
+
+        Parameters
+        ----------
+        steps : int
+            Number of steps that will be reported, for the bar; 0 if it is not known.
+        quiet : bool
+            Print nothing.
+        """
         self._started = time.monotonic()
         # Closed, it is None.
         self._terminal = sys.stderr is not None and sys.stderr.isatty()
+        self._steps, self._done, self._quiet = steps, 0, quiet
 
     def __enter__(self) -> Progress:
         return self
@@ -113,12 +144,21 @@ class Progress:
     def __call__(self, doing: str) -> None:
         """Print the current step."""
         seconds = time.monotonic() - self._started
-        line = f"[{seconds:4.1f} s] {doing}"
+        if self._quiet:
+            return
         if self._terminal:
+            line = f"{self._bar()}{seconds:4.1f} s  {doing}"
             click.echo(f"\r\x1b[2K{line}", nl=False, err=True)
         elif seconds > _QUIET_SECONDS:
-            click.echo(line, err=True)
+            click.echo(f"[{seconds:4.1f} s] {doing}", err=True)
+        self._done += 1
+
+    def _bar(self) -> str:
+        if not self._steps:
+            return ""
+        filled = _BAR * min(self._done, self._steps) // self._steps
+        return f"[{'#' * filled}{'.' * (_BAR - filled)}] "
 
     def __exit__(self, *_: Any) -> None:
-        if self._terminal:
+        if self._terminal and not self._quiet:
             click.echo("\r\x1b[2K", nl=False, err=True)

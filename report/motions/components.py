@@ -42,6 +42,8 @@ class RecordFile:
     format : str
     npts : int
     dt_s, peak_g : float
+    npts_trimmed : int
+        Samples at the end that the shortest component of the motion does not have.
     notes : tuple of str
         Remarks on how the file was read.
     hold_s : float
@@ -57,6 +59,7 @@ class RecordFile:
     npts: int
     dt_s: float
     peak_g: float
+    npts_trimmed: int
     notes: tuple[str, ...]
     hold_s: float
 
@@ -113,6 +116,11 @@ def read_components(book: OpenBook, index: int, row: Mapping[str, Any]) -> Compo
     return _processed(index, MotionInput(**row), components, records)
 
 
+def _shortest(records: Mapping[str, Record]) -> int:
+    """Return the number of samples that all components have."""
+    return min(len(record.a_mps2) for record in records.values())
+
+
 def _faults(index: int, field: str, error: InputError) -> list[Fault]:
     place = Place("motions", index, field)
     return [Fault(place, f"{LABELS[field]} record: {problem}") for problem in error.problems]
@@ -135,7 +143,7 @@ def _cut(components: Mapping[str, Component], to_s: float | None) -> dict[str, R
 
 
 def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
-    """Yield components that do not match the horizontal one in time step or length."""
+    """Yield components that do not match the horizontal one in time step."""
     horizontal = records["record"]
     for field, record in records.items():
         label, dt_s = f"{LABELS[field]} record", horizontal.dt_s
@@ -143,14 +151,6 @@ def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
             text = (
                 f"{label} has a time step of {record.dt_s:g} s, but the horizontal record has"
                 f" {dt_s:g} s; make them equal"
-            )
-            yield Fault(Place("motions", index, field), text)
-        count, other = len(record.a_mps2), len(horizontal.a_mps2)
-        if count != other:
-            end = f"{(min(count, other) - 1) * dt_s:g} s"
-            text = (
-                f"{label} has {count} samples, but the horizontal record has {other}; make them"
-                f" equal, or give an end time of {end} or less"
             )
             yield Fault(Place("motions", index, field), text)
 
@@ -192,8 +192,13 @@ def _processed(
     components: Mapping[str, Component],
     records: Mapping[str, Record],
 ) -> Components | list[Fault]:
-    # Time steps that differ by rounding error are equal from here on.
-    raw = [replace(record, dt_s=records["record"].dt_s) for record in records.values()]
+    # Time steps that differ by rounding error are equal from here on, and so are lengths: the
+    # components of one recording often differ by a few samples at the end.
+    count = _shortest(records)
+    raw = [
+        replace(record, dt_s=records["record"].dt_s, a_mps2=record.a_mps2[:count])
+        for record in records.values()
+    ]
     processing = processing_of(row)
     if processing.problems():
         return []  # reported at their cells by `motion_checks`
@@ -210,7 +215,10 @@ def _processed(
         return faults
     has_highpass = row.highpass_hz is not None
     return Components(
-        files=tuple(_file(row, field, component) for field, component in components.items()),
+        files=tuple(
+            _file(row, field, component, len(records[field].a_mps2) - count)
+            for field, component in components.items()
+        ),
         records=kept,
         unfiltered=dict(zip(components, bare, strict=True)) if has_highpass else {},
     )
@@ -230,9 +238,10 @@ def processing_of(row: MotionInput) -> Processing:
     )
 
 
-def _file(row: MotionInput, field: str, component: Component) -> RecordFile:
+def _file(row: MotionInput, field: str, component: Component, trimmed: int) -> RecordFile:
     a = component.record.a_mps2
-    is_whole = row.from_s is None and row.to_s is None
+    is_whole = row.from_s is None and row.to_s is None and trimmed == 0
+    last = f"last {trimmed} of {len(a)} samples trimmed, to the length of the shortest component"
     return RecordFile(
         motion_id=row.id,
         component=LABELS[field],
@@ -242,6 +251,7 @@ def _file(row: MotionInput, field: str, component: Component) -> RecordFile:
         npts=len(a),
         dt_s=component.record.dt_s,
         peak_g=float(np.abs(a).max() / G_MPS2),
-        notes=component.notes,
+        npts_trimmed=trimmed,
+        notes=(*component.notes, *([last] if trimmed else [])),
         hold_s=component.hold_s if is_whole else math.nan,
     )

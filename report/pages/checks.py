@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from markupsafe import Markup, escape
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.foresight import findings
 from report.assessment.remedies import Remedy
 from report.assessment.verdict import Row, Verdict
 from report.pages.links import link_troubles
@@ -26,6 +27,7 @@ from report.pages.parts import (
 )
 from report.pages.remedies import table
 from report.pages.symbols import with_symbols
+from report.sheet.findings import Level, located
 from report.sheet.schema import Array, Direction, ObjectKind
 from report.typeset.equations import symbol
 from report.words.units import Quantity, compared, number, ratio
@@ -310,6 +312,7 @@ def limits(package: PackageData) -> Mapping[str, object]:
         "tables": (
             check_table(_limits_caption(package), package, all_checks(package)),
             requirements(package),
+            *_warnings(package),
             _interconnection(package),
         ),
     }
@@ -329,6 +332,33 @@ def _limits_caption(package: PackageData) -> str:
         f"Limits of the building, of the {first} route ({of_first}) and of the {second} route "
         f"({of_second})"
     )
+
+
+def _warnings(package: PackageData) -> Iterator[Table]:
+    """Yield the warnings on the input with the reasons that the workbook gives; nothing for none.
+
+    A contradiction of the plan is also among the requirements.
+    """
+    sheet = package.assessment.sheet
+    found = [
+        finding
+        for finding in findings(sheet, package.assessment.shaking)
+        if finding.level is Level.WARNING
+    ]
+    if found:
+        cells = located(found, sheet.addresses)
+        yield Table(
+            caption="Warnings on the input",
+            columns=(
+                TableColumn(head="Cell", align="left", share=1.2),
+                TableColumn(head="Warning", align="left", share=5.6),
+                TableColumn(head="Reason given in the workbook", align="left", share=3.2),
+            ),
+            rows=tuple(
+                TableRow(cells=(cell, f"{finding.text}.", finding.reason or "not acknowledged"))
+                for finding, cell in zip(found, cells, strict=True)
+            ),
+        )
 
 
 def _interconnection(package: PackageData) -> Table:

@@ -15,17 +15,17 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.foresight import limit_value
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction, ProjectInput
 from report.typeset.equations import data_uri
-from report.words.units import Quantity, Show, Unit, measured, number, pair
+from report.words.units import Quantity, Show, Unit, measured, pair
 from solver.model import DefectError
 from solver.rules.provisions import (
     SEPARATION_KEYS,
     Basis,
     Check,
-    Measure,
     PrescriptiveBasis,
     Provision,
 )
@@ -237,16 +237,7 @@ def dagger(provision: Provision) -> str:
 
 def check_value(check: Check, value: float, fmt: UnitFormat) -> str:
     """Return a number of a check with the units of its measure."""
-    match check.measure:
-        case Measure.ANGLE_DEG:
-            percent = 100.0 * math.tan(math.radians(value))
-            return f"{number(value, 2)}° ({number(percent, 1)} %)"
-        case Measure.LENGTH_M:
-            return fmt.both(value, Quantity.SIZE)
-        case Measure.COUNT:
-            return number(value, 0)
-        case _:
-            return number(value, 3)
+    return limit_value(check, value, fmt.us_first)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

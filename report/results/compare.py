@@ -118,7 +118,8 @@ def _row_key(row: Any) -> tuple[str, ...]:
         return (row.id,)
     if hasattr(row, "object"):
         return _gap_key(row)
-    return (getattr(row, "array", getattr(row, "provision", "")),)
+    names = (getattr(row, name, "") for name in ("array", "provision", "warning"))
+    return (next(filter(None, names), ""),)
 
 
 def _name(section: Section, key: tuple[str, ...]) -> str:

@@ -15,7 +15,12 @@ from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.project import Assessment
-from report.results.sheets import DIRECTION_HEADINGS, Pages, write_headings
+from report.results.sheets import (
+    DIRECTION_HEADINGS,
+    STATISTIC_COLUMN,
+    Pages,
+    write_headings,
+)
 from report.sheet.schema import Direction
 from solver.model import INCH_M
 from solver.rules.provisions import AnalysisValue, Basis
@@ -126,11 +131,11 @@ _Formula = tuple[int, str, float]
 def _of_analysis(
     analysis: AnalysisValue, floor_m: float, peaks: str, row: int, design_row: int
 ) -> Iterator[_Formula]:
-    picked = "D" if analysis.basis is Basis.LARGEST_FACTORED else "C"
+    largest = f'Design!{STATISTIC_COLUMN}{design_row}="{Basis.LARGEST_FACTORED.value}"'
     yield 2, f"=AVERAGE({peaks})", analysis.mean_m / INCH_M
     yield 3, f"=MAX({peaks})", analysis.largest_m / INCH_M
     yield 4, f"=Design!J{design_row}", analysis.factor
-    yield 5, f"=E{row}*{picked}{row}", analysis.value_m / INCH_M
+    yield 5, f"=E{row}*IF({largest},D{row},C{row})", analysis.value_m / INCH_M
     yield 6, f"=Design!M{design_row}", floor_m / INCH_M
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from importlib.metadata import version
 from typing import Any
@@ -15,12 +15,14 @@ from typing import Any
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.evidence import Evidence
+from report.assessment.foresight import findings
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
 from report.assessment.runs import HeadingRun, MotionRun
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.results.evidence import acceptance, certainty, neighbor, remedy
+from report.sheet.findings import Finding, located
 from report.sheet.schema import Direction
 from solver.building.roof import RoofMotion
 from solver.model import Motion
@@ -46,6 +48,7 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
         "rule_set": assessment.rules.name,
         "verdict": assessment.verdict,
         "warnings": list(assessment.warnings),
+        "findings": [_finding(*pair) for pair in _located_findings(assessment)],
         "building_checks": [_check(check) for check in assessment.building_checks],
         "requirements": [asdict(row) | {"verdict": row.verdict} for row in assessment.rows],
         "arrays": [_array(assessment, item) for item in assessment.arrays],
@@ -57,6 +60,21 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
         "certainty": certainty(evidence.certainty),
     }
     return json.dumps(_nan_to_none(document), indent=1, ensure_ascii=False).encode() + b"\n"
+
+
+def _located_findings(assessment: Assessment) -> Iterable[tuple[Finding, str]]:
+    found = findings(assessment.sheet, assessment.shaking)
+    return zip(found, located(found, assessment.sheet.addresses), strict=True)
+
+
+def _finding(finding: Finding, cell: str) -> dict[str, Any]:
+    return {
+        "level": finding.level,
+        "id": finding.id,
+        "cell": cell,
+        "text": finding.text,
+        "reason": finding.reason,
+    }
 
 
 def _record(record: RecordFile) -> dict[str, Any]:

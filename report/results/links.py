@@ -7,7 +7,7 @@ Live formulas, each written with the value computed by `report.assessment.links`
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import pandas as pd
 from xlsxwriter.utility import xl_rowcol_to_cell
@@ -15,7 +15,7 @@ from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
-from report.results.sheets import Pages, write_headings
+from report.results.sheets import STATISTIC_COLUMN, Pages, write_headings
 from report.words.units import NEWTONS_PER_POUND
 from solver.model import INCH_M
 from solver.rules.provisions import Basis
@@ -60,6 +60,15 @@ def _listed(places_m: tuple[float, ...]) -> str:
     if any(map(math.isnan, places_m)):
         return "none"
     return ", ".join(f"{place / INCH_M:.2f}" for place in places_m)
+
+
+def link_cells(assessment: Assessment, array_id: str) -> Sequence[str]:
+    """Return the cells of the results of an array as a row of linked blocks."""
+    return [
+        f"Links!$O${5 + count}"
+        for count, linked in enumerate(assessment.linked)
+        if linked.design.id == array_id
+    ]
 
 
 def write_links(pages: Pages, assessment: Assessment, runs: pd.DataFrame) -> None:
@@ -125,7 +134,7 @@ def _write_row(
         sheet.write_string(row, 11, "none")
         sheet.write_string(row, 14, "NG")
         return
-    is_largest = rigid.basis is Basis.LARGEST_FACTORED
+    largest = f'Design!{STATISTIC_COLUMN}{d}="{Basis.LARGEST_FACTORED.value}"'
     ratio = f"=H{r}/G{r}" if rigid.value_m > 0.0 else "=1"
     bound = DEFAULT.bound_m(design.design_m)
     for column, formula, value in (
@@ -134,8 +143,8 @@ def _write_row(
         (3, f"=AVERAGE({peaks[1]})", linked.mean_m / inch),
         (4, f"=MAX({peaks[1]})", linked.largest_m / inch),
         (5, f"=Design!J{d}", rigid.factor),
-        (6, f"=F{r}*{'C' if is_largest else 'B'}{r}", rigid.value_m / inch),
-        (7, f"=F{r}*{'E' if is_largest else 'D'}{r}", linked.value_m / inch),
+        (6, f"=F{r}*IF({largest},C{r},B{r})", rigid.value_m / inch),
+        (7, f"=F{r}*IF({largest},E{r},D{r})", linked.value_m / inch),
         (8, ratio, linked_array.ratio),
         (9, _computed(linked_array, d), linked_array.value_m / inch),
         (10, f"=Design!M{d}", design.floor_m / inch),

@@ -19,6 +19,29 @@ DIRECTION_HEADINGS = {
 """Headings of displacements by direction."""
 
 
+STATISTIC_COLUMN = "T"
+"""Column of the sheet Design that holds the statistic of the peaks of an array."""
+
+_DECIMALS = (0, 1, 2, 3, 4)
+_INPUT_FILL = "#FFF7CC"
+_LETTER = 1
+
+
+def typed(value: float) -> float:
+    """Return a number as it was typed: without the rounding error of a conversion of units."""
+    return float(f"{value:.12g}")
+
+
+def print_on_letter(sheet: Worksheet, heading_row: int) -> None:
+    """Print a sheet as wide as a landscape page, with its headings on each."""
+    sheet.set_landscape()
+    sheet.set_paper(_LETTER)
+    sheet.set_margins(left=0.4, right=0.4, top=0.6, bottom=0.6)
+    sheet.fit_to_pages(1, 0)
+    sheet.repeat_rows(heading_row)
+    sheet.set_footer("&L&F, &A&RPage &P of &N")
+
+
 class Pages:
     """The formats that all sheets share."""
 
@@ -30,9 +53,11 @@ class Pages:
         )
         self.note = workbook.add_format({"italic": True, "font_color": "#555555"})
         self.plain = workbook.add_format({})
-        self.numbers = {
-            decimals: workbook.add_format({"num_format": f"0.{'0' * decimals}"})
-            for decimals in (1, 2, 3, 4)
+        self.typed_text = workbook.add_format({"bg_color": _INPUT_FILL, "border": 4})
+        self.numbers = {d: workbook.add_format({"num_format": _format(d)}) for d in _DECIMALS}
+        self.typed = {
+            d: workbook.add_format({"num_format": _format(d), "bg_color": _INPUT_FILL, "border": 4})
+            for d in _DECIMALS
         }
 
     def sheet(self, name: str, title: str, note: str) -> Worksheet:
@@ -43,6 +68,10 @@ class Pages:
         return sheet
 
 
+def _format(decimals: int) -> str:
+    return f"0.{'0' * decimals}" if decimals else "0"
+
+
 def write_headings(pages: Pages, sheet: Worksheet, row: int, headings: tuple[str, ...]) -> None:
     """Write a row of headings and freeze it."""
     for column, heading in enumerate(headings):
@@ -50,3 +79,4 @@ def write_headings(pages: Pages, sheet: Worksheet, row: int, headings: tuple[str
     sheet.set_row(row, 48)
     sheet.set_column(0, len(headings) - 1, 13)
     sheet.freeze_panes(row + 1, 1)
+    print_on_letter(sheet, row)

@@ -247,7 +247,7 @@ def find_table(book: OpenBook, section: Section) -> TableFound:
     positions = [CellPosition(sheet.title, top, column) for column in range(left, last_column + 1)]
     headings = [p for p in positions if not _is_answer(section, sheet.cell(top, p.column).value)]
     columns, others, seen, problems = _columns(book, section, headings)
-    absent, missing = _unseen(section, headings[0], seen, others)
+    absent, missing = _unseen(book, section, headings, seen, others)
     problems += missing
     used = [column.number for column in columns.values()]
     last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
@@ -348,20 +348,47 @@ def _columns(
 
 
 def _unseen(
-    section: Section, first: CellPosition, seen: set[str], others: Sequence[CellPosition]
+    book: OpenBook,
+    section: Section,
+    headings: Sequence[CellPosition],
+    seen: set[str],
+    others: Sequence[CellPosition],
 ) -> tuple[tuple[str, ...], list[str]]:
     """Return optional fields that have no column, and a problem for each other missing field.
 
     If a table has an unknown heading, no field counts as absent: the heading may be a renamed one.
     """
-    unseen = [entry for entry in entries(section.model) if entry.name not in seen]
-    absent = [e.name for e in unseen if not e.is_expected and not others]
-    problems = [
-        f"{first.address}: heading '{entry.cell.label}' is missing; {FRESH}"
-        for entry in unseen
-        if entry.name not in absent
-    ]
+    fields = entries(section.model)
+    places = _heading_places(book, section, headings)
+    absent = [e.name for e in fields if e.name not in seen and not e.is_expected and not others]
+    problems = []
+    for entry in fields:
+        if entry.name not in seen and entry.name not in absent:
+            position = places[entry.name]
+            text = found_at(book, position).value
+            instead = f", '{text}' found" if position in others else ""
+            missing = f"{position.address}: heading '{entry.cell.label}' is missing{instead};"
+            problems.append(f"{missing} write it here in its own column, or {FRESH}")
     return tuple(absent), problems
+
+
+def _heading_places(
+    book: OpenBook, section: Section, headings: Sequence[CellPosition]
+) -> Mapping[str, CellPosition]:
+    """Return where each heading is, or where it belongs: after that of the field before it."""
+    fields = entries(section.model)
+    labels = {label: entry.name for entry in fields for label in _labels(section, entry)}
+    places = {
+        labels[key]: position
+        for position in headings
+        if (key := _key(found_at(book, position).value)) in labels
+    }
+    first = headings[0]
+    following = first
+    for entry in fields:
+        position = places.setdefault(entry.name, following)
+        following = CellPosition(first.sheet, first.row, position.column + 1)
+    return places
 
 
 def _column(position: CellPosition, entry: Entry, unit: str) -> FieldColumn:

@@ -62,6 +62,7 @@ __all__ = [
     "SECTIONS",
     "SIDES",
     "AccelUnit",
+    "Acknowledgment",
     "Array",
     "Baseline",
     "BuildingInput",
@@ -221,6 +222,19 @@ class Override(Frozen):
     ]
 
 
+class Acknowledgment(Frozen):
+    """A warning that is intended as it is, with the reason that the package prints."""
+
+    warning: Annotated[
+        RequiredText,
+        Cell("Warning", "As in the brackets that `roofslip check` prints.", "weight A1"),
+    ]
+    reason: Annotated[
+        RequiredText,
+        Cell("Reason", "Printed in the package.", "Weight of the frames alone; ballast by others"),
+    ]
+
+
 class ProjectInput(Frozen):
     """The complete input of a workbook."""
 
@@ -242,6 +256,7 @@ class ProjectInput(Frozen):
     overrides: tuple[Override, ...] = ()
     outlines: tuple[Vertex, ...] = ()
     layers: tuple[DrawingLayer, ...] = ()
+    acknowledged: tuple[Acknowledgment, ...] = ()
 
     @model_validator(mode="after")
     def _spell_ids_alike(self) -> ProjectInput:
@@ -423,6 +438,15 @@ SECTIONS = (
         "Optional, for roofslip plan read: what is drawn on each layer. The layers of plan.dxf are"
         " known without a row.",
         DrawingLayer,
+        may_be_absent=True,
+    ),
+    _table(
+        "acknowledged",
+        "Acknowledged",
+        "Acknowledged warnings",
+        "Optional: one row for each warning of `roofslip check` that is intended as it is. It is"
+        " then printed with the reason.",
+        Acknowledgment,
         may_be_absent=True,
     ),
 )

@@ -137,7 +137,7 @@ def test_a_failed_run_leaves_the_older_package(tmp_path):
     assert [p.read_bytes() for p in out.iterdir()] == [b"older"]
 
 
-def test_a_rigid_block_that_is_not_adequate_gives_a_warning(tmp_path):
+def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     row = {"array": "A2", "friction": "0.30, 0.45, 0.60", "stiffness_n_per_m": 1e3}
     options = {"statistic": "rule set", "peer_reviewed": True}
     given = project().model_dump()
@@ -148,11 +148,11 @@ def test_a_rigid_block_that_is_not_adequate_gives_a_warning(tmp_path):
     done = run("report", make(tmp_path, **changes))
     assert done.exit_code == 0
     assert (
-        "warning: one rigid block has not been shown to be adequate for array A2; see part 12"
+        "NG: one rigid block has not been shown to be adequate for array A2; see part 12"
         in done.output
     )
     (line,) = (text for text in done.output.splitlines() if text.startswith("A2 "))
-    assert line.endswith("NG")
+    assert line.endswith("NG: limits on the motions and 1 more")
     results = json.loads((tmp_path / "out" / "results.json").read_text())
     assert results["verdict"] == "NG"
     assert results["linked"][0]["rigid_is_enough"] is False

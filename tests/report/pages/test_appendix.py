@@ -116,6 +116,7 @@ def test_a_record_shows_its_format_and_what_was_noted():
         npts=100,
         dt_s=0.02,
         peak_g=0.25,
+        npts_trimmed=0,
         hold_s=math.nan,
         notes=("uneven times were resampled",),
     )

@@ -2,6 +2,7 @@
 
 import datetime as dt
 import io
+import math
 import re
 from dataclasses import replace
 
@@ -31,32 +32,84 @@ def usual():
     return made(stand_in.book())
 
 
+class Text(str):
+    """A text in a formula: larger than any number, and an error in arithmetic, as in Excel."""
+
+    def __gt__(self, other):
+        return True if isinstance(other, float | int) else str.__gt__(self, other)
+
+    def __lt__(self, other):
+        return False if isinstance(other, float | int) else str.__lt__(self, other)
+
+    def __le__(self, other):
+        return self < other or self == other
+
+    def _error(self, *_):
+        return Text("#VALUE!")
+
+    __mul__ = __rmul__ = __sub__ = __rsub__ = __truediv__ = __rtruediv__ = _error
+
+
+class Number(float):
+    """A number in a formula; division by zero is no error until its value is used."""
+
+    def __truediv__(self, other):
+        return math.nan if other == 0 else float(self) / other
+
+    def __gt__(self, other):
+        return False if isinstance(other, str) else float(self) > other
+
+
+def numbers(items):
+    return [item for item in items if not isinstance(item, str)]
+
+
+FUNCTIONS = {
+    "MAX": lambda *items: max(numbers(items)),
+    "COUNT": lambda *items: len(numbers(items)),
+    "AVERAGE": lambda *items: sum(numbers(items)) / len(numbers(items)),
+    "IF": lambda test, yes, no: yes if test else no,
+    "OR": lambda *items: any(items),
+    "AND": lambda *items: all(items),
+    "ISTEXT": lambda item: isinstance(item, str),
+    "ISNUMBER": lambda item: not isinstance(item, str),
+    "Text": Text,
+    "Number": Number,
+}
+
+
 def compute(book, sheet, cell):
     """Evaluate a cell of a workbook: only what the result formulas use."""
     value = book[sheet][cell].value
     if not (isinstance(value, str) and value.startswith("=")):
         return value
+    if book[sheet][cell].data_type != "f":
+        return value
+
+    def shown(value):
+        return f"Text({value!r})" if isinstance(value, str) else f"Number({value!r})"
 
     def reference(match):
+        if match["quoted"]:
+            return match["quoted"]
         where = match["sheet"] or sheet
-        return repr(compute(book, where, match["cell"].replace("$", "")))
+        if match["first"]:
+            block = book[where][f"{match['first']}:{match['last']}"]
+            found = (compute(book, where, c.coordinate) for row in block for c in row)
+            return ",".join(map(shown, found))
+        return shown(compute(book, where, match["cell"].replace("$", "")))
 
-    def cells(match):
-        where = match["sheet"] or sheet
-        block = book[where][f"{match['first']}:{match['last']}"]
-        return ",".join(repr(compute(book, where, c.coordinate)) for row in block for c in row)
-
-    cell = r"\$?[A-Z]{1,2}\$?\d+"
-    text = re.sub(rf"(?:(?P<sheet>\w+)!)?(?P<first>{cell}):(?P<last>{cell})", cells, value[1:])
-    text = re.sub(rf"(?:(?P<sheet>\w+)!)?(?P<cell>{cell})\b", reference, text)
-    text = re.sub(r"(?<![<>])=(?!=)", "==", text).replace("^", "**")
-    functions = {
-        "MAX": max,
-        "COUNT": lambda *items: len(items),
-        "AVERAGE": lambda *items: sum(items) / len(items),
-        "IF": lambda test, yes, no: yes if test else no,
-    }
-    return eval(text, {"__builtins__": {}}, functions)
+    at = r"\$?[A-Z]{1,2}\$?\d+"
+    area = rf"(?P<first>{at}):(?P<last>{at})"
+    pattern = rf'(?P<quoted>"[^"]*")|(?:(?P<sheet>\w+)!)?(?:{area}|(?P<cell>{at})\b)'
+    parts = re.split(r'("[^"]*")', value[1:])
+    text = "".join(
+        part
+        if part.startswith('"')
+        else re.sub(r"(?<![<>])=(?!=)", "==", part).replace("^", "**").replace("&", "+")
+        for part in parts
+    )
+    return eval(re.sub(pattern, reference, text), {"__builtins__": {}}, FUNCTIONS)
 
 
 SITE = stand_in.project().site.model_dump()

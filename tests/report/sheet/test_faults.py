@@ -459,8 +459,16 @@ def test_a_missing_single_field_is_reported_by_name_and_label(tmp_path):
 def test_a_missing_heading_is_reported(tmp_path):
     path = edit(make(tmp_path), typed({"Arrays!E7": "Grip"}))
     assert problems(path) == (
-        "Arrays!B7: heading 'Friction coefficient' is missing; copy it from a fresh workbook"
-        " (roofslip new)",
+        "Arrays!E7: heading 'Friction coefficient' is missing, 'Grip' found; write it here in its"
+        " own column, or copy it from a fresh workbook (roofslip new)",
+    )
+
+
+def test_a_deleted_required_column_is_pointed_at_where_it_was(tmp_path):
+    path = edit(make(tmp_path), lambda book: book["Arrays"].delete_cols(8))
+    assert problems(path) == (
+        "Arrays!H7: heading 'Weight' is missing; write it here in its own column, or copy it from a"
+        " fresh workbook (roofslip new)",
     )
 
 
@@ -473,8 +481,8 @@ def test_an_optional_column_may_be_deleted(tmp_path):
 def test_a_renamed_optional_column_is_reported_not_ignored(tmp_path):
     path = edit(make(tmp_path), typed({"Motions!E7": "Vertical file"}))
     assert problems(path) == (
-        "Motions!B7: heading 'Vertical record' is missing; copy it from a fresh workbook"
-        " (roofslip new)",
+        "Motions!E7: heading 'Vertical record' is missing, 'Vertical file' found; write it here in"
+        " its own column, or copy it from a fresh workbook (roofslip new)",
     )
 
 

@@ -458,7 +458,7 @@ def test_an_invalid_line_of_a_record_is_reported_with_its_file_and_number(tmp_pa
     assert problems(path) == ("Motions!E8: vertical record: z.csv:2: found 'abc'; give a number",)
 
 
-def test_components_of_different_length_or_step_are_rejected(tmp_path):
+def test_components_of_different_step_are_rejected(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("G8", None))
     for name, step, count in (("x", 0.01, 50), ("z", 0.02, 40)):
         text = "".join(f"{i * step:.2f},0.1\n" for i in range(count))
@@ -468,21 +468,28 @@ def test_components_of_different_length_or_step_are_rejected(tmp_path):
     assert problems(path) == (
         "Motions!E8: vertical record has a time step of 0.02 s, but the horizontal record has 0.01"
         " s; make them equal",
-        "Motions!E8: vertical record has 40 samples, but the horizontal record has 50; make them"
-        " equal, or give an end time of 0.39 s or less",
     )
 
 
-def test_components_of_different_length_are_accepted_with_a_common_end_time(tmp_path):
+def test_components_of_different_length_are_trimmed_to_the_shortest(tmp_path):
     path = make(tmp_path)
     for name, count in (("x", 200), ("z", 196)):
         (path.parent / "records" / f"{name}.csv").write_text("0.1\n-0.2\n" * (count // 2))
-    assert problems(path) == (
-        "Motions!E8: vertical record has 196 samples, but the horizontal record has 200; make them"
-        " equal, or give an end time of 1.95 s or less",
-    )
-    book = read_workbook(edit(path, lambda b: b["Motions"].__setitem__("N8", 1.95)))
+    book = read_workbook(path)
     assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 196
+    x, z = (record for record in book.records if record.motion_id == "M1")
+    assert (x.npts, x.npts_trimmed, z.npts_trimmed) == (200, 4, 0)
+    assert x.notes[-1] == "last 4 of 200 samples trimmed, to the length of the shortest component"
+    assert z.notes == ()
+
+
+def test_nothing_is_trimmed_up_to_a_common_end_time(tmp_path):
+    path = make(tmp_path)
+    for name, count in (("x", 200), ("z", 196)):
+        (path.parent / "records" / f"{name}.csv").write_text("0.1\n-0.2\n" * (count // 2))
+    book = read_workbook(edit(path, lambda b: b["Motions"].__setitem__("N8", 1.5)))
+    assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 151
+    assert [record.npts_trimmed for record in book.records if record.motion_id == "M1"] == [0, 0]
 
 
 CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(

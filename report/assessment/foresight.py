@@ -1,0 +1,186 @@
+"""What is known of a project before any run: limits, requirements, warnings on the input.
+
+Runs nothing. `report.assessment.project` decides the verdict after the runs. Read `findings` and
+`foreseen`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from report.assessment.acceptance import shaking_acceptance
+from report.assessment.arrays import Route, limits_of, statistic_basis
+from report.assessment.conditions import (
+    fire_lanes,
+    interconnection,
+    motion_row,
+    project_rows,
+)
+from report.assessment.friction_rows import friction_rows
+from report.assessment.verdict import Row, Verdict
+from report.motions.plausible import record_findings
+from report.motions.prepare import Shaking
+from report.motions.targets import targets
+from report.sheet.fields import Place
+from report.sheet.findings import Finding, acknowledged, limit, note
+from report.sheet.plausible import implausible
+from report.sheet.read import Sheet
+from report.sheet.schema import Array, ProjectInput
+from report.words.units import Quantity, number, pair
+from solver.rules import provisions
+from solver.rules.provisions import Basis, Check, Measure, RuleSet
+
+_FIELDS: Mapping[str, str] = {
+    "low_profile_in": "cg_height_m",
+    "ibc_max_slope_deg": "slope_value",
+    "analysis_max_slope_deg": "slope_value",
+    "prescriptive_max_slope_deg": "slope_value",
+    "prescriptive_min_mu": "mu",
+    "max_risk_category": "risk_category",
+    "max_stories": "stories",
+}
+"""The cell that a limit compares, by the key of the limit."""
+
+_PLACES: Mapping[str, Place] = {
+    "peer_review": Place("options", 0, "peer_reviewer"),
+    "site_specific_hazard": Place("site", 0, "hazard"),
+    "friction_tests": Place("friction_tests", 0, "report"),
+    "motions": Place("motions"),
+}
+"""The cell that a requirement concerns, by its id; others concern a row."""
+
+
+def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
+    """Return what an engineer is asked about, with the reasons that the workbook gives."""
+    data = sheet.project
+    return acknowledged(data, [*implausible(data), *record_findings(data, shaking)])
+
+
+def foreseen(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
+    """Return the limits and requirements that no run is needed for, each at its cell.
+
+    What depends on a displacement, such as a clearance, is not among them.
+    """
+    return tuple(_foreseen(sheet.project, shaking))
+
+
+def ruled(data: ProjectInput) -> RuleSet:
+    """Return the rule set of a project with its overrides.
+
+    Raises
+    ------
+    InputError
+        For an override of a provision that the rule set does not have.
+    """
+    return provisions.RULE_SETS[data.site.rule_set].overridden(
+        {row.provision: (row.value, row.reason) for row in data.overrides}
+    )
+
+
+def limit_value(check: Check, value: float, us_first: bool) -> str:
+    """Return a number of a check with the units of its measure."""
+    match check.measure:
+        case Measure.ANGLE_DEG:
+            percent = 100.0 * math.tan(math.radians(value))
+            return f"{number(value, 2)}° ({number(percent, 1)} %)"
+        case Measure.LENGTH_M:
+            return pair(value, Quantity.SIZE, us_first)
+        case Measure.COUNT:
+            return number(value, 0)
+        case _:
+            return number(value, 3)
+
+
+def limit_words(check: Check, us_first: bool) -> str:
+    """Return a limit that is not satisfied: quantity, value, what would do, clause."""
+    value, most = (limit_value(check, v, us_first) for v in (check.value, check.limit))
+    wanted = f"at most {most} is permitted" if check.at_most else f"at least {most} is required"
+    title = check.title[0].lower() + check.title[1:]
+    return f"{title}: {value}; {wanted} ({check.provision.clause})"
+
+
+def _foreseen(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
+    rules, us_first = ruled(data), data.project.units_first == "US"
+    for check in provisions.building_checks(
+        rules,
+        risk_category=list(type(data.site.risk_category)).index(data.site.risk_category) + 1,
+        stories=data.site.stories,
+    ):
+        yield from _limit(check, "site", 0, us_first)
+    acceptance = shaking_acceptance(shaking, targets(data))
+    basis = statistic_basis(data)
+    few = provisions.analysis_value(rules, [0.0] * len(shaking.motions), basis).basis
+    routes = [
+        limits_of(
+            data,
+            rules,
+            array,
+            n_motions=len(shaking.motions),
+            has_value=acceptance.qualifies and few is not Basis.TOO_FEW,
+        )
+        for array in data.arrays
+    ]
+    for index, limits in enumerate(routes):
+        for check in limits.on_route:
+            yield from _limit(check, "arrays", index, us_first)
+        yield from _prescriptive(data, index, limits.route, limits.analysis, us_first)
+    takes_analysis = any(limits.route is Route.ANALYSIS for limits in routes)
+    rows = [
+        *project_rows(data, shaking.prepared),
+        *friction_rows(data),
+        *(motion_row(missed, takes_analysis=takes_analysis) for missed in acceptance.missed),
+    ]
+    for row in rows:
+        yield from _requirement(row, _of(row, data))
+    for index, array in enumerate(data.arrays):
+        yield from _of_array(data, rules, index, array)
+
+
+def _limit(check: Check, section: str, row: int, us_first: bool) -> Iterator[Finding]:
+    if not check.ok:
+        place = Place(section, row, _FIELDS[check.key]) if check.key in _FIELDS else None
+        text = f"{limit_words(check, us_first)}: {Verdict.NG.value}"
+        yield limit(place or Place("motions"), text)
+
+
+def _prescriptive(
+    data: ProjectInput, index: int, route: Route, analysis: Sequence[Check], us_first: bool
+) -> Iterator[Finding]:
+    """Yield why an array takes the prescriptive displacement."""
+    if route is not Route.PRESCRIPTIVE:
+        return
+    failed = [limit_words(check, us_first) for check in analysis if not check.ok]
+    why = "; ".join(failed) or "the motions do not qualify"
+    text = f"array {data.arrays[index].id} takes the prescriptive displacement: {why}"
+    yield note(Place("arrays", index, "slope_value"), text)
+
+
+def _of(row: Row, data: ProjectInput) -> Place:
+    if row.id in _PLACES:
+        return _PLACES[row.id]
+    for index, motion in enumerate(data.motions):
+        if motion.id == row.subject:
+            return Place("motions", index, "record")
+    return Place("motions")
+
+
+def _of_array(data: ProjectInput, rules: RuleSet, index: int, array: Array) -> Iterator[Finding]:
+    """Yield what an array alone requires."""
+    required_n = provisions.interconnection_strength_n(
+        rules, s_ds_g=data.site.s_ds, w1_n=array.weight_n / 2.0
+    )
+    yield from _requirement(fire_lanes(data, array), Place("arrays", index, "x_from_m"))
+    strength = interconnection(data, array, required_n)
+    yield from _requirement(strength, Place("arrays", index, "interconnection_n"))
+    if array.slack_m is None:
+        text = f"{array.id}, electrical slack: not given; provide at least the design displacement"
+        yield limit(Place("arrays", index, "slack_m"), f"{text}: {Verdict.CONDITIONS.value}")
+
+
+def _requirement(row: Row, place: Place) -> Iterator[Finding]:
+    if not row.is_satisfied:
+        subject = f"{row.subject}, " if row.subject else ""
+        title = row.title[0].lower() + row.title[1:]
+        text = f"{subject}{title}: {row.found}; {row.limit} required ({row.basis}): "
+        yield limit(place, f"{text}{row.verdict.value}. {row.remedy}")

@@ -1,0 +1,166 @@
+"""The command `roofslip batch`: the packages of many projects, in as many processes as cores.
+
+A project that fails stops no other. Read `report.cli.report` first.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+import traceback
+from collections.abc import Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+
+import click
+
+from report.cli.terminal import FAIL_ON_NG, INPUT_ERROR, NOT_OK, QUIET, Progress, no_collections
+
+INTERNAL_ERROR = 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """What became of one project, as finished text.
+
+    Attributes
+    ----------
+    source : Path
+    verdict : str
+        Empty without a package.
+    largest : str
+        Largest D/C of its clearances; empty for none.
+    package : str
+        Path of the PDF.
+    problems : tuple of str
+        Input errors.
+    internal : str
+        Traceback of an internal error; empty for none.
+    seconds : float
+    """
+
+    source: Path
+    verdict: str = ""
+    largest: str = ""
+    package: str = ""
+    problems: tuple[str, ...] = ()
+    internal: str = ""
+    seconds: float = 0.0
+
+    @property
+    def word(self) -> str:
+        """The verdict, or which error there is instead."""
+        count = len(self.problems)
+        errors = f"{count} problem{'s' if count > 1 else ''}" if count else "internal error"
+        return self.verdict or errors
+
+
+@click.command()
+@click.argument(
+    "sources", metavar="DIR|WORKBOOK...", nargs=-1, required=True, type=click.Path(path_type=Path)
+)
+@FAIL_ON_NG
+@QUIET
+def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool) -> None:
+    """Write the packages of many projects, each to its own out/, and print one table.
+
+    A project with an error stops no other. The exit code is 2 if any input has an error, and 1
+    after an internal error.
+    """
+    outcomes = run(sources, quiet=quiet)
+    if not quiet:
+        for line in table(outcomes):
+            click.echo(line)
+    for outcome in outcomes:
+        for text in (*outcome.problems, *outcome.internal.splitlines()):
+            click.echo(f"{outcome.source}: {text}", err=True)
+    if any(outcome.internal for outcome in outcomes):
+        sys.exit(INTERNAL_ERROR)
+    if any(outcome.problems for outcome in outcomes):
+        sys.exit(INPUT_ERROR)
+    if fail_on_ng and any(outcome.verdict == "NG" for outcome in outcomes):
+        sys.exit(NOT_OK)
+
+
+def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[Outcome]:
+    """Make each package once, and return the outcomes in the order given."""
+    distinct = list({source.resolve(): source for source in sources}.values())
+    count = min(len(distinct), os.cpu_count() or 1)
+    with (
+        Progress(len(distinct), quiet=quiet) as progress,
+        ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool,
+    ):
+        started = {pool.submit(package, source): source for source in distinct}
+        left = set(started)
+        while left:
+            progress(f"{len(distinct) - len(left)} of {len(distinct)} projects done")
+            _, left = wait(left, return_when=FIRST_COMPLETED)
+        return [_outcome(future, source) for future, source in started.items()]
+
+
+def _outcome(future: Future[Outcome], source: Path) -> Outcome:
+    try:
+        return future.result()
+    except BrokenProcessPool as error:
+        return Outcome(source=source, internal=f"its process ended: {error}")
+
+
+def package(source: Path) -> Outcome:
+    """Make the package of one project; every error is part of the outcome."""
+    started = time.monotonic()
+    try:
+        done = _package(source)
+    except Exception as error:
+        from solver.model import InputError
+
+        is_input = isinstance(error, InputError)
+        done = Outcome(
+            source=source,
+            problems=error.problems if isinstance(error, InputError) else (),
+            internal="" if is_input else traceback.format_exc(),
+        )
+    return Outcome(
+        source=source,
+        verdict=done.verdict,
+        largest=done.largest,
+        package=done.package,
+        problems=done.problems,
+        internal=done.internal,
+        seconds=time.monotonic() - started,
+    )
+
+
+def _package(source: Path) -> Outcome:
+    from report.beside import SameProcess
+    from report.cli.report import make
+    from report.words.units import ratio
+
+    with no_collections(), SameProcess() as second:
+        assessment, folder, _, _ = make(source, None, None, lambda _: None, second)
+    ratios = [gap.demand_capacity for gap in assessment.clearances]
+    return Outcome(
+        source=source,
+        verdict=assessment.verdict.value,
+        # NaN, no design displacement, is the worst.
+        largest=ratio(max(ratios, key=lambda r: (r != r, r))) if ratios else "",
+        package=str(folder / "calc-package.pdf"),
+    )
+
+
+_COLUMNS = ("project", "verdict", "D/C", "time", "package")
+
+
+def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
+    """Yield a line for each project."""
+    rows = [
+        _COLUMNS,
+        *((str(o.source), o.word, o.largest, f"{o.seconds:.1f} s", o.package) for o in outcomes),
+    ]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
+        yield "  ".join(cells).rstrip()

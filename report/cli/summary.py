@@ -1,0 +1,192 @@
+"""What `roofslip report` prints of an assessment: a line for each array, then what needs attention.
+
+Finished lines; computes nothing. Read `summary`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from report.assessment.foresight import findings, limit_words
+from report.assessment.verdict import Verdict
+from report.pages.registry import package_data
+from report.sheet.findings import Level, located
+from report.sheet.schema import Model
+from report.words.units import Quantity, compared, pair, ratio
+from solver.model import Status
+
+if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
+    from report.assessment.clearances import ClearanceCheck
+    from report.assessment.project import Assessment
+
+_COLUMNS = ("array", "computed", "prescriptive", "design", "governing clearance", "D/C", "")
+
+_WHAT_WOULD_DO = {
+    Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
+    Status.UPLIFT: "anchor the array, or replace the motion",
+    Status.DIVERGED: f"select the model '{Model.CHOOSE}' on the sheet Arrays",
+    Status.STEP_LIMIT: f"select the model '{Model.CHOOSE}' on the sheet Arrays",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Something that needs attention: its weight (NG, condition, warning) and what it is."""
+
+    level: str
+    text: str
+
+
+def summary(assessment: Assessment) -> Iterator[str]:
+    """Yield the table of the arrays, what needs attention, and the verdict."""
+    rows = [_COLUMNS, *(_row(assessment, item) for item in assessment.arrays)]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
+        yield "  ".join(cells).rstrip()
+    for line in attention(assessment):
+        yield f"{line.level}: {line.text}"
+    yield f"verdict: {assessment.verdict.value}"
+
+
+def document(assessment: Assessment) -> dict[str, Any]:
+    """Return the same for JSON, in SI units, with null for no value."""
+    return {
+        "verdict": assessment.verdict.value,
+        "arrays": [_array(assessment, item) for item in assessment.arrays],
+        "attention": [{"level": line.level, "text": line.text} for line in attention(assessment)],
+    }
+
+
+def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
+    gap = assessment.governing_clearance(item.id)
+    return {
+        "id": item.id,
+        "computed_m": _finite(item.analysis.value_m),
+        "prescriptive_m": item.prescriptive.value_m,
+        "design_m": _finite(item.design_m),
+        "governing_clearance": gap.across_from(item.id) if gap else None,
+        "demand_capacity": _finite(gap.demand_capacity) if gap else None,
+        "verdict": assessment.array_verdict(item).value,
+        "causes": _causes(assessment, item),
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _row(assessment: Assessment, item: ArrayAssessment) -> tuple[str, ...]:
+    us_first = assessment.project.project.units_first == "US"
+
+    def shown(value_m: float) -> str:
+        is_none = math.isnan(value_m)
+        return "none" if is_none else pair(value_m, Quantity.DISPLACEMENT, us_first)
+
+    gap = assessment.governing_clearance(item.id)
+    clearance = (f"to {gap.across_from(item.id)}", ratio(gap.demand_capacity)) if gap else ()
+    return (
+        item.id,
+        shown(item.analysis.value_m),
+        shown(item.prescriptive.value_m),
+        shown(item.design_m),
+        *(clearance or ("none given", "")),
+        _verdict(assessment, item, gap),
+    )
+
+
+def _verdict(assessment: Assessment, item: ArrayAssessment, gap: ClearanceCheck | None) -> str:
+    """Return the verdict on an array; where it is not that of the D/C beside it, with its cause."""
+    verdict = assessment.array_verdict(item)
+    causes = _causes(assessment, item)
+    if not causes or (verdict is Verdict.NG and gap is not None and gap.demand_capacity > 1.0):
+        return verdict.value
+    more = f" and {len(causes) - 1} more" if len(causes) > 1 else ""
+    return f"{verdict.value}: {causes[0]}{more}"
+
+
+def _causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
+    """Return what gives an array its verdict, in a few words each; nothing for OK."""
+    verdict = assessment.array_verdict(item)
+    rows = [row for row in assessment.rows_of(item.id) if row.verdict is verdict]
+    causes = [_lowered(row.title) for row in rows if not row.is_satisfied]
+    if verdict is not Verdict.NG:
+        return causes
+    statuses = {run.result.status for motion in item.motions for run in motion.runs}
+    gaps = [gap for gap in assessment.gaps_of(item.id) if not gap.ok]
+    on_motions = item.governs is not item.governs.PRESCRIPTIVE
+    return [
+        *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
+        *(_lowered(check.title) for check in item.limits if not check.ok),
+        *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
+        *([] if item.is_model_enough else ["requested model"]),
+        *([] if item.tipping.is_ok else ["tipping"]),
+        *(["one rigid block"] if _is_not_rigid(assessment, item) else []),
+        *(f"clearance to {gap.across_from(item.id)}" for gap in gaps),
+        *causes,
+    ]
+
+
+def _is_not_rigid(assessment: Assessment, item: ArrayAssessment) -> bool:
+    return any(not linked.is_rigid_enough for linked in assessment.linked_of(item))
+
+
+def attention(assessment: Assessment) -> Iterator[Line]:
+    """Yield what is not satisfied, each with array, value, limit, and what would do."""
+    us_first = assessment.project.project.units_first == "US"
+    for text in assessment.warnings:
+        wanted = next(do for status, do in _WHAT_WOULD_DO.items() if status.sentence in text)
+        yield Line("NG", f"{_lowered(text.rstrip('.'))}; {wanted}")
+    yield from _models(assessment)
+    for check in (check for check in assessment.building_checks if not check.ok):
+        yield Line("NG", f"building, {limit_words(check, us_first)}")
+    for item in assessment.arrays:
+        for check in (check for check in item.limits if not check.ok):
+            yield Line("NG", f"array {item.id}, {limit_words(check, us_first)}")
+    for gap in (gap for gap in assessment.clearances if not gap.ok):
+        yield Line("NG", _short(gap, us_first))
+    for row in assessment.conditions:
+        where = f"{row.subject}, " if row.subject else ""
+        text = f"{where}{_lowered(row.title)}: {row.found}; {row.limit} required. {row.remedy}"
+        yield Line(row.consequence.value, text)
+    found = findings(assessment.sheet, assessment.shaking)
+    for finding, cell in zip(found, located(found, assessment.sheet.addresses), strict=True):
+        if finding.level is Level.WARNING:
+            answer = f" Acknowledged: {finding.reason}" if finding.reason else ""
+            yield Line("warning", f"{cell}: {finding.text} [{finding.id}]{answer}")
+
+
+def _models(assessment: Assessment) -> Iterator[Line]:
+    """Yield arrays that tip, and whose model is not adequate."""
+    see = f"see {package_data(assessment).part('model')} of the package"
+    for item in assessment.arrays:
+        if not item.tipping.is_ok:
+            tipping = f"{ratio(item.tipping.ratio)} of the ratio at which it tips; 1.00 or less is"
+            text = f"array {item.id} starts to tip: {tipping} required, with a lower center of"
+            yield Line("NG", f"{text} gravity or wider supports; {see}")
+        if not item.is_model_enough:
+            text = f"array {item.id}, requested model '{item.array.model}' is not adequate; select"
+            yield Line("NG", f"{text} '{Model.CHOOSE}' on the sheet Arrays; {see}")
+    for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
+        text = f"one rigid block has not been shown to be adequate for array {name}"
+        yield Line("NG", f"{text}; {see}")
+
+
+def _short(gap: ClearanceCheck, us_first: bool) -> str:
+    """Return a clearance that is too small, with what would do."""
+    row = gap.clearance
+    shown, had = compared(gap.required_m, row.provided_m)
+    provided = pair(row.provided_m, Quantity.SIZE, us_first, had)
+    name = f"clearance {row.array} to {row.object}: {provided} provided"
+    if math.isnan(gap.required_m):
+        return f"{name}; there is no design displacement of {gap.governing_array} to compare with"
+    required = pair(gap.required_m, Quantity.SIZE, us_first, shown)
+    return f"{name}; {required} required (D/C {ratio(gap.demand_capacity)}); provide {required}"
+
+
+def _lowered(text: str) -> str:
+    return text[0].lower() + text[1:]

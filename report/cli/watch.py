@@ -1,0 +1,161 @@
+"""The command `roofslip watch`: check and report again on every save, in a process that stays warm.
+
+Owns what counts as a save, and how long to wait for one that is not finished. Read
+`report.cli.report` first.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from report.cli.terminal import INPUT_ERROR, no_collections
+
+if TYPE_CHECKING:
+    from report.assessment.project import Assessment
+    from report.results.since import Former
+
+SETTLE_S = 3.0
+"""How long a workbook may be half saved, locked or gone [s] before that is an error."""
+
+_POLL_MS = 300
+_RETRY_S = 0.3
+_MOST_CHANGES = 12
+_SUFFIXES = (".tmp", ".bak", ".swp", ".lock")
+
+
+@click.command()
+@click.argument("source", metavar="DIR|WORKBOOK", type=click.Path(path_type=Path))
+@click.option("--out", type=click.Path(path_type=Path),
+              help="Output folder; default: out/ beside the input.")  # fmt: skip
+@click.option("--once", is_flag=True, help="End after one round.")
+def watch(source: Path, out: Path | None, once: bool) -> None:
+    """Check and report on every save of the workbook or a record, until Ctrl+C.
+
+    Prints what changed since the round before. A workbook that is half saved, locked or gone for a
+    moment is read again.
+    """
+    from report.beside import beside
+
+    workbook = source / "input.xlsx" if source.is_dir() else source
+    folder = out or workbook.parent / "out"
+    with beside() as second:
+        round_ = Round(workbook, folder, second)
+        is_done = round_.run()
+        if once:
+            sys.exit(0 if is_done else INPUT_ERROR)
+        click.echo(f"watching {workbook.parent}; end with Ctrl+C")
+        for names in saves(workbook, folder):
+            click.echo("")
+            click.echo(f"saved: {', '.join(names)}")
+            round_.run()
+
+
+class Round:
+    """Checks and reports, and remembers the results to compare the next ones with."""
+
+    def __init__(self, workbook: Path, folder: Path, second: Executor) -> None:
+        self._workbook, self._folder, self._second = workbook, folder, second
+        self._before: Former | None = None
+
+    def run(self) -> bool:
+        """Check and report once; return whether a package was written."""
+        from solver.model import InputError
+
+        started = time.monotonic()
+        try:
+            assessment, files = self._made()
+        except InputError as error:
+            click.echo(f"{self._workbook}: {len(error.problems)} problem(s) found.", err=True)
+            for problem in error.problems:
+                click.echo(f"  {problem}", err=True)
+            return False
+        self._print(assessment, files)
+        click.echo(f"{self._folder}: written in {time.monotonic() - started:.1f} s")
+        return True
+
+    def _made(self) -> tuple[Assessment, Mapping[str, bytes]]:
+        """Make the package, once the workbook can be read.
+
+        Raises
+        ------
+        InputError
+        """
+        from report.cli.report import make
+
+        settle(self._workbook)
+        with no_collections():
+            assessment, _, files, _ = make(
+                self._workbook, self._folder, None, lambda _: None, self._second
+            )
+        return assessment, files
+
+    def _print(self, assessment: Assessment, files: Mapping[str, bytes]) -> None:
+        from report.cli.summary import summary
+        from report.results.compare import changes
+        from report.results.since import former_from
+
+        for line in summary(assessment):
+            click.echo(line)
+        if self._before is not None:
+            items = changes(self._before, assessment).items
+            for item in items[:_MOST_CHANGES]:
+                at = f" ({item.cell})" if item.cell else ""
+                click.echo(f"changed: {item.title}{at}: {item.before} -> {item.now}")
+            if not items:
+                click.echo("changed: nothing that the package shows")
+            elif len(items) > _MOST_CHANGES:
+                click.echo(f"changed: {len(items) - _MOST_CHANGES} more")
+        self._before = former_from(files["results.json"], self._folder / "results.json")
+
+
+def settle(workbook: Path) -> None:
+    """Wait until a workbook can be opened, at most `SETTLE_S`.
+
+    Raises
+    ------
+    InputError
+        If it cannot be opened by then.
+    """
+    from report.sheet.archive import open_book
+    from solver.model import InputError
+
+    last = time.monotonic() + SETTLE_S
+    while True:
+        try:
+            open_book(workbook)
+            return
+        except InputError:
+            if time.monotonic() > last:
+                raise
+        time.sleep(_RETRY_S)
+
+
+def saves(workbook: Path, folder: Path) -> Iterator[list[str]]:
+    """Yield the names of the files of each save beside a workbook, except in the output folder."""
+    from watchfiles import watch as changed_files
+
+    top, written = workbook.parent.resolve(), folder.resolve()
+
+    def counts(_: object, name: str) -> bool:
+        path = Path(name)
+        return is_input(path) and not path.is_relative_to(written)
+
+    # Shares over a network tell no program of a change: the folder is polled.
+    for found in changed_files(
+        top, watch_filter=counts, force_polling=True, poll_delay_ms=_POLL_MS, raise_interrupt=False
+    ):
+        yield sorted({str(Path(name).relative_to(top)) for _, name in found})
+
+
+def is_input(path: Path) -> bool:
+    """Whether a file may be an input: no lock, no temporary file, nothing hidden."""
+    name = path.name
+    hidden = name.startswith((".", "~$", "~")) or name.endswith("~")
+    return not hidden and path.suffix.lower() not in _SUFFIXES

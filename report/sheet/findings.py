@@ -1,0 +1,108 @@
+"""Warnings on the input, which an engineer may answer with a reason, and notes.
+
+Owns levels, ids and acknowledgments; an error is a `Fault` instead, and stops the work. Read
+`report.sheet.plausible` next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from report.sheet.fields import Place
+from report.sheet.references import suggestion
+from report.sheet.schema import SECTIONS, ProjectInput
+
+
+class Level(StrEnum):
+    """Weight of a finding that does not stop the work."""
+
+    WARNING = "warning"
+    NOTE = "note"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finding:
+    """Something in a workbook that is permitted, and perhaps not meant.
+
+    Attributes
+    ----------
+    level : Level
+    id : str
+        By which the sheet Acknowledged answers it; empty for a limit, which no reason lifts, and
+        for a note.
+    place : Place
+        The cell to look at.
+    text : str
+        What was found, and what would do.
+    reason : str
+        From the sheet Acknowledged; empty if not acknowledged.
+    """
+
+    level: Level
+    id: str
+    place: Place
+    text: str
+    reason: str = ""
+
+
+def warning(name: str, place: Place, text: str) -> Finding:
+    """Return a warning that may be acknowledged."""
+    return Finding(level=Level.WARNING, id=name, place=place, text=text)
+
+
+def limit(place: Place, text: str) -> Finding:
+    """Return a warning that no reason lifts."""
+    return Finding(level=Level.WARNING, id="", place=place, text=text)
+
+
+def note(place: Place, text: str) -> Finding:
+    """Return a note."""
+    return Finding(level=Level.NOTE, id="", place=place, text=text)
+
+
+def acknowledged(data: ProjectInput, findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Return findings in the order of the template, each with the reason that the sheet gives.
+
+    An acknowledgment of no warning is a note.
+    """
+    found = tuple(findings)
+    reasons = {_key(row.warning): row.reason for row in data.acknowledged}
+    answered = [replace(f, reason=reasons.get(_key(f.id), "") if f.id else "") for f in found]
+    return in_order([*answered, *_idle(data, found)])
+
+
+def in_order(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Return findings in the order of the template."""
+    return tuple(sorted(findings, key=lambda finding: _rank(finding.place)))
+
+
+def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[str]:
+    """Yield the address of each finding: its cell, or else its table or sheet."""
+    for finding in findings:
+        place = finding.place
+        table = addresses.get(Place(place.section), _SHEETS[place.section])
+        yield addresses.get(place, table)
+
+
+_SHEETS = {section.key: section.sheet for section in SECTIONS}
+_ORDER = {section.key: count for count, section in enumerate(SECTIONS)}
+
+
+def _rank(place: Place) -> tuple[int, int]:
+    return _ORDER[place.section], place.row
+
+
+def _key(name: str) -> str:
+    return " ".join(name.split()).casefold()
+
+
+def _idle(data: ProjectInput, found: Iterable[Finding]) -> Iterator[Finding]:
+    given = [finding.id for finding in found if finding.id]
+    known = {_key(name) for name in given}
+    for index, row in enumerate(data.acknowledged):
+        if _key(row.warning) not in known:
+            text = f"warning is '{row.warning}', which is not given; "
+            text += suggestion(row.warning, given) if given else "delete the row"
+            yield note(Place("acknowledged", index, "warning"), text)

@@ -1,0 +1,113 @@
+"""Warnings on values that are permitted and improbable: height, weight, friction, gaps.
+
+Reads no record: `report.motions.plausible` does. Read `implausible`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from report.sheet.checks import GAP_TOLERANCE, GAP_TOLERANCE_M
+from report.sheet.fields import Place
+from report.sheet.findings import Finding, warning
+from report.sheet.schema import Array, Clearance, Direction, ProjectInput, Shape
+from report.sheet.shapes import closest, gap_m
+from report.words.units import PRESSURES, Quantity, pair
+
+LEAST_PRESSURE_PA, MOST_PRESSURE_PA = 1.0 * PRESSURES["psf"], 30.0 * PRESSURES["psf"]
+"""Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf."""
+
+MOST_ASKEW_DEG = 60.0
+"""Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
+lie at 45 deg."""
+
+_FROM_DOWNSLOPE_DEG: Mapping[Direction, tuple[float, ...]] = {
+    Direction.DOWN: (0.0,),
+    Direction.UP: (180.0,),
+    Direction.ACROSS: (90.0, 270.0),
+}
+
+
+def implausible(data: ProjectInput) -> Iterator[Finding]:
+    """Yield a warning for each value that is permitted and improbable."""
+    us_first = data.project.units_first == "US"
+    yield from _height(data, us_first)
+    for index, array in enumerate(data.arrays):
+        yield from _weight(index, array, us_first)
+        yield from _friction(index, array)
+    arrays = {array.id: array for array in data.arrays}
+    plan = {item.id: item.placed for item in data.objects}
+    plan |= {array.id: array.shape for array in data.arrays}
+    for index, row in enumerate(data.clearances):
+        other = plan[row.object]
+        if other is not None:
+            yield from _direction(index, row, arrays[row.array], other)
+            yield from _provided(index, row, gap_m(arrays[row.array].shape, other), us_first)
+
+
+def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
+    z, h = data.site.roof_height_m, data.site.structure_height_m
+    if z > h:
+        given, most = (pair(value, Quantity.PLAN, us_first) for value in (z, h))
+        text = f"height of the array z is {given}, above the structure height h of {most};"
+        yield warning("height z", Place("site", 0, "roof_height_m"), f"{text} correct one of them")
+
+
+def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:
+    pressure = array.weight_n / array.shape.area_m2
+    if LEAST_PRESSURE_PA <= pressure <= MOST_PRESSURE_PA:
+        return
+    given = pair(array.weight_n, Quantity.WEIGHT, us_first)
+    per_area, low, high = (
+        pair(value, Quantity.PRESSURE, us_first)
+        for value in (pressure, LEAST_PRESSURE_PA, MOST_PRESSURE_PA)
+    )
+    text = f"weight is {given}, {per_area} on the plan area; {low} to {high} is usual: correct the"
+    place = Place("arrays", index, "weight_n")
+    yield warning(f"weight {array.id}", place, f"{text} weight, its unit, or the plan")
+
+
+def _friction(index: int, array: Array) -> Iterator[Finding]:
+    steepness = math.tan(array.slope_rad)
+    if array.least_mu > steepness:
+        return
+    text = (
+        f"friction coefficient is {array.least_mu:g}, not more than the tangent of the slope,"
+        f" {steepness:.3f}: the array slides under its own weight; correct one of them"
+    )
+    yield warning(f"friction {array.id}", Place("arrays", index, "mu"), text)
+
+
+def _direction(index: int, row: Clearance, array: Array, other: Shape) -> Iterator[Finding]:
+    if row.direction is Direction.ANY or gap_m(array.shape, other) <= 0.0:
+        return
+    (x0, y0), (x1, y1) = closest(array.shape, other)
+    turned_deg = math.degrees(math.atan2(y1 - y0, x1 - x0)) - array.downslope_deg
+    lies = min(_FROM_DOWNSLOPE_DEG, key=lambda direction: _askew_deg(turned_deg, direction))
+    if _askew_deg(turned_deg, row.direction) > MOST_ASKEW_DEG:
+        text = (
+            f"direction is '{row.direction}', but {row.object} lies '{lies}' from {row.array} in"
+            " plan; correct the direction, the plan, or the downslope direction"
+        )
+        yield warning(f"direction {_name(row)}", Place("clearances", index, "direction"), text)
+
+
+def _askew_deg(turned_deg: float, direction: Direction) -> float:
+    """Return the angle between a direction and an angle from downslope [deg], 0 to 180."""
+    turns = ((turned_deg - nominal) % 360.0 for nominal in _FROM_DOWNSLOPE_DEG[direction])
+    return min(min(turn, 360.0 - turn) for turn in turns)
+
+
+def _provided(index: int, row: Clearance, gap: float, us_first: bool) -> Iterator[Finding]:
+    if row.provided_m >= gap - max(GAP_TOLERANCE * gap, GAP_TOLERANCE_M):
+        return  # a larger one is an error
+    given, plan = (pair(value, Quantity.SIZE, us_first) for value in (row.provided_m, gap))
+    text = f"provided clearance is {given}, but {row.array} and {row.object} are {plan} apart in"
+    place = Place("clearances", index, "provided_m")
+    yield warning(f"clearance {_name(row)}", place, f"{text} plan; correct it or the plan")
+
+
+def _name(row: Clearance) -> str:
+    where = "" if row.direction is Direction.ANY else f" {row.direction}"
+    return f"{row.array} to {row.object}{where}"

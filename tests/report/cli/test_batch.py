@@ -1,0 +1,62 @@
+"""`roofslip batch`: many projects, of which some fail."""
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from report.cli import batch
+from report.cli.batch import Outcome
+from report.cli.main import main
+from sheets import make
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, ["batch", *(str(item) for item in arguments)])
+
+
+@pytest.mark.slow
+def test_a_project_that_fails_stops_no_other(tmp_path):
+    for name in ("one", "two"):
+        make(tmp_path / name)
+    (tmp_path / "two" / "records" / "x.csv").write_text("0.1\nabc\n0.2\n")
+    done = run(tmp_path / "one", tmp_path / "two", tmp_path / "none", tmp_path / "one")
+    assert done.exit_code == 2
+    head, *rows = done.stdout.splitlines()
+    assert head.split() == ["project", "verdict", "D/C", "time", "package"]
+    assert [row.split()[0] for row in rows] == [str(tmp_path / n) for n in ("one", "two", "none")]
+    assert "3 problems" in rows[1]
+    assert "1 problem" in rows[2]
+    assert (tmp_path / "one" / "out" / "calc-package.pdf").is_file()
+    assert not (tmp_path / "two" / "out").exists()
+    assert f"{tmp_path / 'two'}: Motions!C8: horizontal record: x.csv:2: found 'abc'" in done.stderr
+    assert f"{tmp_path / 'none'}: no such file" in done.stderr
+
+
+def outcome(**about):
+    return Outcome(source=Path("a"), **about)
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "options", "code"),
+    [
+        ([outcome(verdict="OK"), outcome(verdict="NG")], [], 0),
+        ([outcome(verdict="OK"), outcome(verdict="NG")], ["--fail-on-ng"], 3),
+        ([outcome(verdict="OK with conditions")], ["--fail-on-ng"], 0),
+        ([outcome(verdict="NG"), outcome(problems=("wrong",))], ["--fail-on-ng"], 2),
+        ([outcome(problems=("wrong",)), outcome(internal="Traceback")], [], 1),
+    ],
+)
+def test_the_exit_code_is_that_of_the_worst(monkeypatch, outcomes, options, code):
+    monkeypatch.setattr(batch, "run", lambda *_, **__: outcomes)
+    assert run("a", *options).exit_code == code
+
+
+def test_an_internal_error_in_one_project_is_printed_with_its_traceback(monkeypatch):
+    def broken(_):
+        raise RuntimeError("internal error")
+
+    monkeypatch.setattr(batch, "_package", broken)
+    done = batch.package(Path("a"))
+    assert done.word == "internal error"
+    assert "RuntimeError: internal error" in done.internal

@@ -1,0 +1,52 @@
+"""Progress on the terminal."""
+
+import sys
+
+from report.cli.terminal import Progress
+
+
+def terminal(monkeypatch):
+    """Take the captured output for that of a terminal."""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+
+
+def test_on_a_terminal_a_bar_grows_with_each_step_and_is_cleared(monkeypatch, capsys):
+    terminal(monkeypatch)
+    with Progress(4) as progress:
+        progress("reading")
+        progress("running")
+        progress("writing")
+    shown = capsys.readouterr().err.split("\r\x1b[2K")
+    assert [line.partition("]")[0] for line in shown] == [
+        "",
+        "[" + "." * 20,
+        "[" + "#" * 5 + "." * 15,
+        "[" + "#" * 10 + "." * 10,
+        "",
+    ]
+    assert shown[2].endswith(" s  running")
+
+
+def test_without_a_number_of_steps_there_is_no_bar(monkeypatch, capsys):
+    terminal(monkeypatch)
+    with Progress() as progress:
+        progress("reading")
+    shown = capsys.readouterr().err
+    assert "reading" in shown
+    assert "[" not in shown.replace("\x1b[", "")
+
+
+def test_elsewhere_plain_lines_start_after_a_second(monkeypatch, capsys):
+    now = iter((0.0, 0.9, 1.5))
+    monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: next(now))
+    progress = Progress(2)
+    progress("reading")
+    progress("running")
+    assert capsys.readouterr().err == "[ 1.5 s] running\n"
+
+
+def test_quiet_progress_prints_nothing(monkeypatch, capsys):
+    terminal(monkeypatch)
+    with Progress(2, quiet=True) as progress:
+        progress("reading")
+    assert capsys.readouterr().err == ""

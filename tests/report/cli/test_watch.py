@@ -1,0 +1,149 @@
+"""`roofslip watch`: what counts as a save, a workbook that is not finished, and a round after each.
+
+Every process and thread that a test starts is ended by it.
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from places import ROOT
+from report.cli import watch
+from report.cli.main import main
+from report.cli.watch import is_input, settle
+from sheets import edit, make
+from solver.model import InputError
+
+WAIT_S = 240.0
+
+
+@pytest.mark.parametrize(
+    ("name", "counts"),
+    [
+        ("input.xlsx", True),
+        ("records/m1-x.csv", True),
+        ("~$input.xlsx", False),
+        (".~lock.input.xlsx#", False),
+        ("input.xlsx~", False),
+        ("5A1B2C00.tmp", False),
+        (".roofslip-a1/calc-package.pdf", True),  # of the output folder, which is left out whole
+    ],
+)
+def test_locks_and_temporary_files_are_no_save(name, counts):
+    assert is_input(Path(name)) is counts
+
+
+def later(seconds, action):
+    timer = threading.Timer(seconds, action)
+    timer.start()
+    return timer
+
+
+@pytest.mark.parametrize("start", ["half saved", "gone", "empty"])
+def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, start, monkeypatch):
+    path = make(tmp_path)
+    whole = path.read_bytes()
+    if start == "gone":
+        path.unlink()
+    else:
+        path.write_bytes(whole[: len(whole) // 2] if start == "half saved" else b"")
+    monkeypatch.setattr(watch, "SETTLE_S", 60.0)
+    timer = later(0.5, lambda: path.write_bytes(whole))
+    began = time.monotonic()
+    settle(path)
+    timer.join()
+    assert 0.4 < time.monotonic() - began < 60.0
+
+
+def test_a_workbook_that_stays_away_is_an_error(tmp_path, monkeypatch):
+    monkeypatch.setattr(watch, "SETTLE_S", 0.4)
+    with pytest.raises(InputError, match="no such file"):
+        settle(tmp_path / "input.xlsx")
+
+
+@pytest.mark.slow
+def test_once_ends_after_one_round(tmp_path, monkeypatch):
+    monkeypatch.setattr(watch, "SETTLE_S", 0.4)
+    missing = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
+    assert missing.exit_code == 2
+    assert "no such file" in missing.stderr
+    make(tmp_path)
+    done = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "out" / "calc-package.pdf").is_file()
+    assert "watching" not in done.stdout
+
+
+class Watching:
+    """The command in a process of its own."""
+
+    def __init__(self, folder):
+        self.lines = []
+        self.process = subprocess.Popen(
+            [sys.executable, "-u", "-m", "report.cli", "watch", str(folder)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env=os.environ | {"PYTHONPATH": str(ROOT)},
+        )
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+
+    def _read(self):
+        self.lines += [""]
+        for line in self.process.stdout:
+            self.lines.append(line.rstrip())
+
+    def until(self, start, after=0):
+        """Wait for a line that starts so, and return its number."""
+        last = time.monotonic() + WAIT_S
+        while time.monotonic() < last and self.process.poll() is None:
+            for number, line in enumerate(self.lines[after:], start=after):
+                if line.startswith(start):
+                    return number
+            time.sleep(0.1)
+        raise AssertionError("\n".join([f"no line starts with '{start}':", *self.lines]))
+
+    def end(self):
+        self.process.send_signal(signal.SIGINT)
+        try:
+            return self.process.wait(20)
+        finally:
+            if self.process.poll() is None:
+                self.process.kill()
+                self.process.wait(20)
+            self.reader.join(5)
+            self.process.stdout.close()
+
+
+@pytest.mark.slow
+def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
+    path = make(tmp_path)
+    watching = Watching(tmp_path)
+    try:
+        at = watching.until("watching ")
+        whole = edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.5)).read_bytes()
+        path.write_bytes(whole[: len(whole) // 2])
+        time.sleep(0.5)
+        path.write_bytes(whole)
+        at = watching.until("changed: ", after=at)
+        assert "(Arrays!E8): 0.45 -> 0.5" in watching.lines[at]
+        at = watching.until(str(tmp_path / "out"), after=at)
+        record = tmp_path / "records" / "z.csv"
+        record.write_text(record.read_text() + "0.0\n")
+        at = watching.until("saved: records/z.csv", after=at)
+        at = watching.until("changed: ", after=at)
+        at = watching.until(str(tmp_path / "out"), after=at)
+        # A mistake is printed, and the watch goes on.
+        path.write_bytes(b"")
+        watching.until(f"{path}: 1 problem", after=at)
+    finally:
+        watching.end()
+    assert watching.process.poll() is not None

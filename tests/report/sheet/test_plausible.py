@@ -1,0 +1,145 @@
+"""Warnings on values that are permitted and improbable, and how a workbook answers them."""
+
+import pytest
+
+from report.assessment.foresight import findings
+from report.sheet.findings import Level, located
+from report.sheet.plausible import implausible
+from sheets import make, project, read_workbook
+
+FT, INCH, LB = 0.3048, 0.0254, 4.4482216152605
+
+
+def changed(section, index, **changes):
+    """The usual input with one row changed."""
+    rows = project().model_dump()[section]
+    if index is None:
+        return project(**{section: rows | changes})
+    rows = list(rows)
+    rows[index] = rows[index] | changes
+    return project(**{section: rows})
+
+
+def warnings(data):
+    return {finding.id: finding.text for finding in implausible(data)}
+
+
+# The gap of A2 to RTU-1 is 5 ft, that of A1 to S 15 ft; A2 is above S, and N above A2.
+def test_a_plausible_input_gives_no_warning():
+    assert warnings(project()) == {}
+
+
+CASES = [
+    ("arrays", 0, {"weight_n": 30 * LB}, "weight A1",
+     "weight is 30 lb (0.13 kN), 0.0 psf (0.00 kPa) on the plan area; 1.0 psf (0.05 kPa) to 30.0"
+     " psf (1.44 kPa) is usual: correct the weight, its unit, or the plan"),
+    ("arrays", 1, {"weight_n": 42e6 * LB}, "weight A2", "7777.8 psf"),
+    ("arrays", 0, {"slope_value": 25.0, "mu": 0.46}, "friction A1",
+     "friction coefficient is 0.46, not more than the tangent of the slope, 0.466: the array slides"
+     " under its own weight; correct one of them"),
+    ("site", None, {"roof_height_m": 37 * FT}, "height z",
+     "height of the array z is 37.00 ft (11.28 m), above the structure height h of 36.00 ft (10.97"
+     " m); correct one of them"),
+    ("clearances", 1, {"direction": "up"}, "direction A1 to S up",
+     "direction is 'up', but S lies 'down' from A1 in plan; correct the direction, the plan,"
+     " or the downslope direction"),
+    ("clearances", 4, {"direction": "down"}, "direction A2 to N down", "N lies 'up' from A2"),
+    ("clearances", 0, {"direction": "down"}, "direction A1 to A2 down", "A2 lies 'across' from A1"),
+    ("clearances", 0, {"provided_m": 10 * INCH}, "clearance A1 to A2 across",
+     "provided clearance is 10.0 in (254 mm), but A1 and A2 are 120.0 in (3048 mm) apart in plan;"
+     " correct it or the plan"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("section", "index", "change", "name", "text"), CASES)
+def test_an_improbable_value_gives_one_warning(section, index, change, name, text):
+    found = warnings(changed(section, index, **change))
+    assert list(found) == [name]
+    assert text in found[name]
+
+
+def test_a_weight_in_the_usual_range_and_a_gap_within_tolerance_give_none():
+    for psf in (1.01, 29.9):
+        assert warnings(changed("arrays", 0, weight_n=psf * 4800 * LB)) == {}
+    assert warnings(changed("clearances", 0, provided_m=119.0 * INCH)) == {}
+    assert "clearance A1 to A2 across" in warnings(changed("clearances", 0, provided_m=118 * INCH))
+
+
+def test_an_object_at_a_corner_lies_in_both_directions():
+    rows = [dict(row) for row in project().model_dump()["objects"]]
+    # 10 ft to the right of A2 and 10 ft above it.
+    rows[0] |= {"x_from_m": 210 * FT, "x_to_m": 215 * FT, "y_from_m": 85 * FT, "y_to_m": 90 * FT}
+    for direction in ("up", "across"):
+        gap = {"array": "A2", "object": "RTU-1", "direction": direction, "provided_m": 169 * INCH}
+        assert warnings(project(objects=rows, clearances=[gap])) == {}
+    gap["direction"] = "down"
+    assert list(warnings(project(objects=rows, clearances=[gap]))) == ["direction A2 to RTU-1 down"]
+
+
+def read(tmp_path, acknowledged=(), **changes):
+    """A workbook as read, with its warnings."""
+    book = read_workbook(make(tmp_path, acknowledged=list(acknowledged), **changes))
+    return book.sheet, findings(book.sheet, book.shaking)
+
+
+LIGHT = {"arrays": changed("arrays", 0, weight_n=30 * LB).model_dump()["arrays"]}
+
+
+def test_a_warning_names_its_cell(tmp_path):
+    sheet, (finding,) = read(tmp_path, **LIGHT)
+    assert (finding.level, finding.id, finding.reason) == (Level.WARNING, "weight A1", "")
+    (cell,) = located([finding], sheet.addresses)
+    assert cell == "Arrays!H8"
+
+
+def test_an_acknowledged_warning_carries_its_reason(tmp_path):
+    row = {"warning": " Weight  a1", "reason": "Frames alone"}
+    _, (finding,) = read(tmp_path, [row], **LIGHT)
+    assert finding.reason == "Frames alone"
+
+
+def test_an_acknowledgment_of_no_warning_is_a_note_at_its_cell(tmp_path):
+    rows = [{"warning": "wieght A1", "reason": "Frames alone"}]
+    sheet, found = read(tmp_path, rows, **LIGHT)
+    assert [(f.level, f.reason) for f in found] == [(Level.WARNING, ""), (Level.NOTE, "")]
+    assert found[1].text == "warning is 'wieght A1', which is not given; did you mean 'weight A1'?"
+    assert list(located(found, sheet.addresses))[1] == "Acknowledged!B8"
+    _, (idle,) = read(tmp_path / "other", rows)
+    assert idle.text == "warning is 'wieght A1', which is not given; delete the row"
+
+
+def records(tmp_path, *, steps, counts, dt_s=None):
+    """A motion of two components with time columns, as read, with its findings."""
+    motion = {"id": "M1", "record": "records/x.csv", "vertical": "records/z.csv", "units": "g"}
+    path = make(tmp_path, motions=[motion])
+    for name, step, count in zip("xz", steps, counts, strict=True):
+        lines = (f"{i * step:.3f},{0.1 * (-1) ** i}\n" for i in range(count))
+        (path.parent / "records" / f"{name}.csv").write_text("".join(lines))
+    book = read_workbook(path)
+    return {
+        finding.id or finding.level: finding.text for finding in findings(*book.__dict__.values())
+    }
+
+
+def test_a_step_of_a_fifth_of_a_second_gives_a_warning(tmp_path):
+    found = records(tmp_path, steps=(0.2, 0.2), counts=(100, 100))
+    assert list(found) == ["step M1"]
+    assert "time step of 0.2 s, and so no content above 2.5 Hz; 0.02 s or less" in found["step M1"]
+    assert records(tmp_path / "b", steps=(0.02, 0.02), counts=(100, 100)) == {}
+
+
+def test_a_record_of_six_minutes_gives_a_warning(tmp_path):
+    found = records(tmp_path, steps=(0.02, 0.02), counts=(18001, 18001))
+    assert list(found) == ["duration M1"]
+    assert "lasts 360 s at a time step of 0.02 s; 300 s or less" in found["duration M1"]
+    assert records(tmp_path / "b", steps=(0.02, 0.02), counts=(15001, 15001)) == {}
+
+
+def test_a_few_samples_are_trimmed_with_a_note_and_many_with_a_warning(tmp_path):
+    few = records(tmp_path, steps=(0.01, 0.01), counts=(200, 190))
+    assert list(few) == ["note"]
+    assert few["note"].endswith("last 10 of 200 samples trimmed, to the length of the shortest"
+                                " component")  # fmt: skip
+    many = records(tmp_path / "b", steps=(0.01, 0.01), counts=(200, 189))
+    assert list(many) == ["length M1", "note"]
+    assert "x.csv has 200 samples, and 11 of them are trimmed" in many["length M1"]
