@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from report.assessment.certainty import Certainty, certainty
+from report.assessment.cumulative import Cumulative, cumulative
 from report.assessment.highpass import Beyond, beyond_corners
 from report.assessment.project import Assessment
 from report.assessment.remedies import Remedy, remedies
@@ -33,6 +34,8 @@ class Evidence:
         What would satisfy each clearance and array marked NG.
     certainty : Certainty
         Effects of friction, slope and directions of shaking that are not run.
+    cumulative : tuple of Cumulative
+        For each array, if the workbook names smaller events.
     """
 
     spectra: tuple[Spectra, ...]
@@ -41,6 +44,7 @@ class Evidence:
     highpass: tuple[Beyond, ...]
     remedies: tuple[Remedy, ...]
     certainty: Certainty
+    cumulative: tuple[Cumulative, ...]
 
 
 def support(assessment: Assessment) -> Evidence:
@@ -54,4 +58,5 @@ def support(assessment: Assessment) -> Evidence:
         highpass=beyond_corners(assessment),
         remedies=remedies(assessment),
         certainty=certainty(assessment),
+        cumulative=cumulative(assessment),
     )

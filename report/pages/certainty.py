@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from report.assessment.certainty import TOLERANCE, Certainty, Margin, Surface
 from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
@@ -11,7 +11,7 @@ from report.words.letters import power_of_ten
 from report.words.units import Quantity, number
 
 
-def page(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
+def page(package: PackageData, certainty: Certainty) -> dict[str, object]:
     """Return the page without its chart."""
     return {
         "surface": _surface(package, certainty.surface),
@@ -226,7 +226,7 @@ def directions(package: PackageData, certainty: Certainty) -> str:
         f"{len(certainty.turned)} more angles of the horizontal pair give "
         f"{turned_words(package, certainty)}"
         if certainty.turned
-        else "there is one horizontal component, and no other angle"
+        else "the motion has one horizontal component, and its angle is not varied"
     )
     text = f"{angles}; {reversed_words(package, certainty)}"
     return text[0].upper() + text[1:]

@@ -248,6 +248,7 @@ def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
         "routes": _routes(package),
         "angles": _angles(package, certainty),
         "failed": troubles(package),
+        "sums": package.part("how-sure") if package.data.options.smaller_factors else "",
     }
 
 

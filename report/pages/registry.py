@@ -19,6 +19,7 @@ from report.pages import (
     certainty,
     changes,
     checks,
+    cumulative,
     front,
     inputs,
     method,
@@ -148,7 +149,10 @@ PAGES = (
     Page(
         id="how-sure",
         title="How sure",
-        fill=lambda package, evidence: certainty.page(package, evidence.certainty),
+        fill=lambda package, evidence: (
+            certainty.page(package, evidence.certainty)
+            | cumulative.page(package, evidence.cumulative)
+        ),
         template="how-sure.html",
     ),
     Page(

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from report.assessment.certainty import Certainty, Margin
+from report.assessment.cumulative import Cumulative
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.remedies import Remedy, RemedyKind
 from solver.records.acceptance_row import AcceptanceRow
@@ -70,6 +71,17 @@ def _margin(item: Margin) -> dict[str, Any]:
         "lowest_mu_tried": item.lowest_tried,
         "is_beyond": item.is_beyond,
         "required_m": item.required_m,
+    }
+
+
+def cumulative(item: Cumulative) -> dict[str, Any]:
+    """Return the sums of the PRDs of the design event and of the smaller ones, by motion."""
+    motions = [run.motion.id for run in item.array.motions]
+    return {
+        "array": item.array.id,
+        "sums_m": dict(zip(motions, item.sums_m, strict=True)),
+        "mean_m": item.mean_m,
+        "largest_m": item.largest_m,
     }
 
 

@@ -21,7 +21,7 @@ from report.assessment.project import Assessment
 from report.assessment.runs import HeadingRun, MotionRun
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
-from report.results.evidence import acceptance, certainty, neighbor, remedy
+from report.results.evidence import acceptance, certainty, cumulative, neighbor, remedy
 from report.sheet.findings import Finding, located
 from report.sheet.schema import Direction
 from solver.building.roof import RoofMotion
@@ -58,6 +58,7 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
         "neighbors": [neighbor(item) for item in assessment.neighbors],
         "remedies": [remedy(item) for item in evidence.remedies],
         "certainty": certainty(evidence.certainty),
+        "cumulative": [cumulative(item) for item in evidence.cumulative],
     }
     return json.dumps(_nan_to_none(document), indent=1, ensure_ascii=False).encode() + b"\n"
 

@@ -10,6 +10,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
+from report.sheet.cells import SHOWN
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.friction_checks import friction_faults
 from report.sheet.motion_checks import motion_faults
@@ -23,6 +24,7 @@ from report.sheet.schema import (
     Shape,
     SlopeUnit,
     coefficients,
+    factors,
     slope_rad,
 )
 from report.sheet.shapes import gap_m
@@ -59,6 +61,7 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
         _links,
         _overrides,
         _directional,
+        _smaller_events,
     )
     return [fault for check in checks for fault in check(draft, where)]
 
@@ -227,6 +230,17 @@ def _blocks(
         start = f"block friction is '{text}', all {'above' if mu < min(mus) else 'below'} the"
         at = where(home._replace(field="mu"))
         yield Fault(place, f"{start} {mu:g} at {at}; give a range that includes it, or change it")
+
+
+def _smaller_events(draft: Draft, where: Where) -> Iterator[Fault]:
+    for row in draft["options"]:
+        text = row.get("smaller_events", "")
+        if text and not factors(text):
+            wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
+            yield Fault(
+                Place("options", 0, "smaller_events"),
+                f"smaller events is '{text[:SHOWN]}'; {wanted}, such as 0.50, 0.25",
+            )
 
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:

@@ -40,7 +40,7 @@ ADDED: frozenset[tuple[str, str]] = frozenset(
         (
             "options",
             "peer_reviewer peer_license peer_date directional directional_reason"
-            " directional_reviewer directional_license directional_date",
+            " directional_reviewer directional_license directional_date smaller_events",
         ),
     )
     for field in fields.split()

@@ -36,6 +36,7 @@ from report.sheet.schema.choices import (
     StructureType,
     Text,
     UnitsFirst,
+    decimals,
 )
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.links import Links, coefficients
@@ -104,10 +105,14 @@ __all__ = [
     "YesNo",
     "coefficients",
     "edition_of",
+    "factors",
     "provision_name",
     "provision_unit",
     "slope_rad",
 ]
+
+MAX_EVENTS = 20
+"""Most smaller events whose displacements are added."""
 
 PROVISION_KEYS = OVERRIDABLE
 """Provisions that can be overridden, each with its meaning and unit."""
@@ -131,6 +136,13 @@ def _provision_key(text: str) -> str:
     """Return the key of a provision given by its name, its key or an earlier key."""
     name = " ".join(text.partition(" [")[0].split()).casefold()
     return PROVISIONS.get(text, _KEYS_BY_NAME.get(name, text))
+
+
+def factors(text: str) -> tuple[float, ...]:
+    """Return factors such as `0.50, 0.25`, each above 0 and up to 1; empty if it is not one."""
+    values = decimals(text)
+    fits = 1 <= len(values) <= MAX_EVENTS and min(values) > 0.0 and max(values) <= 1.0
+    return values if fits else ()
 
 
 class Options(Frozen):
@@ -199,6 +211,21 @@ class Options(Frozen):
             dt.date(2026, 3, 1),
         ),
     ] = None
+    smaller_events: Annotated[
+        Text,
+        Cell(
+            "Smaller events",
+            "Up to 20 factors on the motions, each above 0.0 and up to 1.0, separated by commas: "
+            "the package adds the displacement of these events to that of the design event, for "
+            "information. Blank: none.",
+            "0.50, 0.50",
+        ),
+    ] = ""
+
+    @property
+    def smaller_factors(self) -> tuple[float, ...]:
+        """Factors on the motions for the smaller events; empty if none are asked for."""
+        return factors(self.smaller_events)
 
 
 class Override(Frozen):

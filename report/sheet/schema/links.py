@@ -6,13 +6,12 @@ Read `report.sheet.schema` first; `report.assessment.links` runs them.
 from __future__ import annotations
 
 import math
-import re
 from typing import Annotated
 
 from pydantic import Field, model_validator
 
 from report.sheet.fields import Cell, Frozen
-from report.sheet.schema.choices import Id, Positive
+from report.sheet.schema.choices import Id, Positive, decimals
 from report.words.units import G_MPS2, Quantity
 from solver.friction_tests import MOST_MU
 from solver.sliding.row import BlockRow
@@ -20,18 +19,10 @@ from solver.sliding.row import BlockRow
 BLOCKS = (2, 20)
 """Fewest and most blocks of a row."""
 
-_COEFFICIENT = re.compile(r"[0-9]*\.[0-9]+")
-
 
 def coefficients(text: str) -> tuple[float, ...]:
-    """Return the numbers of a list such as `0.40, 0.45, 0.50`; empty if the text is not one.
-
-    Each needs a decimal point, so that a decimal comma never splits one number into two.
-    """
-    parts = [part.strip() for part in text.split(",")]
-    if not all(map(_COEFFICIENT.fullmatch, parts)):
-        return ()
-    mus = tuple(map(float, parts))
+    """Return the numbers of a list such as `0.40, 0.45, 0.50`; empty if the text is not one."""
+    mus = decimals(text)
     return mus if BLOCKS[0] <= len(mus) <= BLOCKS[1] and max(mus) <= MOST_MU else ()
 
 

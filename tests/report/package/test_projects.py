@@ -280,7 +280,7 @@ def test_nothing_that_is_missing_is_claimed(conditions):
 def test_the_basis_says_what_the_motions_lack_and_which_route_is_taken(conditions):
     basis = conditions.part("3 Basis")
     assert "0 of 4 motions have a second horizontal component, 0 of 4 a vertical" in basis
-    assert "there is one horizontal component, and no other angle" in basis
+    assert "the motion has one horizontal component, and its angle is not varied" in basis
     assert "All limits of the prescriptive route are satisfied (part 10)" in basis
     assert "the floor in part 8 is not used: the design displacements are prescriptive" in basis
 

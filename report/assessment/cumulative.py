@@ -1,0 +1,63 @@
+"""Cumulative displacement of the design event and smaller ones, where the workbook asks for it.
+
+Practice, no requirement of the codes: no verdict depends on it. Read `cumulative`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.project import Assessment
+from report.assessment.runs import MotionRun, run_motion
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cumulative:
+    """Sums for one array: the PRD of the design event and of each smaller one, by motion.
+
+    However the events follow each other, and whatever their directions, the array is nowhere
+    farther from where it began than the sum of their PRDs.
+
+    Attributes
+    ----------
+    sums_m : tuple of float
+        For each motion [m]; NaN where a run has no final displacement.
+    """
+
+    array: ArrayAssessment
+    sums_m: tuple[float, ...]
+
+    @property
+    def mean_m(self) -> float:
+        """Mean of the sums [m]; NaN if a motion has none."""
+        return math.fsum(self.sums_m) / len(self.sums_m)
+
+    @property
+    def largest_m(self) -> float:
+        """Largest of the sums [m]; NaN if a motion has none."""
+        return max(self.sums_m) if not math.isnan(self.mean_m) else math.nan
+
+
+def cumulative(given: Assessment) -> tuple[Cumulative, ...]:
+    """Return the sums of every array; none where the workbook names no smaller events."""
+    factors = given.project.options.smaller_factors
+    if not factors:
+        return ()
+    return tuple(
+        Cumulative(array=array, sums_m=tuple(_sum_m(array, run, factors) for run in array.motions))
+        for array in given.arrays
+    )
+
+
+def _sum_m(array: ArrayAssessment, run: MotionRun, factors: tuple[float, ...]) -> float:
+    """Return the sum of the PRDs of a motion as run, and scaled by each factor."""
+    # Equal events have equal PRDs: each factor is run once.
+    smaller = {
+        factor: run_motion(
+            array.array, replace(run.motion, scale=factor * run.motion.scale)
+        ).governing.prd_m
+        for factor in set(factors)
+    }
+    return math.fsum([run.governing.prd_m, *(smaller[factor] for factor in factors)])

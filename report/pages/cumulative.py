@@ -1,0 +1,51 @@
+"""Cumulative displacement of the design event and smaller ones, beside the design value."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from report.assessment.cumulative import Cumulative
+from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.words.units import number
+
+
+def page(package: PackageData, sums: Sequence[Cumulative]) -> dict[str, object]:
+    """Return the content; empty where the workbook names no smaller events."""
+    return {"events": _text(package), "sums": _table(package, sums)} if sums else {}
+
+
+def _text(package: PackageData) -> str:
+    """Return what is added, and on what basis."""
+    factors = ", ".join(number(factor, 2) for factor in package.data.options.smaller_factors)
+    return (
+        "Each motion acts once as the design event and once more by each of these factors: "
+        f"{factors}. The PRDs are added: however the events follow each other, the array is "
+        "nowhere farther from where it began than their sum. This is practice and no requirement "
+        "of the codes cited: neither the design displacement nor a verdict contains it."
+    )
+
+
+def _table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
+    """Return mean and largest sum of each array."""
+    fmt = package.fmt
+    return Table(
+        caption="Cumulative displacement over the motions, for information",
+        columns=(
+            TableColumn(head="Array", align="left"),
+            *fmt.columns("Mean sum"),
+            *fmt.columns("Largest sum"),
+            *fmt.columns("Design displacement"),
+        ),
+        rows=tuple(
+            TableRow(
+                cells=(
+                    item.array.id,
+                    *fmt.cells(item.mean_m),
+                    *fmt.cells(item.largest_m),
+                    *fmt.cells(item.array.design_m),
+                )
+            )
+            for item in sums
+        ),
+        kind="compact",
+    )
