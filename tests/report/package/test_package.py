@@ -45,12 +45,13 @@ def flat(text):
 
 @pytest.fixture
 def said():
-    """The words of a package before layout, in a tenth of the time."""
+    """The words of a package before layout, its running head first, in a tenth of the time."""
 
     def words(data=None, shaking=None):
         html = stand_in.html(stand_in.book(data, shaking))
         body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
-        return flat(unescape(body))
+        running = " ".join(re.findall(r'data-(?:head|foot)="([^"]*)"', html))
+        return flat(unescape(f"{running} {body}"))
 
     return words
 
@@ -247,8 +248,9 @@ def test_an_analysis_above_the_prescriptive_value_is_said_and_governs(said):
 
 
 def test_clearances_take_the_full_displacement(whole):
-    assert "A2 any 1.50" in whole
-    assert "A3 any 1.00" in whole
+    assert "A2 1.50" in whole
+    assert "A3 1.00" in whole
+    assert "Direction Factor" not in whole
     assert "It is taken in full in every direction." in whole
 
 
@@ -264,7 +266,7 @@ def test_overrides_are_printed_with_their_reason(said):
     whole = said(stand_in.project(overrides=[override]), few())
     assert "Agreed on 2026-02-10" in whole
     assert "0.8 †‡" in whole
-    assert "80 % of the prescriptive displacement, PV1-2012†‡" in whole
+    assert "80 % of prescriptive, PV1-2012†‡" in whole
 
 
 @pytest.mark.parametrize("edition", ["ASCE 7-16", "ASCE 7-22"])
