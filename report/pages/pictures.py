@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
-from report.assessment.spectra import Spectra
+from report.assessment.spectra import Spectra, departures
 from report.pages import accuracy, certainty, checks, friction_tests, section
 from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
@@ -36,7 +36,6 @@ def draw_assessment(package: PackageData) -> Pictures:
     us_first, assessment = package.fmt.us_first, package.assessment
     motions = assessment.shaking.motions
     return {
-        "summary": list(_small_plan(package)),
         "inputs-friction": friction_tests.picture(package),
         "method-motion": [section.picture(package)],
         "motions-list": [
@@ -81,11 +80,11 @@ def draw_assessment(package: PackageData) -> Pictures:
     }
 
 
-def _small_plan(package: PackageData) -> Iterator[Picture]:
+def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[Picture]:
     """Yield the plan for the summary in the room that its tables leave; none on a full sheet."""
     from report.figures import charts as figures
 
-    tall = min(_summary_room_in(package), figures.SMALL.tall)
+    tall = min(_summary_room_in(package, spectra), figures.SMALL.tall)
     if tall < LEAST_PLAN_IN:
         return
     yield Picture(
@@ -96,15 +95,17 @@ def _small_plan(package: PackageData) -> Iterator[Picture]:
     )
 
 
-def _summary_room_in(package: PackageData) -> float:
+def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
     """Return what the tables and sentences of the summary leave of its sheet [in], at least."""
     assessment, sentences = package.assessment, checks.troubles(package)
     failed = sum(not gap.ok for gap in assessment.clearances)
-    edges = sum("edge" in gap.neighbor.value for gap in assessment.clearances)  # two lines each
+    # Their conditions take two lines.
+    edges = sum("without" in gap.neighbor.value for gap in assessment.clearances)
     rows = len(assessment.arrays) + len(assessment.clearances)
     answers = 0.7 + 0.45 * failed if failed else 0.0
     troubles = 0.3 + 0.33 * len(sentences) if sentences else 0.0
-    return 5.1 - 0.2 * rows - 0.15 * edges - answers - troubles
+    missed = 0.5 * len(departures(spectra))
+    return 5.1 - 0.2 * rows - 0.15 * edges - answers - troubles - missed
 
 
 def draw_evidence(package: PackageData, evidence: Evidence) -> Pictures:
@@ -114,6 +115,7 @@ def draw_evidence(package: PackageData, evidence: Evidence) -> Pictures:
     load_charts()
     us_first = package.fmt.us_first
     pictures = {
+        "summary": list(_small_plan(package, evidence.spectra)),
         "motions-spectra": [
             Picture(
                 svg=figures.spectra(parts),
