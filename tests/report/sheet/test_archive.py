@@ -39,7 +39,7 @@ def rewritten(path, name, change):
 
 def sheet_part(path, title):
     with zipfile.ZipFile(path) as file:
-        return dict(archive._sheet_parts(file))[title]
+        return dict(archive.sheet_parts(file))[title]
 
 
 def test_an_open_workbook_reaches_another_process_without_its_cells(tmp_path):

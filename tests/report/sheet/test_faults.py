@@ -74,8 +74,8 @@ SINGLE_CELLS = [
         "a\u202eb\u2066c",
         "project number is 'a?b?c', with control characters; retype it",
     ),
-    ("Options", "C34", -1, "value is -1 for parapet_height_in; give a number from 0 to 240"),
-    ("Options", "C34", 1e9, "value is 1e+09 for parapet_height_in; give a number from 0 to 240"),
+    ("Options", "C35", -1, "value is -1 for parapet_height_in; give a number from 0 to 240"),
+    ("Options", "C35", 1e9, "value is 1e+09 for parapet_height_in; give a number from 0 to 240"),
     ("Arrays", "D8", "deg", "slope unit is 'deg'; choose degrees, percent or in/12"),
     ("Arrays", "B8", "A" * 41, "ID is 'A{40}'; give text of at most 40 characters"),
     ("Arrays", "B8", None, "ID is missing; give text of at most 40 characters"),
@@ -325,8 +325,8 @@ CONTRADICTIONS = [
         ],
     ),
     (
-        {"Options!B23": 5},
-        ["Options!B24: longest scaling period is 5 s; give more than the shortest, 5 s"],
+        {"Options!B24": 5},
+        ["Options!B25: longest scaling period is 5 s; give more than the shortest, 5 s"],
     ),
     (
         {"Motions!H8": "target spectrum", "Motions!P8": 0.5},
@@ -340,14 +340,14 @@ CONTRADICTIONS = [
         [
             "Site!B12: F_v is missing; Motions!H8 scales a ground motion to the design spectrum,"
             " which requires S_D1, or S_1 and F_v, and T_L",
-            "Options!B22: long-period transition T_L is missing; Motions!H8 scales a ground motion"
+            "Options!B23: long-period transition T_L is missing; Motions!H8 scales a ground motion"
             " to the design spectrum, which requires S_D1, or S_1 and F_v, and T_L",
         ],
     ),
     (
-        {"Options!B22": 0.5, "Site!B12": 1.7},
+        {"Options!B23": 0.5, "Site!B12": 1.7},
         [
-            "Options!B22: long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS ="
+            "Options!B23: long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS ="
             " 0.507 s"
         ],
     ),
@@ -359,8 +359,8 @@ CONTRADICTIONS = [
         ],
     ),
     (
-        {f"Options!{c}35": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
-        ["Options!B35: provision is 'parapet_height_in', already given at Options!B34; delete one"],
+        {f"Options!{c}36": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
+        ["Options!B36: provision is 'parapet_height_in', already given at Options!B35; delete one"],
     ),
 ]
 
@@ -380,9 +380,9 @@ def typed(changes):
 
 
 def test_an_unknown_provision_is_reported_with_the_valid_ones(tmp_path):
-    path = edit(make(tmp_path), typed({"Options!B34": "parapet"}))
+    path = edit(make(tmp_path), typed({"Options!B35": "parapet"}))
     (line,) = problems(path)
-    assert line.startswith("Options!B34: provision is 'parapet'; choose one of prescriptive_fac")
+    assert line.startswith("Options!B35: provision is 'parapet'; choose one of prescriptive_fac")
 
 
 def test_all_errors_are_reported_together_in_the_order_of_the_sheets(tmp_path):

@@ -44,7 +44,7 @@ def test_every_earlier_label_is_read_as_the_present_one(tmp_path):
 
 def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
     def change(book):
-        book["Options"]["B34"] = "max_storeys"
+        book["Options"]["B35"] = "max_storeys"
 
     (override,) = read(edit(make(tmp_path), change)).project.overrides
     assert override.provision == "max_stories"

@@ -136,7 +136,7 @@ def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank):
 
 def test_overrides_offer_the_provisions(blank):
     book = blank[1]
-    assert validation(book["Options"], "B34").formula1 == "rule_names"
+    assert validation(book["Options"], "B35").formula1 == "rule_names"
     cells = book.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
     names = [row[0].value for row in book["Provisions"][cells]]
     assert names == [provision_name(key) for key in PROVISION_KEYS]
