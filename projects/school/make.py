@@ -156,6 +156,7 @@ def project() -> ProjectInput:
                 "peer_reviewer": "Reviewer of record",
                 "peer_license": "NM S0000",
                 "peer_date": dt.date(2026, 11, 16),
+                "smaller_events": "0.50, 0.50",
             },
             "target": {"t_l_s": T_L_S},
         }

@@ -82,7 +82,7 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool) -> None:
         sys.exit(INTERNAL_ERROR)
     if any(outcome.problems for outcome in outcomes):
         sys.exit(INPUT_ERROR)
-    if fail_on_ng and any(outcome.verdict == "NG" for outcome in outcomes):
+    if fail_on_ng and any(outcome.verdict != "OK" for outcome in outcomes):
         sys.exit(NOT_OK)
 
 

@@ -99,7 +99,7 @@ def report(
         click.echo(_json(*made))
     elif not quiet:
         _print(*made)
-    if fail_on_ng and not made[0].verdict.is_permitted:
+    if fail_on_ng and made[0].verdict != "OK":
         sys.exit(NOT_OK)
 
 

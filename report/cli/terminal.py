@@ -52,14 +52,14 @@ SCHEMA_VERSION = 1
 """Raised where a key that `--json` prints changes its name or meaning."""
 
 INPUT_ERROR, NOT_OK = 2, 3
-"""Exit codes: an error in the input, and NG where that is asked for."""
+"""Exit codes: an error in the input, and a verdict that is not OK where that is asked for."""
 
 QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
 AS_JSON = click.option(
     "--json", "as_json", is_flag=True, help="Print JSON in SI units, with the units in the keys."
 )
 FAIL_ON_NG = click.option(
-    "--fail-on-ng", is_flag=True, help=f"Exit with code {NOT_OK} where the verdict is NG."
+    "--fail-on-ng", is_flag=True, help=f"Exit with code {NOT_OK} where the verdict is not OK."
 )
 
 

@@ -42,7 +42,7 @@ def outcome(**about):
     [
         ([outcome(verdict="OK"), outcome(verdict="NG")], [], 0),
         ([outcome(verdict="OK"), outcome(verdict="NG")], ["--fail-on-ng"], 3),
-        ([outcome(verdict="OK with conditions")], ["--fail-on-ng"], 0),
+        ([outcome(verdict="OK with conditions")], ["--fail-on-ng"], 3),
         ([outcome(verdict="NG"), outcome(problems=("wrong",))], ["--fail-on-ng"], 2),
         ([outcome(problems=("wrong",)), outcome(internal="Traceback")], [], 1),
     ],

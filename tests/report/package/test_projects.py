@@ -191,6 +191,16 @@ def test_the_school_has_three_components_and_says_so_with_counts(school):
     assert "two axes with vertical" in school.part("12 Model used")
 
 
+def test_the_school_states_the_displacement_of_smaller_events_for_information(school):
+    text = school.part("14 How sure")
+    assert "once more by each of these factors: 0.50, 0.50." in text
+    assert "Cumulative displacement over the motions, for information" in text
+    sums = school.results["cumulative"]
+    assert [item["array"] for item in sums] == ["A1", "A2"]
+    assert all(item["largest_m"] > item["mean_m"] > 0.0 for item in sums)
+    assert "part 14 adds those of the Options sheet" in school.part("3 Basis")
+
+
 def test_the_schools_building_and_its_ground_motions_are_described(school):
     motions = school.part("5 Roof motions")
     assert "Ct hx = 0.02 × 27.90.75 = 0.243 s" in motions
