@@ -5,11 +5,12 @@ from concurrent.futures import Future
 
 import pytest
 from pypdf import PdfReader
+from weasyprint import HTML
 
 from report.typeset import drawings
 from report.typeset.drawings import convert
 from report.typeset.equations import data_uri, formula
-from report.typeset.pdf import TEMPLATES, draw_ahead, lay_out, sources
+from report.typeset.pdf import TEMPLATES, draw_ahead, lay_out, shipped, sources
 from solver.model import DefectError
 
 CSS = TEMPLATES / "package.css"
@@ -134,3 +135,12 @@ def test_a_glyph_that_no_font_has_is_an_internal_error_where_it_is_converted():
 def test_a_picture_without_a_size_is_an_internal_error():
     with pytest.raises(DefectError, match="width"):
         draw_ahead([data_uri('<svg xmlns="http://www.w3.org/2000/svg"/>')])
+
+
+def test_pages_are_those_of_the_renderers_own_styles():
+    html = page(
+        CHART,
+        text="<h1>Roof</h1><p>p <b>b</b> <i>i</i> <sub>s</sub></p><ul><li>one</li></ul><ol><li>1"
+        "</li></ol><table><thead><tr><th>a</th></tr></thead><tbody><tr><td>1</td></tr></tbody></table>",
+    )
+    assert lay_out(html) == HTML(string=html, url_fetcher=shipped()).write_pdf()
