@@ -18,8 +18,8 @@ from solver.model import SlideHistory
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Evidence:
-    """Results that support an assessment.
+class Plotted:
+    """What most figures show.
 
     Attributes
     ----------
@@ -28,6 +28,19 @@ class Evidence:
         For each array, the governing run of each motion; all NaN where it has no displacement.
     accuracy : Accuracy
         The governing run by every method, and the design with changed friction.
+    """
+
+    spectra: tuple[Spectra, ...]
+    histories: tuple[tuple[SlideHistory, ...], ...]
+    accuracy: Accuracy
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Evidence(Plotted):
+    """Results that support an assessment.
+
+    Attributes
+    ----------
     highpass : tuple of Beyond
         Effect of the high-pass of each motion on the slip of the governing array.
     remedies : tuple of Remedy
@@ -38,23 +51,36 @@ class Evidence:
         For each array, if the workbook names smaller events.
     """
 
-    spectra: tuple[Spectra, ...]
-    histories: tuple[tuple[SlideHistory, ...], ...]
-    accuracy: Accuracy
     highpass: tuple[Beyond, ...]
     remedies: tuple[Remedy, ...]
     certainty: Certainty
     cumulative: tuple[Cumulative, ...]
 
 
-def support(assessment: Assessment) -> Evidence:
-    """Compute the results that support an assessment."""
-    return Evidence(
+def plotted(assessment: Assessment) -> Plotted:
+    """Compute what most figures show, so that they can be drawn while the rest is computed."""
+    return Plotted(
         spectra=spectra(assessment),
         histories=tuple(
             tuple(run.history() for run in array.motions) for array in assessment.arrays
         ),
         accuracy=accuracy(assessment),
+    )
+
+
+def support(assessment: Assessment, shown: Plotted | None = None) -> Evidence:
+    """Compute the results that support an assessment.
+
+    Parameters
+    ----------
+    shown : Plotted, optional
+        What `plotted` returned.
+    """
+    shown = shown or plotted(assessment)
+    return Evidence(
+        spectra=shown.spectra,
+        histories=shown.histories,
+        accuracy=shown.accuracy,
         highpass=beyond_corners(assessment),
         remedies=remedies(assessment),
         certainty=certainty(assessment),

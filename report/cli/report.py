@@ -116,7 +116,7 @@ def make(
     """
     second.submit(load)
     from report.assessment.changes import NO_FORMER
-    from report.assessment.evidence import support
+    from report.assessment.evidence import plotted, support
     from report.assessment.project import assess
     from report.drawing.dxf import write_dxf
     from report.drawing.plan import plan_drawing
@@ -141,9 +141,11 @@ def make(
     assessment = assess(sheet, shaking)
     changed = changes(former[0], assessment) if former else NO_FORMER
     begun = begin(assessment, changed, second)
-    evidence = support(assessment)
+    shown = plotted(assessment)
+    begun = begun.plot(shown)
+    evidence = support(assessment, shown)
     progress("writing the pages")
-    html = pages(assessment, evidence, changed, begun, second)
+    html = pages(assessment, evidence, changed, begun)
     progress("laying out the package")
     drawn = second.submit(draw_ahead, sources(html))
     plan = second.submit(write_dxf, plan_drawing(assessment))

@@ -7,18 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from report.assessment.changes import NO_FORMER, Changes
-from report.assessment.evidence import Evidence
+from report.assessment.evidence import Evidence, Plotted
 from report.assessment.project import Assessment
 from report.beside import SameProcess
 from report.pages import front, inputs, method
 from report.pages.cover import cover
 from report.pages.letter import letter
-from report.pages.parts import Line
-from report.pages.pictures import Pictures, draw_assessment, draw_evidence
+from report.pages.parts import Line, PackageData
+from report.pages.pictures import Pictures, draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import package_data, pages_of, parts
 from report.typeset.equations import Formula, formulas
 from report.typeset.pdf import TEMPLATES
@@ -26,10 +26,17 @@ from report.typeset.pdf import TEMPLATES
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Begun:
-    """What needs no evidence: pictures, and equations by their LaTeX."""
+    """What is drawn and typeset beside the computation; equations are by their LaTeX."""
 
-    pictures: Future[Pictures]
+    package: PackageData
+    second: Executor
+    pictures: tuple[Future[Pictures], ...]
     equations: Future[dict[str, Formula]]
+
+    def plot(self, shown: Plotted) -> Begun:
+        """Begin with most figures."""
+        drawn = self.second.submit(draw_plotted, self.package, shown)
+        return replace(self, pictures=(*self.pictures, drawn))
 
 
 def begin(assessment: Assessment, changes: Changes, second: Executor) -> Begun:
@@ -37,7 +44,10 @@ def begin(assessment: Assessment, changes: Changes, second: Executor) -> Begun:
     package = package_data(assessment, changes)
     steps = _latex((method.page(package), inputs.inputs(package)))
     return Begun(
-        pictures=second.submit(draw_assessment, package), equations=second.submit(formulas, steps)
+        package=package,
+        second=second,
+        pictures=(second.submit(draw_assessment, package),),
+        equations=second.submit(formulas, steps),
     )
 
 
@@ -46,21 +56,17 @@ def pages(
     evidence: Evidence,
     changes: Changes = NO_FORMER,
     begun: Begun | None = None,
-    second: Executor | None = None,
 ) -> str:
     """Return the calculation package as HTML, with what changed if a former one is named.
 
     Parameters
     ----------
     begun : Begun, optional
-        What `begin` returned.
-    second : Executor, optional
-        Where it was begun: the other pictures are drawn there too.
+        What `begin` returned, and then its `plot`.
     """
-    second = second or SameProcess()
-    begun = begun or begin(assessment, changes, second)
-    package = package_data(assessment, changes)
-    drawn = second.submit(draw_evidence, package, evidence)
+    begun = begun or begin(assessment, changes, SameProcess()).plot(evidence)
+    package = begun.package
+    drawn = (*begun.pictures, begun.second.submit(draw_certainty, package, evidence.certainty))
     listed = parts(package)
     content = {page.id: page.fill(package, evidence) for page in pages_of(package)}
     ready = begun.equations.result()
@@ -76,7 +82,7 @@ def pages(
             "templates": {page.id: page.template for page in pages_of(package)},
             "ref": package.part,
             "equations": equations,
-            "pictures": {**begun.pictures.result(), **drawn.result()},
+            "pictures": {id: some for done in drawn for id, some in done.result().items()},
             "content": content,
             **content,
         }

@@ -9,7 +9,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.evidence import Evidence
+from report.assessment.certainty import Certainty
+from report.assessment.evidence import Plotted
 from report.assessment.spectra import Spectra, departures
 from report.pages import accuracy, certainty, checks, friction_tests, section
 from report.pages.parts import PackageData, Picture
@@ -108,33 +109,38 @@ def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
     return 5.1 - 0.2 * rows - 0.15 * edges - answers - troubles - missed
 
 
-def draw_evidence(package: PackageData, evidence: Evidence) -> Pictures:
-    """Return the other pictures, by the id of their part."""
+def draw_plotted(package: PackageData, shown: Plotted) -> Pictures:
+    """Return the pictures of spectra and of runs, by the id of their part."""
     from report.figures import charts as figures
 
     load_charts()
     us_first = package.fmt.us_first
     pictures = {
-        "summary": list(_small_plan(package, evidence.spectra)),
+        "summary": list(_small_plan(package, shown.spectra)),
         "motions-spectra": [
             Picture(
                 svg=figures.spectra(parts),
                 caption=f"Response spectra of the motions {where}, 5 % damping, and target.",
                 alt="Response spectra of all motions, their mean and the target",
             )
-            for where, parts in _by_place(evidence.spectra)
+            for where, parts in _by_place(shown.spectra)
         ],
         "accuracy": (
-            [accuracy.picture(evidence.accuracy.rivals, us_first)]
-            if evidence.accuracy.rivals.runs
+            [accuracy.picture(shown.accuracy.rivals, us_first)]
+            if shown.accuracy.rivals.runs
             else []
         ),
-        "how-sure": certainty.pictures(package, evidence.certainty.surface),
     }
-    runs = zip(package.assessment.arrays, evidence.histories, strict=True)
+    runs = zip(package.assessment.arrays, shown.histories, strict=True)
     for count, (array, followed) in enumerate(runs, start=1):
         pictures[f"results-{count}"] = list(_histories(array, followed, us_first))
     return pictures
+
+
+def draw_certainty(package: PackageData, found: Certainty) -> Pictures:
+    """Return the pictures of what is not known exactly, by the id of their part."""
+    load_charts()
+    return {"how-sure": certainty.pictures(package, found.surface)}
 
 
 def _by_place(spectra: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectra]]]:

@@ -11,7 +11,7 @@ import stand_in
 from report.assessment.evidence import support
 from report.figures import records
 from report.figures.base import load_fonts
-from report.pages.pictures import draw_assessment, draw_evidence
+from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import package_data
 from report.sheet.schema import UnitsFirst
 from report.suite.info import PERIODS_S, spectra_g
@@ -100,7 +100,9 @@ def test_in_a_package(drawn, units):
     assessment = stand_in.assess_input(data, stand_in.motions(7, seconds=12.0))
     package = package_data(assessment)
     draw_assessment(package)
-    draw_evidence(package, support(assessment))
+    evidence = support(assessment)
+    draw_plotted(package, evidence)
+    draw_certainty(package, evidence.certainty)
     assert len(drawn.figures) >= 12
     assert not list(faults(drawn))
 

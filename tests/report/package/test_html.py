@@ -13,7 +13,8 @@ def test_every_equation_of_a_package_is_typeset_before_its_evidence_is_there():
     assessment = stand_in.assess_input(stand_in.project(), stand_in.motions(2, seconds=8.0))
     begun = begin(assessment, NO_FORMER, SameProcess())
     ready = {equation.src for equation in begun.equations.result().values()}
-    html = pages(assessment, support(assessment), NO_FORMER, begun, SameProcess())
+    evidence = support(assessment)
+    html = pages(assessment, evidence, NO_FORMER, begun.plot(evidence))
     printed = set(re.findall(r'<div class="symbols"><img src="([^"]+)"', html))
     assert len(printed) > 15
     assert printed == ready
