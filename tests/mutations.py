@@ -1,8 +1,10 @@
 """Hostile inputs by seed: each is read, or refused with an input error; anything else is a defect.
 
-Kinds of case: records, parts of a workbook, cells, arguments. Read `trouble` first.
+Kinds of case: records, parts of a workbook, one cell, several cells of a workbook that is then
+checked whole, arguments of a run. Read `trouble` first.
 """
 
+import datetime as dt
 import io
 import math
 import random
@@ -14,9 +16,16 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from openpyxl.utils import coordinate_to_tuple
 
 from places import DATA
+from report.cli.check import checked
+from report.sheet.cells import LARGEST, Found, read_cell
+from report.sheet.fields import entries
+from report.sheet.locate import CellPosition
+from report.sheet.parts import changed
 from report.sheet.read import read
+from report.sheet.schema import SECTIONS
 from sheets import make
 from solver import InputError, slide
 from solver.formats import read_motion_file
@@ -40,7 +49,26 @@ VALUES = [
     0.5, 0.01, 9.81, 1,
 ]  # fmt: skip
 
-KINDS = ("record", "part", "argument")
+TEXTS = [
+    "", " ", "-", "A1", "A2", "A1, A2", "0.5", "1e308", "1e-320", "-0", "1,234.5", "1.234,5", "١",
+    "½", "1;2", "1:2", "yes", "TRUE", "=1/0", "=A1", "#REF!", "nan", "inf", "g", "1 in", "12 mm",
+    "ft²", "../../x.csv", "/etc/passwd", "records/x.csv", "records/x.csv | 2", "records", "\0",
+    "C:\\x.csv", "a\nb", "\u202eabc", "\u2028", "屋上", "x" * 400, "9" * 400, "é\u0301", "<b>",
+    "&amp;", "2026-02-30", "31/12/2026", "X, Y", "0.2, 0.3, 0.4", "rule set", "SEAOC PV1-2012",
+    "ASCE 7-16", "S7", "(0,0) (1,1)",
+]  # fmt: skip
+"""Texts of cells; what no cell of a file can hold is replaced where it is written."""
+NUMBERS = [
+    0, 1, -1, 2, 0.5, 1e-9, -1e-9, 5e-324, 89.9, 90, 360, 1e6, -1e6, LARGEST, 1e15 + 2, 1e300,
+    -1.7e308, 10**30, 10**400, 44927, 2958466, -0.0,
+]  # fmt: skip
+ODD = [
+    True, False, dt.datetime(2026, 3, 5), dt.datetime(1, 1, 1, 12, 30), dt.date(9999, 12, 31),
+    dt.time(1, 2), dt.timedelta(days=400), math.nan, math.inf,
+]  # fmt: skip
+"""What openpyxl returns for cells of other kinds."""
+
+KINDS = ("record", "cell", "argument", "part", "book")
 
 
 def trouble(kind, seed):
@@ -49,7 +77,7 @@ def trouble(kind, seed):
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            ended = {"record": _record, "part": _part, "argument": _argument}[kind](rng)
+            ended = _CASES[kind](rng)
     except InputError as error:
         longest = max(map(len, error.problems), default=0)
         ended = "" if 0 < longest <= LONGEST else f"a problem of {longest} characters"
@@ -93,7 +121,7 @@ def _record(rng):
 
 
 @cache
-def _book():
+def _sample_book():
     with TemporaryDirectory() as folder:
         return make(Path(folder)).read_bytes()
 
@@ -102,7 +130,7 @@ def _part(rng):
     """Change one part of a workbook, or its bytes."""
     path = Path(_folder().name) / "input.xlsx"
     if rng.random() < 0.2:
-        path.write_bytes(_mutated(_book(), rng, XML))
+        path.write_bytes(_mutated(_sample_book(), rng, XML))
     else:
         path.write_bytes(_rezipped(rng))
     read(path)
@@ -111,7 +139,7 @@ def _part(rng):
 
 def _rezipped(rng):
     whole = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(_book())) as old, zipfile.ZipFile(whole, "w") as new:
+    with zipfile.ZipFile(io.BytesIO(_sample_book())) as old, zipfile.ZipFile(whole, "w") as new:
         names = old.namelist()
         changed, way = rng.choice(names), rng.random()
         for name in names:
@@ -134,3 +162,66 @@ def _argument(rng):
     if math.isnan(result.prd_m) and not result.status:
         return "NaN without a status"
     return ""
+
+
+@cache
+def _fields():
+    return tuple((section, entry) for section in SECTIONS for entry in entries(section.model))
+
+
+def _value(rng):
+    """Return a text or a number for a cell."""
+    way = rng.random()
+    if way < 0.5:
+        return rng.choice(TEXTS)
+    if way < 0.9:
+        return rng.choice(NUMBERS)
+    return rng.choice(TEXTS) + rng.choice(TEXTS)
+
+
+def _cell(rng):
+    """Read one hostile value as a random field."""
+    section, entry = rng.choice(_fields())
+    value = rng.choice(ODD) if rng.random() < 0.3 else _value(rng)
+    found = Found(
+        sheet=section.sheet,
+        cell="B5",
+        value=value,
+        formula=rng.choice(TEXTS) if rng.random() < 0.2 else "",
+        is_error=rng.random() < 0.05,
+        number_format=rng.choice(("General", "0 %", '0.0 "in"', "\\", "[$-409]d", "")),
+    )
+    if found.is_blank:
+        return ""  # is not read
+    read_value = read_cell(found, entry, section.model, "in", rng.choice((1.0, 0.0254, 4448.2)))
+    if isinstance(read_value, float) and not abs(read_value) <= LARGEST:
+        return "a number beyond any project was read"
+    return ""
+
+
+@cache
+def _inputs():
+    """A workbook with its records, and the cells of its inputs."""
+    folder = Path(_folder().name) / "book"
+    path = make(folder)
+    cells = [address.rpartition("!") for address in read(path).addresses.values()]
+    at = [(sheet, *coordinate_to_tuple(cell)) for sheet, _, cell in cells]
+    return path, path.read_bytes(), tuple(CellPosition(*place) for place in at)
+
+
+def _book_of_cells(rng):
+    """Change some cells of a workbook, and check it whole."""
+    path, content, cells = _inputs()
+    few = rng.sample(cells, rng.randint(1, 3))
+    path.write_bytes(changed(content, {cell: _value(rng) for cell in few}))
+    checked(path)
+    return ""
+
+
+_CASES = {
+    "record": _record,
+    "cell": _cell,
+    "argument": _argument,
+    "part": _part,
+    "book": _book_of_cells,
+}

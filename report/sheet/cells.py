@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from dataclasses import dataclass
 from datetime import date, datetime, time, timedelta
 from enum import StrEnum
@@ -200,13 +201,14 @@ def number(cell: Found, wanted: str = "give a number") -> float:
         raise CellError(f"is {plain(value)}, a logical value; {wanted}")
     if isinstance(value, date | time | timedelta):
         raise CellError(f"is a date or time ({plain(value)}); {wanted}, formatted as a number")
+    # Whole numbers of any length are read as such; `float` has no value for 400 digits.
+    if not abs(value) <= sys.float_info.max:
+        raise CellError(f"is {_quoted(value)}; {wanted}")
     if "%" in _QUOTED.sub("", cell.number_format):
         raise CellError(
             f"is a percentage ({100 * value:g}%, which Excel holds as {value:g}); {wanted},"
             " formatted as a number"
         )
-    if not math.isfinite(value):
-        raise CellError(f"is {value}; {wanted}")
     return float(value)
 
 
