@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 import signal
 import traceback
+import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -83,9 +84,11 @@ class SecondProcess(Executor):
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = True) -> None:
         """End the process, in the middle of a function if need be."""
+        # First, so that no function is asked for once the process has ended.
+        self._asking.shutdown(wait=False, cancel_futures=True)
         self._process.kill()
         self._process.join()
-        self._asking.shutdown(cancel_futures=True)
+        self._asking.shutdown()
         self._pipe.close()
 
 
@@ -93,6 +96,7 @@ def _serve(pipe: Connection) -> None:
     """Run the functions that arrive until the other end closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the command decides what an interrupt ends
     gc.disable()  # as the command does
+    warnings.filterwarnings("ignore", category=UserWarning)  # the command warns
     try:
         while True:
             pipe.send(_result(pipe))

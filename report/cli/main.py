@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
+from typing import Any
 
 import click
 
@@ -19,22 +20,38 @@ from report.cli.motion import motion
 from report.cli.plan import plan
 from report.cli.report import new, report
 from report.cli.slide import slide
+from report.cli.terminal import INPUT_ERROR, show_warnings, unwritten
 from report.cli.verify import verify
 from report.cli.watch import watch
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 96})
+class _Commands(click.Group):
+    """The group of all commands, which says so where what it prints cannot be written."""
+
+    def main(self, *arguments: Any, **options: Any) -> Any:
+        """Run a command; a full disk under the output ends with a message and exit code 2."""
+        try:
+            return super().main(*arguments, **options)
+        except OSError as error:
+            unwritten(error)
+            sys.exit(INPUT_ERROR)
+
+
+@click.group(
+    cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 96}
+)
 @click.version_option(package_name="roofslip", prog_name="roofslip")
 def main() -> None:
     """Calculation packages for the seismic sliding of ballasted rooftop solar arrays.
 
     Start with `roofslip new DIR`, fill in DIR/input.xlsx, then run `roofslip report DIR`.
     """
+    show_warnings()
     try:
         os.getcwd()
     except OSError:
         click.echo("The working folder no longer exists; change to another folder.", err=True)
-        sys.exit(2)
+        sys.exit(INPUT_ERROR)
 
 
 for command in (batch, check, doctor, motion, new, plan, report, slide, verify, watch):

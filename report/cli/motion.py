@@ -154,12 +154,13 @@ def suite(
     if more and not records:
         raise click.UsageError(f"unexpected argument '{more[0]}'; write --records before the files")
     with input_errors(folder), Progress() as progress:
-        from report.results.publish import publish
+        from report.results.publish import check_writable, publish
         from report.suite.files import suite_files, suite_table
         from report.suite.inputs import check_folder, read_seeds
         from solver.synthesis import make_suite
 
         check_folder(folder, count)
+        check_writable(folder)
         targets = _targets(code, s_ds_g, z_over_h, tail, target)
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         progress("compiling the solver (first run only)")

@@ -123,7 +123,7 @@ def make(
     from report.motions.prepare import prepare
     from report.package.html import begin, pages
     from report.results.compare import changes
-    from report.results.publish import check_apart, publish
+    from report.results.publish import check_apart, check_writable, publish
     from report.results.since import read_former
     from report.results.tables import tables
     from report.sheet.read import read
@@ -135,6 +135,7 @@ def make(
     sheet = read(source)
     folder = out or sheet.path.parent / "out"
     check_letters(sheet)
+    check_writable(folder)
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
     shaking = prepare(sheet)
     progress("running the motions (the first run compiles the solver)")

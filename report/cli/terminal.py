@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import gc
 import json
+import os
 import re
 import sys
+import tempfile
 import time
+import warnings
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NoReturn
@@ -96,11 +99,37 @@ def _refuse(source: Path, problems: Sequence[str], *, as_json: bool) -> NoReturn
 
 
 def _system_problem(error: OSError) -> str:
-    where = f"{error.filename}: " if error.filename else ""
+    reason = error.strerror or error
+    if not error.filename:
+        return (
+            f"a file cannot be written or read ({reason}); free disk space, also for temporary "
+            f"files in {tempfile.gettempdir()}, or raise the limit on the size of files"
+        )
     return (
-        f"{where}the system refuses it ({error.strerror or error}); correct the path, its rights"
-        " or the space on its disk"
+        f"{error.filename}: the system refuses it ({reason}); correct the path, its rights or the "
+        "space on its disk"
     )
+
+
+def unwritten(error: OSError) -> None:
+    """Say that the output or the error output cannot be written, as far as that can be said."""
+    with suppress(OSError):
+        click.echo(f"The output cannot be written ({error.strerror or error}).", err=True)
+    # What is still in the buffers would fail again as the process ends.
+    sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115  # until the process ends
+
+
+def show_warnings() -> None:
+    """Print warnings to the user as one line; those to developers stay as they are."""
+    usual = warnings.showwarning
+
+    def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if category is UserWarning:
+            click.echo(f"warning: {plain(message)}", err=True)
+        else:
+            usual(message, category, *place, **more)
+
+    warnings.showwarning = shown
 
 
 @contextmanager

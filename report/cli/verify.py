@@ -30,9 +30,10 @@ def verify(out: Path, quick: bool, records: Path | None) -> None:
 
     The exit code is 1 if a check fails; the outputs are written in any case.
     """
-    from report.results.publish import publish
+    from report.results.publish import check_writable, publish
 
     with input_errors(records or out), Progress() as progress, no_collections():
+        check_writable(out)
         verification, files = _verification(quick, records, progress)
         progress("writing the files")
         publish(files, out)

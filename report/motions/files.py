@@ -115,6 +115,8 @@ def _path(folder: Path, name: str) -> Path:
         if not path.is_file():
             raise InputError(f"'{name}' is not a file; {where}")
         size = path.stat().st_size
+    except PermissionError as error:
+        raise InputError(f"'{name}' cannot be read ({error.strerror}); allow it") from error
     except (OSError, RuntimeError, ValueError) as error:
         if isinstance(error, InputError):
             raise

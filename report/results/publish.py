@@ -84,6 +84,20 @@ def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> N
                 )
 
 
+def check_writable(folder: Path) -> None:
+    """Refuse a folder without permission to write, before the runs rather than after them.
+
+    Raises
+    ------
+    InputError
+    """
+    existing = next(
+        path for path in (folder.absolute(), *folder.absolute().parents) if path.exists()
+    )
+    if not os.access(existing, os.W_OK | os.X_OK):
+        raise InputError(f"{existing}: no permission to write; choose another folder")
+
+
 @contextmanager
 def _errors_of(folder: Path) -> Iterator[None]:
     try:

@@ -1,8 +1,9 @@
 """Progress on the terminal."""
 
 import sys
+import warnings
 
-from report.cli.terminal import Progress
+from report.cli.terminal import Progress, show_warnings
 
 
 def terminal(monkeypatch):
@@ -50,3 +51,13 @@ def test_quiet_progress_prints_nothing(monkeypatch, capsys):
     with Progress(2, quiet=True) as progress:
         progress("reading")
     assert capsys.readouterr().err == ""
+
+
+def test_a_warning_to_the_user_is_one_line(monkeypatch, capsys):
+    monkeypatch.setattr(warnings, "showwarning", lambda *_, **__: print("to developers"))
+    show_warnings()
+    warnings.showwarning(UserWarning("cannot be\x1bkept"), UserWarning, "cache.py", 49)
+    warnings.showwarning(DeprecationWarning("old"), DeprecationWarning, "other.py", 1)
+    shown = capsys.readouterr()
+    assert shown.err == "warning: cannot be?kept\n"
+    assert shown.out == "to developers\n"

@@ -1,6 +1,7 @@
 """Compiled kernels on disk: an edited one never runs stale, and a closed folder does no harm."""
 
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -21,10 +22,11 @@ def copied(tmp_path):
     """A package of the kernels alone, and what runs one of them in a fresh process."""
     folder = tmp_path / "copied"
     folder.mkdir()
-    (folder / "__init__.py").touch()
-    shutil.copy(ROOT / "solver" / "kernels" / "one_axis.py", folder)
+    (folder / "__init__.py").write_text("from copied import cache")
+    for name in ("cache", "one_axis"):
+        shutil.copy(ROOT / "solver" / "kernels" / f"{name}.py", folder)
 
-    def run():
+    def run(warns="", **options):
         done = subprocess.run(
             [sys.executable, "-c", RUN],
             cwd=tmp_path,
@@ -33,7 +35,10 @@ def copied(tmp_path):
             text=True,
             check=True,
             timeout=60,
+            **options,
         )
+        assert warns in done.stderr
+        assert done.stderr.count("UserWarning") == bool(warns), done.stderr
         return float(done.stdout)
 
     return folder, run
@@ -58,3 +63,20 @@ def test_an_install_that_cannot_be_written_keeps_its_cache_elsewhere(copied, tmp
     assert run() == 1.0
     assert list((tmp_path).glob("**/*.nbc"))
     assert (folder / "__pycache__").is_file()
+
+
+def test_without_any_folder_for_its_cache_a_run_goes_on_and_says_how_to_keep_it(copied, tmp_path):
+    folder, run = copied
+    (folder / "__pycache__").write_text("a file where the folder would be: nothing can be written")
+    (tmp_path / "cache").write_text("a file, too")
+    assert run("no folder for it can be written), so every run compiles it again; set the") == 1.0
+    (tmp_path / "cache").unlink()
+    assert run() == 1.0
+
+
+def test_on_a_full_disk_a_run_goes_on_and_says_how_to_keep_its_cache(copied):
+    _, run = copied
+    full = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))}
+    assert run("(File too large), so every run compiles it again; set the", **full) == 1.0
+    assert run() == 1.0
+    assert run() == 1.0
