@@ -19,7 +19,8 @@ SLOW = (
     "test_two_axes", "test_two_axes_friction", "test_suite_files", "test_synthesis",
     "test_checked", "test_verification", "test_random_pairs", "test_two_axes_bounds",
     "test_one_axis_kernel", "test_fixed_steps", "test_row_kernel", "test_rivals_kernel",
-    "test_cache", "test_refused", "test_seeds", "test_manual_building", "test_manual_rungs", "test_packaging",
+    "test_cache", "test_refused", "test_seeds", "test_manual_building", "test_manual_rungs",
+    "test_packaging",
     "test_rung_study", "test_static_study", "test_rungs", "test_read", "test_faults", "test_xlsx",
     "test_plane_scipy", "test_neighbors", "test_roof", "test_plan",
 )  # fmt: skip
