@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import Floats, Status
+from solver.studies.curves import least_friction
 from solver.verification.rung_evidence import RungEvidence
 
 FLOOR_M = 1e-3
@@ -217,20 +218,8 @@ class DesignCurves:
         return np.array([np.interp(ppa_g, self.ppas_g, row) for row in by_slope])
 
     def least_mu(self, slope_deg: float, ppa_g: float, wanted_m: float) -> float:
-        """Return the least friction coefficient above which the PRD does not exceed `wanted_m`.
-
-        Interpolated between the runs; the smallest coefficient run if none exceeds it, NaN if
-        the largest does.
-        """
-        prd = self.prd(slope_deg, ppa_g)
-        beyond = np.flatnonzero(prd > wanted_m)
-        if not beyond.size:
-            return float(self.mus[0])
-        last = int(beyond[-1])
-        if last + 1 == self.mus.size:
-            return float("nan")
-        part = (prd[last] - wanted_m) / (prd[last] - prd[last + 1])
-        return float(self.mus[last] + part * (self.mus[last + 1] - self.mus[last]))
+        """Return the least friction coefficient that limits the PRD; see `least_friction`."""
+        return least_friction(self.mus, self.prd(slope_deg, ppa_g), wanted_m)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

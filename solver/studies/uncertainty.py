@@ -1,0 +1,196 @@
+"""Uncertain friction, slope and intensity: samples, chance of exceedance, effect of each variable.
+
+Runs nothing. Read `Spread`, then `latin_hypercube`, `exceedance` and `tornado`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from statistics import NormalDist
+
+import numpy as np
+
+from solver.model import Floats, InputError
+
+_NORMAL = NormalDist()
+
+LOW, HIGH = 0.05, 0.95
+"""Quantiles between which a variable is changed alone."""
+
+CHANCE_REPEATS = 2000
+CHANCE_CONFIDENCE = 0.90
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spread:
+    """Distribution of one variable: lognormal, or uniform about its center.
+
+    Attributes
+    ----------
+    center : float
+        Median of the lognormal, middle of the uniform distribution.
+    beta : float
+        Standard deviation of the logarithm; 0 for none.
+    half : float
+        Half the width of the uniform distribution; 0 for none.
+    """
+
+    center: float
+    beta: float = 0.0
+    half: float = 0.0
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether the variable has only one value."""
+        return self.beta == 0.0 and self.half == 0.0
+
+    def quantile(self, chance: float) -> float:
+        """Return the value that is not exceeded with a chance between 0 and 1."""
+        if self.beta:
+            return self.center * math.exp(self.beta * _NORMAL.inv_cdf(chance))
+        return self.center + self.half * (2.0 * chance - 1.0)
+
+
+def spread_of_tests(values: Sequence[float]) -> Spread:
+    """Return the lognormal distribution of tested values.
+
+    The median is their geometric mean, beta the standard deviation of their logarithms with n - 1
+    degrees of freedom.
+
+    Raises
+    ------
+    InputError
+        With fewer than three values, or one that is not above 0.
+    """
+    if len(values) < 3 or min(values) <= 0.0:
+        raise InputError(f"{len(values)} tested values; give three or more, each above 0")
+    logs = np.log(values)
+    return Spread(center=float(np.exp(logs.mean())), beta=float(logs.std(ddof=1)))
+
+
+def latin_hypercube(spreads: Sequence[Spread], count: int, *, seed: int) -> Floats:
+    """Return samples of independent variables, shape (count, variables).
+
+    Each variable has exactly one sample in each of `count` intervals of equal chance (McKay,
+    Beckman and Conover 1979, Technometrics 21, 239-245).
+    """
+    rng = np.random.default_rng(seed)
+    columns = []
+    for spread in spreads:
+        chances = (rng.permutation(count) + rng.uniform(size=count)) / count
+        # A uniform draw may be 0 exactly, where a lognormal has no quantile.
+        columns.append([spread.quantile(max(chance, math.ulp(1.0))) for chance in chances])
+    return np.array(columns).T.reshape(count, len(spreads))
+
+
+def all_combinations(values: Sequence[Sequence[float]]) -> Floats:
+    """Return every combination of equally likely values, shape (combinations, variables)."""
+    return np.array(list(product(*values)), dtype=float)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chance:
+    """Chance that a limit is exceeded.
+
+    Attributes
+    ----------
+    value : float
+        Fraction of all samples and motions, equally likely.
+    low, high : float
+        Confidence interval of `CHANCE_CONFIDENCE` by bootstrap over the motions.
+    without_value : int
+        Runs without a value, which count as exceedances.
+    runs : int
+    """
+
+    value: float
+    low: float
+    high: float
+    without_value: int
+    runs: int
+
+
+def exceedance(prd_m: Floats, limit_m: float, *, seed: int) -> Chance:
+    """Return the chance that a limit is exceeded.
+
+    Parameters
+    ----------
+    prd_m : array, shape (samples, motions)
+        NaN for a run without a value, which counts as an exceedance.
+    limit_m : float
+    seed : int
+    """
+    by_motion = (~(prd_m <= limit_m)).mean(axis=0)
+    rng = np.random.default_rng(seed)
+    drawn = rng.integers(by_motion.size, size=(CHANCE_REPEATS, by_motion.size))
+    tails = (0.5 * (1.0 - CHANCE_CONFIDENCE), 0.5 * (1.0 + CHANCE_CONFIDENCE))
+    low, high = np.quantile(by_motion[drawn].mean(axis=1), tails)
+    return Chance(
+        value=float(by_motion.mean()),
+        low=float(low),
+        high=float(high),
+        without_value=int(np.isnan(prd_m).sum()),
+        runs=prd_m.size,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bar:
+    """Effect of one variable alone, the others at their centers.
+
+    Attributes
+    ----------
+    name : str
+    at_low, at_high : float
+        The variable at its 5 % and 95 % quantile.
+    prd_low_m, prd_high_m : float
+        Mean PRD there [m]; NaN for none.
+    """
+
+    name: str
+    at_low: float
+    at_high: float
+    prd_low_m: float
+    prd_high_m: float
+
+    @property
+    def width_m(self) -> float:
+        """Length of the bar [m]; infinite where an end has no value."""
+        width = abs(self.prd_high_m - self.prd_low_m)
+        return math.inf if math.isnan(width) else width
+
+
+def one_at_a_time(spreads: Mapping[str, Spread]) -> tuple[tuple[float, ...], ...]:
+    """Return the cases of a tornado chart: all centers, then low and high of each variable."""
+    centers = tuple(spread.center for spread in spreads.values())
+    cases = [centers]
+    for at, spread in enumerate(spreads.values()):
+        for chance in (LOW, HIGH):
+            cases.append((*centers[:at], spread.quantile(chance), *centers[at + 1 :]))
+    return tuple(cases)
+
+
+def tornado(spreads: Mapping[str, Spread], means_m: Floats) -> tuple[Bar, ...]:
+    """Return the bars of a tornado chart, the longest first; a fixed variable has none.
+
+    Parameters
+    ----------
+    spreads : mapping of str to Spread
+    means_m : array, shape (1 + 2 variables,)
+        Mean PRD of the cases of `one_at_a_time` [m].
+    """
+    bars = [
+        Bar(
+            name=name,
+            at_low=spread.quantile(LOW),
+            at_high=spread.quantile(HIGH),
+            prd_low_m=float(means_m[1 + 2 * at]),
+            prd_high_m=float(means_m[2 + 2 * at]),
+        )
+        for at, (name, spread) in enumerate(spreads.items())
+        if not spread.is_fixed
+    ]
+    return tuple(sorted(bars, key=lambda bar: -bar.width_m))
