@@ -32,7 +32,7 @@ def this_machine() -> Machine:
             ("Roofslip", metadata.version("roofslip")),
             ("Python", platform.python_version()),
             *((name, _version(name)) for name in _LIBRARIES),
-            ("Processor", _processor()),
+            ("Processor", processor()),
             ("Cores", str(os.cpu_count() or 1)),
             ("System", f"{platform.system()} {platform.release()}, {platform.machine()}"),
         )
@@ -46,7 +46,7 @@ def _version(library: str) -> str:
         return "not installed"
 
 
-def _processor() -> str:
+def processor() -> str:
     """Return the processor's model name, if the system reports it."""
     try:
         lines = _CPU_INFO.read_text(encoding="utf-8").splitlines()

@@ -63,7 +63,7 @@ LONG = [
 
 def run_all(compiled):
     """Return the outcome of every scene by every kernel, compiled or as plain Python."""
-    exact, fill, normal, bounds, sweep, peaks, oscillations = (
+    exact, fill, normal, bounds, sweep, alone, peaks, oscillations = (
         f if compiled else getattr(f, "py_func", f)
         for f in (
             one_axis.slide_exact,
@@ -71,6 +71,7 @@ def run_all(compiled):
             one_axis.least_normal,
             one_axis.bounds,
             one_axis.sweep_exact,
+            one_axis.sweep_alone,
             oscillator.peaks,
             oscillator.histories,
         )
@@ -91,6 +92,8 @@ def run_all(compiled):
         out, scene = np.empty((1, 4)), np.array([[math.asin(sn), mu, scale]])
         sweep(ax, az, x, z, 0.25, G, scene, out)
         numbers += out.ravel().tolist()
+        alone(ax, az, x, z, 0.25, G, scene, out)
+        assert numbers[-4:] == pytest.approx(out.ravel().tolist(), rel=0.0, nan_ok=True)
         for omega in (1e-6, 1e-2, 1.0, 50.0):
             peak, at = np.empty(1), np.empty(1, dtype=np.int64)
             peaks(ax, 0.25, np.array([omega]), 0.05, peak, at)

@@ -1,0 +1,143 @@
+"""What a study runs and with what: the manifest beside its parts, by which a later run goes on.
+
+Writes nothing. Read `manifest_of`, then `check_former`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+import sys
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import solver
+from report.manual.machine import processor
+from report.words.units import G_MPS2
+from solver.model import InputError, Motion
+from solver.sliding.least_model import DEFAULT
+from solver.studies.campaign import Campaign
+
+SCHEMA_VERSION = 1
+"""Raised where a key of the manifest or a column of the parts changes its name or meaning."""
+
+NAME = "manifest.json"
+
+_LIBRARIES = ("numpy", "numba", "llvmlite", "pyarrow")
+
+
+def program() -> dict[str, str]:
+    """Return the versions that a row depends on, and the SHA-256 of the solver's source."""
+    return {
+        "roofslip": version("roofslip"),
+        "python": platform.python_version(),
+        **{name: _version(name) for name in _LIBRARIES},
+        "solver_sha256": _source_sha256(),
+    }
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "not installed"
+
+
+def _source_sha256() -> str:
+    root = Path(str(solver.__file__)).parent
+    digest = hashlib.sha256()
+    for path in sorted(root.rglob("*.py")):
+        digest.update(str(path.relative_to(root)).encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def machine() -> str:
+    """Return the processor model and the system, by which parts of several machines differ."""
+    return f"{processor()}, {platform.system()} {platform.machine()}, {sys.byteorder}-endian"
+
+
+def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the manifest of a campaign before its runs.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    about : mapping
+        What else determines the results: intensity measure, limit states, seeds.
+    """
+    content = {
+        "schema_version": SCHEMA_VERSION,
+        "program": program(),
+        "about": dict(about),
+        "g_mps2": G_MPS2,
+        "model": {"matters_m": DEFAULT.matters_m, "matters_share": DEFAULT.matters_share,
+                  "tolerance": DEFAULT.tolerance},
+        "motions": [[_motion(m) for m in motions] for motions in campaign.motions],
+        "cases": {"count": len(campaign.cases), "sha256": _cases_sha256(campaign)},
+        "rows": campaign.rows,
+        "parts": [[part.start, part.stop] for part in campaign.parts],
+    }  # fmt: skip
+    text = json.dumps(content, sort_keys=True)
+    return {**content, "identity": hashlib.sha256(text.encode()).hexdigest()}
+
+
+def _motion(motion: Motion) -> dict[str, Any]:
+    digest = hashlib.sha256()
+    for record in (motion.ax_mps2, motion.ay_mps2, motion.az_mps2):
+        digest.update(np.ascontiguousarray(record, dtype="<f8").tobytes() + b"\0")
+    return {
+        "id": motion.id,
+        "source": motion.source,
+        "sha256": digest.hexdigest(),
+        "dt_s": motion.dt_s,
+        "samples": motion.ax_mps2.size,
+        "factor_for_intensity_1": motion.scale,
+        "polarities": list(motion.signs),
+    }
+
+
+def _cases_sha256(campaign: Campaign) -> str:
+    digest, cases = hashlib.sha256(), campaign.cases
+    digest.update(cases.building.astype("<i8").tobytes())
+    for values in (cases.slope_rad, cases.mu, cases.intensity):
+        digest.update(values.astype("<f8").tobytes())
+    return digest.hexdigest()
+
+
+def check_former(folder: Path, manifest: Mapping[str, Any]) -> None:
+    """Refuse a folder whose parts another version of the program wrote.
+
+    Raises
+    ------
+    InputError
+        With the versions and what to do; or if the manifest cannot be read.
+    """
+    path = folder / NAME
+    away = f"move the folder {folder} away or delete it, or give another one with --out"
+    if not path.exists():
+        return
+    try:
+        former = json.loads(path.read_bytes())
+        schema, wrote = former["schema_version"], dict(former["program"])
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(f"{path}: damaged, not the manifest of a study; {away}") from error
+    if schema != SCHEMA_VERSION:
+        raise InputError(
+            f"{path}: has schema_version {schema}, this version has {SCHEMA_VERSION}; {away}"
+        )
+    here = manifest["program"]
+    off = [
+        f"{name} {wrote.get(name, 'unknown')[:12]} there, {here[name][:12]} here"
+        for name in here
+        if wrote.get(name) != here[name]
+    ]
+    if off:
+        raise InputError(
+            f"{path}: was written by another version ({'; '.join(off)}): its rows may differ; "
+            f"finish it with that version, or {away}"
+        )

@@ -1,0 +1,228 @@
+"""Runs a part of a study, each row as `solver.solve` solves it, to the bit.
+
+Motions of one horizontal component are run many cases at a time, with what the choice of the model
+needs from a record computed once; others by `solver.sliding.least_model`. Read `run_part`.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.forces import forces
+from solver.kernels import one_axis as kernel
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Heading, Motion, Scene, Status, coulomb
+from solver.sliding import least_model
+from solver.sliding.least_model import DEFAULT, Rung
+from solver.sliding.sweep import order_alike
+from solver.studies.campaign import Campaign, Cases
+
+STATUSES = tuple(Status)
+"""Meaning of the numbers in `Rows.status`."""
+
+LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rows:
+    """Outcomes of the runs of a part, of shape (cases, columns).
+
+    Attributes
+    ----------
+    lengths : array, shape (5, cases, columns)
+        `LENGTHS`, as in `SlideResult` [m]; NaN for none.
+    status, rung : array of uint8
+        Index into `STATUSES`; `Rung`.
+    """
+
+    lengths: Floats
+    status: NDArray[np.uint8]
+    rung: NDArray[np.uint8]
+
+
+def run_part(runner: Runner, part: slice) -> Rows:
+    """Run a range of cases under all motions."""
+    cases = runner.campaign.cases[part]
+    shape = (len(cases), len(runner.campaign.columns))
+    rows = Rows(
+        lengths=np.empty((len(LENGTHS), *shape)),
+        status=np.empty(shape, dtype=np.uint8),
+        rung=np.empty(shape, dtype=np.uint8),
+    )
+    for building in np.unique(cases.building):
+        chosen = np.flatnonzero(cases.building == building)
+        for column, track in enumerate(runner.tracks[building]):
+            track.fill(cases, chosen, rows, column)
+    return rows
+
+
+@dataclass(frozen=True)
+class Runner:
+    """A campaign with its records prepared once."""
+
+    campaign: Campaign
+
+    @cached_property
+    def tracks(self) -> tuple[tuple[Track, ...], ...]:
+        """Prepared records, by building and column."""
+        return tuple(
+            tuple(_track(motions[number], heading) for number, heading in self.campaign.columns)
+            for motions in self.campaign.motions
+        )
+
+
+def _track(motion: Motion, heading: Heading) -> Track:
+    scene = motion.scene(heading, slope_rad=0.0, friction=coulomb(0.0))
+    return Track(
+        scene=scene,
+        x=kernel.bounds(scene.ax_mps2),
+        z=kernel.bounds(scene.az_mps2) if motion.has_vertical else None,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Track:
+    """A motion at one heading, prepared.
+
+    Attributes
+    ----------
+    scene : Scene
+        With the factor for an intensity of 1.
+    x, z : array
+        `kernel.bounds` of its horizontal and vertical record; z None for none.
+    """
+
+    scene: Scene
+    x: Floats
+    z: Floats | None
+
+    def fill(self, cases: Cases, chosen: NDArray[np.intp], rows: Rows, column: int) -> None:
+        """Run the chosen cases and fill their rows of a column."""
+        slope, mu = cases.slope_rad[chosen], cases.mu[chosen]
+        scenes = np.stack([slope, mu, self.scene.scale * cases.intensity[chosen]], axis=-1)
+        odd = np.arange(len(chosen))
+        if not self.scene.ay_mps2.size:
+            found, odd = _solve_along(self, scenes)
+            for length, values in zip(rows.lengths, found.lengths, strict=True):
+                length[chosen, column] = values
+            rows.status[chosen, column], rows.rung[chosen, column] = found.status, found.rung
+        for at in odd:
+            _solve_one(self.scene, scenes[at], rows, (int(chosen[at]), column))
+
+
+def scene_of(scene: Scene, slope_mu_scale: Floats) -> Scene:
+    """Return a scene at another slope [rad], friction coefficient and scale."""
+    slope, mu, scale = map(float, slope_mu_scale)
+    return replace(scene, slope_rad=slope, friction=coulomb(mu), scale=scale)
+
+
+def _solve_one(scene: Scene, slope_mu_scale: Floats, rows: Rows, at: tuple[int, int]) -> None:
+    solution = least_model.solve(scene_of(scene, slope_mu_scale))
+    rows.lengths[:, *at] = [getattr(solution.result, name) for name in LENGTHS]
+    rows.status[at] = STATUSES.index(solution.result.status)
+    rows.rung[at] = solution.rung
+
+
+def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
+    """Solve scenes in one axis as `least_model.solve`; return those that it must solve itself.
+
+    These are uplift that only the kernel or only the forces at the samples find, by rounding error.
+    """
+    full = _sweep(track, scenes, track.scene.az_mps2 if track.z is not None else None, track.z)
+    level = full if track.z is None else _sweep(track, scenes, None, None)
+    demand = _demands(track, scenes)
+    lifted = np.isnan(full[0])
+    still = demand <= scenes[:, 1]
+    uses_level = _is_level_enough(track, scenes, level, full) & ~still & ~lifted
+    lengths = np.where(uses_level, level, full)
+    s_end = np.where(uses_level, level[5], full[5])
+    status = np.where(
+        s_end == 0.0, STATUSES.index(Status.OK), STATUSES.index(Status.SLIDING_AT_END)
+    )
+    top = Rung.ONE_AXIS if track.z is None else Rung.ONE_AXIS_VERTICAL
+    rung = np.where(still, Rung.NO_SLIP, np.where(uses_level, Rung.ONE_AXIS, top))
+    rows = Rows(
+        lengths=lengths[: len(LENGTHS)],
+        status=np.where(lifted, STATUSES.index(Status.UPLIFT), status).astype(np.uint8),
+        rung=np.where(lifted, top, rung).astype(np.uint8),
+    )
+    return rows, np.flatnonzero(lifted != np.isinf(demand))
+
+
+def _sweep(track: Track, scenes: Floats, az: Floats | None, z: Floats | None) -> Floats:
+    """Return `LENGTHS` [m] and the speed at the end [m/s], shape (6, m)."""
+    order, out = order_alike(scenes), np.empty((len(scenes), 4))
+    one = track.scene
+    kernel.sweep_alone(one.ax_mps2, az, track.x, z, one.dt_s, one.g_mps2, scenes[order], out)
+    s_max, s_min, s_end, w_end = np.empty((4, len(scenes)))
+    for values, found in zip((s_max, s_min, s_end, w_end), out.T, strict=True):
+        values[order] = found
+    cs = _by_slope(math.cos, scenes)
+    prd = np.where(np.isnan(s_max), np.nan, cs * np.maximum(s_max, -s_min))
+    none = np.where(np.isnan(s_max), np.nan, 0.0)
+    return np.stack([prd, cs * s_max, cs * np.abs(s_min), none, cs * s_end, cs * w_end])
+
+
+def _by_slope(function: object, scenes: Floats) -> Floats:
+    """Return a function of the slopes by the math library, as single runs evaluate it."""
+    slopes, at = np.unique(scenes[:, 0], return_inverse=True)
+    return np.array([function(slope) for slope in slopes.tolist()])[at]  # type: ignore[operator]
+
+
+def _is_level_enough(
+    track: Track, scenes: Floats, level: Floats, full: Floats
+) -> NDArray[np.bool_]:
+    """Whether neglecting the vertical record changes no displacement by more than matters."""
+    if track.z is None:
+        return np.ones(len(scenes), dtype=bool)
+    bound = np.maximum(DEFAULT.matters_m, DEFAULT.matters_share * full[0])
+    effect = np.abs(full[:4] - level[:4]).max(axis=0) + _rounding(track, scenes)
+    return np.asarray(effect <= bound)
+
+
+def _rounding(track: Track, scenes: Floats) -> Floats:
+    """Return `one_axis.rounding` of each scene [m]."""
+    one, (x, z) = track.scene, (track.x, track.z)
+    sn, cs = np.abs(_by_slope(math.sin, scenes)), _by_slope(math.cos, scenes)
+    mu, scale = scenes[:, 1], np.abs(scenes[:, 2])
+    up = 0.0 if z is None else scale * max(-z[0, -1], z[1, -1], 0.0)
+    along = scale * max(-x[0, -1], x[1, -1])
+    terms = (sn + mu * cs) * (one.g_mps2 + up) + (cs + mu * sn) * along
+    lasts = (one.ax_mps2.size - 1) * one.dt_s
+    return np.asarray(4.0 * sys.float_info.epsilon * terms * lasts * lasts)
+
+
+_NEAR = 1e-12
+
+
+def _demands(track: Track, scenes: Floats) -> Floats:
+    """Return the friction demand of each scene.
+
+    Without a vertical record the demand is tan(theta - atan(a / g)), monotone in a, so that it is
+    largest at the least or greatest sample. Where rounding error might decide, all samples are
+    evaluated, as `least_model.solve` does.
+    """
+    if track.z is not None:
+        pairs, at = np.unique(scenes[:, [0, 2]], axis=0, return_inverse=True)
+        exact = [_demand(track, np.array([slope, 0.0, scale])) for slope, scale in pairs.tolist()]
+        return np.array(exact, dtype=np.float64)[at.ravel()]
+    sn, cs = _by_slope(math.sin, scenes), _by_slope(math.cos, scenes)
+    a = np.outer(track.x[:, -1], scenes[:, 2])
+    normal = STANDARD_GRAVITY_MPS2 * cs + a * sn
+    with np.errstate(divide="ignore"):
+        demand = (np.abs(STANDARD_GRAVITY_MPS2 * sn - a * cs) / normal).max(axis=0)
+    demand[(normal <= 0.0).any(axis=0)] = math.inf
+    near = np.abs(demand - scenes[:, 1]) <= _NEAR * scenes[:, 1]
+    near |= (np.abs(normal) <= _NEAR * STANDARD_GRAVITY_MPS2).any(axis=0)
+    for one in np.flatnonzero(near):
+        demand[one] = _demand(track, scenes[one])
+    return np.asarray(demand)
+
+
+def _demand(track: Track, slope_mu_scale: Floats) -> float:
+    return forces(scene_of(track.scene, slope_mu_scale)).friction_demand

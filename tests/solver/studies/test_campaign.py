@@ -1,0 +1,72 @@
+"""Cases and parts: every case in one part, parts of equal cost, within the limits."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from solver.studies import campaign as made
+from solver.studies.campaign import Campaign, cases_of, grid, joined
+from studied import INTENSITIES, MUS, SLOPES, campaign
+
+
+def test_a_grid_has_every_combination_once():
+    cases = grid(2, [0.0, 0.1], [0.3, 0.4, 0.5], [1.0, 2.0])
+    assert len(cases) == 2 * 2 * 3 * 2
+    rows = np.stack([cases.building, cases.slope_rad, cases.mu, cases.intensity], axis=-1)
+    assert len(np.unique(rows, axis=0)) == len(cases)
+    assert rows[1].tolist() == [0.0, 0.0, 0.3, 2.0]
+
+
+def test_cases_are_joined_in_order():
+    one, two = cases_of([(0, 0.1, 0.4, 1.0)]), grid(1, [0.0], [0.5], [1.0, 2.0])
+    assert joined([one, two]).mu.tolist() == [0.4, 0.5, 0.5]
+
+
+@pytest.mark.parametrize("letters", ["x", "xz", "xyz"])
+def test_parts_cover_every_case_once_and_in_order(letters):
+    c = campaign(letters)
+    edges = [(part.start, part.stop) for part in c.parts]
+    assert edges[0][0] == 0
+    assert edges[-1][1] == len(c.cases)
+    assert all(one[1] == two[0] for one, two in itertools.pairwise(edges))
+    assert all(start < stop for start, stop in edges)
+
+
+def test_columns_are_the_headings_of_every_motion():
+    assert len(campaign("x").columns) == 4
+    assert len(campaign("xyz").columns) == 8
+    assert campaign("xyz").rows == 8 * 90
+
+
+def test_parts_have_about_equal_cost():
+    c = Campaign(
+        motions=campaign("x").motions,
+        cases=grid(1, SLOPES, np.linspace(0.1, 0.8, 40), np.linspace(0.05, 2.0, 40)),
+    )
+    costs = np.array([c.seconds[part].sum() for part in c.parts])
+    assert len(c.parts) == made.LEAST_PARTS
+    assert costs.max() <= 1.2 * costs.mean()
+
+
+def test_cost_grows_with_intensity_and_falls_with_friction():
+    c = campaign("x")
+    cost = c.seconds.reshape(len(SLOPES), len(MUS), len(INTENSITIES))
+    assert (np.diff(cost, axis=2) >= 0.0).all()
+    assert (np.diff(cost, axis=1) <= 0.0).all()
+
+
+def test_no_part_has_more_rows_than_the_limit(monkeypatch):
+    monkeypatch.setattr(made, "MOST_ROWS", 12)
+    c = campaign("x")
+    assert max(part.stop - part.start for part in c.parts) * len(c.columns) <= 12
+    assert c.parts[-1].stop == len(c.cases)
+
+
+def test_parts_do_not_depend_on_the_machine():
+    assert campaign("x").parts == campaign("x").parts
+
+
+def test_a_sample_of_many_motions_estimates_all_of_them():
+    many, few = campaign("x", 100), campaign("x", 50)
+    assert many.seconds.sum() == pytest.approx(2.0 * few.seconds.sum(), rel=0.2)
