@@ -9,7 +9,6 @@ from __future__ import annotations
 import io
 import os
 import re
-import tempfile
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -22,6 +21,7 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from report.sheet.archive import sheet_parts
 from report.sheet.locate import CellPosition
 from report.sheet.scan import REOPEN
+from solver.files import write_whole
 from solver.model import InputError
 
 Value = str | float | int | None
@@ -79,28 +79,7 @@ def write_cells(path: Path, changes: Mapping[CellPosition, Value]) -> None:
         data = path.read_bytes()
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror})") from error
-    replace_file(path, changed(data, changes))
-
-
-def replace_file(path: Path, data: bytes) -> None:
-    """Write a file beside a path and rename it, so that the path never holds half of it."""
-    try:
-        handle, name = tempfile.mkstemp(prefix=".roofslip-", suffix=path.suffix, dir=path.parent)
-        try:
-            with os.fdopen(handle, "wb") as beside:
-                beside.write(data)
-                beside.flush()
-                os.fsync(beside.fileno())
-            if path.exists():
-                os.chmod(name, path.stat().st_mode & 0o777)
-            os.replace(name, path)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
-    except OSError as error:
-        raise InputError(
-            f"{path}: cannot be written ({error.strerror}); close it in other programs"
-        ) from error
+    write_whole(path, changed(data, changes))
 
 
 def changed(data: bytes, changes: Mapping[CellPosition, Value]) -> bytes:

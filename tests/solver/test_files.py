@@ -1,9 +1,14 @@
 """A file is written whole or not at all."""
 
 import os
+import signal
+import subprocess
+import sys
 
 import pytest
 
+from places import ROOT
+from solver import files
 from solver.files import write_whole
 from solver.model import InputError
 
@@ -73,3 +78,78 @@ def test_a_file_system_without_hard_links_is_written_to(tmp_path, monkeypatch):
     assert path.read_bytes() == b"new"
     with pytest.raises(InputError, match="already exists"):
         write_whole(path, b"newer", replace=False)
+
+
+# Begins to write and waits for ever with half a file.
+WRITER = """
+import os, sys, time
+from pathlib import Path
+from solver.files import write_whole
+os.fsync = lambda file: (print(flush=True), time.sleep(1000))
+write_whole(Path(sys.argv[1]), b"half")
+"""
+
+
+def test_what_a_killed_writer_left_is_swept_up_and_nothing_else(tmp_path):
+    writers = [
+        subprocess.Popen(
+            [sys.executable, "-c", WRITER, tmp_path / "b.csv"], cwd=ROOT, stdout=subprocess.PIPE
+        )
+        for _ in range(2)
+    ]
+    killed, living = writers
+    for writer in writers:
+        writer.stdout.readline()
+    foreign = {".roofslip-notes.part", ".roofslip-0123456789abcdef.part.txt", "notes.part"}
+    for name in foreign:
+        (tmp_path / name).write_text("of the user")
+    (tmp_path / ".roofslip-0123456789abcdef.part").symlink_to(tmp_path / "notes.part")
+    killed.send_signal(signal.SIGKILL)
+    killed.wait()
+    before = set(os.listdir(tmp_path))
+    write_whole(tmp_path / "a.csv", b"1")
+    left = set(os.listdir(tmp_path))
+    assert len(before - left) == 1
+    assert left - before == {"a.csv"}
+    assert foreign < left
+    living.kill()
+    living.wait()
+    write_whole(tmp_path / "a.csv", b"2")
+    assert set(os.listdir(tmp_path)) == foreign | {"a.csv", ".roofslip-0123456789abcdef.part"}
+    for writer in writers:
+        writer.stdout.close()
+
+
+def test_a_file_that_is_swept_before_it_is_locked_is_begun_again(tmp_path, monkeypatch):
+    swept, flock = [], files.fcntl.flock
+
+    def late(file, how):
+        if not swept:
+            swept.extend(os.listdir(tmp_path))
+            (tmp_path / swept[0]).unlink()
+        flock(file, how)
+
+    monkeypatch.setattr(files.fcntl, "flock", late)
+    write_whole(tmp_path / "a.csv", b"1")
+    assert len(swept) == 1
+    assert os.listdir(tmp_path) == ["a.csv"]
+
+
+def test_a_file_system_without_locks_is_written_to_and_not_swept(tmp_path, monkeypatch):
+    def refused(file, how):
+        raise OSError(95, "Operation not supported")
+
+    monkeypatch.setattr(files.fcntl, "flock", refused)
+    left = tmp_path / ".roofslip-0123456789abcdef.part"
+    left.touch()
+    write_whole(tmp_path / "a.csv", b"1")
+    assert (tmp_path / "a.csv").read_bytes() == b"1"
+    assert left.exists()
+
+
+def test_a_replaced_file_keeps_its_permissions(tmp_path):
+    path = tmp_path / "a.csv"
+    path.touch()
+    path.chmod(0o640)
+    write_whole(path, b"1")
+    assert path.stat().st_mode & 0o777 == 0o640

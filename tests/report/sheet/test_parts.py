@@ -13,7 +13,7 @@ from openpyxl.utils import coordinate_to_tuple
 
 from report.sheet import style
 from report.sheet.locate import CellPosition
-from report.sheet.parts import changed, replace_file, write_cells
+from report.sheet.parts import changed, write_cells
 from report.sheet.read import read
 from sheets import edit, make
 from solver.model import InputError
@@ -146,7 +146,7 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path, monkeypatch):
 
     monkeypatch.setattr("os.replace", full)
     with pytest.raises(InputError, match="cannot be written"):
-        replace_file(path, b"half")
+        write_cells(path, {at("Arrays", "I8"): 1.0})
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir() if p.name.startswith(".")] == []
 
