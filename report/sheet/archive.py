@@ -75,7 +75,7 @@ class OpenBook:
 
     def formula(self, title: str, cell: str) -> str:
         """Return the formula typed into a cell, empty if there is none."""
-        return self.scans[title].formulas.get(cell, "")
+        return self.scans[title].formula(cell)
 
 
 def open_book(path: Path) -> OpenBook:

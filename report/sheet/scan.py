@@ -26,6 +26,8 @@ MAX_TAGS = 2_500_000
 MAX_CELLS = 300_000
 MAX_OTHERS = 100_000
 MAX_SPREAD_CELLS = 100_000
+# As many characters as Excel allows (Excel specifications and limits).
+MAX_FORMULA = 8192
 _VALUES = frozenset(("v", "f", "t", "is", "si"))
 _SHAPES = ("xl/drawings/", "xl/charts/", "xl/media/", "xl/theme/")
 
@@ -73,12 +75,12 @@ class Budget:
 
 @dataclass(slots=True)
 class Scan(ContentHandler):
-    """The extent of values in a part, and its formulas by cell."""
+    """The extent of values in a part, and its formulas by cell: each with the cell it is of."""
 
     budget: Budget
     extent: Extent = field(default_factory=Extent)
-    formulas: dict[str, str] = field(default_factory=dict)
-    _shared: dict[str, Translator] = field(default_factory=dict)
+    formulas: dict[str, tuple[str, str]] = field(default_factory=dict)
+    _shared: dict[str, tuple[str, str]] = field(default_factory=dict)
     _formula: Mapping[str, str] | None = None
     _text: list[str] = field(default_factory=list)
     _spread_cells: int = 0
@@ -114,19 +116,28 @@ class Scan(ContentHandler):
         if self._formula is None or name.rpartition(":")[2] != "f":
             return
         cell = f"{get_column_letter(self._column)}{self._row}"
+        if sum(map(len, self._text)) > MAX_FORMULA:
+            raise InputError(
+                f"the formula in {cell} has more than {MAX_FORMULA:,} characters; shorten it"
+            )
         self.formulas[cell] = self._typed(cell, self._formula, "".join(self._text))
         self._formula = None
 
-    def _typed(self, cell: str, attributes: Mapping[str, str], text: str) -> str:
+    def _typed(self, cell: str, attributes: Mapping[str, str], text: str) -> tuple[str, str]:
         kind, index = attributes.get("t"), attributes.get("si", "")
         if kind == "dataTable":
-            return "=TABLE()"
-        formula = f"={text}"
+            return "=TABLE()", cell
+        formula = f"={text}", cell
         if kind != "shared":
             return formula
         if text:
-            self._shared[index] = Translator(formula, cell)
-        return self._shared[index].translate_formula(cell) if index in self._shared else "="
+            self._shared[index] = formula
+        return self._shared.get(index, formula)
+
+    def formula(self, cell: str) -> str:
+        """Return the formula of a cell, empty if it has none; one that is shared is moved to it."""
+        text, origin = self.formulas.get(cell, ("", cell))
+        return text if origin == cell else str(Translator(text, origin).translate_formula(cell))
 
     def _spread(self, reference: str | None) -> None:
         # openpyxl creates an object for every cell of such a range.

@@ -401,3 +401,15 @@ def test_strict_workbooks_are_refused_by_name(tmp_path):
     assert problems(path) == (
         "a Strict Open XML workbook; save it as Excel Workbook (.xlsx), not Strict",
     )
+
+
+def test_a_formula_longer_than_excel_allows_is_refused_by_cell(tmp_path):
+    path = make(tmp_path)
+    part = sheet_part(path, "Project")
+    longest = SHEET.replace(b"B1*$C$1", b"B1" + b"+1" * 4095)
+    rewritten(path, part, lambda old: longest)
+    assert open_book(path).formula("Project", "A2") == "=B2" + "+1" * 4095
+    rewritten(path, part, lambda old: longest.replace(b"B1+1", b"B1+1+11"))
+    assert problems(path) == (
+        f"{part}: the formula in A1 has more than 8,192 characters; shorten it",
+    )
