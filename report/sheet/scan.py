@@ -56,8 +56,9 @@ class Budget:
     cells: int = field(default_factory=lambda: MAX_CELLS)
     others: int = field(default_factory=lambda: MAX_OTHERS)
 
-    def take(self, element: str) -> None:
-        """Count an element."""
+    def take(self, element: str, areas: str) -> None:
+        """Count an element, and each of the areas that it is given for."""
+        self.others -= areas.count(" ")
         if element in ("c", "row"):
             self.cells -= 1
         elif element not in _VALUES:
@@ -90,7 +91,7 @@ class Scan(ContentHandler):
     def startElement(self, name: str, attrs: Any) -> None:  # noqa: N802
         """Count the element, and keep what it says of the sheet."""
         element = name.rpartition(":")[2]
-        self.budget.take(element)
+        self.budget.take(element, attrs.get("sqref", ""))
         match element:
             case "row":
                 self._row, self._column = _whole(attrs.get("r"), self._row + 1), 0

@@ -413,3 +413,14 @@ def test_a_formula_longer_than_excel_allows_is_refused_by_cell(tmp_path):
     assert problems(path) == (
         f"{part}: the formula in A1 has more than 8,192 characters; shorten it",
     )
+
+
+def test_formats_of_too_many_areas_are_refused_before_they_are_made(tmp_path, monkeypatch):
+    monkeypatch.setattr(scan, "MAX_OTHERS", 5000)
+    path = make(tmp_path)
+    part = sheet_part(path, "Site")
+    assert read_workbook(path)
+    areas = " ".join(f"A{row}" for row in range(1, 5001)).encode()
+    xml = b'<conditionalFormatting sqref="' + areas + b'"/>'
+    rewritten(path, part, lambda old: old.replace(b"<dataValidations", xml + b"<dataValidations"))
+    assert "more than 5,000 comments, formats and the like" in problems(path)[0]
