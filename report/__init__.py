@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
+
+# Where lxml is installed openpyxl would read strangers' workbooks through it instead of defusedxml,
+# and write others. It asks once, as it is loaded.
+os.environ["OPENPYXL_LXML"] = "False"
 
 
 def assess_project(source: str | Path) -> Assessment:

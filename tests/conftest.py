@@ -5,6 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import report  # noqa: F401  # before any test loads openpyxl: it decides what that reads with
+
 RECORDS = Path(__file__).resolve().parents[2] / "shared" / "records"
 SAMPLES = Path(__file__).parent / "data" / "motions"
 G = 9.80665

@@ -83,14 +83,14 @@ def draw_coordinates(plan: PlanSheet, extent: Rectangle) -> None:
             x, y = paper.at((tick * unit.si, tick * unit.si))
             words = number(tick, 0)
             if axis == "x":
-                paper.line((x, box.y0 - 0.22), (x, box.y0 - 0.27), linewidth=0.6)
-                _write(plan, centered(x, box.y0 - 0.35, width_in(words), LINE_IN), words)
+                paper.line((x, box.y0 - 0.26), (x, box.y0 - 0.31), linewidth=0.6)
+                _write(plan, centered(x, box.y0 - 0.39, width_in(words), LINE_IN), words)
             else:
-                paper.line((box.x0 - 0.22, y), (box.x0 - 0.27, y), linewidth=0.6)
+                paper.line((box.x0 - 0.26, y), (box.x0 - 0.31, y), linewidth=0.6)
                 wide = width_in(words)
-                _write(plan, centered(box.x0 - 0.3 - wide / 2, y, wide, LINE_IN), words)
+                _write(plan, centered(box.x0 - 0.34 - wide / 2, y, wide, LINE_IN), words)
     words = f"x [{unit.symbol}]"
-    _write(plan, centered(box.middle[0], box.y0 - 0.53, width_in(words), LINE_IN), words)
+    _write(plan, centered(box.middle[0], box.y0 - 0.56, width_in(words), LINE_IN), words)
     words = f"y [{unit.symbol}]"
     _write(
         plan,

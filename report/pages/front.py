@@ -13,7 +13,8 @@ from report.assessment.remedies import Remedy
 from report.assessment.spectra import Spectra, departures
 from report.assessment.verdict import Verdict
 from report.pages.certainty import directions
-from report.pages.checks import all_checks, clearance_table, conditions, troubles
+from report.pages.clearances import clearance_table
+from report.pages.limits import all_checks, conditions, troubles
 from report.pages.motions import departure_sentence
 from report.pages.parts import (
     PackageData,

@@ -12,7 +12,7 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Certainty
 from report.assessment.evidence import Plotted
 from report.assessment.spectra import Spectra, departures
-from report.pages import accuracy, certainty, checks, friction_tests, section
+from report.pages import accuracy, certainty, friction_tests, limits, section
 from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
@@ -98,7 +98,7 @@ def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[Pi
 
 def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
     """Return what the tables and sentences of the summary leave of its sheet [in], at least."""
-    assessment, sentences = package.assessment, checks.troubles(package)
+    assessment, sentences = package.assessment, limits.troubles(package)
     failed = sum(not gap.ok for gap in assessment.clearances)
     # Their conditions take two lines.
     edges = sum("without" in gap.neighbor.value for gap in assessment.clearances)

@@ -18,13 +18,15 @@ from report.pages import (
     appendix,
     certainty,
     changes,
-    checks,
+    clearances,
     cumulative,
     front,
     inputs,
+    limits,
     method,
     model,
     motions,
+    provisions,
     results,
     symbols,
 )
@@ -120,18 +122,18 @@ PAGES = (
     Page(
         id="clearances",
         title="Clearances",
-        fill=lambda package, evidence: checks.clearances(package, evidence.remedies),
+        fill=lambda package, evidence: clearances.clearances(package, evidence.remedies),
         template="clearances.html",
     ),
     Page(
         id="limits",
         title="Limits and interconnection strength",
-        fill=lambda package, _: checks.limits(package),
+        fill=lambda package, _: limits.limits(package),
     ),
     Page(
         id="provisions",
         title="Provisions and overrides",
-        fill=lambda package, _: checks.provisions(package),
+        fill=lambda package, _: provisions.provisions(package),
         template="provisions.html",
     ),
     Page(

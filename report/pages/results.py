@@ -10,7 +10,7 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.project import run_warnings
 from report.assessment.runs import MotionRun
-from report.pages.checks import check_table
+from report.pages.limits import check_table
 from report.pages.parts import NO_VALUE, PackageData, Table, TableColumn, TableRow, Wide, statistic
 from report.sheet.schema import Direction
 from report.words.units import number

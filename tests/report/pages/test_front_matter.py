@@ -8,10 +8,10 @@ from html import unescape
 import pytest
 
 import stand_in
-from report.pages.checks import provisions
 from report.pages.cover import cover
 from report.pages.front import verdict_sentence
 from report.pages.letter import letter
+from report.pages.provisions import provisions
 from report.pages.references import codes, references
 from report.pages.registry import package_data
 from report.pages.symbols import SYMBOLS

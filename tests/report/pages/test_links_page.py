@@ -8,7 +8,7 @@ import pytest
 import stand_in
 from report.assessment.certainty import certainty
 from report.pages import front, inputs, links, model
-from report.pages.checks import troubles
+from report.pages.limits import troubles
 from report.pages.registry import package_data
 
 MATTERS = "1 mm (0.04 in) or 0.5 %"

@@ -8,7 +8,7 @@ import pytest
 
 import stand_in
 from report.pages import model
-from report.pages.checks import troubles
+from report.pages.limits import troubles
 from report.pages.parts import Wide
 from report.pages.registry import package_data
 from report.sheet.schema import Direction

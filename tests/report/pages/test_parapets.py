@@ -1,7 +1,7 @@
 """The check of a parapet, with its numbers."""
 
 import stand_in
-from report.pages.checks import clearances
+from report.pages.clearances import clearances
 from report.pages.registry import package_data
 
 

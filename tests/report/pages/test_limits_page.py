@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 import stand_in
-from report.pages.checks import conditions, limits
 from report.pages.front import verdict_sentence
+from report.pages.limits import conditions, limits
 from report.pages.registry import package_data
 
 MOTIONS = stand_in.motions(3, seconds=4.0)
