@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -9,21 +10,29 @@ from pathlib import Path
 import pytest
 from openpyxl import Workbook, load_workbook
 
-SECONDS = 180
+SECONDS = 240
 
 
-def recalculated(paths: list[Path], folder: Path) -> list[Workbook]:
-    """Return workbooks with the values that LibreOffice computes; skip the test without it."""
+def converted(paths: list[Path], folder: Path, kind: str = "xlsx") -> list[Path]:
+    """Return files as LibreOffice saves them, in one start; skip the test without it."""
     soffice = shutil.which("soffice")
     if soffice is None:
         pytest.skip("LibreOffice is not installed: sudo apt-get install libreoffice-calc")
     out = folder / "recalculated"
     # A profile of its own: two runs with one profile wait for each other.
     profile = f"-env:UserInstallation=file://{folder / 'profile'}"
-    command = [soffice, profile, "--headless", "--convert-to", "xlsx", "--outdir", str(out)]
     done = subprocess.run(
-        [*command, *map(str, paths)], capture_output=True, timeout=SECONDS, check=False
+        [soffice, profile, "--headless", "--convert-to", kind, "--outdir", out, *paths],
+        capture_output=True,
+        timeout=SECONDS,
+        check=False,
+        env=os.environ | {"HOME": str(folder)},
     )
-    made = [out / path.name for path in paths]
+    made = [out / f"{path.stem}.{kind}" for path in paths]
     assert all(path.exists() for path in made), done.stderr.decode()
-    return [load_workbook(path, data_only=True) for path in made]
+    return made
+
+
+def recalculated(paths: list[Path], folder: Path) -> list[Workbook]:
+    """Return workbooks with the values that LibreOffice computes."""
+    return [load_workbook(path, data_only=True) for path in converted(paths, folder)]

@@ -22,19 +22,28 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=click.Path(path_type=Path))
+@click.option("--repair", is_flag=True,
+              help="First restore the formulas that were typed over.")  # fmt: skip
 @QUIET
 @AS_JSON
-def check(source: Path, quiet: bool, as_json: bool) -> None:
-    """Check the input, and print what is known without a run; write nothing.
+def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
+    """Check the input, and print what is known without a run; write nothing without --repair.
 
     An error stops the work. A warning may be intended: give its name, printed in brackets, and a
-    reason on the sheet Acknowledged. A warning without a name is a limit that is not satisfied. A
-    note needs no answer.
+    reason on the sheet Acknowledged. A warning without a name is a limit that is not satisfied, or
+    a formula of the sheet that was typed over. A note needs no answer.
     """
+    restored: list[str] = []
     with input_errors(source, as_json=as_json):
+        if repair:
+            restored = _repaired(source)
+            if not (as_json or quiet):
+                count = len(restored)
+                listed = f": {', '.join(restored)}" if restored else ""
+                click.echo(f"{count} formula{'' if count == 1 else 's'} restored{listed}")
         sheet, shaking, found = checked(source)
     if as_json:
-        click.echo(json.dumps(_document(sheet, found), ensure_ascii=False))
+        click.echo(json.dumps(_document(sheet, found) | {"restored": restored}, ensure_ascii=False))
     elif not quiet:
         click.echo(_summary(sheet, shaking, found))
         for line in lines(sheet, found):
@@ -51,13 +60,33 @@ def checked(source: Path) -> tuple[Sheet, Shaking, tuple[Finding, ...]]:
     from report.assessment.foresight import findings, foreseen
     from report.motions.prepare import prepare
     from report.sheet.findings import in_order
+    from report.sheet.live import findings as formula_findings
+    from report.sheet.live import overwritten
     from report.sheet.read import read
     from report.typeset.letters import check_letters
 
     sheet = read(source)
     check_letters(sheet)
     shaking = prepare(sheet)
-    return sheet, shaking, in_order([*foreseen(sheet, shaking), *findings(sheet, shaking)])
+    typed_over = formula_findings(overwritten(sheet.book))
+    return (
+        sheet,
+        shaking,
+        in_order([*typed_over, *foreseen(sheet, shaking), *findings(sheet, shaking)]),
+    )
+
+
+def _repaired(source: Path) -> list[str]:
+    """Restore the formulas that were typed over; return the addresses of their cells."""
+    from report.sheet.archive import open_book
+    from report.sheet.live import overwritten
+    from report.sheet.parts import Formula, write_cells
+
+    book = open_book(source)
+    lost = [item for item in overwritten(book) if item.can_be_restored]
+    if lost:
+        write_cells(book.path, {item.position: Formula(item.formula) for item in lost})
+    return [item.position.address for item in lost]
 
 
 def lines(sheet: Sheet, found: Iterable[Finding]) -> Iterator[str]:
@@ -88,7 +117,7 @@ def as_data(sheet: Sheet, found: Iterable[Finding]) -> list[Mapping[str, str]]:
     ]
 
 
-def _document(sheet: Sheet, found: Iterable[Finding]) -> Mapping[str, Any]:
+def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
     data = sheet.project
     return {
         "schema_version": SCHEMA_VERSION,

@@ -126,11 +126,11 @@ def read_cell(cell: Found, entry: Entry, model: type[Frozen], unit: str, si: flo
 def check_saved(cell: Found) -> None:
     """Raise if a cell contains an Excel error, or a formula that was never computed."""
     if cell.is_error:
-        cause = f" (from {_cut(cell.formula)})" if cell.formula else ""
+        cause = f" (from {cut(cell.formula)})" if cell.formula else ""
         raise CellError(f"is {cell.value}{cause}; correct it")
     if cell.formula and cell.value is None:
         raise CellError(
-            f"is a formula with no saved value ({_cut(cell.formula)}); open the workbook in Excel"
+            f"is a formula with no saved value ({cut(cell.formula)}); open the workbook in Excel"
             " or LibreOffice and save it"
         )
 
@@ -167,13 +167,14 @@ def _is(cell: Found, entry: Entry) -> str:
 
 
 def _quoted(value: object) -> str:
-    text = _cut(plain(value))
+    text = cut(plain(value))
     return f"'{text}'" if isinstance(value, str) else text
 
 
-def _cut(text: str) -> str:
+def cut(text: str, most: int = SHOWN) -> str:
+    """Return a text on one line, shortened."""
     text = _CONTROL.sub("?", text).replace("\n", " ")
-    return text if len(text) <= SHOWN else f"{text[: SHOWN - 1]}…"
+    return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 def _converted(cell: Found, entry: Entry, wanted: str) -> Any:
@@ -217,10 +218,10 @@ def _number_in_text(text: str, wanted: str) -> float:
         return float(text)
     if _THOUSANDS.fullmatch(text):
         whole = text.replace(",", "")
-        raise CellError(f"is '{_cut(text)}'; write {whole}, without a comma")
+        raise CellError(f"is '{cut(text)}'; write {whole}, without a comma")
     if match := _DECIMAL_COMMA.fullmatch(text):
-        raise CellError(f"is '{_cut(text)}'; write {match[1] or '0'}.{match[2]}")
-    raise CellError(f"is '{_cut(text)}'; {wanted}")
+        raise CellError(f"is '{cut(text)}'; write {match[1] or '0'}.{match[2]}")
+    raise CellError(f"is '{cut(text)}'; {wanted}")
 
 
 def _date(cell: Found, wanted: str) -> date:
@@ -254,5 +255,5 @@ def _text(cell: Found) -> str:
     # Excel writes characters that XML does not allow, and a pasted CR, as _x000D_.
     text = unescape(plain(cell.value)).replace("\r\n", "\n").replace("\r", "\n").strip()
     if _CONTROL.search(text):
-        raise CellError(f"is '{_cut(text)}', with control characters; retype it")
+        raise CellError(f"is '{cut(text)}', with control characters; retype it")
     return text

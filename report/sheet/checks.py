@@ -10,7 +10,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-from report.sheet.cells import SHOWN
+from report.sheet.cells import cut
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.friction_checks import friction_faults
 from report.sheet.motion_checks import motion_faults
@@ -239,7 +239,7 @@ def _smaller_events(draft: Draft, where: Where) -> Iterator[Fault]:
             wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
             yield Fault(
                 Place("options", 0, "smaller_events"),
-                f"smaller events is '{text[:SHOWN]}'; {wanted}, such as 0.50, 0.25",
+                f"smaller events is '{cut(text)}'; {wanted}, such as 0.50, 0.25",
             )
 
 

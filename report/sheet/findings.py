@@ -38,6 +38,8 @@ class Finding:
         What was found, and what would do.
     reason : str
         From the sheet Acknowledged; empty if not acknowledged.
+    cell : str
+        Address, for a cell that is no input; empty for that of the place.
     """
 
     level: Level
@@ -45,11 +47,17 @@ class Finding:
     place: Place
     text: str
     reason: str = ""
+    cell: str = ""
 
 
 def warning(name: str, place: Place, text: str) -> Finding:
     """Return a warning that may be acknowledged."""
     return Finding(level=Level.WARNING, id=name, place=place, text=text)
+
+
+def unanswered(place: Place, text: str, cell: str) -> Finding:
+    """Return a warning on a cell that is no input."""
+    return Finding(level=Level.WARNING, id="", place=place, text=text, cell=cell)
 
 
 def limit(place: Place, text: str) -> Finding:
@@ -83,7 +91,7 @@ def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iter
     for finding in findings:
         place = finding.place
         table = addresses.get(Place(place.section), _SHEETS[place.section])
-        yield addresses.get(place, table)
+        yield finding.cell or addresses.get(place, table)
 
 
 _SHEETS = {section.key: section.sheet for section in SECTIONS}

@@ -6,7 +6,7 @@ Independent of what the sections mean. Read `write_block` and `write_table`; `te
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
 
@@ -117,7 +117,7 @@ def _write_block_row(
 
 
 @dataclass(frozen=True, slots=True)
-class _Column:
+class Column:
     """A column of a table to write: a field, or an answer."""
 
     name: str
@@ -134,21 +134,21 @@ class _Column:
         return self.answer is not None and self.answer.is_helper
 
 
-def _columns(section: Section, units: UnitsFirst) -> list[_Column]:
+def columns_of(section: Section, units: UnitsFirst) -> list[Column]:
     """Return the columns of a table: what is always needed, the answers, what is rarely needed."""
     fields = [
-        _Column(entry.name, heading_of(entry, units), _width(entry), entry=entry)
+        Column(entry.name, heading_of(entry, units), _width(entry), entry=entry)
         for entry in entries(section.model)
     ]
     answers = [
-        _Column(answer.name, answer.heading, answer.width, answer=answer)
+        Column(answer.name, answer.heading, answer.width, answer=answer)
         for answer in table_answers(section.key, is_us=units is UnitsFirst.US)
     ]
-    status = _Column(STATUS, STATUS_HEADING, STATUS_WIDTH)
+    status = Column(STATUS, STATUS_HEADING, STATUS_WIDTH)
     return [status, *sorted((*fields, *answers), key=_rank)]
 
 
-def _rank(column: _Column) -> int:
+def _rank(column: Column) -> int:
     return 2 * column.is_folded + (column.answer is not None)
 
 
@@ -159,9 +159,10 @@ def write_table(
     sheet = book[section.sheet]
     top, is_first = _put_section_title(sheet, section)
     header = top + len(HINT_ROWS)
-    columns = _columns(section, units)
+    columns = columns_of(section, units)
     place = TablePlace(
         section=section,
+        sheet=section.sheet,
         header=header,
         size=max(BLANK_ROWS, len(rows) + SPARE_ROWS),
         headings={column.name: column.heading for column in columns},
@@ -201,7 +202,7 @@ def _in_words(entry: Entry, value: object) -> object:
     return provision_name(str(value)) if entry.name == "provision" else value
 
 
-def _fold(sheet: Worksheet, columns: Sequence[_Column], rows: Sequence[Frozen]) -> None:
+def _fold(sheet: Worksheet, columns: Sequence[Column], rows: Sequence[Frozen]) -> None:
     """Group the columns that are rarely needed; closed unless one of them has a value."""
     folded = [(count, c) for count, c in enumerate(columns, start=1) if c.is_folded]
     used = any(
@@ -223,7 +224,7 @@ def _unless_default(value: object, entry: Entry) -> object:
     return None if not entry.is_required and value == entry.default else value
 
 
-def _write_hints(sheet: Worksheet, top: int, columns: Sequence[_Column], units: UnitsFirst) -> None:
+def _write_hints(sheet: Worksheet, top: int, columns: Sequence[Column], units: UnitsFirst) -> None:
     for offset, name in enumerate(HINT_ROWS):
         style.put(sheet, top + offset, 1, name, color=style.GRAY, size=9)
     for number, column in enumerate(columns[1:], start=2):
@@ -241,14 +242,14 @@ def _write_hints(sheet: Worksheet, top: int, columns: Sequence[_Column], units: 
         sheet.row_dimensions[row].height = 5 + 12.5 * _lines(said, widths)
 
 
-def _hints(column: _Column, units: UnitsFirst) -> tuple[str, str, str]:
+def _hints(column: Column, units: UnitsFirst) -> tuple[str, str, str]:
     if column.entry is None:
         return "computed", column.answer.note if column.answer else "", ""
     unit = unit_of(column.entry, units)
     return column.entry.need, _allowed(column.entry, unit), _example(column.entry, unit)
 
 
-def _write_heading(sheet: Worksheet, row: int, number: int, column: _Column) -> None:
+def _write_heading(sheet: Worksheet, row: int, number: int, column: Column) -> None:
     is_input = column.entry is not None
     color = style.WHITE if is_input else style.INK
     cell = style.put(sheet, row, number, column.heading, bold=True, color=color)
@@ -290,11 +291,19 @@ def _add_table(sheet: Worksheet, place: TablePlace) -> None:
     sheet.add_table(table)
 
 
+def table_formulas(
+    layout: Layout, place: TablePlace, *, is_us: bool
+) -> Mapping[str, tuple[str, str]]:
+    """Return formula, without its equals sign, and number format of each column that computes."""
+    answers = table_answers(place.section.key, is_us=is_us)
+    return {STATUS: (row_status(place), STATUS_FORMAT)} | {
+        answer.name: (answer.write(layout), answer.number_format) for answer in answers
+    }
+
+
 def write_answers(sheet: Worksheet, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
     """Write the formulas of a table; in Excel new rows get them by themselves."""
-    formulas = {STATUS: (row_status(place), STATUS_FORMAT)}
-    for answer in table_answers(place.section.key, is_us=is_us):
-        formulas[answer.name] = answer.write(layout), answer.number_format
+    formulas = table_formulas(layout, place, is_us=is_us)
     columns = sheet.tables[place.section.table_name].tableColumns
     for count, name in enumerate(place.letters):
         if name not in formulas:

@@ -29,6 +29,8 @@ class TablePlace:
     Attributes
     ----------
     section : Section
+    sheet : str
+        Title of its sheet in the workbook.
     header, size : int
         Row of its headings, and number of rows below it.
     headings, letters : mapping of field or answer to str
@@ -36,6 +38,7 @@ class TablePlace:
     """
 
     section: Section
+    sheet: str
     header: int
     size: int
     headings: Mapping[str, str]
@@ -65,7 +68,7 @@ class TablePlace:
 
     def heading_cell(self, name: str) -> str:
         """Return the address of a heading, for use on other sheets."""
-        return f"{quote_sheetname(self.section.sheet)}!${self.letters[name]}${self.header}"
+        return f"{quote_sheetname(self.sheet)}!${self.letters[name]}${self.header}"
 
     def _column(self, name: str) -> str:
         escaped = _SPECIAL.sub(r"'\1", self.headings[name])

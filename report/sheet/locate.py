@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from openpyxl import Workbook
 from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -23,7 +24,7 @@ MAX_ROWS = 2000
 MAX_COLUMNS = 200
 SCANNED_ROWS = 200
 _HEADING = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\])?")
-_TARGET = re.compile(r"(?:'((?:[^']|'')+)'|([^'!]+))!(\$?[A-Za-z]{1,3}\$?[0-9]{1,7})")
+_AREA = re.compile(r"(?:'((?:[^']|'')+)'|([^'!]+))!(\$?[A-Z]+\$?[0-9]+(?::\$?[A-Z]+\$?[0-9]+)?)")
 FRESH = "copy it from a fresh workbook (roofslip new)"
 
 
@@ -163,28 +164,15 @@ def _fields(section: Section, entry: Entry) -> tuple[str, ...]:
     return entry.name, *formerly.FIELDS.get((section.key, entry.name), ())
 
 
-def _labels(section: Section, entry: Entry) -> set[str]:
-    """Return the label of a field and its earlier labels, in the form that is compared."""
-    earlier = formerly.LABELS.get((section.key, entry.name), ())
-    return {_key(label) for label in (entry.cell.label, *earlier)}
-
-
 def _field_named(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:
     spots = (_named(book, section.cell_name(name)) for name in _fields(section, entry))
     return next((spot for spot in spots if spot is not None), None)
 
 
 def _named(book: OpenBook, name: str) -> CellPosition | None:
-    for defined in book.book.defined_names.values():
-        if str(defined.name).casefold() != name:
-            continue
-        match = _TARGET.fullmatch(str(defined.attr_text))
-        bounds = _bounds(match[3].replace("$", "")) if match else None
-        if match and bounds:
-            title = match[2] or match[1].replace("''", "'")
-            if title in [sheet.title for sheet in _sheets(book)]:
-                return CellPosition(title, bounds[1], bounds[0])
-    return None
+    title, (left, top, right, bottom) = area_named(book.book, name) or ("", (0, 0, 0, 0))
+    is_cell = title and (left, top) == (right, bottom)
+    return CellPosition(title, top, left) if is_cell else None
 
 
 # Of a sheet of Excel.
@@ -192,9 +180,9 @@ _LAST_COLUMN, _LAST_ROW = 16_384, 1_048_576
 
 
 def _bounds(reference: str) -> tuple[int, int, int, int] | None:
-    """Return left, top, right, bottom of a range that states all four."""
+    """Return left, top, right, bottom of a range; None unless it states all four."""
     try:
-        left, top, right, bottom = range_boundaries(reference)
+        left, top, right, bottom = range_boundaries(reference.replace("$", ""))
     except (ValueError, TypeError):
         return None
     # A:C has no rows, and a damaged file may say A0.
@@ -208,9 +196,9 @@ def _beside_label(book: OpenBook, section: Section, entry: Entry) -> CellPositio
     sheet = sheet_titled(book, section.sheet)
     if sheet is None:
         return None
-    wanted = _labels(section, entry)
+    wanted = labels_of(section, entry)
     for position in _scanned(book, sheet):
-        if _key(sheet.cell(position.row, position.column).value) in wanted:
+        if label_key(sheet.cell(position.row, position.column).value) in wanted:
             return CellPosition(position.sheet, position.row, position.column + 1)
     return None
 
@@ -222,7 +210,7 @@ def _scanned(book: OpenBook, sheet: Worksheet) -> Iterator[CellPosition]:
             yield CellPosition(sheet.title, row, column)
 
 
-def _key(text: object) -> str:
+def label_key(text: object) -> str:
     """Return a label in the form that is compared: no unit, asterisk, case or extra spaces."""
     return " ".join(_split(text)[0].replace("*", " ").split()).casefold()
 
@@ -264,7 +252,7 @@ def find_table(book: OpenBook, section: Section) -> TableFound:
 
 def _is_answer(section: Section, heading: object) -> bool:
     """Whether a heading is that of a column of formulas, which is not read."""
-    return _key(heading) in ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
+    return label_key(heading) in ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
 
 
 _Place = tuple[Worksheet, int, int, int, range]
@@ -288,11 +276,11 @@ def _headings(book: OpenBook, section: Section) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
     own = sheet_titled(book, section.sheet)
     fields = entries(section.model)
-    wanted = set[str]().union(*(_labels(section, entry) for entry in fields))
+    wanted = set[str]().union(*(labels_of(section, entry) for entry in fields))
     for sheet in [own] if own else _sheets(book):
         rows: dict[int, list[int]] = {}
         for position in _scanned(book, sheet):
-            if _key(sheet.cell(position.row, position.column).value) in wanted:
+            if label_key(sheet.cell(position.row, position.column).value) in wanted:
                 rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
         if best and len(rows[best]) > len(fields) / 2:
@@ -324,14 +312,16 @@ def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
 def _columns(
     book: OpenBook, section: Section, headings: Sequence[CellPosition]
 ) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[str]]:
-    fields = {label: entry for entry in entries(section.model) for label in _labels(section, entry)}
+    fields = {
+        label: entry for entry in entries(section.model) for label in labels_of(section, entry)
+    }
     columns: dict[str, FieldColumn] = {}
     others: list[CellPosition] = []
     problems: list[str] = []
     seen: set[str] = set()
     for position in headings:
         text = found_at(book, position).value
-        entry = fields.get(_key(text))
+        entry = fields.get(label_key(text))
         if entry is None:
             others += [position] if text is not None else []
         elif entry.name in seen:
@@ -377,11 +367,11 @@ def _heading_places(
 ) -> Mapping[str, CellPosition]:
     """Return where each heading is, or where it belongs: after that of the field before it."""
     fields = entries(section.model)
-    labels = {label: entry.name for entry in fields for label in _labels(section, entry)}
+    labels = {label: entry.name for entry in fields for label in labels_of(section, entry)}
     places = {
         labels[key]: position
         for position in headings
-        if (key := _key(found_at(book, position).value)) in labels
+        if (key := label_key(found_at(book, position).value)) in labels
     }
     first = headings[0]
     following = first
@@ -435,6 +425,59 @@ def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -
         if reaches and area.min_row <= last_row and area.max_row >= top:
             problems.append(f"{sheet.title}!{area.coord}: cells are merged; unmerge them")
     return problems
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableArea:
+    """A named table with all of its headings, those of formulas included.
+
+    Attributes
+    ----------
+    sheet : str
+    header, last : int
+        Row of the headings, and last row above its totals.
+    headings : mapping of str to CellPosition
+        By label: without unit, asterisk, case or extra spaces.
+    """
+
+    sheet: str
+    header: int
+    last: int
+    headings: Mapping[str, CellPosition]
+
+
+def table_area(book: OpenBook, section: Section) -> TableArea | None:
+    """Return the table of a section, found by its name; None without one."""
+    found = _table_named(book, section)
+    if found is None:
+        return None
+    sheet, left, top, right, totals = found
+    places = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
+    return TableArea(
+        sheet=sheet.title,
+        header=top,
+        last=totals.start - 1,
+        headings={label_key(sheet.cell(top, place.column).value): place for place in places},
+    )
+
+
+def area_named(book: Workbook, name: str) -> tuple[str, tuple[int, int, int, int]] | None:
+    """Return the sheet of a named range, and its left, top, right, bottom; None without one."""
+    for defined in book.defined_names.values():
+        match = _AREA.fullmatch(str(defined.attr_text))
+        if str(defined.name).casefold() != name or not match:
+            continue
+        bounds = _bounds(match[3])
+        title = match[2] or match[1].replace("''", "'")
+        if bounds and title in book.sheetnames:
+            return title, bounds
+    return None
+
+
+def labels_of(section: Section, entry: Entry) -> set[str]:
+    """Return the label of a field and its earlier labels, in the form that is compared."""
+    earlier = formerly.LABELS.get((section.key, entry.name), ())
+    return {label_key(label) for label in (entry.cell.label, *earlier)}
 
 
 def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:

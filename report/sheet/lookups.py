@@ -161,6 +161,7 @@ def _write_units(book: Workbook, sheet: Worksheet, layout: Layout, row: int) -> 
         )
         name_cell(book, f"unit_{section}_{name}", sheet, at, 3)
         at += 1
+    name_range(book, "units_in_use", sheet, f"$B${top}:$B${at - 1}")
     return at + 1
 
 
@@ -196,6 +197,7 @@ def _write_names(book: Workbook, sheet: Worksheet, layout: Layout, row: int) -> 
         cell = sheet.cell(at, 1)
         style.put_answer(cell, f'IFERROR({formula},"")', like=model)
         model = model or cell
+    name_range(book, "name_list", sheet, f"$A${top}:$A${top + MOST_NAMES - 1}")
     outlines = layout.tables["outlines"]
     letter, first_row = outlines.letters["name"], outlines.header + 1
     area = f"${letter}${first_row}:${letter}${LAST_ROW}"

@@ -24,8 +24,15 @@ from report.sheet.scan import REOPEN
 from solver.files import write_whole
 from solver.model import InputError
 
-Value = str | float | int | None
-"""What is written in a cell: text, a number, or nothing."""
+
+class Formula(str):
+    """A formula with its equals sign, to be written as such."""
+
+    __slots__ = ()
+
+
+Value = Formula | str | float | int | None
+"""What is written in a cell: a formula, text, a number, or nothing."""
 
 _CALC_CHAIN = "xl/calcChain.xml"
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
@@ -56,7 +63,7 @@ class _Sheet:
     data: _Element | None = None
     rows: dict[int, _Element] = field(default_factory=dict)
     cells: dict[int, dict[int, _Element]] = field(default_factory=dict)
-    formulas: dict[tuple[int, int], str] = field(default_factory=dict)
+    formulas: dict[tuple[int, int], Mapping[str, str]] = field(default_factory=dict)
     styles: list[tuple[int, int, str]] = field(default_factory=list)
 
     def style(self, row: int, column: int) -> str:
@@ -101,6 +108,7 @@ def changed(data: bytes, changes: Mapping[CellPosition, Value]) -> bytes:
             before = archive.read(parts[title])
             sheet = _scanned(title, before)
             had_formula |= any(at in sheet.formulas for at in cells)
+            had_formula |= any(isinstance(value, Formula) for value in cells.values())
             new[parts[title]] = _spliced(title, before, sheet, cells)
             new |= _longer_tables(archive, parts[title], cells)
         new["xl/workbook.xml"] = _computed_when_opened(archive.read("xl/workbook.xml"))
@@ -163,7 +171,7 @@ class _Scan:
             self.sheet.styles.append((low, high, attributes["style"]))
         elif local == "f" and self._open:
             row, column = coordinate_to_tuple(self._open[-1][1]["r"])
-            self.sheet.formulas[row, column] = attributes.get("t", "normal")
+            self.sheet.formulas[row, column] = attributes
 
     def end(self, name: str) -> None:
         """Note the end of an element."""
@@ -202,7 +210,7 @@ def _spliced(
     for row in sorted({row for row, _ in cells}):
         values = {column: value for (at, column), value in cells.items() if at == row}
         for column in values:
-            if sheet.formulas.get((row, column), "normal") != "normal":
+            if _is_needed_elsewhere(sheet, row, column, cells):
                 cell = f"{title}!{get_column_letter(column)}{row}"
                 raise InputError(f"{cell}: shares its formula with other cells; clear it first")
         edits += _row_edits(data, sheet, row, values)
@@ -211,6 +219,18 @@ def _spliced(
         out += [data[at:start], content]
         at = end
     return b"".join([*out, data[at:]])
+
+
+def _is_needed_elsewhere(
+    sheet: _Sheet, row: int, column: int, cells: Mapping[tuple[int, int], Value]
+) -> bool:
+    """Whether the formula of a cell is also that of cells which are not changed."""
+    formula = sheet.formulas.get((row, column), {})
+    reach = formula.get("ref", "")
+    if formula.get("t") != "shared":
+        return ":" in reach
+    group = [at for at, other in sheet.formulas.items() if other.get("si") == formula.get("si")]
+    return bool(reach) and not cells.keys() >= set(group)
 
 
 def _row_edits(
@@ -264,6 +284,8 @@ def _cell(sheet: _Sheet, row: int, column: int, value: Value, style: str) -> byt
     look = f' s="{style}"' if style else ""
     if value is None:
         return f'<{tag}c r="{at}"{look}/>'.encode()
+    if isinstance(value, Formula):
+        return f'<{tag}c r="{at}"{look}><{tag}f>{escape(value[1:])}</{tag}f></{tag}c>'.encode()
     if isinstance(value, str):
         words = escape(_CONTROL.sub("?", value))
         inner = f'<{tag}is><{tag}t xml:space="preserve">{words}</{tag}t></{tag}is>'

@@ -16,7 +16,7 @@ from report.sheet.answers import (
     prescriptive_formula_in,
     prescriptive_in,
 )
-from report.sheet.layout import name_cell
+from report.sheet.layout import name_cell, name_range
 from report.words.units import Quantity, Unit
 from solver.model import INCH_M
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
@@ -48,8 +48,10 @@ def write_panel(book: Workbook, *, is_us: bool) -> None:
     _write_inputs(book, sheet, row, is_us=is_us)
     for at, (neighbor, (label, importance)) in enumerate(_ROWS.items(), start=row + 3):
         _write_separation(book, sheet, at, neighbor, label, importance, is_us=is_us)
-    for at in range(row, row + 7):
+    last = row + 2 + len(_ROWS)
+    for at in range(row, last + 1):
         sheet.row_dimensions[at].height = 32
+    name_range(book, "live_panel", sheet, f"$B${row}:$E${last}")
 
 
 def _write_inputs(book: Workbook, sheet: Worksheet, row: int, *, is_us: bool) -> None:

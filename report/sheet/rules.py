@@ -44,6 +44,8 @@ def write_rules(book: Workbook, layout: Layout) -> None:
     style.put(sheet, 3, 1, _MARKS, color=style.GRAY, size=9, wrap=False)
     names = (head for rules in RULE_SETS.values() for head in (rules.name, "Clause"))
     head = 5
+    last_column = sheet_column(_FIRST + 2 * len(RULE_SETS) - 1)
+    name_range(book, "rule_sets", sheet, f"${sheet_column(_FIRST)}${head}:${last_column}${head}")
     for column, text in enumerate((*_HEADS, *names), start=1):
         style.put(sheet, head, column, text, bold=True).border = style.LINE
     for column, width in enumerate((*_WIDTHS, *(_RULE_WIDTHS * len(RULE_SETS))), start=1):
@@ -82,9 +84,8 @@ def _write_rule(book: Workbook, sheet: Worksheet, layout: Layout, row: int, key:
 def _chosen(row: int, offset: int) -> str:
     """Return the value or the clause of the rule set that governs."""
     last = sheet_column(_FIRST + 2 * len(RULE_SETS) - 1)
-    names = f"${sheet_column(_FIRST)}$5:${last}$5"
     cells = f"${sheet_column(_FIRST)}{row}:${last}{row}"
-    return f'IFERROR(INDEX({cells},1,MATCH(site_rule_set,{names},0)+{offset}),"")'
+    return f'IFERROR(INDEX({cells},1,MATCH(site_rule_set,rule_sets,0)+{offset}),"")'
 
 
 def sheet_column(number: int) -> str:

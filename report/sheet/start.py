@@ -14,11 +14,11 @@ from openpyxl.styles import Font, PatternFill
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet import marks, style
+from report.sheet.counts import START
 from report.sheet.schema import SECTIONS
 from report.sheet.sketch import SIZE_IN, sketch_png
 from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS
 
-START = "Start"
 _WIDTHS = (5, 24, 16, 88)
 _HINT = "From this workbook to the calculation package. This sheet has no input cells."
 

@@ -2,23 +2,17 @@
 
 import datetime as dt
 import io
-import os
-import shutil
-import subprocess
 
 import openpyxl
 import pytest
 from pypdf import PdfReader
+from recalculated import converted
 
 import stand_in
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
 
-SOFFICE = shutil.which("soffice")
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(SOFFICE is None, reason="LibreOffice (soffice) is not installed"),
-]
+pytestmark = pytest.mark.slow
 
 INCH = 0.0254
 SITE = stand_in.project().site.model_dump()
@@ -35,28 +29,11 @@ def assessed(**changes):
     return stand_in.assessed(stand_in.book(stand_in.project(**changes)))
 
 
-def converted(folder, content, kind):
-    """The workbook as LibreOffice saves it, under a profile of its own."""
+def saved_as(folder, content, kind="xlsx"):
+    """The workbook as LibreOffice saves it."""
     (folder / "results.xlsx").write_bytes(content)
-    done = subprocess.run(
-        [
-            SOFFICE,
-            f"-env:UserInstallation=file://{folder / 'profile'}",
-            "--headless",
-            "--convert-to",
-            kind,
-            "--outdir",
-            str(folder / "out"),
-            str(folder / "results.xlsx"),
-        ],
-        capture_output=True,
-        text=True,
-        timeout=240,
-        check=False,
-        env=os.environ | {"HOME": str(folder)},
-    )
-    assert done.returncode == 0, done.stderr
-    return (folder / "out" / f"results.{kind}").read_bytes()
+    (path,) = converted([folder / "results.xlsx"], folder, kind)
+    return io.BytesIO(path.read_bytes())
 
 
 def compared(sheet, row, columns):
@@ -81,9 +58,7 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(t
     after = assessed(site=site, options=REVIEWED, clearances=gaps)
     assert before.clearances[1].ok
     assert not after.clearances[1].ok
-    recalculated = openpyxl.load_workbook(
-        io.BytesIO(converted(tmp_path, changed.getvalue(), "xlsx")), data_only=True
-    )
+    recalculated = openpyxl.load_workbook(saved_as(tmp_path, changed.getvalue()), data_only=True)
     design, clearances = recalculated["Design"], recalculated["Clearances"]
     assert design["B3"].value == after.verdict.value
     for row, item in enumerate(after.arrays, start=5):
@@ -119,9 +94,7 @@ def test_the_governing_array_follows_a_peak_that_is_changed(tmp_path):
             row[head.index("PRD [in]")].value = 90.0
     changed = io.BytesIO()
     book.save(changed)
-    recalculated = openpyxl.load_workbook(
-        io.BytesIO(converted(tmp_path, changed.getvalue(), "xlsx")), data_only=True
-    )
+    recalculated = openpyxl.load_workbook(saved_as(tmp_path, changed.getvalue()), data_only=True)
     sheet = recalculated["Clearances"]
     assert sheet["E5"].value == f"{other}, any"
     assert sheet["F5"].value == pytest.approx(1.1 * 90.0)
@@ -138,7 +111,7 @@ def test_every_sheet_prints_as_wide_as_a_page(tmp_path):
         assert sheet.page_setup.fitToHeight == 0
         assert sheet.sheet_properties.pageSetUpPr.fitToPage
         assert sheet.print_title_rows
-    pages = PdfReader(io.BytesIO(converted(tmp_path, content, "pdf"))).pages
+    pages = PdfReader(saved_as(tmp_path, content, "pdf")).pages
     # No sheet is split in its width: every page shows the first column's heading.
     names = [sheet.title for sheet in sheets]
     counts = {name: sum(f", {name}" in page.extract_text() for page in pages) for name in names}
