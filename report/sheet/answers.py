@@ -58,6 +58,8 @@ def table_answers(section: str, *, is_us: bool) -> tuple[Answer, ...]:
     """Return the answers of a table, in the order of its columns."""
     if section == "arrays":
         return _of_arrays(is_us)
+    if section == "outlines":
+        return (_DOUBLE_AREA,)
     return _of_clearances(is_us) if section == "clearances" else ()
 
 
@@ -82,7 +84,7 @@ def _of_arrays(is_us: bool) -> tuple[Answer, ...]:
         Answer(
             name="weight_per_area",
             heading=f"Weight per area [{unit.symbol}]",
-            note="over the rectangle in plan",
+            note="over the rectangle or outline in plan",
             write=lambda layout: _weight_per_area(layout, unit.symbol),
             number_format=_decimals(unit.decimals),
         ),
@@ -121,10 +123,47 @@ def _weight_per_area(layout: Layout, symbol: str) -> str:
     }
     x, y = sides["x"], sides["y"]
     weight = this("weight_n")
+    force = f"{weight}*unit_arrays_weight_n/{PRESSURES[symbol]!r}"
     return _blank_on_error(
-        f'IF(OR(TRIM({weight})="",{x}<=0,{y}<=0),"",'
-        f"{weight}*unit_arrays_weight_n/({x}*{y})/{PRESSURES[symbol]!r})"
+        f'IF(TRIM({weight})="","",IF(COUNTIF(live_outlines,{_literal(this("id"))})>0,'
+        f"{force}/({_outlined_area(layout)}),"
+        f'IF(OR({x}<=0,{y}<=0),"",{force}/({x}*{y}))))'
     )
+
+
+def _outlined_area(layout: Layout) -> str:
+    """Return the area within the outline of an array; an error where a row is below the table."""
+    name, outlines = layout.tables["arrays"].this("id"), layout.tables["outlines"]
+    is_its = f"--(TRIM({outlines.all('name')})=TRIM({name}))"
+    return (
+        f"ABS(SUMPRODUCT({is_its},{outlines.all('double_area')}))/2"
+        "*unit_outlines_x_m*unit_outlines_y_m"
+        f"/(SUMPRODUCT({is_its})=COUNTIF(live_outlines,{_literal(name)}))"
+    )
+
+
+def _double_area(layout: Layout) -> str:
+    """Return twice the area of the triangle from the origin to a vertex and the next one."""
+    outlines = layout.tables["outlines"]
+    names, name = outlines.all("name"), outlines.this("name")
+    number = f"(ROW({name})-ROW({outlines.head('name')}))"
+    below = f"INDEX({names},{number}+1):INDEX({names},ROWS({names}))"
+    following = f"MATCH({_literal(name)},{below},0)+{number}"
+    first = f"MATCH({_literal(name)},{names},0)"
+    after = f"IF({number}=ROWS({names}),{first},IFERROR({following},{first}))"
+    x, y = (f"INDEX({outlines.all(axis)},{after})" for axis in ("x_m", "y_m"))
+    return _blank_on_error(
+        f'IF(TRIM({name})="","",{outlines.this("x_m")}*{y}-{x}*{outlines.this("y_m")})'
+    )
+
+
+_DOUBLE_AREA = Answer(
+    name="double_area",
+    heading="Twice the area",
+    note="of the triangle to the next vertex",
+    write=_double_area,
+    is_helper=True,
+)
 
 
 def _kind_of_array(layout: Layout) -> str:
@@ -197,11 +236,17 @@ def _of_clearances(is_us: bool) -> tuple[Answer, ...]:
 
 
 def _row_of(layout: Layout, field: str, section: str) -> str:
-    """Return where an id is in another table; ids may contain the wildcards of MATCH."""
-    name = f"TRIM({layout.tables['clearances'].this(field)})"
+    """Return where an id is in another table."""
+    name = _literal(layout.tables["clearances"].this(field))
+    return _blank_on_error(f"MATCH({name},{layout.tables[section].all('id')},0)")
+
+
+def _literal(name: str) -> str:
+    """Return a name without the meaning that wildcards have for MATCH and COUNTIF."""
+    name = f"TRIM({name})"
     for wildcard in "~*?":
         name = f'SUBSTITUTE({name},"{wildcard}","~{wildcard}")'
-    return _blank_on_error(f"MATCH({name},{layout.tables[section].all('id')},0)")
+    return name
 
 
 def _neighbor(layout: Layout) -> str:
@@ -372,6 +417,6 @@ ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
         _label(heading)
         for heading in (STATUS_HEADING, *(a.heading for a in table_answers(section, is_us=True)))
     )
-    for section in ("arrays", "clearances")
+    for section in ("arrays", "clearances", "outlines")
 }
 """Headings of formulas by section, lowercase and without unit; other tables have only the first."""

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from openpyxl import Workbook
+from openpyxl.utils import get_column_letter
 
 from report.sheet import style
 from report.sheet.layout import Layout, TablePlace, name_cell
@@ -14,6 +15,9 @@ from report.sheet.needs import block_lacks
 from report.sheet.schema import SECTIONS
 
 START = "Start"
+COUNTS_COLUMN = 4
+"""Column of the names of the sheets in the list; the counts are beside it."""
+
 _NEED_ROWS = ("arrays", "motions")
 _COUNT_FORMAT = '[<0]"no row yet";[=0]"✓";0" missing"'
 
@@ -25,12 +29,13 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
         blocks, tables = layout.on(title)
         lacks = [text for text in map(block_lacks, blocks) if text]
         lacks += [_lacking_in(place) for place in tables]
-        style.put(start, row, 2, title)
+        style.put(start, row, COUNTS_COLUMN, title)
         sheet_name = title.lower().replace(" ", "_")
         name = f"lacks_{sheet_name}"
-        style.put_answer(start.cell(row, 3), "+".join(lacks) or "0", _COUNT_FORMAT)
-        name_cell(book, name, start, row, 3)
-        mark_count(start, f"C{row}", f"$C{row}")
+        count = start.cell(row, COUNTS_COLUMN + 1)
+        style.put_answer(count, "+".join(lacks) or "0", _COUNT_FORMAT)
+        name_cell(book, name, start, row, COUNTS_COLUMN + 1)
+        mark_count(start, count.coordinate, f"${get_column_letter(COUNTS_COLUMN + 1)}{row}")
         _write_line(book, title, name)
         name_cell(book, f"line_{sheet_name}", book[title], 3, 1)
 

@@ -34,10 +34,14 @@ from report.words.units import Unit
 BLANK_ROWS = 20
 SPARE_ROWS = 5
 BLOCK_HEADS = ("", "Value", "Unit", "Computed", "Allowed", "Example", "Note")
-BLOCK_WIDTHS = (28, 30, 8, 12, 26, 22, 50)
+BLOCK_WIDTHS = (28, 30, 13, 16, 24, 20, 46)
 HINT_ROWS = ("", "Allowed", "Example")
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
 STATUS_WIDTH = 10
+MANY, MANY_WIDTH = 6, 12
+_WIDER = 0.85
+"""Of a column for text that is typed, as fonts may be wider than Calibri."""
+
 DATA_LINES = 2
 """Lines of text that a row of a table shows."""
 
@@ -168,12 +172,13 @@ def write_table(
         headings={column.name: column.heading for column in columns},
         letters={c.name: get_column_letter(count) for count, c in enumerate(columns, start=1)},
     )
+    for number, column in enumerate(columns, start=1):
+        if is_first or number > len(BLOCK_WIDTHS):
+            sheet.column_dimensions[get_column_letter(number)].width = column.width
     _write_hints(sheet, top, columns, units)
     lines = 1
     for number, column in enumerate(columns, start=1):
         _write_heading(sheet, header, number, column)
-        if is_first or number > len(BLOCK_WIDTHS):
-            sheet.column_dimensions[get_column_letter(number)].width = column.width
         if column.entry is None:
             continue
         width = max(int(sheet.column_dimensions[get_column_letter(number)].width), 1)
@@ -185,7 +190,8 @@ def write_table(
             cell = sheet.cell(header + 1 + row, number)
             style.put_input(cell, column.entry, value, unit, like=first)
             first = first or cell
-            lines = max(lines, _lines([str(value or "")], [width]))
+            shown = style.in_cell(value, unit)
+            lines = max(lines, _lines([str(shown or "")], [_WIDER * width]))
         _write_help(sheet, place, column.entry, unit)
     for row in range(header + 1, header + 1 + place.size):
         sheet.row_dimensions[row].height = 4 + 14 * min(lines, DATA_LINES)
@@ -232,7 +238,11 @@ def _write_hints(sheet: Worksheet, top: int, columns: Sequence[Column], units: U
             is_example = row == top + 2
             hint = style.put(sheet, row, number, text, color=style.GRAY, size=9, italic=is_example)
             hint.fill, hint.border = style.HINT_FILL, style.BOX
-    widths = [column.width for column in columns[1:] if not column.is_folded]
+    widths = [
+        int(sheet.column_dimensions[get_column_letter(number)].width)
+        for number, column in enumerate(columns[1:], start=2)
+        if not column.is_folded
+    ]
     for row in range(top, top + len(HINT_ROWS)):
         said = [
             str(sheet.cell(row, number).value)
@@ -358,13 +368,15 @@ def _example(entry: Entry, unit: Unit | None) -> str:
 def _width(entry: Entry) -> int:
     longest = max(map(len, entry.cell.label.split())) + 3
     if entry.choices:
-        return max(CODE_WIDTH, longest, max(map(len, entry.choices)) + 2)
+        widest = max(map(len, entry.choices)) + 2
+        # Many long choices are listed above the heading in a few lines.
+        return max(CODE_WIDTH, longest, widest + (MANY_WIDTH if len(entry.choices) > MANY else 0))
     if entry.kind is str and entry.max_length > 40:
         return TEXT_WIDTH
     return max(CODE_WIDTH if entry.kind is date else NUMBER_WIDTH, longest)
 
 
-def _lines(texts: Sequence[str], widths: Sequence[int]) -> int:
+def _lines(texts: Sequence[str], widths: Sequence[float]) -> int:
     """Return the number of lines of the tallest text at its column's width."""
     return max(
         math.ceil(max(len(text), 1) / (1.2 * width))

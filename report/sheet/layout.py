@@ -53,6 +53,10 @@ class TablePlace:
         table = self.section.table_name
         return f"{table}[[#This Row],{self._column(first)}:{self._column(last)}]"
 
+    def head(self, name: str) -> str:
+        """Return the reference to a heading."""
+        return f"{self.section.table_name}[[#Headers],{self._column(name)}]"
+
     def all(self, name: str) -> str:
         """Return the reference to a whole column."""
         return f"{self.section.table_name}[{self._column(name)}]"

@@ -49,6 +49,7 @@ def write_lookups(book: Workbook, layout: Layout) -> None:
     row = _write_separations(book, sheet, row)
     row = _write_units(book, sheet, layout, row)
     _write_names(book, sheet, layout, row)
+    sheet.print_area = f"A1:H{row - 1}"
 
 
 def _write_heads(sheet: Worksheet, row: int, title: str, note: str, heads: Sequence[str]) -> int:

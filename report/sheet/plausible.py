@@ -11,9 +11,17 @@ from collections.abc import Iterator, Mapping
 from report.sheet.checks import GAP_TOLERANCE, GAP_TOLERANCE_M
 from report.sheet.fields import Place
 from report.sheet.findings import Finding, warning
-from report.sheet.schema import Array, Clearance, Direction, ProjectInput, Shape
+from report.sheet.schema import (
+    PROVISION_KEYS,
+    Array,
+    Clearance,
+    Direction,
+    ProjectInput,
+    Shape,
+)
 from report.sheet.shapes import closest, gap_m
 from report.words.units import PRESSURES, Quantity, pair
+from solver.rules.rulesets import usual
 
 LEAST_PRESSURE_PA, MOST_PRESSURE_PA = 1.0 * PRESSURES["psf"], 30.0 * PRESSURES["psf"]
 """Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf."""
@@ -39,6 +47,7 @@ def implausible(data: ProjectInput) -> Iterator[Finding]:
     arrays = {array.id: array for array in data.arrays}
     plan = {item.id: item.placed for item in data.objects}
     plan |= {array.id: array.shape for array in data.arrays}
+    yield from _overrides(data)
     for index, row in enumerate(data.clearances):
         other = plan[row.object]
         if other is not None:
@@ -77,6 +86,17 @@ def _friction(index: int, array: Array) -> Iterator[Finding]:
         f" {steepness:.3f}: the array slides under its own weight; correct one of them"
     )
     yield warning(f"friction {array.id}", Place("arrays", index, "mu"), text)
+
+
+def _overrides(data: ProjectInput) -> Iterator[Finding]:
+    for index, row in enumerate(data.overrides):
+        expected = usual(row.provision)
+        if not expected.has(row.value):
+            text = (
+                f"value is {row.value:g} for the {PROVISION_KEYS[row.provision]};"
+                f" {expected.span} is usual: correct the value or its unit"
+            )
+            yield warning(f"override {row.provision}", Place("overrides", index, "value"), text)
 
 
 def _direction(index: int, row: Clearance, array: Array, other: Shape) -> Iterator[Finding]:

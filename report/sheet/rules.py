@@ -6,6 +6,7 @@ the other formulas refer to it by name. Read `write_rules`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from openpyxl import Workbook
@@ -15,16 +16,16 @@ from report.sheet import style
 from report.sheet.answers import BY_FORMULA, IN_DISPLACEMENT, IN_SEPARATION, ONE_VALUE
 from report.sheet.layout import Layout, name_cell, name_range
 from report.sheet.schema import PROVISION_KEYS, provision_name, provision_unit
-from solver.rules.rulesets import RULE_SETS, Provision, RuleSet
+from solver.rules.rulesets import ALLOWED, RULE_SETS, Provision, RuleSet, usual
 
 PROVISIONS = "Provisions"
-_HEADS = ("Rule", "Unit", "In use", "Clause in use")
-_WIDTHS = (58, 8, 11, 24)
-_RULE_WIDTHS = (10, 22)
+_HEADS = ("Rule", "Unit", "In use", "Clause in use", "Override, allowed", "Override, usual")
+_WIDTHS = (56, 7, 11, 20, 12, 12)
+_RULE_WIDTHS = (10, 20)
 _FIRST = len(_HEADS) + 1
 _HINT = (
-    "Value and clause of each rule by rule set. Override a number on the sheet Options. This sheet"
-    " has no input cells."
+    "Value and clause of each rule by rule set. Override a number on the sheet Options, within the"
+    " range allowed. This sheet has no input cells."
 )
 _MARKS = (
     "† not confirmed against a published calculation: verify against the adopted code."
@@ -64,6 +65,8 @@ def write_rules(book: Workbook, layout: Layout) -> None:
 def _write_rule(book: Workbook, sheet: Worksheet, layout: Layout, row: int, key: str) -> None:
     style.put(sheet, row, 1, provision_name(key)).border = style.LINE
     style.put(sheet, row, 2, provision_unit(key), color=style.GRAY).border = style.LINE
+    for column, span in enumerate((ALLOWED[key].span, usual(key).span), start=_FIRST - 2):
+        style.put(sheet, row, column, span, color=style.GRAY, size=9).border = style.LINE
     for count, rules in enumerate(RULE_SETS.values()):
         provision = rules.values.get(key)
         if provision is None:
@@ -111,7 +114,8 @@ def _write_in_use(
     style.put_answer(sheet.cell(row, 4), clause)
     name_cell(book, f"rule_{key}", sheet, row, 3)
     name_cell(book, f"rule_{key}_clause", sheet, row, 4)
-    sheet.row_dimensions[row].height = 20
+    lines = math.ceil(len(provision_name(key)) / _WIDTHS[0])
+    sheet.row_dimensions[row].height = 7 + 13 * lines
 
 
 def _write_facts(book: Workbook, sheet: Worksheet, top: int) -> None:
@@ -121,9 +125,16 @@ def _write_facts(book: Workbook, sheet: Worksheet, top: int) -> None:
         style.put(sheet, row, 1, words).border = style.LINE
         for count, text in enumerate(texts):
             _write_pair(sheet, row, count, text, "")
+            _merge(sheet, row, _FIRST + 2 * count)
         style.put_answer(sheet.cell(row, 3), _chosen(row, 0))
         name_cell(book, f"rule_{key}", sheet, row, 3)
+        _merge(sheet, row, 3)
         sheet.row_dimensions[row].height = 32
+
+
+def _merge(sheet: Worksheet, row: int, column: int) -> None:
+    """Give a text the width of a value and its clause."""
+    sheet.merge_cells(start_row=row, end_row=row, start_column=column, end_column=column + 1)
 
 
 def _facts() -> Sequence[tuple[str, str, Sequence[str]]]:

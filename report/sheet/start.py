@@ -14,12 +14,12 @@ from openpyxl.styles import Font, PatternFill
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet import marks, style
-from report.sheet.counts import START
+from report.sheet.counts import COUNTS_COLUMN, START
 from report.sheet.schema import SECTIONS
 from report.sheet.sketch import SIZE_IN, sketch_png
 from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS
 
-_WIDTHS = (5, 24, 16, 88)
+_WIDTHS = (5, 24, 76, 14, 14)
 _HINT = "From this workbook to the calculation package. This sheet has no input cells."
 
 STEPS = (
@@ -39,9 +39,12 @@ _NOTES = (
     "Tables grow: type in the row below the last one. You may rename sheets, insert rows, and add"
     " columns to the right of a table. Columns that are rarely needed are folded at the right: the"
     " + above the headings opens them.",
+    "A roof that is drawn is read by roofslip plan read ROOF.DXF FOLDER; the sheet Layers says what"
+    " is drawn on each layer of the drawing.",
     "The blue cells compute prescriptive values only; the package alone has the displacement from"
-    " analysis. They are not read as input. Formulas in yellow cells are accepted. Macros are not:"
-    " .xlsm files are rejected.",
+    " analysis. They are not read as input. If one is typed over, roofslip check lists it, and"
+    " roofslip check --repair restores its formula. Formulas in yellow cells are accepted. Macros"
+    " are not: .xlsm files are rejected.",
 )
 _SAMPLES = (
     ("input", "000000", style.INPUT_FILL, "Input cell."),
@@ -58,19 +61,20 @@ _SAMPLES = (
 def write_start(book: Workbook, *, is_us: bool) -> int:
     """Write the sheet; return the first row of the list of what each sheet lacks."""
     sheet = book[START]
-    for column, width in zip("ABCD", _WIDTHS, strict=True):
+    for column, width in zip("ABCDE", _WIDTHS, strict=True):
         sheet.column_dimensions[column].width = width
     style.put_title(sheet, "Roofslip input workbook", _HINT)
-    row = _write_steps(sheet, 4)
-    row = _put_picture(sheet, row)
+    picture = _write_steps(sheet, 4)
+    counts = _put_heading(sheet, picture, "What is missing", COUNTS_COLUMN)
+    titles = {section.sheet for section in SECTIONS}
+    row = max(_put_picture(sheet, picture), counts + len(titles) + 1)
     row = _write_colors(sheet, row)
-    counts = _put_heading(sheet, row, "What is missing")
-    _write_notes(sheet, counts + len({section.sheet for section in SECTIONS}) + 1, _NOTES)
+    _write_notes(sheet, row, _NOTES)
     return counts
 
 
-def _put_heading(sheet: Worksheet, row: int, title: str) -> int:
-    style.put(sheet, row, 1, title, bold=True, size=13, wrap=False)
+def _put_heading(sheet: Worksheet, row: int, title: str, column: int = 1) -> int:
+    style.put(sheet, row, column, title, bold=True, size=13, wrap=False)
     sheet.row_dimensions[row].height = 24
     return row + 1
 
@@ -108,7 +112,7 @@ def _write_notes(sheet: Worksheet, row: int, notes: Sequence[str]) -> int:
     row = _put_heading(sheet, row, "Notes")
     for note in notes:
         style.put(sheet, row, 2, note)
-        sheet.merge_cells(start_row=row, end_row=row, start_column=2, end_column=4)
+        sheet.merge_cells(start_row=row, end_row=row, start_column=2, end_column=5)
         sheet.row_dimensions[row].height = 34
         row += 1
     return row

@@ -85,7 +85,12 @@ class Allowed:
     @property
     def words(self) -> str:
         """The range in words."""
-        return f"a {'whole ' if self.is_whole else ''}number from {self.low:g} to {self.high:g}"
+        return f"a {'whole ' if self.is_whole else ''}number from {self.span}"
+
+    @property
+    def span(self) -> str:
+        """Both ends."""
+        return f"{self.low:.3g} to {self.high:.3g}"
 
 
 # Outside of these, a number has another unit or no meaning. A factor below 1 on the peaks would
@@ -305,3 +310,19 @@ RULE_SETS: Mapping[str, RuleSet] = {
         ),
     )
 }
+
+
+def usual(key: str) -> Allowed:
+    """Return the range beyond which an override of a provision is unusual.
+
+    Half of the least to twice the greatest value of the rule sets, as far as it is allowed; all
+    that is allowed where they have no value but zero.
+    """
+    values = [rules.values[key].value for rules in RULE_SETS.values() if key in rules.values]
+    allowed = ALLOWED[key]
+    if not any(values):
+        return allowed
+    low, high = max(0.5 * min(values), allowed.low), min(2.0 * max(values), allowed.high)
+    if allowed.is_whole:
+        low, high = math.ceil(low), math.floor(high)
+    return replace(allowed, low=low, high=high)

@@ -19,7 +19,7 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 FUNCTIONS = {
     "ABS", "AND", "ATAN", "CHAR", "CODE", "COUNT", "COUNTA", "COUNTIF", "DEGREES", "FALSE", "FIND",
     "IF", "IFERROR", "INDEX", "ISERROR", "ISNUMBER", "LEFT", "LOWER", "MATCH", "MAX", "MID", "MIN",
-    "MOD", "N", "NA", "OFFSET", "OR", "RADIANS", "ROUNDUP", "ROWS", "SUBSTITUTE", "SUM",
+    "MOD", "N", "NA", "OFFSET", "OR", "RADIANS", "ROUNDUP", "ROW", "ROWS", "SUBSTITUTE", "SUM",
     "SUMPRODUCT", "TRIM", "UPPER",
 }  # fmt: skip
 
