@@ -2,6 +2,7 @@
 
 import datetime as dt
 import hashlib
+import re
 
 import numpy as np
 import pytest
@@ -103,8 +104,8 @@ def shift(book, title, rows):
     for name in book.defined_names.values():
         sheet_name, cell = name.attr_text.split("!")
         if sheet_name.strip("'") == title:
-            _, column, row = cell.split("$")
-            name.attr_text = f"{sheet_name}!${column}${int(row) + rows}"
+            moved = re.sub(r"(?<=\$)\d+", lambda row: str(int(row[0]) + rows), cell)
+            name.attr_text = f"{sheet_name}!{moved}"
 
 
 def rename(book, old, new):
