@@ -62,6 +62,7 @@ def checked(source: Path) -> tuple[Sheet, Shaking, tuple[Finding, ...]]:
     from report.sheet.findings import in_order
     from report.sheet.live import findings as formula_findings
     from report.sheet.live import overwritten
+    from report.sheet.older import what_is_new
     from report.sheet.read import read
     from report.typeset.letters import check_letters
 
@@ -72,7 +73,14 @@ def checked(source: Path) -> tuple[Sheet, Shaking, tuple[Finding, ...]]:
     return (
         sheet,
         shaking,
-        in_order([*typed_over, *foreseen(sheet, shaking), *findings(sheet, shaking)]),
+        in_order(
+            [
+                *what_is_new(sheet.book),
+                *typed_over,
+                *foreseen(sheet, shaking),
+                *findings(sheet, shaking),
+            ]
+        ),
     )
 
 
@@ -84,8 +92,7 @@ def _repaired(source: Path) -> list[str]:
 
     book = open_book(source)
     lost = [item for item in overwritten(book) if item.can_be_restored]
-    if lost:
-        write_cells(book.path, {item.position: Formula(item.formula) for item in lost})
+    write_cells(book.path, {item.position: Formula(item.formula) for item in lost})
     return [item.position.address for item in lost]
 
 

@@ -14,6 +14,7 @@ from report.assessment.foresight import findings, limit_words
 from report.assessment.verdict import Verdict
 from report.pages.registry import package_data
 from report.sheet.findings import Level, located
+from report.sheet.older import what_is_new
 from report.sheet.schema import Model
 from report.words.units import Quantity, compared, pair, ratio
 from solver.model import Status
@@ -153,6 +154,8 @@ def attention(assessment: Assessment) -> Iterator[Line]:
         where = f"{row.subject}, " if row.subject else ""
         text = f"{where}{_lowered(row.title)}: {row.found}; {row.limit} required. {row.remedy}"
         yield Line(row.consequence.value, text)
+    for finding in what_is_new(assessment.sheet.book):
+        yield Line(finding.level.value, finding.text)
     found = findings(assessment.sheet, assessment.shaking)
     for finding, cell in zip(found, located(found, assessment.sheet.addresses), strict=True):
         if finding.level is Level.WARNING:

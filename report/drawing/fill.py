@@ -23,8 +23,10 @@ from report.sheet.locate import (
     find_unit_cell,
     found_at,
     is_absent,
+    table_area,
     unit_size,
 )
+from report.sheet.older import MOVE
 from report.sheet.parts import Value
 from report.sheet.schema import ROOF, SECTIONS, SIDES, Polygon, Rectangle
 from report.sheet.shapes import Shape
@@ -43,6 +45,7 @@ class _Table:
     found: TableFound
     next_row: int = 0
     last: int = 0
+    totals: int = 0
 
     @classmethod
     def of(cls, book: OpenBook, key: str) -> _Table:
@@ -52,7 +55,11 @@ class _Table:
         top = table.found.heading.row
         filled = [row for row in table.found.rows if not table.is_blank(row)]
         table.next_row = max(filled, default=top) + 1
-        table.last = top + MAX_ROWS
+        area = table_area(book, section)
+        if area and area.totals and table.next_row <= area.totals:
+            table.totals, table.last = area.totals, area.last
+        else:
+            table.last = top + MAX_ROWS
         return table
 
     def cell(self, row: int, name: str) -> Found:
@@ -82,8 +89,14 @@ class _Table:
     def added(self) -> int:
         """Return the next free row."""
         row, self.next_row = self.next_row, self.next_row + 1
+        where = self.found.heading.address
+        if self.totals and row > self.last:
+            title = self.found.heading.sheet
+            raise InputError(
+                f"{title}!{self.totals}: the table has a row of totals, and no blank row above it;"
+                " remove the row of totals, or insert rows above it"
+            )
         if row > self.last:
-            where = self.found.heading.address
             raise InputError(f"{where}: more than {MAX_ROWS} rows; draw with fewer vertices")
         return row
 
@@ -199,7 +212,9 @@ def _note_outline(fill: _Fill, place: Place, outlines: _Table | None) -> None:
 def _fill_outlines(fill: _Fill, outlines: _Table | None) -> None:
     if outlines is None:
         if fill.outlines:
-            raise InputError(f"Outlines: the sheet is missing; {FRESH}")
+            names = ", ".join(name for name, _ in fill.outlines)
+            missing = f"Outlines: the sheet is missing, which {names} in the drawing need"
+            raise InputError(f"{missing}. {MOVE}, then read the drawing into that")
         return
     for name in fill.outlined:
         for row in outlines.rows("name", name):

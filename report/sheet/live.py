@@ -37,6 +37,7 @@ from report.sheet.rules import write_rules
 from report.sheet.schema import SECTIONS, UnitsFirst
 from report.sheet.spelling import canonical, moved
 
+_PANEL = "live_prescriptive_in"
 _BROKEN = "#REF!"
 _SHOWN = 100
 _ASIDE = 20
@@ -155,12 +156,17 @@ def _title(book: OpenBook, position: CellPosition) -> str:
     return f"{found.removesuffix(' *')}, computed," if position.sheet == "Site" else found
 
 
+def has_live_formulas(book: OpenBook) -> bool:
+    """Whether a workbook computes while it is filled in, as those of 0.1 do not."""
+    return area_named(book.book, _PANEL) is not None
+
+
 def live_formulas(book: OpenBook) -> Mapping[CellPosition, str]:
     """Return every live formula that a workbook should have, with its equals sign.
 
     A formula that refers to a column which the workbook lacks has `#REF!` in it.
     """
-    panel = area_named(book.book, "live_prescriptive_in")
+    panel = area_named(book.book, _PANEL)
     if panel is None:
         return {}
     is_us = panel[1][0] == 2

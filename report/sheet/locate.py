@@ -434,8 +434,8 @@ class TableArea:
     Attributes
     ----------
     sheet : str
-    header, last : int
-        Row of the headings, and last row above its totals.
+    header, last, totals : int
+        Row of the headings, last row above its totals, and row of the totals; 0 without one.
     headings : mapping of str to CellPosition
         By label: without unit, asterisk, case or extra spaces.
     """
@@ -443,6 +443,7 @@ class TableArea:
     sheet: str
     header: int
     last: int
+    totals: int
     headings: Mapping[str, CellPosition]
 
 
@@ -457,6 +458,7 @@ def table_area(book: OpenBook, section: Section) -> TableArea | None:
         sheet=sheet.title,
         header=top,
         last=totals.start - 1,
+        totals=totals.start if totals else 0,
         headings={label_key(sheet.cell(top, place.column).value): place for place in places},
     )
 

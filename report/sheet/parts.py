@@ -82,6 +82,8 @@ def write_cells(path: Path, changes: Mapping[CellPosition, Value]) -> None:
     InputError
         If it cannot be read or written, a sheet is missing, or a cell shares its formula.
     """
+    if not changes:
+        return
     try:
         data = path.read_bytes()
     except OSError as error:

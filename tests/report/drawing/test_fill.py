@@ -7,6 +7,8 @@ from click.testing import CliRunner
 from openpyxl import load_workbook
 
 from report.cli.main import main
+from report.sheet.archive import open_book
+from report.sheet.live import overwritten
 from report.sheet.read import read
 from report.sheet.schema import Polygon, UnitsFirst
 from report.sheet.template import write_template
@@ -107,6 +109,29 @@ def test_formulas_and_all_other_parts_stay(tmp_path):
     assert load_workbook(path)["Arrays"]["H8"].value == "=40000+2000"
 
 
+def test_rows_that_a_table_grows_by_have_their_formulas(tmp_path, blank):
+    sketch = Sketch("R2018")
+    for number in range(30):
+        box = ((x + 20 * number, y) for x, y in ((0, 0), (10, 0), (10, 10), (0, 10)))
+        sketch.ring("ARRAY", tuple(box), f"A{number}")
+    assert run(sketch.saved(tmp_path), blank).exit_code == 0
+    assert len(read(blank).draft["arrays"]) == 30
+    book = open_book(blank)
+    assert book.formula("Arrays", "A37").startswith("=IF(SUMPRODUCT(")
+    assert overwritten(book) == ()
+
+
+def test_a_row_of_totals_with_no_blank_row_above_it_is_told(tmp_path, blank):
+    def close(book):
+        book["Outlines"].tables["outlines_table"].totalsRowCount = 1
+        for row in range(8, 27):
+            book["Outlines"][f"B{row}"] = "A9"
+
+    done = run(drawing(tmp_path), edit(blank, close))
+    assert done.exit_code == 2
+    assert "Outlines!27: the table has a row of totals, and no blank row above it" in done.output
+
+
 def test_layers_of_the_workbook_name_what_is_drawn(tmp_path):
     path = make(tmp_path, clearances=[], layers=[{"layer": "PV", "kind": "array"}])
     sketch = Sketch()
@@ -139,7 +164,8 @@ def test_polygons_need_the_sheet_outlines(tmp_path):
     edit(path, lambda book: book.remove(book["Outlines"]))
     done = run(drawing(tmp_path), tmp_path, "--replace")
     assert done.exit_code == 2
-    assert "Outlines: the sheet is missing; copy it from a fresh workbook" in done.output
+    assert "Outlines: the sheet is missing, which A1 in the drawing need" in done.output
+    assert "Run roofslip new FOLDER and copy your cells" in done.output
 
 
 @pytest.mark.parametrize("name", ["none.dxf", "."])
