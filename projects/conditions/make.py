@@ -8,9 +8,18 @@ from __future__ import annotations
 import datetime as dt
 from pathlib import Path
 
+from report.sheet.rows import (
+    Range,
+    Row,
+    clearance,
+    issued,
+    motion,
+    rectangle,
+    roof_object,
+    write_motions,
+)
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.template import write_template
-from solver.records.record import write_record
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis import SuiteMotion, make_suite
@@ -19,16 +28,12 @@ HERE = Path(__file__).resolve().parent
 FOOT, INCH, POUND = 0.3048, 0.0254, 4.4482216152605
 S_DS_G = 1.0
 COUNT, SEED, DT_S = 4, 1000, 0.01
-ENGINEER = "Engineer of record"
 SOURCE = f"AC156 spectrum at the roof, seed {SEED}; one component of each motion"
 
 
 def main() -> None:
     """Write records/ and input.xlsx beside this file."""
-    records = HERE / "records"
-    records.mkdir(exist_ok=True)
-    for number, motion in enumerate(suite(COUNT), start=1):
-        write_record(records / f"RM{number}-x.csv", motion.x, hold_s=motion.hold_s)
+    write_motions(HERE / "records", "RM", suite(COUNT), "x")
     write_template(HERE / "input.xlsx", units=UnitsFirst.US, example=project())
 
 
@@ -49,25 +54,16 @@ def project() -> ProjectInput:
     """Return the project: a small warehouse whose calculation lacks much."""
     return ProjectInput.model_validate(
         {
-            "project": {
-                "name": "Small Warehouse, Rooftop Solar",
-                "number": "CO-1000",
-                "client": "Example client",
-                "address": "Sacramento, California",
-                "prepared_by": ENGINEER,
-                "checked_by": "",
-                "date": dt.date(2026, 11, 20),
-                "revision": "A",
-                "units_first": "US",
-            },
-            "revisions": [
-                {
-                    "revision": "A",
-                    "date": dt.date(2026, 11, 20),
-                    "description": "Draft, incomplete",
-                    "by": ENGINEER,
-                }
-            ],
+            **issued(
+                "Small Warehouse, Rooftop Solar",
+                "CO-1000",
+                "Example client",
+                "Sacramento, California",
+                "US",
+                date=dt.date(2026, 11, 20),
+                revision="A",
+                description="Draft, incomplete",
+            ),
             "site": {
                 "rule_set": "SEAOC PV1-2012",
                 "risk_category": "II",
@@ -79,12 +75,7 @@ def project() -> ProjectInput:
                 "structure_height_m": 24 * FOOT,
                 "roof_height_m": 24 * FOOT,
             },
-            "roof": {
-                "x_from_m": 0.0,
-                "x_to_m": 200 * FOOT,
-                "y_from_m": 0.0,
-                "y_to_m": 100 * FOOT,
-            },
+            "roof": rectangle((0.0, 200), (0.0, 100), FOOT),
             "arrays": [
                 # Longer than 150 ft between fire lanes.
                 _array("A1", (10, 170), (54, 90)),
@@ -106,15 +97,12 @@ def project() -> ProjectInput:
                 _clearance("A1", "WEST", "across", 10),
                 _clearance("A2", "WEST", "across", 10),
             ],
-            "motions": [
-                {"id": f"RM{number}", "record": f"records/RM{number}-x.csv", "source": SOURCE}
-                for number in range(1, COUNT + 1)
-            ],
+            "motions": [motion(f"RM{n}", "x", SOURCE) for n in range(1, COUNT + 1)],
         }
     )
 
 
-def _array(name: str, x: tuple[float, float], y: tuple[float, float]) -> dict[str, object]:
+def _array(name: str, x: Range, y: Range) -> Row:
     """Return an array without friction test report, interconnection strength and slack."""
     area_sqft = (x[1] - x[0]) * (y[1] - y[0])
     return {
@@ -127,28 +115,17 @@ def _array(name: str, x: tuple[float, float], y: tuple[float, float]) -> dict[st
         "cg_height_m": 9 * INCH,
         "support_spacing_m": 40 * INCH,
         "downslope_deg": 270.0,
-        **_plan(x, y),
+        **rectangle(x, y, FOOT),
     }
 
 
-def _object(
-    name: str,
-    kind: str,
-    height_in: float | None,
-    x: tuple[float, float],
-    y: tuple[float, float],
-) -> dict[str, object]:
+def _object(name: str, kind: str, height_in: float | None, x: Range, y: Range) -> Row:
     height_m = None if height_in is None else height_in * INCH
-    return {"id": name, "kind": kind, "height_m": height_m, **_plan(x, y)}
+    return roof_object(name, kind, height_m, x, y, FOOT)
 
 
-def _plan(x: tuple[float, float], y: tuple[float, float]) -> dict[str, float]:
-    sides = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
-    return {side: value * FOOT for side, value in zip(sides, (*x, *y), strict=True)}
-
-
-def _clearance(array: str, other: str, direction: str, feet: float) -> dict[str, object]:
-    return {"array": array, "object": other, "direction": direction, "provided_m": feet * FOOT}
+def _clearance(array: str, other: str, direction: str, feet: float) -> Row:
+    return clearance(array, other, direction, feet * FOOT)
 
 
 if __name__ == "__main__":

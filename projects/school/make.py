@@ -8,9 +8,18 @@ from __future__ import annotations
 import datetime as dt
 from pathlib import Path
 
+from report.sheet.rows import (
+    Range,
+    Row,
+    clearance,
+    issued,
+    motion,
+    rectangle,
+    roof_object,
+    write_motions,
+)
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.template import write_template
-from solver.records.record import write_record
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis import SuiteMotion, make_suite
@@ -23,7 +32,6 @@ COUNT, SEED = 7, 716
 DT_S, DURATION_S = 0.01, 36.0
 # A_FLX at the roof / at grade: below its first frequency the building amplifies nothing.
 FACTOR = 1.6
-ENGINEER = "Engineer of record"
 SOURCE = (
     f"Generated: AC156 at grade, vertical AC156 / {FACTOR}, seed {SEED}."
     f" Factor {FACTOR}: A_FLX at the roof / at grade"
@@ -32,11 +40,7 @@ SOURCE = (
 
 def main() -> None:
     """Write records/ and input.xlsx beside this file."""
-    records = HERE / "records"
-    records.mkdir(exist_ok=True)
-    for number, motion in enumerate(suite(COUNT), start=1):
-        for record, letter in zip(motion.components, "xyz", strict=True):
-            write_record(records / f"GM{number}-{letter}.csv", record, hold_s=motion.hold_s)
+    write_motions(HERE / "records", "GM", suite(COUNT))
     write_template(HERE / "input.xlsx", units=UnitsFirst.SI, example=project())
 
 
@@ -59,25 +63,14 @@ def project() -> ProjectInput:
     """Return the project: a two-story school, its roof steeper than 1 in 20, with peer review."""
     return ProjectInput.model_validate(
         {
-            "project": {
-                "name": "Two-Story School, Rooftop Solar",
-                "number": "SC-716",
-                "client": "Example school district",
-                "address": "Albuquerque, New Mexico",
-                "prepared_by": ENGINEER,
-                "checked_by": "",
-                "date": dt.date(2026, 11, 20),
-                "revision": "0",
-                "units_first": "SI",
-            },
-            "revisions": [
-                {
-                    "revision": "0",
-                    "date": dt.date(2026, 11, 20),
-                    "description": "Issued for plan check",
-                    "by": ENGINEER,
-                }
-            ],
+            **issued(
+                "Two-Story School, Rooftop Solar",
+                "SC-716",
+                "Example school district",
+                "Albuquerque, New Mexico",
+                "SI",
+                date=dt.date(2026, 11, 20),
+            ),
             "site": {
                 "rule_set": "ASCE 7-16",
                 "risk_category": "III",
@@ -96,7 +89,7 @@ def project() -> ProjectInput:
                 "force_factor": 1.0,
                 "force_divisor": 1.5,
             },
-            "roof": {"x_from_m": 0.0, "x_to_m": 60.0, "y_from_m": 0.0, "y_to_m": 34.0},
+            "roof": rectangle((0.0, 60.0), (0.0, 34.0), 1.0),
             "arrays": [
                 _array("A1", (3.0, 28.0), (3.0, 31.0)),
                 _array("A2", (32.0, 57.0), (3.0, 26.0)),
@@ -122,32 +115,30 @@ def project() -> ProjectInput:
                 for number, mu in enumerate(tested, start=1)
             ],
             "objects": [
-                _object("AHU-1", "fixed object", 1.4, (40.0, 46.0), (28.0, 31.0)),
-                _object("NORTH", "edge with parapet", 0.9, (0.0, 60.0), (34.0, 34.3)),
-                _object("SOUTH", "edge with parapet", 0.9, (0.0, 60.0), (-0.3, 0.0)),
-                _object("EAST", "edge with parapet", 0.9, (60.0, 60.3), (0.0, 34.0)),
-                _object("WEST", "edge with parapet", 0.9, (-0.3, 0.0), (0.0, 34.0)),
+                roof_object("AHU-1", "fixed object", 1.4, (40.0, 46.0), (28.0, 31.0), 1.0),
+                roof_object("NORTH", "edge with parapet", 0.9, (0.0, 60.0), (34.0, 34.3), 1.0),
+                roof_object("SOUTH", "edge with parapet", 0.9, (0.0, 60.0), (-0.3, 0.0), 1.0),
+                roof_object("EAST", "edge with parapet", 0.9, (60.0, 60.3), (0.0, 34.0), 1.0),
+                roof_object("WEST", "edge with parapet", 0.9, (-0.3, 0.0), (0.0, 34.0), 1.0),
             ],
             "clearances": [
-                _clearance("A1", "A2", "across", 4.0),
-                _clearance("A2", "AHU-1", "up", 2.0),
-                _clearance("A1", "NORTH", "up", 3.0),
-                _clearance("A1", "SOUTH", "down", 3.0),
-                _clearance("A1", "WEST", "across", 3.0),
-                _clearance("A2", "SOUTH", "down", 3.0),
-                _clearance("A2", "EAST", "across", 3.0),
+                clearance("A1", "A2", "across", 4.0),
+                clearance("A2", "AHU-1", "up", 2.0),
+                clearance("A1", "NORTH", "up", 3.0),
+                clearance("A1", "SOUTH", "down", 3.0),
+                clearance("A1", "WEST", "across", 3.0),
+                clearance("A2", "SOUTH", "down", 3.0),
+                clearance("A2", "EAST", "across", 3.0),
             ],
             "motions": [
-                {
-                    "id": f"GM{number}",
-                    "record": f"records/GM{number}-x.csv",
-                    "transverse": f"records/GM{number}-y.csv",
-                    "vertical": f"records/GM{number}-z.csv",
-                    "scaling": "factor",
-                    "scale_value": FACTOR,
-                    "recorded_at": "ground",
-                    "source": SOURCE,
-                }
+                motion(
+                    f"GM{number}",
+                    "xyz",
+                    SOURCE,
+                    scaling="factor",
+                    scale_value=FACTOR,
+                    recorded_at="ground",
+                )
                 for number in range(1, COUNT + 1)
             ],
             "building": {"structure": "other"},
@@ -163,7 +154,7 @@ def project() -> ProjectInput:
     )
 
 
-def _array(name: str, x: tuple[float, float], y: tuple[float, float]) -> dict[str, object]:
+def _array(name: str, x: Range, y: Range) -> Row:
     """Return an array of the same product; south is downslope, 0.75 in 12, which is 1 in 16."""
     area_m2 = (x[1] - x[0]) * (y[1] - y[0])
     return {
@@ -180,22 +171,8 @@ def _array(name: str, x: tuple[float, float], y: tuple[float, float]) -> dict[st
         "i_p": 1.0,
         "interconnection_n": 15.0e3,
         "slack_m": 1.2,
-        **_plan(x, y),
+        **rectangle(x, y, 1.0),
     }
-
-
-def _object(
-    name: str, kind: str, height_m: float, x: tuple[float, float], y: tuple[float, float]
-) -> dict[str, object]:
-    return {"id": name, "kind": kind, "height_m": height_m, **_plan(x, y)}
-
-
-def _plan(x: tuple[float, float], y: tuple[float, float]) -> dict[str, float]:
-    return dict(zip(("x_from_m", "x_to_m", "y_from_m", "y_to_m"), (*x, *y), strict=True))
-
-
-def _clearance(array: str, other: str, direction: str, provided_m: float) -> dict[str, object]:
-    return {"array": array, "object": other, "direction": direction, "provided_m": provided_m}
 
 
 if __name__ == "__main__":

@@ -42,16 +42,24 @@ STEPS = 5
 @click.argument("folder", metavar="DIR", type=SOURCE)
 @click.option("--units", type=click.Choice(["US", "SI"]), default="US", show_default=True,
               help="Units of the input cells and primary units of the package.")  # fmt: skip
-def new(folder: Path, units: str) -> None:
+@click.option("--example", is_flag=True, help="Fill it in, with motions, to try a report.")
+def new(folder: Path, units: str, example: bool) -> None:
     """Write a blank DIR/input.xlsx and the folder DIR/records/ for the motions."""
-    with input_errors(folder):
-        path = _new_project(folder, units)
+    with input_errors(folder), Progress() as progress:
+        path = _new_project(folder, units, example, progress)
+    if example:
+        click.echo(f"{path}: a warehouse with three arrays and seven motions, complete;")
+        click.echo(f"to see its package, run: roofslip report {folder}")
+        return
     click.echo(f"{path}: fill in the yellow cells, put the roof motions in {folder / 'records'},")
     click.echo(f"then run: roofslip report {folder}")
 
 
-def _new_project(folder: Path, units: str) -> Path:
-    """Write a blank workbook and an empty records folder; never overwrite a workbook."""
+def _new_project(
+    folder: Path, units: str, is_example: bool, progress: Callable[[str], None]
+) -> Path:
+    """Write a workbook and its records folder; never overwrite a workbook or a record."""
+    from report.sheet.example import write_example
     from report.sheet.schema import UnitsFirst
     from report.sheet.template import write_template
     from solver.model import InputError
@@ -60,8 +68,15 @@ def _new_project(folder: Path, units: str) -> Path:
     if os.path.lexists(path):  # a dangling link as well
         raise InputError(f"{path}: already exists; choose another folder, or move the file")
     try:
-        (folder / "records").mkdir(parents=True, exist_ok=True)
-        write_template(path, units=UnitsFirst(units))
+        records = folder / "records"
+        if is_example and records.is_dir() and any(records.iterdir()):
+            raise InputError(f"{records}: is not empty; choose another folder")
+        records.mkdir(parents=True, exist_ok=True)
+        if is_example:
+            progress("generating the motions")
+            write_example(folder, UnitsFirst(units))
+        else:
+            write_template(path, units=UnitsFirst(units))
     except OSError as error:
         raise InputError(
             f"{path}: cannot be written ({error.strerror}); choose another folder"

@@ -7,7 +7,6 @@ Run from the top: .venv/bin/python tests/bench/large_report.py [FOLDER]
 
 from __future__ import annotations
 
-import importlib.util
 import resource
 import shutil
 import subprocess
@@ -15,7 +14,6 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 ARRAYS, MOTIONS, CLEARANCES = 12, 11, 30
@@ -25,18 +23,16 @@ WAYS = ("down", "up", "across")
 def make(folder: Path) -> None:
     """Write the project."""
     sys.path.insert(0, str(ROOT))
-    spec = importlib.util.spec_from_file_location("make", ROOT / "projects/example/make.py")
-    module: Any = importlib.util.module_from_spec(spec)  # type: ignore[arg-type]
-    spec.loader.exec_module(module)  # type: ignore[union-attr]
+    from report.sheet import example
     from report.sheet.schema import ProjectInput, UnitsFirst
     from report.sheet.template import write_template
 
     records = ROOT / "projects" / "example" / "records"
     shutil.copytree(records, folder / "records", dirs_exist_ok=True)
-    data = module.example().model_dump()
+    data = example.project().model_dump()
     rows = range(ARRAYS)
     data["arrays"] = [
-        module._array(
+        example._array(
             f"A{k + 1}",
             0.5 * (1 + k % 6),
             0.40 + 0.01 * (k % 6),
@@ -47,7 +43,7 @@ def make(folder: Path) -> None:
         for k in rows
     ]
     data["objects"] = [
-        module._object(
+        example._object(
             f"RTU-{k + 1}",
             "fixed object",
             (124 + 110 * (k % 4), 128 + 110 * (k % 4)),
@@ -60,13 +56,13 @@ def make(folder: Path) -> None:
     pairs += [(f"A{k + 1}", f"A{k + 2}", "across") for k in rows if k % 4 != 3]
     pairs += [(f"A{k + 1}", f"A{k + 5}", "up") for k in rows if k < 8]
     pairs += [("A4", "RTU-3", "across")]
-    data["clearances"] = [module._clearance(*pair, 12) for pair in pairs][:CLEARANCES]
+    data["clearances"] = [example._clearance(*pair, 12) for pair in pairs][:CLEARANCES]
     turned = [
         row | {"id": f"{row['id']}T", "record": row["transverse"], "transverse": row["record"]}
         for row in data["motions"]
     ]
     data["motions"] = [*data["motions"], *turned][:MOTIONS]
-    data["roof"] |= {"x_to_m": 480 * module.FOOT, "y_to_m": 360 * module.FOOT}
+    data["roof"] |= {"x_to_m": 480 * example.FOOT, "y_to_m": 360 * example.FOOT}
     project = ProjectInput.model_validate(data)
     write_template(folder / "input.xlsx", units=UnitsFirst.US, example=project)
 

@@ -6,7 +6,9 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from zipfile import ZipFile
 
+import numpy as np
 from click.testing import CliRunner
 from pypdf import PdfReader
 
@@ -63,6 +65,31 @@ def test_new_does_not_write_through_a_dangling_link(tmp_path):
     assert done.exit_code == 2
     assert "already exists" in done.output
     assert not (tmp_path / "elsewhere.xlsx").exists()
+
+
+def test_new_example_writes_the_example_of_the_projects(tmp_path):
+    done = run("new", "--example", tmp_path / "job")
+    assert done.exit_code == 0, done.output
+    made, committed = tmp_path / "job", ROOT / "projects" / "example"
+    names = {path.relative_to(made) for path in made.rglob("*.*")}
+    assert len(names) == 22
+    for name in names - {Path("input.xlsx")}:
+        one, other = (np.loadtxt(f / name, delimiter=",", skiprows=2) for f in (made, committed))
+        assert np.abs(one - other).max() <= 3e-5  # sines may differ in the last digit
+    with ZipFile(made / "input.xlsx") as one, ZipFile(committed / "input.xlsx") as other:
+        parts = [part for part in one.namelist() if part.endswith(".xml")]
+        for part in set(parts) - {"docProps/core.xml"}:
+            assert one.read(part) == other.read(part), part
+    assert "no problems found" in run("check", made).output
+
+
+def test_new_example_overwrites_no_records(tmp_path):
+    (tmp_path / "records").mkdir()
+    (tmp_path / "records" / "mine.csv").write_text("0,0")
+    done = run("new", "--example", tmp_path)
+    assert done.exit_code == 2
+    assert "records: is not empty; choose another folder" in done.output
+    assert not (tmp_path / "input.xlsx").exists()
 
 
 def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):

@@ -1,26 +1,18 @@
 """The example agrees with the script that makes it."""
 
-import importlib.util
-
 import numpy as np
 import pytest
 
 from places import ROOT
+from report.sheet import example
 from sheets import read_workbook
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from solver.synthesis import make_suite
 
 EXAMPLE = ROOT / "projects" / "example"
-
-
-@pytest.fixture(scope="module")
-def make():
-    spec = importlib.util.spec_from_file_location("make", EXAMPLE / "make.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 @pytest.fixture(scope="module")
@@ -28,8 +20,8 @@ def book():
     return read_workbook(EXAMPLE)
 
 
-def test_the_workbook_has_the_project_of_the_script(make, book):
-    expected = make.project().model_dump()
+def test_the_workbook_has_the_project_of_the_script(book):
+    expected = example.project().model_dump()
     project = book.input.model_dump()
     assert project.keys() == expected.keys()
     assert dict(flatten(project)) == dict(flatten(expected))
@@ -48,33 +40,33 @@ def flatten(tree, path=""):
 
 
 @pytest.fixture(scope="module")
-def records(make):
+def records():
     """Return the three records of each motion, as committed."""
     folder = EXAMPLE / "records"
     return [
         [read_record(folder / f"RM{number}-{axis}.csv", units="g") for axis in "xyz"]
-        for number in range(1, make.COUNT + 1)
+        for number in range(1, example.COUNT + 1)
     ]
 
 
 @pytest.fixture(scope="module")
-def targets(make):
+def targets():
     """Return the spectra that x, y and z follow."""
-    across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=make.S_DS_G, z_over_h=1.0)
-    return across, across, ac156_vertical(s_ds_g=make.S_DS_G)
+    across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=example.S_DS_G, z_over_h=1.0)
+    return across, across, ac156_vertical(s_ds_g=example.S_DS_G)
 
 
-def test_the_first_motion_is_reproduced_to_the_last_digit(make, records, targets):
+def test_the_first_motion_is_reproduced_to_the_last_digit(records, targets):
     """One of seven, to keep the test short; sines may differ in the last digit between machines."""
     across, _, upward = ((part.freq_hz, part.sa_g) for part in targets)
-    again = make.make_suite(across, upward, count=1, seed=make.SEED)[0]
+    again = make_suite(across, upward, count=1, seed=example.SEED)[0]
     for made, committed in zip(again.components, records[0], strict=True):
         assert np.abs(made.a_mps2 - committed.a_mps2).max() <= 3e-5 * 9.80665
 
 
-def test_the_folder_has_the_motions_and_nothing_else(make):
+def test_the_folder_has_the_motions_and_nothing_else():
     names = {path.name for path in (EXAMPLE / "records").iterdir()}
-    assert names == {f"RM{n}-{axis}.csv" for n in range(1, make.COUNT + 1) for axis in "xyz"}
+    assert names == {f"RM{n}-{axis}.csv" for n in range(1, example.COUNT + 1) for axis in "xyz"}
 
 
 def test_the_workbook_runs_the_records(book, records):
