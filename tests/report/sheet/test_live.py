@@ -33,8 +33,8 @@ def check(*arguments):
 
 def formulas(path):
     """Every formula of a workbook by cell."""
-    scans = open_book(path).scans
-    return {f"{t}!{c}": f for t, scan in scans.items() for c, f in scan.formulas.items()}
+    book = open_book(path)
+    return {f"{t}!{c}": book.formula(t, c) for t, scan in book.scans.items() for c in scan.formulas}
 
 
 @pytest.mark.parametrize("units", list(UnitsFirst))
