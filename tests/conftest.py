@@ -24,7 +24,9 @@ SLOW = (
     "test_cache", "test_refused", "test_seeds", "test_manual_building", "test_manual_rungs",
     "test_packaging",
     "test_rung_study", "test_static_study", "test_rungs", "test_read", "test_faults", "test_xlsx",
-    "test_fragility", "test_parts", "test_plane_scipy", "test_neighbors", "test_roof", "test_plan",
+    "test_fragility", "test_study_parts",
+    "test_study", "test_study_cluster", "test_plane_scipy", "test_neighbors", "test_roof",
+    "test_plan",
 )  # fmt: skip
 
 

@@ -198,7 +198,7 @@ SLOW = """
 import sys
 sys.path.insert(0, {tests!r})
 from pathlib import Path
-from test_parts import NAMES, campaign
+from test_study_parts import NAMES, campaign
 from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, run_missing
 c = campaign("xyz", 2)
