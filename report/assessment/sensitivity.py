@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from report.assessment.project import Assessment, reassess
 from report.assessment.runs import MotionRun
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, SlideResult, Status
 from solver.rivals.methods import METHODS, Method
+from solver.rules.provisions import Check
 from solver.sliding.checked import slide
 
 """Fraction by which the friction coefficient is decreased and increased."""
@@ -113,6 +114,18 @@ class Accuracy:
         """Clearances that are satisfied as given but not with less friction."""
         pairs = zip(self.given.clearances, self.less.clearances, strict=True)
         return tuple(after for before, after in pairs if before.ok and not after.ok)
+
+    @property
+    def newly_limited(self) -> tuple[tuple[ArrayAssessment, Check], ...]:
+        """Limits of the routes taken that are satisfied as given but not with less friction."""
+        pairs = zip(self.given.arrays, self.less.arrays, strict=True)
+        return tuple(
+            (after, check)
+            for before, after in pairs
+            if all(check.ok for check in before.limits)
+            for check in replace(after, route=before.route).limits
+            if not check.ok
+        )
 
 
 def rivals(array: ArrayAssessment) -> Rivals:

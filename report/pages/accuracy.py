@@ -9,7 +9,16 @@ from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.friction import SHIFT
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, MethodRun, Rivals
-from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
+from report.pages.parts import (
+    NO_VALUE,
+    PackageData,
+    Picture,
+    Table,
+    TableColumn,
+    TableRow,
+    check_value,
+    dagger,
+)
 from report.words.letters import lettered, power_of_ten
 from report.words.units import number
 from solver.model import Status
@@ -27,7 +36,11 @@ def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
         "method": _method(accuracy.rivals),
         "methods": _methods(package, accuracy.rivals) if accuracy.rivals.runs else None,
         "friction": _friction_table(package, accuracy),
-        "sentences": [*_sentences(package, accuracy), *_clearances(accuracy)],
+        "sentences": [
+            *_sentences(package, accuracy),
+            *_clearances(accuracy),
+            *_limits(package, accuracy),
+        ],
     }
 
 
@@ -267,6 +280,16 @@ def _clearances(accuracy: Accuracy) -> Sequence[str]:
             "end of their record: their displacement is not final."
         )
     return texts
+
+
+def _limits(package: PackageData, accuracy: Accuracy) -> Sequence[str]:
+    """Return the limits of arrays that less friction breaks."""
+    return [
+        f"{check.title}, array {array.id}: with {_PERCENT} less friction "
+        f"{check_value(check, check.value, package.fmt)}, and the limit is "
+        f"{check_value(check, check.limit, package.fmt)}{dagger(check.provision)}: NG."
+        for array, check in accuracy.newly_limited
+    ]
 
 
 def _short_of(accuracy: Accuracy) -> str:

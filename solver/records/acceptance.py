@@ -147,7 +147,7 @@ def _components(found: Sequence[MotionStrength]) -> AcceptanceRow:
     fewest = min(found, key=lambda motion: len(motion.strengths))
     missing = [name for name in COMPONENTS if name not in fewest.strengths]
     return AcceptanceRow(
-        title="Components of each motion: two horizontal and the vertical together",
+        title="Number of components of each motion: two horizontal and the vertical together",
         found=float(len(fewest.strengths)),
         limit=float(len(COMPONENTS)),
         is_at_least=True,

@@ -244,3 +244,15 @@ def test_the_page_is_in_the_package():
 def test_the_time_of_a_run_is_said_as_a_power_of_ten_well_above_it(seconds, said):
     assert accuracy_page._decade_ms(seconds) == said
     assert float(said) * 1e-3 >= 10 * seconds
+
+
+def test_a_limit_that_less_friction_breaks_is_named():
+    """Two motions are too few: the arrays take the prescriptive route, which asks for 0.40."""
+    arrays = [stand_in.array("A1", 0.5, mu=0.41), stand_in.array("A2", 2.0, x=120)]
+    data = stand_in.project(arrays=arrays, clearances=[], links=[])
+    _, package, evidence = made(data, stand_in.motions(2, seconds=10.0))
+    assert [array.id for array, _ in evidence.newly_limited] == ["A1"]
+    assert (
+        "Friction coefficient, prescriptive route, array A1: with 5 % less friction 0.389, and the "
+        "limit is 0.400†: NG." in words(accuracy_page.page(package, evidence))
+    )

@@ -33,6 +33,7 @@ class Made:
     pages: list[str]
     results: dict
     book: object
+    filled: list[float]
 
     @property
     def whole(self):
@@ -54,6 +55,19 @@ class Made:
         return text[: after.start()] if after else text
 
 
+def filled(page):
+    """The share of a sheet between its head and its lowest line above the foot."""
+    heights = []
+
+    def note(text, matrix, at, *_):
+        if text.strip():
+            heights.append(at[4] * matrix[1] + at[5] * matrix[3] + matrix[5])
+
+    page.extract_text(visitor_text=note)
+    top, bottom = float(page.mediabox.height) - 0.9 * 72, 0.95 * 72
+    return (top - min(y for y in heights if bottom < y < top)) / (top - bottom)
+
+
 def report(name, folder):
     done = CliRunner().invoke(main, ["report", str(PROJECTS / name), "--out", str(folder)])
     assert done.exit_code == 0, done.output
@@ -63,6 +77,7 @@ def report(name, folder):
         pages=[" ".join(page.extract_text().split()) for page in reader.pages],
         results=json.loads((folder / "results.json").read_text(encoding="utf-8")),
         book=load_workbook(folder / "results.xlsx", data_only=True),
+        filled=[filled(page) for page in reader.pages],
     )
 
 
@@ -76,8 +91,20 @@ def conditions(tmp_path_factory):
     return report("conditions", tmp_path_factory.mktemp("conditions"))
 
 
-def test_the_example_has_at_most_28_sheets(tmp_path):
-    assert len(report("example", tmp_path).pages) <= 28
+@pytest.fixture(scope="session")
+def example(tmp_path_factory):
+    return report("example", tmp_path_factory.mktemp("example"))
+
+
+def test_the_example_has_at_most_28_sheets(example):
+    assert len(example.pages) <= 28
+
+
+@pytest.mark.parametrize("name", ["example", "school", "conditions"])
+def test_no_sheet_but_the_letter_and_the_last_is_under_three_fifths_full(name, request):
+    sheets = request.getfixturevalue(name)
+    titled = zip(sheets.pages[:-1], sheets.filled[:-1], strict=True)
+    assert all(share > 0.6 for text, share in titled if "Letter of results" not in text[:120])
 
 
 def script(name):
@@ -304,7 +331,7 @@ def test_the_prescriptive_value_serves_where_its_limits_hold(conditions):
     for name in ("A1", "A2"):
         assert (
             f"Array {name}: the prescriptive route is taken; the analysis route is not permitted "
-            "(Components of each motion: two horizontal and the vertical together)."
+            "(Number of components of each motion: two horizontal and the vertical together)."
         ) in comparison
 
 

@@ -77,7 +77,7 @@ def test_a_short_record_is_a_condition_and_a_missing_component_is_ng():
     strong = shown["Strong motion of records: D5-95 of each component"]
     assert strong[1] == "≥ 20.0 s"
     assert "condition" in strong[3]
-    missing = shown["Components of each motion: two horizontal and the vertical together"]
+    missing = shown["Number of components of each motion: two horizontal and the vertical together"]
     assert missing[:3] == ("2", "≥ 3", f"{MOTIONS[0].id}, no y")
     assert "NG" in missing[3]
     assert shown["Number of motions"][:2] == ("3", "≥ 3")
