@@ -231,6 +231,7 @@ def book(data=None, shaking=None):
                     npts_trimmed=0,
                     notes=(),
                     hold_s=math.nan,
+                    size=100_000,
                     peak_g=float(np.abs(values).max() / G),
                 )
                 for motion in shaking

@@ -137,13 +137,15 @@ def make(
     from report.drawing.plan import plan_drawing
     from report.motions.prepare import prepare
     from report.package.html import begin, pages
+    from report.provenance.files import attachments, fingerprint, sources
     from report.results.compare import changes
+    from report.results.json import results_json
     from report.results.publish import check_apart, check_writable, publish
     from report.results.since import read_former
-    from report.results.tables import tables
+    from report.results.tables import results_table
     from report.sheet.read import read
     from report.typeset.letters import check_letters
-    from report.typeset.pdf import draw_ahead, lay_out, sources
+    from report.typeset.pdf import draw_ahead, lay_out, pictures
 
     progress("reading the workbook")
     former = [read_former(path) for path in (since,) if path]
@@ -153,6 +155,7 @@ def make(
     check_writable(folder)
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
     shaking = prepare(sheet)
+    found = sources(sheet, shaking, since)
     progress("running the motions (the first run compiles the solver)")
     assessment = assess(sheet, shaking)
     changed = changes(former[0], assessment) if former else NO_FORMER
@@ -163,12 +166,15 @@ def make(
     progress("writing the pages")
     html = pages(assessment, evidence, changed, begun)
     progress("laying out the package")
-    drawn = second.submit(draw_ahead, sources(html))
+    drawn = second.submit(draw_ahead, pictures(html))
+    results = second.submit(results_json, assessment, evidence)
     plan = second.submit(write_dxf, plan_drawing(assessment))
-    listed = second.submit(tables, assessment, evidence)
-    pdf = lay_out(html, drawn)
+    table = second.submit(results_table, assessment, evidence.spectra)
+    short = fingerprint(sheet, shaking)
+    pdf = lay_out(html, drawn, lambda: attachments(found, results.result(), short))
     progress("writing the result tables")
-    files = {"calc-package.pdf": pdf, "plan.dxf": plan.result(), **listed.result()}
+    written = (pdf, plan.result(), table.result(), results.result())
+    files = dict(zip(OUTPUTS, written, strict=True))
     publish(files, folder)
     return assessment, folder, files, changed
 

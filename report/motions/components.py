@@ -49,6 +49,8 @@ class RecordFile:
     hold_s : float
         Hold of the envelope [s], if the file says that it was generated and is run from its first
         to its last sample; otherwise NaN.
+    size : int
+        Of the file [bytes]; 0 for a pasted column.
     """
 
     motion_id: str
@@ -62,6 +64,12 @@ class RecordFile:
     npts_trimmed: int
     notes: tuple[str, ...]
     hold_s: float
+    size: int
+
+    @property
+    def is_file(self) -> bool:
+        """Whether it lies beside the workbook, not in a sheet of it."""
+        return self.size > 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -254,4 +262,5 @@ def _file(row: MotionInput, field: str, component: Component, trimmed: int) -> R
         npts_trimmed=trimmed,
         notes=(*component.notes, *([last] if trimmed else [])),
         hold_s=component.hold_s if is_whole else math.nan,
+        size=component.size,
     )

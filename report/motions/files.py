@@ -48,6 +48,8 @@ class Component:
         Remarks on how the file was read.
     hold_s : float
         Hold of the envelope [s], if the file says that it was generated; otherwise NaN.
+    size : int
+        Of the file [bytes]; 0 for a pasted column.
     """
 
     record: Record
@@ -55,6 +57,7 @@ class Component:
     format: str
     notes: tuple[str, ...]
     hold_s: float
+    size: int
 
 
 def read_component(
@@ -79,12 +82,14 @@ def read_component(
         return _read_column(book, name, heading, units, dt_s)
     path, channel = find_file(book, name)
     motion_file = read(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
+    content = path.read_bytes()
     return Component(
         record=motion_file.channel(channel),
-        sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+        sha256=hashlib.sha256(content).hexdigest(),
         format=motion_file.format,
         notes=motion_file.notes,
         hold_s=motion_file.hold_s,
+        size=len(content),
     )
 
 
@@ -187,6 +192,7 @@ def _read_column(
         format="pasted column",
         notes=(),
         hold_s=math.nan,
+        size=0,
     )
 
 

@@ -13,6 +13,7 @@ from markupsafe import Markup
 
 from report.motions.components import RecordFile
 from report.pages.parts import BAR, PackageData, Table, TableColumn, TableRow, shortened
+from report.provenance.software import sbom_sha256
 from report.sheet.read import IGNORED, EchoRow
 from report.words.units import number
 
@@ -45,7 +46,7 @@ def echo_page(package: PackageData) -> Mapping[str, object]:
 def records_page(package: PackageData) -> Mapping[str, object]:
     """Return the records and the software versions."""
     files = records(package.assessment.shaking.records)
-    return {"files": files, "method": METHOD, "software": software()}
+    return {"files": files, "method": METHOD, "software": software(), "sbom": sbom_sha256()}
 
 
 def echo(

@@ -10,10 +10,9 @@ from report.assessment.clearances import ClearanceCheck
 from report.pages.front import verdict_sentence
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, nan_is_worst, stamp
 from report.pages.references import codes
-from report.words.units import ratio
-
-SHORT_HASH = 12
-"""Characters of a SHA-256 printed on the cover; the appendices have it in full."""
+from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
+from report.words.counts import counted
+from report.words.units import number, ratio
 
 
 def cover(package: PackageData) -> Mapping[str, object]:
@@ -32,7 +31,9 @@ def cover(package: PackageData) -> Mapping[str, object]:
             ("Verdict", _verdict(package)),
             *_governing(package),
             ("Applicable codes", _applicable(package)),
-            ("Attachments", "; ".join(_attachments(package))),
+            ("In this file", "; ".join(_attached(package))),
+            ("Beside it", "results.xlsx, results.json, plan.dxf"),
+            ("Verification", _verification(package)),
         ),
         "revisions": _revisions(package),
     }
@@ -71,11 +72,29 @@ def _applicable(package: PackageData) -> str:
     return "; ".join((rules.title, *others))
 
 
-def _attachments(package: PackageData) -> Iterator[str]:
+def _attached(package: PackageData) -> Iterator[str]:
+    """Yield what the package holds as attachments."""
     sheet, records = package.assessment.sheet, package.assessment.shaking.records
-    yield f"workbook {sheet.path.name} (SHA-256 {sheet.sha256[:SHORT_HASH]}…)"
-    yield "1 record file" if len(records) == 1 else f"{len(records)} record files"
-    yield "results.xlsx, results.json, plan.dxf"
+    yield f"workbook {sheet.path.name} (SHA-256 {sheet.sha256[:SHORT]}…)"
+    count = counted(len(record_paths(records)), "record file")
+    if holds_records(records):
+        yield count
+    else:
+        yield (
+            f"not the {count}, {number(record_bytes(records) / 1e6, 1)} MB in all: "
+            f"{package.part('records')} has their SHA-256"
+        )
+    yield "results.json"
+
+
+def _verification(package: PackageData) -> str:
+    records = package.assessment.shaking.records
+    option = "" if holds_records(records) else " --records FOLDER"
+    return (
+        f"roofslip verify-package FILE{option} computes this package again from the workbook and "
+        "the records and compares every sheet. Hash of workbook, records and version, at the foot "
+        f"of every sheet: {package.fingerprint}"
+    )
 
 
 def _revisions(package: PackageData) -> Table:

@@ -47,6 +47,7 @@ def sheet(package: PackageData) -> Mapping[str, str]:
         "checked": shortened(project.checked_by, 22) or "—",
         "revision": shortened(project.revision, 8),
         "edition": package.assessment.rules.name,
+        "hash": package.fingerprint,
     }
 
 

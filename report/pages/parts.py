@@ -18,6 +18,7 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.foresight import limit_value
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
+from report.provenance.files import fingerprint
 from report.sheet.schema import Direction, ProjectInput
 from report.typeset.equations import data_uri
 from report.words.units import Quantity, Show, Unit, measured, pair
@@ -252,6 +253,11 @@ class PackageData:
         """Return the reference to a part, as in `part 6`."""
         number = self.numbers[name]
         return f"part {number}" if number.isdigit() else f"appendix {number}"
+
+    @property
+    def fingerprint(self) -> str:
+        """Short hash of workbook, records and version, at the foot of every sheet."""
+        return fingerprint(self.assessment.sheet, self.assessment.shaking)
 
     @property
     def data(self) -> ProjectInput:

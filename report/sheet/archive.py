@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import defusedxml.ElementTree
-from openpyxl import DEFUSEDXML, Workbook, load_workbook
+from openpyxl import DEFUSEDXML, LXML, Workbook, load_workbook
 
 from report.sheet.scan import REOPEN, Extent, Scan, scan_parts
 from solver.model import DefectError, InputError
@@ -226,7 +226,7 @@ def _tree(archive: zipfile.ZipFile, name: str) -> Any:
 
 
 def _load(data: bytes) -> Workbook:
-    if not DEFUSEDXML:
+    if LXML or not DEFUSEDXML:
         raise DefectError("openpyxl does not read through defusedxml")
     try:
         with warnings.catch_warnings():

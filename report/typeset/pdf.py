@@ -1,4 +1,4 @@
-"""From finished HTML to PDF: the only module that knows the renderer, with `drawings`.
+"""From finished HTML to tagged PDF/A-3a: knows the renderer, as do `drawings` and `finish` alone.
 
 Reads only the HTML, `data:` addresses and the fonts and styles in the template folder. Any warning
 in the renderer's log is an internal error.
@@ -6,9 +6,11 @@ in the renderer's log is an internal error.
 
 from __future__ import annotations
 
+import datetime as dt
 import logging
 import re
-from collections.abc import Iterator, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from functools import cache
@@ -16,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from report.typeset.drawings import Converted, Shown, convert
+from report.typeset.finish import Attached, finish
 from solver.model import DefectError
 
 _HERE = Path(__file__).resolve().parents[1]
@@ -24,16 +27,18 @@ TEMPLATES = next(
     (path for path in (_HERE / "templates", _HERE.parent / "templates") if path.is_dir()),
     _HERE / "templates",
 )
+VARIANT = "pdf/a-3a"
+_NO_DATE = dt.datetime(1980, 1, 1)
 _SCHEME = "shipped:"
 _PICTURE = re.compile(r' src="(data:image/svg\+xml;base64,[^"]+)"')
 
 
-def sources(html: str) -> list[str]:
+def pictures(html: str) -> list[str]:
     """Return the `data:` addresses of the SVG pictures in an HTML document."""
     return list(dict.fromkeys(_PICTURE.findall(html)))
 
 
-def draw_ahead(pictures: Sequence[str]) -> dict[str, Converted | None]:
+def draw_ahead(sources: Sequence[str]) -> dict[str, Converted | None]:
     """Convert pictures for `lay_out`, in any process.
 
     Raises
@@ -42,16 +47,22 @@ def draw_ahead(pictures: Sequence[str]) -> dict[str, Converted | None]:
         As `lay_out`.
     """
     with _clean_log():
-        return convert(pictures, TEMPLATES / "package.css")
+        return convert(sources, TEMPLATES / "package.css")
 
 
-def lay_out(html: str, drawn: Future[dict[str, Converted | None]] | None = None) -> bytes:
+def lay_out(
+    html: str,
+    drawn: Future[dict[str, Converted | None]] | None = None,
+    attached: Callable[[], Sequence[Attached]] = tuple,
+) -> bytes:
     """Return the PDF of an HTML document; `shipped:/NAME` addresses a file of the templates.
 
     Parameters
     ----------
     drawn : Future, optional
         What `draw_ahead` returns for all its pictures; waited for when the first is painted.
+    attached : callable
+        Returns the attachments; asked once the pages are laid out.
 
     Raises
     ------
@@ -60,12 +71,35 @@ def lay_out(html: str, drawn: Future[dict[str, Converted | None]] | None = None)
     """
     from weasyprint.text.fonts import FontConfiguration
 
-    with _clean_log():
+    with _clean_log(), warnings.catch_warnings():
+        # The renderer leaves the file of its color profile to the garbage collector.
+        warnings.simplefilter("ignore", ResourceWarning)
         document = _document()(string=html, base_url=f"{_SCHEME}/", url_fetcher=shipped())
         fonts = FontConfiguration()
-        shown = {source: Shown(source, drawn, fonts) for source in sources(html)} if drawn else {}
-        pdf: bytes = document.write_pdf(font_config=fonts, cache=shown)
+        shown = {source: Shown(source, drawn, fonts) for source in pictures(html)} if drawn else {}
+        pages = document.render(font_config=fonts, cache=shown)
+        files = sorted(attached(), key=lambda file: file.name)
+        pdf: bytes = pages.write_pdf(
+            pdf_variant=VARIANT,
+            attachments=[_attachment(file, pages.metadata.created) for file in files],
+            finisher=lambda document, objects: finish(document, objects, files),
+        )
     return pdf
+
+
+def _attachment(file: Attached, date: str | None) -> Any:
+    """Return an attachment for the renderer, without the time of day at which it is written."""
+    from weasyprint import Attachment
+
+    day = dt.datetime.fromisoformat(date) if date else _NO_DATE
+    return Attachment(
+        string=file.content,
+        name=file.name,
+        description=file.description,
+        relationship=file.relationship,
+        created=day,
+        modified=day,
+    )
 
 
 @cache

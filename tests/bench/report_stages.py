@@ -57,10 +57,10 @@ def child(project: Path) -> None:
     stage("pictures as PDF operators, with imports")
     from concurrent.futures import Future
 
-    from report.typeset.pdf import draw_ahead, lay_out, sources
+    from report.typeset.pdf import draw_ahead, lay_out, pictures
 
     drawn = Future()
-    drawn.set_result(draw_ahead(sources(html)))
+    drawn.set_result(draw_ahead(pictures(html)))
     stage("PDF")
     package = lay_out(html, drawn)
     stage("plan.dxf, with imports")
@@ -69,9 +69,11 @@ def child(project: Path) -> None:
 
     write_dxf(plan_drawing(assessment))
     stage("result tables")
-    from report.results.tables import tables
+    from report.results.json import results_json
+    from report.results.xlsx import results_xlsx
 
-    sizes = [len(package), *(len(table) for table in tables(assessment, evidence).values())]
+    written = (results_xlsx(assessment, evidence.spectra), results_json(assessment, evidence))
+    sizes = [len(package), *map(len, written)]
     stage("")
     count = sum(len(motion.runs) for item in assessment.arrays for motion in item.motions)
     laps[f"(the solver alone, {count} histories)"] = solver_s

@@ -100,11 +100,14 @@ def test_the_papers_prescriptive_value_is_printed(whole):
 
 
 def test_the_text_is_as_it_was(texts):
-    chosen = [text for text in texts if any(part in text for part in GOLDEN_PARTS)]
+    pages = (text for text in texts if "Ten-minute review" not in text)  # the contents
+    chosen = [text for text in pages if any(part in text for part in GOLDEN_PARTS)]
     assert len(chosen) >= len(GOLDEN_PARTS)
     lines = "\n----\n".join(
         "\n".join(line.rstrip() for line in text.splitlines()) for text in chosen
     )
+    # It contains the version.
+    lines = re.sub(r"(Hash|sheet:) [0-9a-f]{12}", r"\1 ...", lines)
     if "ROOFSLIP_UPDATE_GOLDEN" in os.environ:
         GOLDEN.write_text(lines + "\n", encoding="utf-8")
     assert lines + "\n" == GOLDEN.read_text(encoding="utf-8")
@@ -282,7 +285,7 @@ def test_other_editions_say_their_own_name_and_clauses(said, edition):
 
 def test_a_line_in_the_renderers_log_is_a_defect():
     with pytest.raises(DefectError, match="unknown property"):
-        lay_out("<p style='colour: red'>x</p>")
+        lay_out("<html lang='en-US'><title>Words</title><p style='colour: red'>x</p></html>")
 
 
 @pytest.mark.parametrize(
@@ -291,7 +294,7 @@ def test_a_line_in_the_renderers_log_is_a_defect():
 )
 def test_nothing_is_fetched_but_what_is_shipped(address):
     with pytest.raises(DefectError):
-        lay_out(f"<img src='{address}'>")
+        lay_out(f"<html lang='en-US'><title>A picture</title><img alt='x' src='{address}'></html>")
 
 
 def ground(name="G1", **changes):

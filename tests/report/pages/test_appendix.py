@@ -118,6 +118,7 @@ def test_a_record_shows_its_format_and_what_was_noted():
         peak_g=0.25,
         npts_trimmed=0,
         hold_s=math.nan,
+        size=1000,
         notes=("uneven times were resampled",),
     )
     other = replace(record, motion_id="M2", npts=200, notes=())

@@ -59,10 +59,19 @@ def test_the_cover_has_codes_and_attachments(usual):
     rows = block(usual)
     assert rows["Applicable codes"].startswith("SEAOC PV1-2012, Structural Seismic Requirements")
     assert rows["Applicable codes"].endswith("Arrays; ASCE 7-16; IBC 1613.3; AC156")
-    assert rows["Attachments"] == (
-        "workbook input.xlsx (SHA-256 5f5f5f5f5f5f…); 9 record files; "
-        "results.xlsx, results.json, plan.dxf"
+    assert rows["In this file"] == (
+        "workbook input.xlsx (SHA-256 5f5f5f5f5f5f…); nine record files; results.json"
     )
+    assert rows["Beside it"] == "results.xlsx, results.json, plan.dxf"
+    assert rows["Verification"].startswith("roofslip verify-package FILE computes")
+    assert rows["Verification"].endswith(usual.fingerprint)
+
+
+def test_the_cover_says_that_large_records_are_left_out(usual, monkeypatch):
+    monkeypatch.setattr("report.provenance.files.MOST_RECORDS", 800_000)
+    rows = block(usual)
+    assert "not the nine record files, 0.9 MB in all: appendix B" in rows["In this file"]
+    assert "verify-package FILE --records FOLDER" in rows["Verification"]
 
 
 def test_a_project_without_clearances_or_value_names_neither():

@@ -8,7 +8,7 @@ import re
 import zipfile
 
 import pytest
-from openpyxl import DEFUSEDXML, load_workbook
+from openpyxl import DEFUSEDXML, LXML, load_workbook
 
 from report.sheet import archive, scan
 from report.sheet.archive import open_book
@@ -53,6 +53,7 @@ def test_an_open_workbook_reaches_another_process_without_its_cells(tmp_path):
 
 def test_workbooks_are_parsed_with_entities_switched_off():
     assert DEFUSEDXML
+    assert not LXML  # also where it is installed
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,184 @@
+"""The files that a package is computed from, as attachments of the package, and their hashes.
+
+Reads them again and runs nothing. Read `attachments`; `report.proof` takes them out.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import posixpath
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from report.motions.components import RecordFile
+from report.motions.files import BAR, find_file
+from report.motions.prepare import Shaking
+from report.provenance.software import environment, sbom_sha256
+from report.sheet.read import Sheet
+from report.typeset.finish import Attached
+from solver.model import InputError
+
+MANIFEST, RESULTS, FORMER = "roofslip.json", "results.json", "since/results.json"
+"""Attachments beside the input: what is attached and by which software, and the results."""
+
+SCHEMA_VERSION = 1
+"""Of the manifest; raised where a key changes its name or meaning."""
+
+MOST_RECORDS = 20_000_000
+"""Bytes of record files beyond which a package holds their hashes only."""
+
+SHORT = 12
+"""Characters of a hash where there is no room for all 64."""
+
+_XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
+_JSON = "application/json"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Source:
+    """A file that was read: where it belongs, its name as an attachment, and what it holds."""
+
+    path: str
+    name: str
+    content: bytes
+    kind: str
+
+    @property
+    def entry(self) -> dict[str, Any]:
+        """Its line in the manifest."""
+        return {
+            "path": self.path,
+            "name": self.name,
+            "bytes": len(self.content),
+            "sha256": hashlib.sha256(self.content).hexdigest(),
+        }
+
+
+def fingerprint(sheet: Sheet, shaking: Shaking) -> str:
+    """Return the hash of workbook, records and version that the foot of every sheet shows."""
+    lines = [
+        version("roofslip"),
+        sheet.sha256,
+        *(f"{row.motion_id} {row.component} {row.sha256}" for row in shaking.records),
+    ]
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:SHORT]
+
+
+def record_paths(records: Sequence[RecordFile]) -> Mapping[str, RecordFile]:
+    """Return one record of each file, by the path from the folder of the workbook."""
+    return {_path(row): row for row in records if row.is_file}
+
+
+def record_bytes(records: Sequence[RecordFile]) -> int:
+    """Return the size of the record files; a file with several channels counts once."""
+    return sum(row.size for row in record_paths(records).values())
+
+
+def holds_records(records: Sequence[RecordFile]) -> bool:
+    """Whether a package holds the record files themselves."""
+    return record_bytes(records) <= MOST_RECORDS
+
+
+def sources(sheet: Sheet, shaking: Shaking, former: Path | None = None) -> tuple[Source, ...]:
+    """Read what a package is computed from: the workbook, each record file, a former results.json.
+
+    Raises
+    ------
+    InputError
+        If a file is no longer what was computed with.
+    """
+    found = [_source(sheet.path.name, sheet.path, sheet.sha256, "workbook")]
+    for path, row in record_paths(shaking.records).items():
+        file, _ = find_file(sheet.book, row.name)
+        found.append(_source(path, file, row.sha256, "record"))
+    if former:
+        found.append(_source(FORMER, former, "", "former"))
+    return tuple(_unlike(found))
+
+
+def _path(row: RecordFile) -> str:
+    """Return where a record file lies, from the folder of the workbook."""
+    return posixpath.normpath(row.name.partition(BAR)[0].strip().replace("\\", "/"))
+
+
+def _source(path: str, file: Path, sha256: str, kind: str) -> Source:
+    content = file.read_bytes()
+    if sha256 and hashlib.sha256(content).hexdigest() != sha256:
+        raise InputError(f"{file}: changed while the report ran; run it again")
+    return Source(path=path, name=path, content=content, kind=kind)
+
+
+def _unlike(found: Sequence[Source]) -> Iterator[Source]:
+    """Yield the files under names that differ in more than capitals, own names reserved."""
+    taken = {MANIFEST, RESULTS}
+    for count, source in enumerate(found):
+        name = source.path
+        if name.casefold() in taken:
+            name = f"renamed/{count}/{posixpath.basename(source.path)}"
+        taken.add(name.casefold())
+        yield Source(path=source.path, name=name, content=source.content, kind=source.kind)
+
+
+def attachments(found: Sequence[Source], results: bytes, short: str) -> tuple[Attached, ...]:
+    """Return the attachments of a package.
+
+    Parameters
+    ----------
+    found : sequence of Source
+    results : bytes
+        results.json.
+    short : str
+        What `fingerprint` returns.
+    """
+    size = sum(len(source.content) for source in found if source.kind == "record")
+    has_records = size <= MOST_RECORDS
+    own = Source(path=RESULTS, name=RESULTS, content=results, kind="results")
+    listed = manifest([*found, own], short, has_records=has_records)
+    return (
+        *(_attached(source) for source in found if has_records or source.kind != "record"),
+        _attached(own),
+        _attached(Source(path=MANIFEST, name=MANIFEST, content=listed, kind="manifest")),
+    )
+
+
+def manifest(found: Sequence[Source], short: str, *, has_records: bool) -> bytes:
+    """Return what the package is computed from, and by which software, as JSON."""
+    document = {
+        "schema_version": SCHEMA_VERSION,
+        "roofslip_version": version("roofslip"),
+        "hash": short,
+        "has_records": has_records,
+        "files": [source.entry | {"kind": source.kind} for source in found],
+        "environment": environment(),
+        "sbom_sha256": sbom_sha256(),
+    }
+    return json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
+
+
+_KINDS = {
+    "workbook": ("Source", "Input workbook"),
+    "record": ("Data", "Record of motion"),
+    "former": ("Source", "Results of the former revision"),
+    "results": ("Data", "Results in SI units"),
+    "manifest": ("Supplement", "What the package is computed from, and by which software"),
+}
+
+
+def _attached(source: Source) -> Attached:
+    relationship, description = _KINDS[source.kind]
+    return Attached(
+        name=source.name,
+        content=source.content,
+        mime=_mime(source.name),
+        relationship=relationship,
+        description=description,
+    )
+
+
+def _mime(name: str) -> str:
+    known = {".xlsx": _XLSX, ".json": _JSON, ".csv": "text/csv"}
+    return known.get(posixpath.splitext(name)[1].lower(), "text/plain")
