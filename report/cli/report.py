@@ -131,6 +131,7 @@ def make(
     """
     second.submit(load)
     from report.assessment.changes import NO_FORMER
+    from report.assessment.cost import cost
     from report.assessment.evidence import plotted, support
     from report.assessment.project import assess
     from report.drawing.dxf import write_dxf
@@ -156,7 +157,8 @@ def make(
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
     shaking = prepare(sheet)
     found = sources(sheet, shaking, since)
-    progress("running the motions (the first run compiles the solver)")
+    dear = cost(sheet.project, shaking)
+    progress(f"running the motions ({dear or 'the first run compiles the solver'})")
     assessment = assess(sheet, shaking)
     changed = changes(former[0], assessment) if former else NO_FORMER
     begun = begin(assessment, changed, second)

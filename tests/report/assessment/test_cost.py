@@ -1,0 +1,73 @@
+"""What a report costs is said before it starts."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from places import ROOT
+from report.assessment.cost import LONG_S, cost, expected_s
+from report.cli.main import main
+from sheets import make, project, read_workbook
+from solver.model import InputError
+
+
+@pytest.fixture(scope="module")
+def book(tmp_path_factory):
+    return read_workbook(make(tmp_path_factory.mktemp("job")))
+
+
+def lasting(book, samples):
+    """The motions of a workbook, as long as given."""
+    still = np.zeros(samples)
+    motions = tuple(replace(motion, ax_mps2=still) for motion in book.shaking.motions)
+    return replace(book.shaking, motions=motions)
+
+
+def test_a_short_report_says_nothing(book):
+    assert cost(book.input, book.shaking) == ""
+    assert expected_s(book.input, book.shaking) < 15.0
+
+
+def test_the_example_is_estimated_as_it_was_measured():
+    book = read_workbook(ROOT / "projects" / "example" / "input.xlsx")
+    # Processor time of the command with its second process: tests/bench/report_cost.py.
+    assert expected_s(book.input, book.shaking) == pytest.approx(14.2, rel=0.1)
+
+
+def test_a_long_report_says_what_makes_it_long(book):
+    shaking = lasting(book, 700_000)
+    # 6.4 + 2 arrays 0.45 + 3 motions 0.33 + 2.1 million samples (61 + 2 arrays 7.3)
+    assert expected_s(book.input, shaking) == pytest.approx(167.05, abs=0.1)
+    assert cost(book.input, shaking) == (
+        "about 3 minutes of processor time for 2 arrays, 3 motions and 2,100,000 samples"
+    )
+
+
+def test_twice_the_arrays_cost_twice_the_runs(book):
+    shaking = lasting(book, 100_000)
+    twice = book.input.model_copy(update={"arrays": book.input.arrays * 2})
+    more_s = expected_s(twice, shaking) - expected_s(book.input, shaking)
+    assert more_s == pytest.approx(2 * (0.45 + 0.3 * 7.3))
+
+
+@pytest.mark.slow
+def test_the_command_says_it_before_the_runs(tmp_path, monkeypatch):
+    one = project().model_dump()["arrays"][0]
+    arrays = [
+        one | {"id": f"A{k}", "x_from_m": 20.0 * k, "x_to_m": 20.0 * k + 10.0} for k in range(200)
+    ]
+    path = make(tmp_path, arrays=arrays, objects=[], clearances=[])
+
+    def stopped(*_):
+        raise InputError("the runs begin")
+
+    monkeypatch.setattr("report.assessment.project.assess", stopped)
+    monkeypatch.setattr("report.cli.terminal._QUIET_SECONDS", -1.0)
+    done = CliRunner().invoke(main, ["report", str(path)])
+    assert done.exit_code == 2
+    said, runs = done.output.index("about 2 minutes of processor"), done.output.index("runs begin")
+    assert said < runs
+    assert "200 arrays, 3 motions and 600 samples" in done.output
+    assert LONG_S == 60.0
