@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import gc
 import signal
+import tempfile
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
@@ -15,6 +16,7 @@ from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
+from tempfile import TemporaryDirectory
 from typing import Any, ParamSpec, TypeVar
 
 _P = ParamSpec("_P")
@@ -57,7 +59,8 @@ class SecondProcess(Executor):
     def __init__(self) -> None:
         context = get_context("spawn")
         self._pipe, there = context.Pipe()
-        self._process = context.Process(target=_serve, args=(there,), daemon=True)
+        self._folder = TemporaryDirectory(prefix="roofslip-", ignore_cleanup_errors=True)
+        self._process = context.Process(target=_serve, args=(there, self._folder.name), daemon=True)
         self._process.start()
         # Only the second process may hold its end: then its death ends every wait for it.
         there.close()
@@ -88,12 +91,14 @@ class SecondProcess(Executor):
         self._asking.shutdown(wait=False, cancel_futures=True)
         self._process.kill()
         self._process.join()
+        self._folder.cleanup()
         self._asking.shutdown()
         self._pipe.close()
 
 
-def _serve(pipe: Connection) -> None:
+def _serve(pipe: Connection, folder: str) -> None:
     """Run the functions that arrive until the other end closes."""
+    tempfile.tempdir = folder  # what a killed process leaves there is removed by the command
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the command decides what an interrupt ends
     gc.disable()  # as the command does
     warnings.filterwarnings("ignore", category=UserWarning)  # the command warns

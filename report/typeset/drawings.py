@@ -6,6 +6,7 @@ layout. The only module beside `pdf` that knows the renderer. Read `convert`, th
 
 from __future__ import annotations
 
+import atexit
 import base64
 import re
 from collections.abc import Iterable, Mapping
@@ -85,7 +86,14 @@ def _fonts(css: Path) -> Any:
     fonts = FontConfiguration()
     faces = "\n".join(_FACES.findall(css.read_text(encoding="utf-8")))
     CSS(string=faces, font_config=fonts, url_fetcher=shipped())
+    atexit.register(discard, fonts)
     return fonts
+
+
+def discard(fonts: Any) -> None:
+    """Remove the files of fonts; the renderer would, but no longer can as a process ends."""
+    fonts.__del__()
+    fonts._folder = None
 
 
 def _converted(source: str, fonts: Any) -> Converted | None:

@@ -17,7 +17,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from report.typeset.drawings import Converted, Shown, convert
+from report.typeset.drawings import Converted, Shown, convert, discard
 from report.typeset.finish import Attached, finish
 from solver.model import DefectError
 
@@ -77,13 +77,16 @@ def lay_out(
         document = _document()(string=html, base_url=f"{_SCHEME}/", url_fetcher=shipped())
         fonts = FontConfiguration()
         shown = {source: Shown(source, drawn, fonts) for source in pictures(html)} if drawn else {}
-        pages = document.render(font_config=fonts, cache=shown)
-        files = sorted(attached(), key=lambda file: file.name)
-        pdf: bytes = pages.write_pdf(
-            pdf_variant=VARIANT,
-            attachments=[_attachment(file, pages.metadata.created) for file in files],
-            finisher=lambda document, objects: finish(document, objects, files),
-        )
+        try:
+            pages = document.render(font_config=fonts, cache=shown)
+            files = sorted(attached(), key=lambda file: file.name)
+            pdf: bytes = pages.write_pdf(
+                pdf_variant=VARIANT,
+                attachments=[_attachment(file, pages.metadata.created) for file in files],
+                finisher=lambda document, objects: finish(document, objects, files),
+            )
+        finally:
+            discard(fonts)
     return pdf
 
 

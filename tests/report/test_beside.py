@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import tempfile
 import time
 from operator import truediv
 
@@ -101,3 +102,16 @@ def test_without_a_second_process_the_same_functions_run_in_this_one(monkeypatch
         assert here.submit(os.getpid).result() == os.getpid()
         with pytest.raises(InputError):
             here.submit(refuse, "Site!B5")
+
+
+def left_file():
+    handle, name = tempfile.mkstemp()
+    os.close(handle)
+    return name
+
+
+def test_what_it_leaves_in_its_temporary_folder_goes_with_it():
+    with SecondProcess() as process:
+        name = process.submit(left_file).result()
+        assert os.path.exists(name)
+    assert not os.path.exists(os.path.dirname(name))

@@ -1,6 +1,7 @@
 """Pictures converted ahead are those that the renderer draws on the page."""
 
 import io
+import tempfile
 from concurrent.futures import Future
 
 import pytest
@@ -149,3 +150,10 @@ def test_pages_are_those_of_the_renderers_own_styles(monkeypatch):
     ours = lay_out(html)
     monkeypatch.setattr(pdf, "_document", lambda: HTML)
     assert ours == lay_out(html)
+
+
+def test_a_laid_out_document_leaves_no_fonts_in_the_temporary_folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    page = f"<html lang='en'><title>t</title><style>{FACES}</style><body>a</body></html>"
+    assert lay_out(page).startswith(b"%PDF")
+    assert list(tmp_path.iterdir()) == []
