@@ -43,7 +43,7 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
             label = centered(x, y, wide, LINE_IN)
         plan.paper.placer.take(label)
         plan.paper.text(x, y, words, ha="center", va="center_baseline",
-                        rotation=90 if is_upright else 0)  # fmt: skip
+                        rotation=90 if is_upright else 0, rotation_mode="anchor")  # fmt: skip
 
 
 def _edge_words(plan: PlanSheet, item: RoofObject) -> str:

@@ -5,6 +5,7 @@ import math
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -154,6 +155,18 @@ def test_every_array_object_and_clearance_is_on_the_large_plan(done):
     for gap in done.clearances:
         for template, value in zip(INCHES, (gap.clearance.provided_m, gap.required_m), strict=True):
             assert template.format(value / INCH_M) in found
+
+
+def test_the_name_of_an_upright_edge_is_at_its_middle():
+    given = stand_in.project().objects
+    west = stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 170, height=30)
+    data = stand_in.project(objects=[*given, west])
+    drawn = figure(stand_in.assess_input(data, stand_in.motions(2, seconds=8.0)), LANDSCAPE)
+    box = next(box for text, box in extents(drawn) if text.get_text().startswith("W: "))
+    array = next(patch for patch in drawn.axes[0].patches if patch.get_gid() == "A2")
+    per_ft = array.get_height() / 60.0
+    _, middle = array.get_xy() + np.array([0.0, (85.0 - 15.0) * per_ft])
+    assert (box.y0 + box.y1) / 2 == pytest.approx(middle, abs=0.02)
 
 
 def on_roof(drawn, points):
