@@ -22,6 +22,7 @@ from report.cli.report import new, report
 from report.cli.slide import slide
 from report.cli.terminal import INPUT_ERROR, show_warnings, unwritten
 from report.cli.verify import verify
+from report.cli.verify_package import verify_package
 from report.cli.watch import watch
 
 
@@ -54,5 +55,8 @@ def main() -> None:
         sys.exit(INPUT_ERROR)
 
 
-for command in (batch, check, doctor, motion, new, plan, report, slide, verify, watch):
+COMMANDS = (
+    batch, check, doctor, motion, new, plan, report, slide, verify, verify_package, watch,
+)  # fmt: skip
+for command in COMMANDS:
     main.add_command(command)

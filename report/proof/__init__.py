@@ -1,0 +1,1 @@
+"""A package held against its own input. Read `package`, `updates`, then `verdict`."""

@@ -1,0 +1,259 @@
+"""Opens a package from a stranger: its first revision, and the files that it holds.
+
+Owns the limits on size and on where files may be taken out to; compares nothing. Read
+`open_package`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import TypeVar
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+from pypdf import PdfReader
+
+from report.motions.files import MAX_BYTES as MAX_RECORD
+from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION
+from report.sheet.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
+from solver.model import InputError
+
+_T = TypeVar("_T")
+_END = re.compile(rb"startxref\s+\d+\s+%%EOF[\r\n]*")
+_LONGEST_NAME = 255
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="ignore", strict=True)
+
+
+class Listed(_Part):
+    """A file of the manifest: where it belongs, and its name as an attachment."""
+
+    path: str
+    name: str
+    sha256: str
+    kind: str
+
+
+class Manifest(_Part):
+    """What a package was computed from, and by which software."""
+
+    schema_version: int
+    roofslip_version: str
+    hash: str
+    has_records: bool
+    files: tuple[Listed, ...]
+    environment: dict[str, str]
+    sbom_sha256: str
+
+    def of_kind(self, kind: str) -> tuple[Listed, ...]:
+        """Return the files of a kind: workbook, record, former or results."""
+        return tuple(file for file in self.files if file.kind == kind)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Package:
+    """A package as read.
+
+    Attributes
+    ----------
+    path : Path
+    data : bytes
+        The whole file.
+    first : bytes
+        Its first revision: what `roofslip report` wrote, unless the file was rewritten.
+    manifest : Manifest
+    files : mapping of str to bytes
+        Attachments of the first revision by name.
+    """
+
+    path: Path
+    data: bytes
+    first: bytes
+    manifest: Manifest
+    files: Mapping[str, bytes]
+
+    @property
+    def results(self) -> bytes:
+        """The attached results.json; empty if there is none."""
+        return self.files.get(RESULTS, b"")
+
+
+def open_package(path: Path) -> Package:
+    """Read a package and the files that it holds.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is too large, or is no package with its input inside.
+    """
+    data = _read(path)
+    end = _END.search(data)
+    if not data.startswith(b"%PDF-") or end is None:
+        raise InputError("is no PDF, or is cut off; get the file again from where it was issued")
+    first = data[: end.end()]
+    files = guarded(lambda: _attachments(reader(first)))
+    if MANIFEST not in files:
+        raise InputError(
+            f"holds no {MANIFEST}: it is no package of `roofslip report`, or was written by version"
+            " 0.1, which did not attach the input"
+        )
+    return Package(
+        path=path, data=data, first=first, manifest=_manifest(files[MANIFEST]), files=files
+    )
+
+
+def reader(data: bytes) -> PdfReader:
+    """Return a PDF to read; nothing damaged in it is mended."""
+    return PdfReader(io.BytesIO(data), strict=True)
+
+
+def guarded(read: Callable[[], _T]) -> _T:
+    """Run what reads a PDF; a damaged one makes the library raise almost anything.
+
+    Raises
+    ------
+    InputError
+    """
+    try:
+        return read()
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError(
+            f"is damaged ({type(error).__name__}: {error}); get the file again from where it was"
+            " issued"
+        ) from error
+
+
+def _read(path: Path) -> bytes:
+    if not path.is_file():
+        raise InputError("no such file; give a calc-package.pdf")
+    if path.stat().st_size > MAX_FILE:
+        raise InputError(f"larger than {MAX_FILE // MB} MB, which no package is")
+    return path.read_bytes()
+
+
+def _attachments(pdf: PdfReader) -> dict[str, bytes]:
+    """Return the attachments by name, within the limits of a workbook and its records."""
+    found: dict[str, bytes] = {}
+    for count, file in enumerate(pdf.attachment_list, start=1):
+        if count > MAX_MEMBERS:
+            raise InputError(f"has more than {MAX_MEMBERS} attachments, which no package has")
+        if file.name in found:
+            raise InputError(f"has two attachments of the name {file.name}")
+        found[file.name] = file.content
+        total = sum(map(len, found.values()))
+        if len(file.content) > MAX_RECORD or total > MAX_TOTAL:
+            raise InputError(
+                f"its attachments unpack to more than {MAX_RECORD // MB} MB in one or"
+                f" {MAX_TOTAL // MB} MB in all"
+            )
+    return found
+
+
+def _manifest(content: bytes) -> Manifest:
+    try:
+        manifest = Manifest.model_validate_json(content)
+    except ValidationError as error:
+        raise InputError(f"{MANIFEST} is damaged: {error.errors()[0]['msg']}") from error
+    if manifest.schema_version != SCHEMA_VERSION:
+        raise InputError(
+            f"{MANIFEST} has the schema_version {manifest.schema_version}; this version reads"
+            f" {SCHEMA_VERSION}: use Roofslip {manifest.roofslip_version}"
+        )
+    if len(manifest.of_kind("workbook")) != 1 or len(manifest.of_kind("former")) > 1:
+        raise InputError(f"{MANIFEST} names no workbook, or more than one")
+    return manifest
+
+
+def take_out(
+    package: Package, folder: Path, records: Path | None = None
+) -> tuple[Path, list[Path]]:
+    """Write the input of a package to a folder of its own; return workbook and former results.
+
+    Parameters
+    ----------
+    records : Path, optional
+        Where the record files lie that the package only lists.
+
+    Raises
+    ------
+    InputError
+        If a file is missing, or would lie outside of the folder.
+    """
+    written: dict[str, list[Path]] = {}
+    for file in package.manifest.files:
+        if file.kind == "results":
+            continue
+        target = folder / _inside(file.path)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with target.open("xb") as new:
+            new.write(_content(package, file, records))
+        written.setdefault(file.kind, []).append(target)
+    return written["workbook"][0], written.get("former", [])
+
+
+def _inside(path: str) -> PurePosixPath:
+    """Return a relative path that leads to no other folder on any system."""
+    parts = PurePosixPath(path).parts
+    is_bad = (
+        not parts
+        or PurePosixPath(path).is_absolute()
+        or bool(PureWindowsPath(path).drive)
+        or any(part == ".." or len(part) > _LONGEST_NAME for part in parts)
+        or re.search(r"[\\\x00-\x1f\x7f]", path) is not None
+    )
+    if is_bad:
+        raise InputError(f"the attachment {path!r:.80} would lie outside of its folder")
+    return PurePosixPath(path)
+
+
+def _content(package: Package, file: Listed, records: Path | None) -> bytes:
+    if file.kind == "record" and not package.manifest.has_records:
+        return _left_out(file, records)
+    if file.name not in package.files:
+        raise InputError(f"the attachment {file.name} is missing")
+    return package.files[file.name]
+
+
+def _left_out(file: Listed, records: Path | None) -> bytes:
+    """Return a record file that a package is too small to hold."""
+    if records is None:
+        raise InputError(
+            "its records are too large to be attached; name the folder of the workbook that they"
+            " lie beside with --records"
+        )
+    path = records / _inside(file.path)
+    if not path.is_file() or path.stat().st_size > MAX_RECORD:
+        raise InputError(f"{path}: is missing or too large; the package was computed from it")
+    content = path.read_bytes()
+    if hashlib.sha256(content).hexdigest() != file.sha256:
+        raise InputError(f"{path}: is not the file that the package was computed from (SHA-256)")
+    return content
+
+
+def mismatched(package: Package) -> Sequence[str]:
+    """Return attachments that are not those of the manifest: changed, missing or added."""
+    listed = {file.name: file.sha256 for file in package.manifest.files}
+    if not package.manifest.has_records:
+        listed = {f.name: f.sha256 for f in package.manifest.files if f.kind != "record"}
+    held = {
+        name: hashlib.sha256(content).hexdigest()
+        for name, content in package.files.items()
+        if name != MANIFEST
+    }
+    return [
+        *(f"{name} is missing" for name in listed if name not in held),
+        *(f"{name} is not listed" for name in held if name not in listed),
+        *(
+            f"{name} was changed: its SHA-256 is not the one listed"
+            for name in held
+            if name in listed and held[name] != listed[name]
+        ),
+    ]

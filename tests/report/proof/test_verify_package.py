@@ -1,0 +1,234 @@
+"""A package verifies against its own input; tampered ones do not, and it is said where."""
+
+import json
+import random
+import shutil
+
+import pikepdf
+import pytest
+from click.testing import CliRunner
+
+import tampering
+from places import ROOT
+from report.beside import SameProcess
+from report.cli.main import main
+from report.cli.report import make
+from report.proof.package import open_package, take_out
+from report.proof.updates import appended
+from report.proof.verdict import compared
+from solver.model import InputError
+
+
+@pytest.fixture(scope="module")
+def job(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("job")
+    project = ROOT / "projects" / "conditions"
+    shutil.copy(project / "input.xlsx", folder)
+    shutil.copytree(project / "records", folder / "records")
+    make(folder, None, None, lambda doing: None, SameProcess())
+    return folder
+
+
+@pytest.fixture(scope="module")
+def data(job):
+    return (job / "out" / "calc-package.pdf").read_bytes()
+
+
+@pytest.fixture
+def proof(tmp_path, data):
+    """A function that compares the bytes of a package with what was written from its input."""
+
+    def of(given):
+        path = tmp_path / "given.pdf"
+        path.write_bytes(given)
+        package = open_package(path)
+        return compared(package, data, appended(package))
+
+    return of
+
+
+def run(path, *options):
+    return CliRunner().invoke(main, ["verify-package", str(path), *options])
+
+
+def changed_manifest(data, change):
+    """Return a package whose manifest is another one."""
+
+    def write(pdf):
+        manifest = json.loads(tampering.file_of(pdf, "roofslip.json"))
+        change(manifest)
+        tampering.set_file(pdf, "roofslip.json", json.dumps(manifest).encode())
+
+    return tampering.rewritten(data, write)
+
+
+def test_a_package_is_the_same_to_the_last_bit_and_nothing_is_left_behind(job):
+    done = run(job / "out" / "calc-package.pdf")
+    assert done.exit_code == 0, done.output
+    assert "Same: the input in the package gives this package, to the last bit." in done.output
+    assert sorted(path.name for path in job.iterdir()) == ["input.xlsx", "out", "records"]
+
+
+def test_a_record_that_was_changed_with_its_hash_gives_other_numbers(data, tmp_path):
+    path = tmp_path / "given.pdf"
+
+    def change(pdf):
+        name = "records/RM1-x.csv"
+        lines = tampering.file_of(pdf, name).split(b"\n")
+        lines[500:700] = [line.replace(b",0.", b",0.9", 1) for line in lines[500:700]]
+        tampering.set_file(pdf, name, b"\n".join(lines))
+        tampering.relisted(pdf)
+
+    path.write_bytes(tampering.rewritten(data, change))
+    done = run(path, "--json")
+    assert done.exit_code == 3, done.output
+    said = json.loads(done.stdout)
+    assert said["is_same"] is False
+    assert any(text.startswith("results.json: ") for text in said["differences"])
+    assert any(text.startswith("sheet 1: ") for text in said["differences"])
+
+
+def test_an_input_that_no_longer_runs_differs(data, tmp_path):
+    path = tmp_path / "given.pdf"
+
+    def change(pdf):
+        tampering.set_file(pdf, "records/RM1-x.csv", b"none")
+        tampering.relisted(pdf)
+
+    path.write_bytes(tampering.rewritten(data, change))
+    done = run(path)
+    assert done.exit_code == 3, done.output
+    assert "its input: " in done.output
+
+
+@pytest.mark.parametrize("content", [b"", b"words", b"%PDF-1.7\n", None])
+def test_what_is_no_package_is_an_input_error(tmp_path, content):
+    path = tmp_path / "given.pdf"
+    if content is not None:
+        path.write_bytes(content)
+    assert run(path).exit_code == 2
+
+
+def test_a_pdf_without_the_input_is_an_input_error(tmp_path):
+    path = tmp_path / "given.pdf"
+    with pikepdf.new() as pdf:
+        pdf.add_blank_page()
+        pdf.save(path)
+    done = run(path)
+    assert done.exit_code == 2
+    assert "holds no roofslip.json" in done.output
+
+
+def test_a_file_that_was_only_written_again_has_the_same_content(proof, data):
+    again = tampering.rewritten(data, lambda pdf: None)
+    assert again != data
+    found = proof(again)
+    assert found.is_same, found.differences
+    assert found.how == "words of every sheet, and numbers to 1e-12, and every drawing"
+
+
+@pytest.mark.parametrize("kind", tampering.OF_THE_FILE, ids=lambda kind: kind.__name__)
+def test_tampering_is_found(proof, data, kind):
+    given = kind(data, random.Random(1))
+    assert given != data
+    try:
+        found = proof(given)
+    except InputError:
+        assert kind in (tampering.cut, tampering.flipped, tampering.byte_in_attachment)
+    else:
+        assert not found.is_same
+        assert found.differences
+
+
+def test_a_changed_digit_is_told_with_its_sheet_and_its_words(proof, data):
+    found = proof(tampering.digit_in_text(data, random.Random(3)))
+    assert not found.is_same
+    assert any(
+        text.startswith("sheet ") and "where the input gives" in text for text in found.differences
+    )
+
+
+def test_a_changed_number_is_told_with_its_place_and_by_how_much(proof, data):
+    def change(pdf):
+        results = json.loads(tampering.file_of(pdf, "results.json"))
+        results["arrays"][0]["design_m"] *= 1.001
+        tampering.set_file(pdf, "results.json", json.dumps(results).encode())
+        tampering.relisted(pdf)
+
+    found = proof(tampering.rewritten(data, change))
+    told = [text for text in found.differences if "arrays[0].design_m" in text]
+    assert told
+    assert told[0].endswith("(1.0e-03 of it)")
+
+
+def test_other_versions_are_named_and_numbers_compared_to_less(proof, data):
+    def older(manifest):
+        manifest["environment"] |= {"numpy": "1.0", "roofslip": "0.0.9"}
+        manifest["roofslip_version"] = "0.0.9"
+
+    found = proof(changed_manifest(data, older))
+    assert found.is_same, found.differences
+    assert "numbers to 1e-09" in found.how
+    assert {text.split(" (")[0] for text in found.versions} == {"numpy 1.0", "roofslip 0.0.9"}
+
+
+@pytest.mark.parametrize("kind", [tampering.digit_in_text, tampering.stamped_over])
+def test_a_package_that_claims_another_version_is_still_compared_word_by_word(proof, data, kind):
+    def older(manifest):
+        manifest["environment"]["numpy"] = "1.0"
+
+    found = proof(changed_manifest(kind(data, random.Random(3)), older))
+    assert found.versions
+    assert not found.is_same
+
+
+@pytest.mark.parametrize(
+    "path", ["../x.csv", "/x.csv", "a/../../x", "C:/x.csv", "a\\b.csv", "", "a\n", "x" * 300]
+)
+def test_no_attachment_is_taken_out_of_the_folder(tmp_path, data, path):
+    given = tmp_path / "given.pdf"
+
+    def change(manifest):
+        manifest["files"][1]["path"] = path
+
+    given.write_bytes(changed_manifest(data, change))
+    with pytest.raises(InputError, match="outside of its folder"):
+        take_out(open_package(given), tmp_path / "there")
+    assert not (tmp_path / "x.csv").exists()
+
+
+def test_attachments_beyond_the_limits_are_refused(tmp_path, data, monkeypatch):
+    given = tmp_path / "given.pdf"
+    given.write_bytes(data)
+    monkeypatch.setattr("report.proof.package.MAX_TOTAL", 1000)
+    with pytest.raises(InputError, match="unpack to more than"):
+        open_package(given)
+
+
+def test_records_that_were_left_out_are_taken_from_a_folder_and_their_hash_is_checked(
+    job, data, tmp_path
+):
+    given = tmp_path / "given.pdf"
+    given.write_bytes(changed_manifest(data, lambda manifest: manifest.update(has_records=False)))
+    package = open_package(given)
+    with pytest.raises(InputError, match="--records"):
+        take_out(package, tmp_path / "one")
+    workbook, _ = take_out(package, tmp_path / "two", job)
+    taken = workbook.parent / "records" / "RM1-x.csv"
+    assert taken.read_bytes() == (job / "records" / "RM1-x.csv").read_bytes()
+    shutil.copytree(job / "records", tmp_path / "other" / "records")
+    with (tmp_path / "other" / "records" / "RM2-x.csv").open("a") as file:
+        file.write("\n")
+    with pytest.raises(InputError, match="SHA-256"):
+        take_out(package, tmp_path / "three", tmp_path / "other")
+
+
+def test_two_workbooks_or_none_are_refused(tmp_path, data):
+    given = tmp_path / "given.pdf"
+
+    def change(manifest):
+        manifest["files"][1]["kind"] = "workbook"
+
+    given.write_bytes(changed_manifest(data, change))
+    with pytest.raises(InputError, match="no workbook, or more than one"):
+        open_package(given)
