@@ -40,10 +40,11 @@ ELSEWHERE = (
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """The example alone, as in a fresh checkout; a new project is a copy of the example."""
+    """Example and study alone, as in a fresh checkout; a new project is a copy of the example."""
     top = tmp_path_factory.mktemp("checkout")
     ignored = shutil.ignore_patterns("out")
-    shutil.copytree(ROOT / "projects" / "example", top / "projects" / "example", ignore=ignored)
+    for name in ("example", "study"):
+        shutil.copytree(ROOT / "projects" / name, top / "projects" / name, ignore=ignored)
     return top
 
 
@@ -90,6 +91,12 @@ def fill(top):
 def test_every_command_of_the_readme_runs(commanded):
     assert {command.split()[1] for command in COMMANDS} >= {"report", "test", "new", "check"}
     assert (commanded / "projects" / "yours" / "out" / "calc-package.pdf").is_file()
+
+
+def test_the_study_of_the_readme_has_its_curves(commanded):
+    out = commanded / "projects" / "study" / "out" / "study"
+    assert len((out / "curves.csv").read_text().splitlines()) == 1 + 3 * 8 * 20
+    assert (out / "study.pdf").stat().st_size > 10_000
 
 
 def test_two_processes_write_the_same_bytes(reported, commanded):

@@ -20,6 +20,7 @@ from report.cli.motion import motion
 from report.cli.plan import plan
 from report.cli.report import new, report
 from report.cli.slide import slide
+from report.cli.study import study
 from report.cli.terminal import INPUT_ERROR, show_warnings, unwritten
 from report.cli.verify import verify
 from report.cli.verify_package import verify_package
@@ -56,7 +57,8 @@ def main() -> None:
 
 
 COMMANDS = (
-    batch, check, doctor, motion, new, plan, report, slide, verify, verify_package, watch,
+    batch, check, doctor, motion, new, plan, report, slide, study, verify, verify_package,
+    watch,
 )  # fmt: skip
 for command in COMMANDS:
     main.add_command(command)

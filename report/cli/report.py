@@ -43,25 +43,34 @@ STEPS = 5
 @click.option("--units", type=click.Choice(["US", "SI"]), default="US", show_default=True,
               help="Units of the input cells and primary units of the package.")  # fmt: skip
 @click.option("--example", is_flag=True, help="Fill it in, with motions, to try a report.")
-def new(folder: Path, units: str, example: bool) -> None:
+@click.option("--study", is_flag=True, help="Write the workbook of a study instead.")
+def new(folder: Path, units: str, example: bool, study: bool) -> None:
     """Write a blank DIR/input.xlsx and the folder DIR/records/ for the motions."""
+    if example and study:
+        raise click.UsageError("give --example or --study, not both; projects/study is an example")
     with input_errors(folder), Progress() as progress:
-        path = _new_project(folder, units, example, progress)
+        path = _new_project(folder, units, progress, is_example=example, is_study=study)
     if example:
         click.echo(f"{path}: a warehouse with three arrays and seven motions, complete;")
         click.echo(f"to see its package, run: roofslip report {folder}")
         return
     click.echo(f"{path}: fill in the yellow cells, put the roof motions in {folder / 'records'},")
-    click.echo(f"then run: roofslip report {folder}")
+    click.echo(f"then run: roofslip {'study' if study else 'report'} {folder}")
 
 
 def _new_project(
-    folder: Path, units: str, is_example: bool, progress: Callable[[str], None]
+    folder: Path,
+    units: str,
+    progress: Callable[[str], None],
+    *,
+    is_example: bool,
+    is_study: bool,
 ) -> Path:
     """Write a workbook and its records folder; never overwrite a workbook or a record."""
     from report.sheet.example import write_example
     from report.sheet.schema import UnitsFirst
     from report.sheet.template import write_template
+    from report.study.template import write_study
     from solver.model import InputError
 
     path = folder / "input.xlsx"
@@ -76,7 +85,8 @@ def _new_project(
             progress("generating the motions")
             write_example(folder, UnitsFirst(units))
         else:
-            write_template(path, units=UnitsFirst(units))
+            write = write_study if is_study else write_template
+            write(path, units=UnitsFirst(units))
     except OSError as error:
         raise InputError(
             f"{path}: cannot be written ({error.strerror}); choose another folder"

@@ -124,7 +124,7 @@ class Sheet:
         """
         problems = [*self.problems, *_lines(faults, self.addresses, self.unfound)]
         if problems:
-            raise InputError(_ordered(problems))
+            raise InputError(ordered(problems, SECTIONS))
 
 
 def read(path: Path) -> Sheet:
@@ -137,9 +137,7 @@ def read(path: Path) -> Sheet:
         `report.motions.prepare` those together with the errors of its records.
     """
     book = open_book(path)
-    gathered = _Gathered()
-    for section in SECTIONS:
-        _read_section(book, section, gathered)
+    gathered = gather(book, SECTIONS)
     gathered.take(faults(gathered.draft, gathered.where))
     return Sheet(
         path=book.path,
@@ -151,6 +149,14 @@ def read(path: Path) -> Sheet:
         addresses=gathered.addresses,
         unfound=frozenset(gathered.unfound),
     )
+
+
+def gather(book: OpenBook, sections: Sequence[Section]) -> Gathered:
+    """Read every field of sections, with the errors of single cells."""
+    gathered = Gathered()
+    for section in sections:
+        _read_section(book, section, gathered)
+    return gathered
 
 
 def _where(place: Place, addresses: Mapping[Place, str]) -> str:
@@ -169,12 +175,12 @@ def _lines(
             yield place, f"{_where(place, addresses)}: {text}"
 
 
-def _ordered(problems: Sequence[tuple[Place, str]]) -> list[str]:
+def ordered(problems: Sequence[tuple[Place, str]], sections: Sequence[Section]) -> list[str]:
     """Return the lines in the order of the template."""
-    order = {section.key: i for i, section in enumerate(SECTIONS)}
+    order = {section.key: i for i, section in enumerate(sections)}
     fields = {
         (section.key, entry.name): i
-        for section in SECTIONS
+        for section in sections
         for i, entry in enumerate(entries(section.model))
     }
 
@@ -186,7 +192,7 @@ def _ordered(problems: Sequence[tuple[Place, str]]) -> list[str]:
 
 
 @dataclass(slots=True)
-class _Gathered:
+class Gathered:
     """What has been read so far; problems are lines with the place used for sorting."""
 
     draft: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
@@ -208,7 +214,7 @@ class _Gathered:
         self.problems += _lines(faults, self.addresses, self.unfound)
 
 
-def _read_section(book: OpenBook, section: Section, gathered: _Gathered) -> None:
+def _read_section(book: OpenBook, section: Section, gathered: Gathered) -> None:
     gathered.draft[section.key] = []
     if section.may_be_absent and is_absent(book, section):
         defaults = {entry.name: entry.default for entry in entries(section.model)}
@@ -224,7 +230,7 @@ def _read_section(book: OpenBook, section: Section, gathered: _Gathered) -> None
         gathered.add(Place(section.key), error.problems)
 
 
-def _read_block(book: OpenBook, section: Section, gathered: _Gathered) -> None:
+def _read_block(book: OpenBook, section: Section, gathered: Gathered) -> None:
     row: dict[str, Any] = {}
     gathered.draft[section.key].append(row)
     absent = added_later(book, section)
@@ -257,7 +263,7 @@ def _block_column(
     return FieldColumn(number=position.column, unit=symbol, si=si)
 
 
-def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: _Gathered) -> None:
+def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: Gathered) -> None:
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
     gathered.echo += [_ignored(book, position) for position in table.others]
@@ -272,7 +278,7 @@ def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: _
 
 
 def _read_row(
-    section: Section, table: TableFound, cells: dict[str, Found], gathered: _Gathered
+    section: Section, table: TableFound, cells: dict[str, Found], gathered: Gathered
 ) -> None:
     row: dict[str, Any] = {}
     rows = gathered.draft[section.key]
@@ -293,7 +299,7 @@ def _read_field(
     cell: Found,
     column: FieldColumn,
     row: dict[str, Any],
-    gathered: _Gathered,
+    gathered: Gathered,
 ) -> None:
     try:
         row[entry.name] = _value(section, entry, cell, column)

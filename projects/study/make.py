@@ -1,0 +1,74 @@
+"""Makes the study: seven roof motions for S_DS = 1 g, and the completed study workbook.
+
+Run from the repository root: .venv/bin/python projects/study/make.py
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from pathlib import Path
+
+from report.sheet.schema import UnitsFirst
+from report.study.read import StudyInput
+from report.study.schema import Intensity, Mat, Study, StudyArray
+from report.study.template import write_study
+from solver.records.record import write_record
+from solver.rules.hazard import EDITIONS
+from solver.rules.provisions import RULE_SETS
+from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from solver.synthesis import make_suite
+
+HERE = Path(__file__).resolve().parent
+INCH = 0.0254
+S_DS_G = 1.0
+COUNT, SEED = 7, 15
+
+
+def main() -> None:
+    """Write records/ and input.xlsx beside this file."""
+    records = HERE / "records"
+    records.mkdir(exist_ok=True)
+    rules = RULE_SETS["SEAOC PV1-2012"]
+    across = ac156_horizontal(EDITIONS[rules.edition], s_ds_g=S_DS_G, z_over_h=1.0)
+    upward = ac156_vertical(s_ds_g=S_DS_G)
+    suite = make_suite(
+        (across.freq_hz, across.sa_g), (upward.freq_hz, upward.sa_g), count=COUNT, seed=SEED
+    )
+    for number, motion in enumerate(suite, start=1):
+        for record, letter in zip(motion.components, "xyz", strict=True):
+            write_record(records / f"RM{number}-{letter}.csv", record, hold_s=motion.hold_s)
+    write_study(HERE / "input.xlsx", units=UnitsFirst.US, example=study())
+
+
+def study() -> StudyInput:
+    """Return the study: catalog curves of three mats on eight slopes at twenty intensities."""
+    return StudyInput(
+        study=Study(
+            title="Catalog curves for three mats",
+            prepared_by="Example, not a product",
+            date=dt.date(2026, 11, 20),
+            slopes_deg="0 to 7 by 1",
+            intensity=Intensity.S_DS,
+            intensities="0.1 to 2 by 0.1",
+            s_ds_g=S_DS_G,
+            allowed_m=24 * INCH,
+            folder="records",
+            site_intensity=1.2,
+            intensity_beta=0.15,
+            slope_tolerance_deg=0.25,
+            samples=50,
+            seed=SEED,
+        ),
+        mats=(
+            Mat(id="Foam", mu=0.40, tested="0.37, 0.40, 0.42, 0.41", report="Example values"),
+            Mat(id="EPDM", mu=0.50, tested="0.47, 0.50, 0.53, 0.51, 0.49", report="Example values"),
+            Mat(id="Rubber", mu=0.6, report="Example values"),
+        ),
+        study_arrays=(
+            StudyArray(id="A1", mat="EPDM", slope_deg=2.0, clearance_m=24 * INCH, reaches="RTU-1"),
+        ),
+    )
+
+
+if __name__ == "__main__":
+    main()

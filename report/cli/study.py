@@ -1,0 +1,81 @@
+"""The command `roofslip study`: curves, fragilities and chances from a study workbook.
+
+Read `make` first: one line for each step from workbook to files.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from report.cli.terminal import QUIET, Progress, input_errors, no_collections, plain
+
+if TYPE_CHECKING:
+    from report.study.plan import StudyPlan
+    from report.study.results import StudyResults
+    from report.study.run import Estimate
+
+_SOURCE = click.Path(path_type=Path)
+
+
+@click.command()
+@click.argument("source", metavar="DIR|WORKBOOK", type=_SOURCE)
+@click.option("--out", type=_SOURCE, help="Output folder; default: out/study/ beside the input.")
+@click.option("--dry-run", is_flag=True, help="Print runs, processor time and disk; run nothing.")
+@click.option("--scheduler", metavar="tcp://HOST:PORT", default="",
+              help="Run on an existing Dask cluster instead of this machine.")  # fmt: skip
+@QUIET
+def study(source: Path, out: Path | None, dry_run: bool, scheduler: str, quiet: bool) -> None:
+    """Run a study workbook: write study.pdf, curves.csv, study.xlsx, fragilities and every run.
+
+    A study that was killed goes on where it was. `roofslip new DIR --study` writes a blank
+    workbook.
+    """
+    from report.study.extra import arrow
+    from report.study.run import estimate, planned
+
+    with input_errors(source):
+        arrow()
+        plan, beside = planned(source)
+        if dry_run:
+            _print_estimate(estimate(plan))
+            return
+        folder = out or beside / "out" / "study"
+        with Progress(quiet=quiet) as progress, no_collections():
+            results, files = make(plan, folder, scheduler, progress)
+    if not quiet:
+        for line in summary(results):
+            click.echo(plain(line))
+        for name in files:
+            click.echo(folder / name)
+
+
+def make(
+    plan: StudyPlan, folder: Path, scheduler: str, progress: Callable[[str], None]
+) -> tuple[StudyResults, Mapping[str, bytes]]:
+    """Run a study and publish its files."""
+    from report.results.publish import publish
+    from report.study.files import study_files
+    from report.study.run import run_study
+
+    results = run_study(plan, folder, scheduler=scheduler, progress=progress)
+    progress("writing the report")
+    files = study_files(results)
+    publish(files, folder)
+    return results, files
+
+
+def _print_estimate(found: Estimate) -> None:
+    click.echo(f"{found.cases:,} cases, {found.runs:,} runs in {found.parts:,} parts")
+    click.echo(f"{found.processor_s:,.1f} s of processor time, by the cost model")
+    click.echo(f"{found.disk_bytes / 1e6:,.1f} MB on disk")
+
+
+def summary(results: StudyResults) -> list[str]:
+    """Return what to print at the end."""
+    from report.study.words import headline
+
+    return headline(results)

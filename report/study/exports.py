@@ -1,0 +1,187 @@
+"""Fragilities in the formats of the field: pelicun / FEMA P-58 libraries, OpenQuake NRML 0.5.
+
+Computes nothing. Read `export_files`.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import re
+from collections.abc import Iterator, Mapping
+from xml.etree import ElementTree as ET
+
+from report.study.results import ArrayResult, LimitState, StudyResults
+from report.study.schema import Intensity
+from report.study.words import both
+from solver.studies.fragility import Fragility
+
+DEMANDS: Mapping[Intensity, tuple[str, str]] = {
+    Intensity.PPA: ("Peak Floor Acceleration", "g"),
+    Intensity.PPV: ("Peak Floor Velocity", "mps"),
+    Intensity.PGA: ("Peak Ground Acceleration", "g"),
+    Intensity.SA1: ("Spectral Acceleration|1.0", "g"),
+}
+"""Demand type and unit of pelicun; it has none for S_DS. Its PRD is peak roof drift ratio."""
+
+MEASURES: Mapping[Intensity, str] = {
+    Intensity.PPA: "PGA",
+    Intensity.PGA: "PGA",
+    Intensity.SA1: "SA(1.0)",
+    Intensity.PPV: "PGV",
+}
+"""Intensity measure types of OpenQuake; at the roof, PGA and PGV are those of the roof motion."""
+
+NRML = "http://openquake.org/xmlns/nrml/0.5"
+MOST_STATES = 4
+_COLUMNS = ("Family", "Theta_0", "Theta_1", "DamageStateWeights")
+
+
+def export_files(results: StudyResults) -> Mapping[str, bytes]:
+    """Return the files of the exports; none without an array, or where a format has no measure."""
+    kind = results.plan.input.study.intensity
+    files: dict[str, bytes] = {}
+    known = [one for one in results.arrays if known_states(one)]
+    if known and kind in DEMANDS:
+        files["fragility.csv"] = _library(results, known).encode()
+        files["fragility.json"] = _metadata(results, known).encode()
+        files["placement.csv"] = _placement(results, known).encode()
+    if results.arrays and kind in MEASURES:
+        files["fragility.xml"] = _nrml(results)
+    return files
+
+
+def known_states(one: ArrayResult) -> tuple[tuple[str, LimitState], ...]:
+    """Return the limit states that have a lognormal, numbered LS1, LS2 ... as a library needs."""
+    known = [state for state in one.states if state.fragility.fitted.is_known]
+    return tuple((f"LS{number}", state) for number, state in enumerate(known, start=1))
+
+
+def component_id(results: StudyResults, one: ArrayResult) -> str:
+    """Return the ID of an array in a library: letters, digits, points and dashes."""
+    building = results.plan.motions.buildings[one.plan.building]
+    name = one.plan.array.id
+    if len(results.plan.motions.buildings) > 1:
+        name = f"{name}.{building}"
+    return "BSA." + re.sub(r"[^A-Za-z0-9.-]+", "-", name).strip("-")
+
+
+def _library(results: StudyResults, known: list[ArrayResult]) -> str:
+    demand, unit = DEMANDS[results.plan.input.study.intensity]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    states = [f"LS{k}-{name}" for k in range(1, MOST_STATES + 1) for name in _COLUMNS]
+    writer.writerow(
+        ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional",
+         *states]
+    )  # fmt: skip
+    for one in known:
+        cells: list[object] = []
+        for _, state in known_states(one):
+            f = state.fragility.fitted
+            cells += ["lognormal", f"{f.theta:.6g}", f"{f.beta:.6g}", ""]
+        cells += [""] * (len(states) - len(cells))
+        writer.writerow([component_id(results, one), 0, demand, unit, 0, 0, *cells])
+    return text.getvalue()
+
+
+def _metadata(results: StudyResults, known: list[ArrayResult]) -> str:
+    study = results.plan.input.study
+    about = {
+        "ShortName": "Ballasted solar arrays",
+        "Description": f"{study.title}. Sliding of ballasted rooftop solar arrays.",
+        "Version": results.manifest["program"]["roofslip"],
+        "ComponentGroups": {
+            "BSA - Ballasted solar arrays": [component_id(results, one) for one in known]
+        },
+    }
+    entries = {component_id(results, one): _entry(results, one) for one in known}
+    return (
+        json.dumps({"_GeneralInformation": about, **entries}, indent=2, ensure_ascii=False) + "\n"
+    )
+
+
+def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
+    array = one.plan.array
+    return {
+        "Description": f"Ballasted solar array {array.id}",
+        "Comments": (
+            f"Mat {array.mat}, friction coefficient {one.plan.mu:g}, slope {array.slope_deg:g} "
+            "deg, "
+            f"clearance {both(results, array.clearance_m)}. Study "
+            f"{results.manifest['identity'][:16]}."
+        ),
+        "SuggestedComponentBlockSize": "1 EA",
+        "RoundUpToIntegerQuantity": "True",
+        "LimitStates": {
+            name: {
+                "DS1": {
+                    "Description": f"{state.words[:1].upper()}{state.words[1:]}.",
+                    "RepairAction": "Inspect; not part of this study.",
+                }
+            }
+            for name, state in known_states(one)
+        },
+    }
+
+
+def _placement(results: StudyResults, known: list[ArrayResult]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment"])
+    for one in known:
+        row = ["ea", "roof", 0, 1, "", f"Array {one.plan.array.id}"]
+        writer.writerow([component_id(results, one), *row])
+    return text.getvalue()
+
+
+def _nrml(results: StudyResults) -> bytes:
+    """Return the discrete form: fractions at each intensity, never decreasing along a limit state.
+
+    The discrete form avoids the doubt whether a mean is of the value or of its logarithm.
+    """
+    ET.register_namespace("", NRML)
+    root = ET.Element(f"{{{NRML}}}nrml")
+    model = ET.SubElement(
+        root,
+        f"{{{NRML}}}fragilityModel",
+        {"id": "roofslip", "assetCategory": "contents", "lossCategory": "contents"},
+    )
+    study = results.plan.input.study
+    ET.SubElement(model, f"{{{NRML}}}description").text = study.title
+    states = [state.name for state in results.arrays[0].states]
+    ET.SubElement(model, f"{{{NRML}}}limitStates").text = " ".join(states)
+    for one in results.arrays:
+        function = ET.SubElement(
+            model,
+            f"{{{NRML}}}fragilityFunction",
+            {"id": component_id(results, one), "format": "discrete"},
+        )
+        unit = "m/s" if study.intensity is Intensity.PPV else "g"
+        levels = ET.SubElement(
+            function,
+            f"{{{NRML}}}imls",
+            {"imt": MEASURES[study.intensity], "noDamageLimit": "0", "unit": unit},
+        )
+        levels.text = " ".join(f"{x:g}" for x in one.states[0].fragility.levels)
+        for state in one.states:
+            chances = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
+            chances.text = " ".join(f"{p:.6f}" for p in chances_of(state.fragility))
+    ET.indent(root)
+    return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
+
+
+def chances_of(found: Fragility) -> list[float]:
+    """Return the chance at each level: of the lognormal, or the fractions where there is none."""
+    if found.fitted.is_known:
+        return [float(p) for p in found.fitted.at(found.levels)]
+    return list(_never_decreasing(found))
+
+
+def _never_decreasing(found: Fragility) -> Iterator[float]:
+    reached = 0.0
+    for k, n in zip(found.exceeded, found.counted, strict=True):
+        reached = max(reached, float(k) / float(n) if n else math.nan)
+        yield reached

@@ -1,0 +1,208 @@
+"""The motions of a study at the roof, with the factor that makes their intensity one.
+
+Owns which files a folder gives and the measure of intensity; `report.motions` reads the records.
+Read `study_motions`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from report.motions.components import Components, RecordFile, read_components
+from report.motions.history import SIGNS
+from report.sheet.fields import Fault, Place, entries
+from report.sheet.schema import MotionInput
+from report.study.read import StudyInput, StudySheet
+from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding
+from report.words.units import G_MPS2
+from solver.building.roof import building_of_periods, shaking_to_roof
+from solver.model import Floats, Motion
+from solver.records.measures import measures
+from solver.records.record import Record
+from solver.records.spectrum import response_spectrum
+
+ROOF = "roof"
+"""Name of the only building where the motions are roof motions."""
+
+_COMPONENT = re.compile(r"(.+)-([xyz])", re.IGNORECASE)
+_FIELDS = {"x": "record", "y": "transverse", "z": "vertical"}
+_NO_RECORDS = {".json", ".png", ".svg", ".pdf", ".md", ".sha256"}
+_TRUNCATION = 0.05
+"""Neglected modes of a building may change the peak roof acceleration by this fraction."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StudyMotions:
+    """The motions of a study.
+
+    Attributes
+    ----------
+    buildings : tuple of str
+        Names; `ROOF` alone for roof motions.
+    motions : tuple of tuple of Motion
+        By building; `Motion.scale` makes the intensity one.
+    files : tuple of RecordFile
+    """
+
+    buildings: tuple[str, ...]
+    motions: tuple[tuple[Motion, ...], ...]
+    files: tuple[RecordFile, ...]
+
+
+def study_motions(sheet: StudySheet) -> StudyMotions:
+    """Read the records of a study and carry ground motions through its buildings.
+
+    Raises
+    ------
+    InputError
+        With every problem of the records, by cell.
+    """
+    read: list[tuple[MotionInput, Components]] = []
+    faults: list[Fault] = []
+    for index, row in enumerate(_rows(sheet)):
+        match read_components(sheet.book, index, row):
+            case Components() as components:
+                read.append((MotionInput(**row), components))
+            case wrong:
+                faults += wrong if sheet.input.motions else _of_folder(wrong)
+    sheet.refuse(faults)
+    sheet.refuse(list(_unlike(sheet.input, read)))
+    buildings = sheet.input.buildings
+    by_building = tuple(
+        tuple(_motion(sheet, row, components, building) for row, components in read)
+        for building in buildings or (None,)
+    )
+    return StudyMotions(
+        buildings=tuple(building.id for building in buildings) or (ROOF,),
+        motions=by_building,
+        files=tuple(file for _, components in read for file in components.files),
+    )
+
+
+def _rows(sheet: StudySheet) -> list[dict[str, Any]]:
+    study = sheet.input.study
+    defaults = {e.name: e.default for e in entries(MotionInput) if not e.is_required}
+    common = {**defaults, "units": study.units, "dt_s": study.dt_s, "polarity": study.polarity}
+    listed: Sequence[Mapping[str, Any]] = [row.model_dump() for row in sheet.input.motions]
+    return [{**common, **row} for row in listed or _of_files(sheet)]
+
+
+def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
+    """Return a row for each motion of the folder."""
+    name = sheet.input.study.folder.replace("\\", "/").strip("/")
+    top = sheet.book.path.parent
+    folder = (top / name).resolve()
+    cell = Place("study", 0, "folder")
+    if not folder.is_relative_to(top.resolve()) or not folder.is_dir():
+        sheet.refuse([Fault(cell, f"'{name}' is no folder beside this workbook; give one")])
+    groups: dict[str, dict[str, str]] = {}
+    for path in sorted(folder.iterdir()):
+        if path.name.startswith(".") or not path.is_file() or path.suffix in _NO_RECORDS:
+            continue
+        part = _COMPONENT.fullmatch(path.stem)
+        motion, field = (part[1], _FIELDS[part[2].lower()]) if part else (path.stem, "record")
+        groups.setdefault(motion, {"id": motion[:40]})[field] = f"{name}/{path.name}"
+    lost = [motion for motion, row in groups.items() if "record" not in row]
+    if lost or not groups:
+        wrong = f"'{name}' has no record" + (f" {lost[0]}-x" if lost else "")
+        sheet.refuse([Fault(cell, f"{wrong}; add it, or list the motions on the sheet Motions")])
+    return list(groups.values())
+
+
+def _of_folder(faults: Sequence[Fault]) -> Iterator[Fault]:
+    for _, text in faults:
+        yield Fault(Place("study", 0, "folder"), text)
+
+
+def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -> Iterator[Fault]:
+    """Yield motions with other components than the first, and records beyond the memory."""
+    wanted = read[0][1].records.keys()
+    for index, (row, components) in enumerate(read):
+        if components.records.keys() != wanted:
+            place = Place("motions", index, "record") if given.motions else _FOLDER
+            yield Fault(
+                place,
+                f"motion {row.id} has {len(components.records)} components, the first has "
+                f"{len(wanted)}; a study compares motions with the same components",
+            )
+    samples = sum(r.a_mps2.size for _, c in read for r in c.records.values())
+    samples *= max(1, len(given.buildings))
+    if samples > MOST_SAMPLES:
+        place = Place("motions") if given.motions else _FOLDER
+        yield Fault(
+            place, f"the records have {samples:,} samples in all; give at most {MOST_SAMPLES:,}"
+        )
+
+
+_FOLDER = Place("study", 0, "folder")
+
+
+def _motion(
+    sheet: StudySheet, row: MotionInput, components: Components, building: StudyBuilding | None
+) -> Motion:
+    a = {field: record.a_mps2 for field, record in components.records.items()}
+    dt_s = components.records["record"].dt_s
+    if building is not None:
+        horizontal = [field for field in a if field != "vertical"]
+        shaking = shaking_to_roof(
+            [a[field] for field in horizontal],
+            a.get("vertical", np.empty(0)),
+            dt_s,
+            [_building(building)] * len(horizontal),
+            share=_TRUNCATION,
+        )
+        dt_s, roof = shaking.dt_s, shaking.horizontal
+        a = {field: one.a_mps2 for field, one in zip(horizontal, roof, strict=True)}
+        a |= {"vertical": shaking.vertical_mps2}
+    at_roof = Record(name=row.id, dt_s=dt_s, a_mps2=a["record"])
+    unit = _intensity(sheet.input, components.records["record"], at_roof)
+    if not (unit > 0.0 and math.isfinite(unit)):
+        place = _FOLDER if not sheet.input.motions else Place("motions")
+        sheet.refuse([Fault(place, f"motion {row.id} is all zeros and has no intensity")])
+    return Motion(
+        id=row.id,
+        source=row.source,
+        dt_s=dt_s,
+        ax_mps2=_frozen(a["record"]),
+        ay_mps2=_frozen(a.get("transverse", np.empty(0))),
+        az_mps2=_frozen(a.get("vertical", np.empty(0))),
+        scale=1.0 / unit,
+        signs=SIGNS[row.polarity],
+    )
+
+
+def _building(row: StudyBuilding) -> Any:
+    return building_of_periods(
+        [row.period_s],
+        damping=(row.damping_percent / 100.0,),
+        alpha0=math.inf if row.stiffness_ratio is None else row.stiffness_ratio,
+        stories=row.stories,
+    )
+
+
+def _intensity(given: StudyInput, recorded: Record, at_roof: Record) -> float:
+    """Return the intensity of a motion as recorded, in the unit of its measure."""
+    study = given.study
+    match study.intensity:
+        case Intensity.PPV:
+            return float(measures(at_roof).pgv_mps)
+        case Intensity.PGA:
+            return float(np.abs(recorded.a_mps2).max() / G_MPS2)
+        case Intensity.SA1:
+            spectrum = response_spectrum(recorded.a_mps2, recorded.dt_s, [1.0])
+            return float(spectrum[0] / G_MPS2)
+        case Intensity.S_DS:
+            return float(study.s_ds_g or math.nan)
+    return float(np.abs(at_roof.a_mps2).max() / G_MPS2)
+
+
+def _frozen(values: Floats) -> Floats:
+    values = np.ascontiguousarray(values)
+    values.setflags(write=False)
+    return values

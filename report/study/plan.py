@@ -1,0 +1,188 @@
+"""From the sheet to the runs: which cases belong to the curves, the fragilities and the chances.
+
+Runs nothing. Read `plan_study`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from report.sheet.fields import Fault, Place
+from report.study.motions import StudyMotions
+from report.study.read import StudyInput, StudySheet
+from report.study.schema import MOST_CASES, MOST_RUNS, Sampling, StudyArray
+from solver.studies.campaign import Campaign, Cases, cases_of, grid, joined
+from solver.studies.uncertainty import (
+    Spread,
+    all_combinations,
+    latin_hypercube,
+    one_at_a_time,
+)
+
+FRICTION, SLOPE, INTENSITY = "friction coefficient", "slope", "intensity"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrayPlan:
+    """The cases of one array on one building.
+
+    Attributes
+    ----------
+    array : StudyArray
+    building : int
+    mu : float
+    spreads : mapping of str to Spread
+        Friction, slope [deg] and intensity.
+    fragility, samples, bars : slice
+        Cases of its fragility, of its chance and of its tornado chart; the last two are empty
+        without an intensity at the site.
+    """
+
+    array: StudyArray
+    building: int
+    mu: float
+    spreads: Mapping[str, Spread]
+    fragility: slice
+    samples: slice
+    bars: slice
+
+
+@dataclass(frozen=True, kw_only=True)
+class StudyPlan:
+    """A study ready to run.
+
+    Attributes
+    ----------
+    input : StudyInput
+    motions : StudyMotions
+    campaign : Campaign
+        The first cases are the grid of building, slope, friction and intensity.
+    arrays : tuple of ArrayPlan
+    """
+
+    input: StudyInput
+    motions: StudyMotions
+    campaign: Campaign
+    arrays: tuple[ArrayPlan, ...]
+
+    @property
+    def shape(self) -> tuple[int, int, int, int]:
+        """Buildings, slopes, friction coefficients and intensities of the grid."""
+        given = self.input
+        return (
+            len(self.motions.buildings),
+            len(given.slopes_deg),
+            len(given.mus),
+            len(given.intensities),
+        )
+
+    @property
+    def about(self) -> dict[str, Any]:
+        """What determines the results besides motions and cases, for the manifest."""
+        study = self.input.study
+        return {
+            "title": study.title,
+            "intensity": study.intensity.value,
+            "run_without_value": study.no_value.value,
+            "seed": study.seed,
+            "seeds": {
+                f"array {a.array.id}": _seed(study.seed, k) for k, a in enumerate(self.arrays)
+            },
+            "buildings": list(self.motions.buildings),
+            "slopes_deg": list(self.input.slopes_deg),
+            "mus": list(self.input.mus),
+            "intensities": list(self.input.intensities),
+        }
+
+
+def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
+    """Return the runs of a study.
+
+    Raises
+    ------
+    InputError
+        If they are more than a study may have, at the cell of the intensities.
+    """
+    given = sheet.input
+    buildings = len(motions.buildings)
+    blocks = [
+        grid(buildings, [math.radians(s) for s in given.slopes_deg], given.mus, given.intensities)
+    ]
+    arrays = []
+    start = len(blocks[0])
+    for number, (array, building) in enumerate(
+        (array, building) for array in given.study_arrays for building in range(buildings)
+    ):
+        made, parts = _array(given, array, building, start, _seed(given.study.seed, number))
+        arrays.append(made)
+        blocks += parts
+        start += sum(map(len, parts))
+    campaign = Campaign(motions=motions.motions, cases=joined(blocks))
+    sheet.refuse(list(_too_many(campaign)))
+    return StudyPlan(input=given, motions=motions, campaign=campaign, arrays=tuple(arrays))
+
+
+def _too_many(campaign: Campaign) -> Iterator[Fault]:
+    place = Place("study", 0, "intensities")
+    if len(campaign.cases) > MOST_CASES:
+        yield Fault(place, f"make {len(campaign.cases):,} cases; give at most {MOST_CASES:,}")
+    elif campaign.rows > MOST_RUNS:
+        yield Fault(place, f"make {campaign.rows:,} runs; give at most {MOST_RUNS:,}")
+
+
+def _seed(seed: int, number: int) -> int:
+    return seed + 1000 * number
+
+
+def _array(
+    given: StudyInput, array: StudyArray, building: int, start: int, seed: int
+) -> tuple[ArrayPlan, list[Cases]]:
+    study, friction = given.study, given.friction(array.mat)
+    slope = math.radians(array.slope_deg)
+    spreads = {
+        FRICTION: friction,
+        SLOPE: Spread(center=array.slope_deg, half=study.slope_tolerance_deg),
+        INTENSITY: Spread(center=study.site_intensity or 1.0, beta=study.intensity_beta),
+    }
+    levels = [(building, slope, friction.center, x) for x in given.intensities]
+    samples, bars = [], []
+    if study.site_intensity:
+        samples = [_case(building, *row) for row in _samples(given, array, spreads, seed)]
+        bars = [_case(building, *row) for row in one_at_a_time(spreads)]
+    edges = [start]
+    for part in (levels, samples, bars):
+        edges.append(edges[-1] + len(part))
+    return (
+        ArrayPlan(
+            array=array,
+            building=building,
+            mu=friction.center,
+            spreads=spreads,
+            fragility=slice(edges[0], edges[1]),
+            samples=slice(edges[1], edges[2]),
+            bars=slice(edges[2], edges[3]),
+        ),
+        [cases_of([*levels, *samples, *bars])],
+    )
+
+
+def _case(
+    building: int, mu: float, slope_deg: float, intensity: float
+) -> tuple[int, float, float, float]:
+    return building, math.radians(slope_deg), mu, intensity
+
+
+def _samples(
+    given: StudyInput, array: StudyArray, spreads: Mapping[str, Spread], seed: int
+) -> list[list[float]]:
+    study = given.study
+    if study.sampling is Sampling.ALL_COMBINATIONS:
+        off = study.slope_tolerance_deg
+        slopes = [array.slope_deg + d for d in ((-off, 0.0, off) if off else (0.0,))]
+        combined = all_combinations([given.tests(array.mat), slopes, [spreads[INTENSITY].center]])
+    else:
+        combined = latin_hypercube(list(spreads.values()), study.samples, seed=seed)
+    return [list(map(float, row)) for row in combined]

@@ -1,0 +1,154 @@
+"""A study from its workbook to its results, for the command and for scripts. Read `run_study`."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from report.study.extra import arrow
+from report.study.manifest import NAME, check_former, manifest_of
+from report.study.motions import study_motions
+from report.study.parts import (
+    BYTES_A_ROW,
+    Done,
+    begin,
+    done_parts,
+    finished,
+    run_missing,
+)
+from report.study.plan import StudyPlan, plan_study
+from report.study.read import read_study
+from report.study.results import StudyResults, results_of
+from solver.files import write_whole
+
+RUNS = "runs"
+"""Folder of the parts, in the folder of the outputs."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Estimate:
+    """What a study takes, from the cost model.
+
+    Attributes
+    ----------
+    cases, runs, parts : int
+    processor_s : float
+        [s] on one core like the one of the cost model.
+    disk_bytes : float
+    """
+
+    cases: int
+    runs: int
+    parts: int
+    processor_s: float
+    disk_bytes: float
+
+
+def planned(source: Path) -> tuple[StudyPlan, Path]:
+    """Read a study workbook and its records; return the plan and the workbook's folder.
+
+    Raises
+    ------
+    InputError
+        With every problem, by cell.
+    """
+    sheet = read_study(source)
+    return plan_study(sheet, study_motions(sheet)), sheet.book.path.parent
+
+
+def estimate(plan: StudyPlan) -> Estimate:
+    """Return what a study takes."""
+    campaign = plan.campaign
+    return Estimate(
+        cases=len(campaign.cases),
+        runs=campaign.rows,
+        parts=len(campaign.parts),
+        processor_s=float(campaign.seconds.sum()),
+        disk_bytes=BYTES_A_ROW * campaign.rows,
+    )
+
+
+def run_study(
+    plan: StudyPlan,
+    out: Path,
+    *,
+    scheduler: str = "",
+    progress: Callable[[str], None] = lambda _: None,
+) -> StudyResults:
+    """Run what is missing of a study and return its results.
+
+    Parameters
+    ----------
+    plan : StudyPlan
+    out : Path
+        Folder of the outputs; the parts are in its folder `RUNS`.
+    scheduler : str
+        Address of a Dask scheduler; empty for the cores of this machine.
+    progress : callable
+        Called with a line of text.
+
+    Raises
+    ------
+    InputError
+        If a package is missing, the folder has the parts of another version, or the cluster cannot
+        be used.
+    """
+    arrow()
+    folder, campaign = out / RUNS, plan.campaign
+    manifest = manifest_of(campaign, plan.about)
+    check_former(folder, manifest)
+    identity, names = str(manifest["identity"]), plan.motions.buildings
+    done = done_parts(folder, campaign, identity)
+    missing = [number for number in range(len(campaign.parts)) if number not in done]
+    meter = _Meter(plan, missing, progress)
+
+    def on_done(part: Done) -> None:
+        done[part.number] = part
+        meter(part)
+
+    if scheduler:
+        from report.study.cluster import connected, run_on_cluster
+
+        with connected(scheduler, manifest) as client:
+            begin(folder, manifest)
+            run_on_cluster(client, folder, campaign, identity, names, missing, on_done)
+    else:
+        begin(folder, manifest)
+        run_missing(folder, campaign, identity, names, missing, on_done)
+    full = finished(folder, manifest, list(done.values()))
+    write_whole(folder / NAME, json.dumps(full, indent=1).encode() + b"\n")
+    progress("computing the curves")
+    return results_of(plan, folder, done, full)
+
+
+class _Meter:
+    """Says how far the runs are: the rate, and the time left by the cost model."""
+
+    def __init__(
+        self, plan: StudyPlan, missing: list[int], progress: Callable[[str], None]
+    ) -> None:
+        campaign = plan.campaign
+        self._progress = progress
+        self._costs = {n: float(campaign.seconds[campaign.parts[n]].sum()) for n in missing}
+        self._rows = {
+            n: (campaign.parts[n].stop - campaign.parts[n].start) * len(campaign.columns)
+            for n in missing
+        }
+        self._started, self._ran, self._cost = time.monotonic(), 0, 0.0
+        if missing:
+            total = sum(self._rows.values())
+            progress(f"running {total:,} runs")
+
+    def __call__(self, part: Done) -> None:
+        """Count a part."""
+        self._ran += self._rows[part.number]
+        self._cost += self._costs[part.number]
+        seconds = time.monotonic() - self._started
+        left = seconds * (sum(self._costs.values()) / self._cost - 1.0)
+        self._progress(
+            f"{self._ran:,} of {sum(self._rows.values()):,} runs, {self._ran / seconds:,.0f} a "
+            f"second, {left:.0f} s left"
+        )

@@ -1,0 +1,205 @@
+"""The results of a study as tables: curves.csv, and study.xlsx with summaries.
+
+Computes nothing but units. Read `curves_csv`, then `study_xlsx`.
+"""
+
+from __future__ import annotations
+
+import csv
+import datetime as dt
+import io
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import xlsxwriter
+
+from report.study.results import STATISTICS, StudyResults
+from report.words.units import Quantity, Unit
+from solver.studies.fit import Fit
+
+Row = Sequence[Any]
+
+
+def curves_csv(results: StudyResults) -> bytes:
+    """Return the curves, one row for each case of the grid; an empty field for no value."""
+    given, plan = results.plan.input, results.plan
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    measure = given.study.intensity
+    writer.writerow(
+        ["building", "slope_deg", "mu", f"intensity ({measure.value})", "mean_prd_m", "p84_prd_m",
+         "largest_prd_m", "motions_without_value"]
+    )  # fmt: skip
+    c = results.curves
+    for b, building in enumerate(plan.motions.buildings):
+        for s, slope in enumerate(given.slopes_deg):
+            for m, mu in enumerate(given.mus):
+                for x, level in enumerate(given.intensities):
+                    at = b, s, m, x
+                    values = [c.mean_m[at], c.p84_m[at], c.largest_m[at]]
+                    shown = ["" if math.isnan(v) else repr(float(v)) for v in values]
+                    writer.writerow([building, slope, mu, level, *shown, int(c.without_value[at])])
+    return text.getvalue().encode()
+
+
+def length_unit(results: StudyResults) -> Unit:
+    """Return the unit of displacements that is printed first."""
+    quantity = Quantity.DISPLACEMENT
+    return quantity.us if results.plan.input.study.units_first == "US" else quantity.si
+
+
+def study_xlsx(results: StudyResults) -> bytes:
+    """Return the summaries as a workbook: never a row for each run."""
+    buffer = io.BytesIO()
+    book = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": False})
+    book.set_properties({"title": results.plan.input.study.title, "created": _midnight(results)})
+    formats = {"head": book.add_format({"bold": True, "text_wrap": True, "bottom": 1})}
+    unit = length_unit(results)
+    for title, head, rows in (
+        ("Study", ("What", "Value"), _about(results)),
+        ("Curves", _curve_head(results, unit), _curves(results, unit)),
+        ("Least friction", _least_head(results), _least(results)),
+        ("Largest slope", _slope_head(results), _slopes(results)),
+        ("Fragility", _FRAGILITY, _fragilities(results, unit)),
+        ("Chances", _CHANCES, _chances(results, unit)),
+        ("Formula", ("Building", "What", "Value"), _formula(results)),
+    ):
+        sheet = book.add_worksheet(title)
+        sheet.write_row(0, 0, head, formats["head"])
+        for number, row in enumerate(rows, start=1):
+            for column, value in enumerate(row):
+                is_none = isinstance(value, float) and not math.isfinite(value)
+                sheet.write(number, column, "none" if is_none else value)
+        sheet.set_column(0, len(head) - 1, 16)
+        sheet.freeze_panes(1, 0)
+    book.close()
+    return buffer.getvalue()
+
+
+def _midnight(results: StudyResults) -> Any:
+    return dt.datetime.combine(results.plan.input.study.date, dt.time())
+
+
+def _about(results: StudyResults) -> Iterator[Row]:
+    manifest = results.manifest
+    yield "Title", results.plan.input.study.title
+    yield "Runs", manifest["rows"]
+    yield "Cases", manifest["cases"]["count"]
+    for title, count in manifest["models"].items():
+        yield f"Runs with the model: {title}", count
+    yield "Seed", manifest["about"]["seed"]
+    yield "Identity of the manifest", manifest["identity"]
+    yield from manifest["program"].items()
+    yield "Agreement of a repetition", manifest["agreement"]
+
+
+def _curve_head(results: StudyResults, unit: Unit) -> Row:
+    measure = results.plan.input.study.intensity.value
+    lengths = [f"PRD, {name} [{unit.symbol}]" for name in STATISTICS]
+    return ("Building", "Slope [deg]", "Friction", measure, *lengths, "Motions without a value")
+
+
+def _curves(results: StudyResults, unit: Unit) -> Iterator[Row]:
+    given, c = results.plan.input, results.curves
+    for b, building in enumerate(results.plan.motions.buildings):
+        for s, slope in enumerate(given.slopes_deg):
+            for m, mu in enumerate(given.mus):
+                for x, level in enumerate(given.intensities):
+                    at = b, s, m, x
+                    lengths = (float(v[at]) / unit.si for v in (c.mean_m, c.p84_m, c.largest_m))
+                    yield building, slope, mu, level, *lengths, int(c.without_value[at])
+
+
+def _least_head(results: StudyResults) -> Row:
+    measure = results.plan.input.study.intensity.value
+    return ("Building", "Statistic", "Slope [deg]", measure, "Least friction")
+
+
+def _least(results: StudyResults) -> Iterator[Row]:
+    given = results.plan.input
+    for b, building in enumerate(results.plan.motions.buildings):
+        for name in STATISTICS if given.study.allowed_m else ():
+            values = results.least_frictions(b, name, float(given.study.allowed_m or 0.0))
+            for s, slope in enumerate(given.slopes_deg):
+                for x, level in enumerate(given.intensities):
+                    yield building, name, slope, level, float(values[s, x])
+
+
+def _slope_head(results: StudyResults) -> Row:
+    measure = results.plan.input.study.intensity.value
+    return ("Building", "Statistic", "Friction", measure, "Largest slope [deg]")
+
+
+def _slopes(results: StudyResults) -> Iterator[Row]:
+    given = results.plan.input
+    for b, building in enumerate(results.plan.motions.buildings):
+        for name in STATISTICS if given.study.allowed_m else ():
+            values = results.largest_slopes(b, name, float(given.study.allowed_m or 0.0))
+            for m, mu in enumerate(given.mus):
+                for x, level in enumerate(given.intensities):
+                    yield building, name, mu, level, float(values[m, x])
+
+
+_FRAGILITY = (
+    "Building", "Array", "Limit state", "Exceeded when", "Limit on PRD", "Unit", "Median theta",
+    "theta, 5 %", "theta, 95 %", "Dispersion beta", "beta, 5 %", "beta, 95 %", "Censored runs",
+)  # fmt: skip
+
+
+def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
+    for one in results.arrays:
+        for state in one.states:
+            f = state.fragility
+            yield (
+                results.plan.motions.buildings[one.plan.building],
+                one.plan.array.id,
+                state.name,
+                state.words,
+                state.limit_m / unit.si,
+                unit.symbol,
+                f.fitted.theta,
+                *f.theta_range,
+                f.fitted.beta,
+                *f.beta_range,
+                f.censored,
+            )
+
+
+_CHANCES = (
+    "Building", "Array", "Clearance", "Unit", "Chance of exceedance", "5 %", "95 %", "Runs",
+    "Runs without a value",
+)  # fmt: skip
+
+
+def _chances(results: StudyResults, unit: Unit) -> Iterator[Row]:
+    for one in results.arrays:
+        for chance in one.chances:
+            yield (
+                results.plan.motions.buildings[one.plan.building],
+                one.plan.array.id,
+                one.plan.array.clearance_m / unit.si,
+                unit.symbol,
+                chance.value,
+                chance.low,
+                chance.high,
+                chance.runs,
+                chance.without_value,
+            )
+
+
+def _formula(results: StudyResults) -> Iterator[Row]:
+    for building, fit in zip(results.plan.motions.buildings, results.fits, strict=True):
+        if not isinstance(fit, Fit):
+            yield building, "none", fit
+            continue
+        for number, value in enumerate(fit.coefficients):
+            yield building, f"b{number}", value
+        yield building, "p [g]", fit.ppa_g
+        yield building, "standard deviation of ln(exact / fitted)", fit.sigma_ln
+        yield building, "least exact / fitted", fit.least_ratio
+        yield building, "greatest exact / fitted", fit.greatest_ratio
+        yield building, "cases", fit.cases
+        for name, (low, high) in fit.domain.items():
+            yield building, f"{name}, from", low
+            yield building, f"{name}, to", high

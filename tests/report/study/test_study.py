@@ -1,0 +1,397 @@
+"""A study from its workbook to its files: results against single runs, pages, tables, exports."""
+
+import csv
+import dataclasses
+import io
+import json
+import math
+import sys
+
+import defusedxml.ElementTree
+import numpy as np
+import pandas as pd
+import pytest
+from click.testing import CliRunner
+from dlml import get_fragility, get_metadata, vocabulary
+from dlml._tabular import load_tabular
+from openpyxl import load_workbook
+from pypdf import PdfReader
+
+from report.cli.main import main
+from report.sheet.schema import UnitsFirst
+from report.study.exports import chances_of, export_files, known_states
+from report.study.files import study_files
+from report.study.prescribed import compare
+from report.study.read import read_study
+from report.study.run import estimate, planned, run_study
+from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
+from report.study.template import write_study
+from report.study.words import headline
+from solver import solve
+from solver.model import coulomb
+from solver.studies.curves import least_friction
+from solver.studies.fragility import fit_lognormal
+from test_study_read import given, write
+
+
+def small(**changes):
+    """A study of six motions that slides, with two arrays and a chance."""
+    about = {
+        "slopes_deg": "0, 2, 4",
+        "intensities": "0.2 to 2.4 by 0.2",
+        "mus": "0.3, 0.5",
+        "allowed_m": 0.1,
+        "site_intensity": 1.0,
+        "intensity_beta": 0.2,
+        "slope_tolerance_deg": 0.25,
+        "samples": 20,
+    }
+    arrays = (
+        StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1, reaches="RTU & co"),
+        StudyArray(id="S 2", mat="B", slope_deg=0.0, clearance_m=0.02),
+    )
+    return given(**{**about, "study_arrays": arrays, **changes})
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    folder = write(tmp_path_factory.mktemp("study"), small(), motions=6)
+    done = CliRunner().invoke(main, ["study", str(folder)])
+    assert done.exit_code == 0, done.output
+    return folder, done.output
+
+
+@pytest.fixture(scope="module")
+def results(made):
+    plan, _ = planned(made[0])
+    return run_study(plan, made[0] / "out" / "study")
+
+
+@pytest.fixture
+def other(tmp_path):
+    """A function that runs another study of the same motions and returns its results."""
+
+    def run(**changes):
+        folder = write(tmp_path, small(**changes), motions=6)
+        return run_study(planned(folder)[0], tmp_path / "out")
+
+    return run
+
+
+def peak(plan, motion, building, slope_deg, mu, intensity):
+    """PRD of a motion by single runs; NaN for none."""
+    one = plan.motions.motions[building][motion]
+    one = dataclasses.replace(one, scale=one.scale * intensity)
+    found = [
+        solve(one.scene(h, slope_rad=math.radians(slope_deg), friction=coulomb(mu))).result
+        for h in one.headings
+    ]
+    return max(r.prd_m for r in found) if all(r.status == "ok" for r in found) else math.nan
+
+
+def test_curves_are_those_of_single_runs(results):
+    plan = results.plan
+    for s, slope in enumerate(plan.input.slopes_deg):
+        for m, mu in enumerate(plan.input.mus):
+            for x in (0, 5, 11):
+                level = plan.input.intensities[x]
+                prd = np.array([peak(plan, k, 0, slope, mu, level) for k in range(6)])
+                at = 0, s, m, x
+                assert results.curves.mean_m[at] == pytest.approx(
+                    prd.mean(), rel=1e-13, nan_ok=True
+                )
+                largest = np.nan if np.isnan(prd).any() else prd.max()
+                assert results.curves.largest_m[at] == pytest.approx(largest, nan_ok=True)
+
+
+def test_fragilities_are_those_of_single_runs(results):
+    plan = results.plan
+    array = results.arrays[0]
+    levels = plan.input.intensities
+    for state, limit in zip(array.states[1:], (0.05, 0.1), strict=True):
+        counts = [sum(not peak(plan, k, 0, 2.0, 0.4, x) <= limit for k in range(6)) for x in levels]
+        assert state.fragility.exceeded.tolist() == counts
+        wanted = fit_lognormal(np.array(levels), np.array(counts, float), np.full(len(levels), 6.0))
+        assert state.fragility.fitted.theta == pytest.approx(wanted.theta, nan_ok=True)
+    slips = [sum(peak(plan, k, 0, 2.0, 0.4, x) != 0.0 for k in range(6)) for x in levels]
+    assert array.states[0].fragility.exceeded.tolist() == slips
+
+
+def test_the_chance_is_that_of_the_samples(results):
+    plan, array = results.plan, results.arrays[0]
+    cases = plan.campaign.cases[array.plan.samples]
+    over = [
+        not peak(plan, k, 0, math.degrees(slope), mu, x) <= 0.1
+        for slope, mu, x in zip(cases.slope_rad, cases.mu, cases.intensity, strict=True)
+        for k in range(6)
+    ]
+    assert array.chances[0].value == pytest.approx(np.mean(over), abs=1e-12)
+    assert array.chances[0].runs == 120
+    assert {bar.name for bar in array.bars} == {"friction coefficient", "slope", "intensity"}
+
+
+def test_a_mat_without_tests_has_no_bar_for_friction(results):
+    assert {bar.name for bar in results.arrays[1].bars} == {"slope", "intensity"}
+
+
+def test_least_friction_is_read_off_the_curve(results):
+    mus = np.array(results.plan.input.mus)
+    found = results.least_frictions(0, "largest", 0.1)
+    wanted = least_friction(mus, results.curves.largest_m[0, 1, :, 6], 0.1)
+    assert found[1, 6] == pytest.approx(wanted, nan_ok=True)
+
+
+def test_censored_and_exceeding_runs_without_a_value_differ_as_stated(other):
+    """A friction below the slope never lets the block stop: no value at any intensity."""
+    arrays = (StudyArray(id="S", mat="A", slope_deg=30.0, clearance_m=0.1),)
+    common = {"study_arrays": arrays, "site_intensity": None, "intensity_beta": 0.0}
+    one = other(no_value=NoValue.EXCEEDANCE, **common).arrays[0].states[2].fragility
+    two = other(no_value=NoValue.CENSORED, **common).arrays[0].states[2].fragility
+    assert one.exceeded.tolist() == [6] * 12
+    assert (one.censored, two.censored) == (0, 72)
+    assert two.counted.tolist() == [0] * 12
+
+
+# The files
+
+
+def test_the_command_writes_every_file_and_prints_the_results(made, results):
+    folder, output = made
+    out = folder / "out" / "study"
+    for name in ("study.pdf", "curves.csv", "study.xlsx", "fragility.csv", "fragility.xml"):
+        assert (out / name).stat().st_size > 100
+        assert str(out / name) in output
+    assert all(line in output for line in headline(results))
+    manifest = json.loads((out / "runs" / "manifest.json").read_text())
+    assert sum(manifest["models"].values()) == manifest["rows"]
+    assert manifest["about"]["seed"] == 1
+    rows = pd.concat(pd.read_parquet(path) for path in sorted((out / "runs").glob("part-*")))
+    assert len(rows) == manifest["rows"]
+
+
+def test_a_second_run_runs_nothing_and_writes_the_same_bytes(made, results):
+    out = made[0] / "out" / "study"
+    for name, content in study_files(results).items():
+        assert (out / name).read_bytes() == content, name
+
+
+def test_a_dry_run_prints_and_writes_nothing(tmp_path):
+    folder = write(tmp_path, small())
+    done = CliRunner().invoke(main, ["study", str(folder), "--dry-run"])
+    assert done.exit_code == 0
+    found = estimate(planned(folder)[0])
+    assert f"{found.runs:,} runs" in done.output
+    assert "processor time" in done.output
+    assert "MB on disk" in done.output
+    assert not (folder / "out").exists()
+
+
+@pytest.mark.parametrize("missing", ["pyarrow", "pyarrow.parquet"])
+def test_without_the_extra_the_command_says_what_to_type(tmp_path, monkeypatch, missing):
+    monkeypatch.setitem(sys.modules, missing, None)
+    done = CliRunner().invoke(main, ["study", str(tmp_path)])
+    assert done.exit_code == 2
+    assert "pip install 'roofslip[study]'" in done.output
+    assert "./roofslip study" in done.output
+
+
+def test_an_input_error_ends_with_two_and_the_cell(tmp_path):
+    folder = write(tmp_path, small(slopes_deg="no"))
+    done = CliRunner().invoke(main, ["study", str(folder)])
+    assert done.exit_code == 2
+    assert "Study!B9" in done.output
+
+
+def test_new_writes_a_blank_study_that_is_read(tmp_path):
+    done = CliRunner().invoke(main, ["new", str(tmp_path / "new"), "--study"])
+    assert done.exit_code == 0, done.output
+    assert "roofslip study" in done.output
+    both = CliRunner().invoke(main, ["new", str(tmp_path / "x"), "--study", "--example"])
+    assert both.exit_code == 2
+    done = CliRunner().invoke(main, ["study", str(tmp_path / "new")])
+    assert done.exit_code == 2
+    assert "title is missing" in done.output
+
+
+def test_curves_csv_has_every_case(made, results):
+    rows = list(csv.DictReader(io.StringIO((made[0] / "out/study/curves.csv").read_text())))
+    assert len(rows) == results.curves.mean_m.size
+    means = [float(row["mean_prd_m"] or "nan") for row in rows]
+    assert np.array_equal(means, results.curves.mean_m.ravel(), equal_nan=True)
+    assert list(rows[0])[3] == "intensity (PPA [g])"
+
+
+def test_the_workbook_holds_summaries_only(made, results):
+    book = load_workbook(made[0] / "out/study/study.xlsx")
+    assert book.sheetnames == [
+        "Study", "Curves", "Least friction", "Largest slope", "Fragility", "Chances", "Formula",
+    ]  # fmt: skip
+    assert max(sheet.max_row for sheet in book) <= results.curves.mean_m.size * 3 + 1
+    value = book["Curves"].cell(2 + 11, 5).value
+    assert value == pytest.approx(results.curves.mean_m[0, 0, 0, 11] / 0.0254)
+    theta = [row[6].value for row in book["Fragility"].iter_rows(min_row=2)]
+    for found, state in zip(theta[:3], results.arrays[0].states, strict=True):
+        wanted = state.fragility.fitted.theta
+        assert found == ("none" if math.isnan(wanted) else pytest.approx(wanted))
+
+
+def text_of(pdf):
+    return " ".join(" ".join(page.extract_text() for page in PdfReader(pdf).pages).split())
+
+
+def test_the_pages_state_what_was_found(made, results):
+    text = text_of(made[0] / "out/study/study.pdf")
+    assert "1 Results" in text
+    assert "Fragility of S1" in text
+    assert "RTU & co" in text
+    lost = int(results.curves.without_value.sum())
+    assert ("Every motion gave a final PRD" in text) == (lost == 0)
+    fit = results.fits[0]
+    assert isinstance(fit, str) or f"is {fit.sigma_ln:.2f}" in text
+    assert f"{results.manifest['rows']:,} runs" in text
+    assert "outside" in text or isinstance(fit, str)
+    state = results.arrays[0].states[2].fragility
+    assert f"{state.fitted.theta:.3g}" in text
+
+
+def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(other, results):
+    assert compare(results, 0) == ()
+    found = other(intensity=Intensity.S_DS, s_ds_g=1.0, intensities="0.2 to 2 by 0.2")
+    one = compare(found, 0)[0]
+    at = 0, 1, 1, 6
+    level = found.plan.input.intensities[6]
+    wanted = max(60.0 * 0.0254 * (level - 0.4) ** 2, 6.0 * 0.0254)
+    assert one.value_m[6] == pytest.approx(wanted)
+    ratio = 1.1 * found.curves.mean_m[at] / wanted
+    assert one.ratio[1, 1, 6] == pytest.approx(ratio, nan_ok=True)
+    files = study_files(found)
+    text = text_of(io.BytesIO(files["study.pdf"]))
+    assert "Beside the prescriptive displacement" in text
+    safe = int((one.ratio <= 1.0).sum())
+    assert f"in {safe:,} of {one.ratio.size:,} cases" in text
+    # pelicun and OpenQuake have no measure S_DS.
+    assert set(files) == {"study.pdf", "curves.csv", "study.xlsx"}
+
+
+def test_a_family_of_buildings_has_curves_each(other):
+    buildings = (StudyBuilding(id="T1", period_s=0.2), StudyBuilding(id="T2", period_s=1.0))
+    found = other(
+        intensity=Intensity.PGA, recorded_at="ground", buildings=buildings, site_intensity=None,
+        intensity_beta=0.0, intensities="0.4, 0.8", slopes_deg="0, 3", mus="",
+    )  # fmt: skip
+    assert found.curves.mean_m.shape == (2, 2, 2, 2)
+    assert len(found.arrays) == 4
+    for b in (0, 1):
+        prd = [peak(found.plan, k, b, 3.0, 0.4, 0.8) for k in range(6)]
+        assert found.curves.mean_m[b, 1, 0, 1] == pytest.approx(np.mean(prd), nan_ok=True)
+    text = text_of(io.BytesIO(study_files(found)["study.pdf"]))
+    assert "building T1" in text
+    assert "building T2" in text
+
+
+def test_one_case_makes_a_report(other):
+    found = other(
+        slopes_deg="2", intensities="1", mus="", mats=small().mats[1:], study_arrays=(),
+        site_intensity=None, intensity_beta=0.0, allowed_m=None,
+    )  # fmt: skip
+    assert isinstance(found.fits[0], str)
+    text = text_of(io.BytesIO(study_files(found)["study.pdf"]))
+    assert "None is given" in text
+
+
+# The exports
+
+
+def known(results):
+    """The arrays with a lognormal of any limit state."""
+    return [a for a in results.arrays if known_states(a)]
+
+
+# The reader sets an option that its pandas no longer needs.
+@pytest.mark.filterwarnings("ignore::pandas.errors.Pandas4Warning")
+def test_pelicun_reads_the_library(made, results, tmp_path):
+    path = made[0] / "out/study/fragility.csv"
+    found = load_tabular(path)
+    theirs = get_fragility(P58)
+    assert found.columns.names == theirs.columns.names
+    assert [c for c in theirs.columns if c[0] == "LS1" and c not in found.columns] == []
+    assert len(found) == len(known(results)) > 0
+    row = found.iloc[0]
+    assert row["Demand", "Type"] in vocabulary.EDP_TYPES
+    assert row["Demand", "Unit"] == "g"
+    array = known(results)[0]
+    for name, state in known_states(array):
+        fitted = state.fragility.fitted
+        assert row[name, "Family"] == "lognormal"
+        assert float(row[name, "Theta_0"]) == pytest.approx(fitted.theta, rel=1e-5)
+        assert float(row[name, "Theta_1"]) == pytest.approx(fitted.beta, rel=1e-5)
+
+
+P58 = "seismic/building/component/FEMA P-58 2nd Edition"
+
+
+def test_the_metadata_have_the_keys_of_fema_p58(made, results):
+    ours = json.loads((made[0] / "out/study/fragility.json").read_text())
+    theirs = get_metadata(P58, "fragility")
+    example = next(entry for key, entry in theirs.items() if not key.startswith("_"))
+    for key, entry in ours.items():
+        if key.startswith("_"):
+            assert entry.keys() <= theirs[key].keys() | {"ComponentGroups"}
+            continue
+        assert entry.keys() <= example.keys() | {"Comments", "Description"}
+        assert list(entry["LimitStates"]) == ["LS1", "LS2", "LS3"][: len(entry["LimitStates"])]
+    header, *rows = csv.reader(io.StringIO((made[0] / "out/study/placement.csv").read_text()))
+    assert header == ["", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment"]
+    assert [row[0] for row in rows] == [key for key in ours if not key.startswith("_")]
+    assert all(row[1] == "ea" for row in rows)
+
+
+def read_nrml(content):
+    """Read a discrete fragility model of NRML 0.5, refusing what its schema does not allow."""
+    space = "{http://openquake.org/xmlns/nrml/0.5}"
+    root = defusedxml.ElementTree.fromstring(content)
+    assert root.tag == f"{space}nrml"
+    (model,) = root
+    assert model.tag == f"{space}fragilityModel"
+    assert set(model.attrib) == {"id", "assetCategory", "lossCategory"}
+    description, states, *functions = model
+    assert (description.tag, states.tag) == (f"{space}description", f"{space}limitStates")
+    names = states.text.split()
+    found = {}
+    for function in functions:
+        assert function.tag == f"{space}fragilityFunction"
+        assert function.attrib["format"] == "discrete"
+        levels, *chances = function
+        assert levels.tag == f"{space}imls"
+        assert {"imt", "noDamageLimit"} <= set(levels.attrib)
+        x = np.array(levels.text.split(), float)
+        assert (np.diff(x) > 0.0).all()
+        assert [c.attrib["ls"] for c in chances] == names
+        p = np.array([c.text.split() for c in chances], float)
+        assert p.shape == (len(names), x.size)
+        assert ((p >= 0.0) & (p <= 1.0)).all()
+        found[function.attrib["id"]] = levels.attrib["imt"], x, p
+    return names, found
+
+
+def test_openquake_has_the_chances_at_every_intensity(made, results):
+    names, found = read_nrml((made[0] / "out/study/fragility.xml").read_bytes())
+    assert names == ["LS1", "LS2", "LS3"]
+    assert list(found) == ["BSA.S1", "BSA.S-2"]
+    for (imt, x, p), array in zip(found.values(), results.arrays, strict=True):
+        assert imt == "PGA"
+        assert x == pytest.approx(results.plan.input.intensities)
+        for row, state in zip(p, array.states, strict=True):
+            assert row == pytest.approx(chances_of(state.fragility), abs=1e-6)
+            assert (np.diff(row) >= 0.0).all()
+
+
+def test_without_arrays_there_is_nothing_to_export(other):
+    found = other(study_arrays=(), site_intensity=None, intensity_beta=0.0)
+    assert export_files(found) == {}
+
+
+def test_the_workbook_of_a_study_is_the_same_in_si(tmp_path):
+    write(tmp_path, small())
+    write_study(tmp_path / "input.xlsx", units=UnitsFirst.SI, example=small(units_first="SI"))
+    assert read_study(tmp_path).input.study.allowed_m == pytest.approx(0.1)

@@ -1,0 +1,106 @@
+"""Parts on a Dask cluster: the same bytes as here, and none lost when a worker is killed."""
+
+import os
+import signal
+
+import pytest
+from click.testing import CliRunner
+
+from report.cli.main import main
+from report.study import cluster as clusters
+from report.study.cluster import connected, run_on_cluster
+from report.study.manifest import manifest_of
+from report.study.parts import begin, done_parts, part_name, run_missing
+from solver.model import InputError
+from studied import campaign
+from test_study_read import write
+
+pytestmark = pytest.mark.filterwarnings("ignore")  # of the cluster's own shut-down
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    from distributed import LocalCluster
+
+    with LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as local:
+        yield local
+
+
+NAMES = ["roof"]
+
+
+def test_a_killed_worker_loses_nothing_and_every_part_has_the_bytes_of_this_machine(
+    cluster, tmp_path
+):
+    c = campaign("xyz", 2)
+    manifest = manifest_of(c, {})
+    identity, numbers = manifest["identity"], range(len(c.parts))
+    there, here = tmp_path / "there", tmp_path / "here"
+    begin(here, manifest)
+    run_missing(here, c, identity, NAMES, numbers, lambda done: None)
+    killed = []
+
+    with connected(cluster.scheduler_address, manifest) as client:
+
+        def on_done(done):
+            if not killed:
+                pids = client.run(os.getpid)
+                killed.append(next(iter(pids.values())))
+                os.kill(killed[0], signal.SIGKILL)
+
+        begin(there, manifest)
+        run_on_cluster(client, there, c, identity, NAMES, numbers, on_done)
+    assert killed
+    assert sorted(done_parts(there, c, identity)) == list(numbers)
+    for number in numbers:
+        assert (there / part_name(number)).read_bytes() == (here / part_name(number)).read_bytes()
+
+
+def test_workers_of_another_version_are_an_error_before_anything_runs(cluster, tmp_path):
+    manifest = manifest_of(campaign("x"), {})
+    manifest["program"] = {**manifest["program"], "numba": "0.1"}
+    with (
+        pytest.raises(InputError, match="install the same versions") as caught,
+        connected(cluster.scheduler_address, manifest),
+    ):
+        pass
+    assert "here 0.1" in str(caught.value)
+
+
+def test_a_study_runs_on_a_cluster(cluster, tmp_path):
+    folder = write(tmp_path)
+    done = CliRunner().invoke(
+        main, ["study", str(folder), "--scheduler", cluster.scheduler_address, "--quiet"]
+    )
+    assert done.exit_code == 0, done.output
+    assert (folder / "out" / "study" / "study.pdf").is_file()
+
+
+def test_a_cluster_without_workers_is_an_error(tmp_path):
+    from distributed import LocalCluster
+
+    with LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty:
+        manifest = manifest_of(campaign("x"), {})
+        with (
+            pytest.raises(InputError, match="has no worker"),
+            connected(empty.scheduler_address, manifest),
+        ):
+            pass
+
+
+def test_a_cluster_that_cannot_be_reached_is_an_error_before_anything_runs(tmp_path, monkeypatch):
+    monkeypatch.setattr(clusters, "TIMEOUT_S", 0.5)
+    folder = write(tmp_path)
+    done = CliRunner().invoke(main, ["study", str(folder), "--scheduler", "tcp://127.0.0.1:9"])
+    assert done.exit_code == 2
+    assert "no Dask scheduler answers" in done.output
+    assert not (folder / "out").exists()
+
+
+def test_an_address_that_is_none_is_an_error(tmp_path, monkeypatch):
+    monkeypatch.setattr(clusters, "TIMEOUT_S", 0.5)
+    done = CliRunner().invoke(main, ["study", str(write(tmp_path)), "--scheduler", "nowhere://x"])
+    assert done.exit_code == 2
+    assert "--scheduler nowhere://x" in done.output

@@ -1,0 +1,274 @@
+"""The study workbook: what is written is read, and every error names its cell."""
+
+import datetime as dt
+import importlib.util
+import shutil
+from zipfile import ZipFile
+
+import pytest
+from openpyxl import load_workbook
+
+from places import ROOT
+from report.sheet.schema import UnitsFirst
+from report.study.motions import study_motions
+from report.study.plan import plan_study
+from report.study.read import StudyInput, read_study
+from report.study.schema import (
+    Intensity,
+    Mat,
+    Sampling,
+    Study,
+    StudyArray,
+    StudyBuilding,
+    StudyMotion,
+    values,
+)
+from report.study.template import write_study
+from solver.model import InputError
+from solver.records.record import Record, write_record
+from studied import wave
+
+ABOUT = {
+    "title": "A study",
+    "date": dt.date(2026, 3, 1),
+    "slopes_deg": "0, 2, 4",
+    "intensities": "0.5 to 2 by 0.5",
+    "folder": "records",
+}
+
+
+def given(**changes):
+    """A complete study; fields of the sheet Study by name, and whole tables."""
+    tables = {
+        "mats": (Mat(id="A", mu=0.4, tested="0.38, 0.40, 0.42"), Mat(id="B", mu=0.6)),
+        "study_arrays": (StudyArray(id="S1", mat="a", slope_deg=2.0, clearance_m=0.3),),
+    }
+    names = StudyInput.__dataclass_fields__.keys() - {"study"}
+    tables |= {name: changes.pop(name) for name in list(changes) if name in names}
+    return StudyInput(study=Study(**{**ABOUT, **changes}), **tables)
+
+
+def write(folder, study=None, *, motions=3, letters="x"):
+    """Write a study and its records; return the folder."""
+    records = folder / "records"
+    records.mkdir(parents=True, exist_ok=True)
+    for number in range(motions):
+        for at, letter in enumerate(letters):
+            name = f"M{number}-{letter}"
+            record = Record(name=name, dt_s=0.02, a_mps2=wave(10 * number + at))
+            write_record(records / f"{name}.csv", record)
+    write_study(folder / "input.xlsx", units=UnitsFirst.US, example=study or given())
+    return folder
+
+
+def plan(folder):
+    sheet = read_study(folder)
+    return plan_study(sheet, study_motions(sheet))
+
+
+def problems(folder):
+    with pytest.raises(InputError) as caught:
+        plan(folder)
+    return "\n".join(caught.value.problems)
+
+
+def typed(folder, sheet, cell, value):
+    book = load_workbook(folder / "input.xlsx")
+    book[sheet][cell] = value
+    book.save(folder / "input.xlsx")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [("0, 1, 2.5", (0.0, 1.0, 2.5)), ("0 to 1 by 0.25", (0.0, 0.25, 0.5, 0.75, 1.0)), ("3", (3.0,)),
+     ("0.1 to 0.3 by 0.1", (0.1, 0.2, 0.3)), ("1; 2", (1.0, 2.0)), ("0,5", ()), ("2, 1", ()),
+     ("1, 1", ()), ("", ()), ("a, b", ()), ("0 to 1 by 0.3", ()), ("0 to 1 by 0", ()),
+     ("1 to 0 by 0.1", ()), ("0 to 1 by 0.0001", ()), ("nan", ()), ("0 to inf by 1", ())],
+)  # fmt: skip
+def test_lists_are_read_or_refused(text, wanted):
+    found = values(text)
+    assert found == wanted or (text == "nan" and len(found) == 1)
+
+
+@pytest.mark.parametrize("units", list(UnitsFirst))
+def test_what_is_written_is_read(tmp_path, units):
+    write(tmp_path)
+    study = given(allowed_m=0.5, site_intensity=1.2, s_ds_g=1.0)
+    write_study(tmp_path / "input.xlsx", units=units, example=study)
+    found = read_study(tmp_path).input
+    assert found.study.allowed_m == pytest.approx(0.5)
+    assert found.study.model_copy(update={"allowed_m": 0.5}) == study.study
+    assert (found.mats, found.motions, found.buildings) == (study.mats, (), ())
+    assert found.study_arrays[0].clearance_m == pytest.approx(0.3)
+
+
+def test_the_grid_has_the_friction_of_the_mats(tmp_path):
+    found = plan(write(tmp_path, given(mus="0.5, 0.7")))
+    assert found.input.mus == (0.4, 0.5, 0.6, 0.7)
+    assert found.shape == (1, 3, 4, 4)
+    assert len(found.campaign.cases) == 3 * 4 * 4 + 4
+
+
+def test_a_folder_gives_motions_with_their_components(tmp_path):
+    found = plan(write(tmp_path, letters="xyz"))
+    assert [motion.id for motion in found.motions.motions[0]] == ["M0", "M1", "M2"]
+    assert all(m.has_transverse and m.has_vertical for m in found.motions.motions[0])
+
+
+def test_intensity_one_has_the_measure_one(tmp_path):
+    folder = write(tmp_path)
+    for kind, s_ds, scale in (
+        (Intensity.PPA, None, 1.0), (Intensity.S_DS, 0.8, 1.25),
+    ):  # fmt: skip
+        write_study(folder / "input.xlsx", units=UnitsFirst.US,
+                    example=given(intensity=kind, s_ds_g=s_ds))  # fmt: skip
+        assert plan(folder).motions.motions[0][0].scale == pytest.approx(scale, rel=1e-6)
+
+
+def test_ground_motions_go_through_every_building(tmp_path):
+    buildings = (StudyBuilding(id="stiff", period_s=0.05), StudyBuilding(id="soft", period_s=0.8))
+    study = given(intensity=Intensity.PGA, recorded_at="ground", buildings=buildings)
+    found = plan(write(tmp_path, study))
+    assert found.motions.buildings == ("stiff", "soft")
+    assert found.shape[0] == 2
+    stiff, soft = (m[0] for m in found.motions.motions)
+    assert stiff.scale == soft.scale == pytest.approx(1.0, rel=1e-6)
+    assert abs(stiff.ax_mps2).max() != pytest.approx(abs(soft.ax_mps2).max(), rel=0.05)
+
+
+def test_listed_motions_are_read(tmp_path):
+    rows = (StudyMotion(id="K1", record="records/M0-x.csv", source="Kobe"),)
+    found = plan(write(tmp_path, given(folder="", motions=rows)))
+    assert [(m.id, m.source) for m in found.motions.motions[0]] == [("K1", "Kobe")]
+
+
+def test_all_combinations_take_every_tested_value(tmp_path):
+    study = given(site_intensity=1.0, sampling=Sampling.ALL_COMBINATIONS, slope_tolerance_deg=0.5)
+    found = plan(write(tmp_path, study))
+    cases = found.campaign.cases[found.arrays[0].samples]
+    assert sorted(set(cases.mu)) == [0.38, 0.40, 0.42]
+    assert len(cases) == 9
+
+
+def test_a_latin_hypercube_is_the_same_for_the_same_seed(tmp_path):
+    folder = write(tmp_path, given(site_intensity=1.0, samples=20))
+    one, two = plan(folder), plan(folder)
+    assert one.campaign.cases.mu.tolist() == two.campaign.cases.mu.tolist()
+    assert len(one.campaign.cases[one.arrays[0].samples]) == 20
+
+
+def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
+    shutil.copy(ROOT / "projects" / "example" / "input.xlsx", tmp_path / "input.xlsx")
+    assert "roofslip new DIR --study" in problems(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("changes", "wanted"),
+    [
+        ({"slopes_deg": "2, 1"}, ("Study!B9: slopes are '2, 1'", "0 to 7 by 0.5")),
+        ({"slopes_deg": "50"}, ("Study!B9: slopes have 50; give numbers from 0 to 45",)),
+        ({"slopes_deg": "nan"}, ("Study!B9: slopes have nan",)),
+        ({"intensities": "0, 1"}, ("Study!B12: intensities have 0",)),
+        ({"intensities": "inf"}, ("Study!B12: intensities have inf",)),
+        ({"mats": (), "study_arrays": ()}, ("Study!B10: friction coefficients are missing",)),
+        ({"mus": "-0.1, 0.4"}, ("Study!B10: friction coefficients have -0.1",)),
+        ({"intensity": Intensity.S_DS}, ("Study!B13: S_DS of the motions is missing",)),
+        ({"intensity": Intensity.PGA}, ("Study!B11: is PGA, but the motions are roof motions",)),
+        ({"folder": ""}, ("Study!B16: no folder",)),
+        ({"folder": "elsewhere"}, ("Study!B16: 'elsewhere' is no folder",)),
+        ({"folder": "../"}, ("Study!B16: '..' is no folder",)),
+        ({"recorded_at": "ground"}, ("Buildings!", "at least one building")),
+        ({"buildings": (StudyBuilding(id="b", period_s=0.5),)}, ("Buildings!B8", "roof motions")),
+        ({"mats": (Mat(id="A", mu=0.4), Mat(id="a", mu=0.5))}, ("Mats!B9: ID 'a' appears twice",)),
+        ({"mats": (Mat(id="A"),)}, ("Mats!C8: friction coefficient and tested values",)),
+        ({"mats": (Mat(id="A", tested="0.4, 0.5"),)}, ("Mats!D8: tested values are '0.4, 0.5'",)),
+        ({"mats": (Mat(id="B", mu=0.4),)}, ("Arrays!C8: mat 'a' is not on the sheet Mats",)),
+        ({"site_intensity": 1.0, "study_arrays": ()}, ("Study!B22: is given, but no array is",)),
+        (
+            {"site_intensity": 1.0, "intensity_beta": 0.2, "sampling": Sampling.ALL_COMBINATIONS},
+            ("Study!B23: all combinations take the median",),
+        ),
+        (
+            {"slopes_deg": "0 to 45 by 0.1", "intensities": "1 to 100 by 0.25",
+             "mus": "0.1 to 2 by 0.01"},
+            ("Study!B12: make", "cases"),
+        ),
+    ],
+    ids=lambda value: str(value)[:40] if isinstance(value, dict) else "",
+)  # fmt: skip
+def test_errors_name_the_cell_and_what_to_do(tmp_path, changes, wanted):
+    found = problems(write(tmp_path, given(**changes)))
+    assert all(text in found for text in wanted), found
+
+
+def test_cells_of_a_wrong_kind_are_all_listed(tmp_path):
+    folder = write(tmp_path)
+    typed(folder, "Study", "B5", None)
+    typed(folder, "Study", "B24", "many")
+    typed(folder, "Mats", "C8", -1)
+    lines = problems(folder).splitlines()
+    assert [line.split(":")[0] for line in lines] == ["Study!B5", "Study!B24", "Mats!C8"]
+
+
+def test_a_damaged_record_is_named(tmp_path):
+    folder = write(tmp_path)
+    (folder / "records" / "M1-x.csv").write_text("no record")
+    assert "Study!B16" in problems(folder)
+    assert "M1-x.csv" in problems(folder)
+
+
+def test_motions_with_other_components_are_refused(tmp_path):
+    folder = write(tmp_path, letters="xz")
+    (folder / "records" / "M2-z.csv").unlink()
+    assert "motion M2 has 1 components, the first has 2" in problems(folder)
+
+
+def test_a_component_without_its_first_is_refused(tmp_path):
+    folder = write(tmp_path, letters="xz")
+    (folder / "records" / "M1-x.csv").unlink()
+    assert "'records' has no record M1-x" in problems(folder)
+
+
+def test_an_empty_folder_is_refused(tmp_path):
+    folder = write(tmp_path, motions=0)
+    (folder / "records" / "suite.json").write_text("{}")
+    assert "'records' has no record" in problems(folder)
+
+
+def test_too_many_samples_and_runs_are_refused_at_their_cell(tmp_path, monkeypatch):
+    folder = write(tmp_path)
+    monkeypatch.setattr("report.study.motions.MOST_SAMPLES", 1000)
+    assert "Study!B16: the records have 1,200 samples" in problems(folder)
+    monkeypatch.undo()
+    monkeypatch.setattr("report.study.plan.MOST_RUNS", 10)
+    assert "Study!B12: make" in problems(folder)
+
+
+# The project of the repository.
+
+PROJECT = ROOT / "projects" / "study"
+
+
+def script():
+    spec = importlib.util.spec_from_file_location("make_study", PROJECT / "make.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_project_is_what_its_script_writes(tmp_path):
+    again = tmp_path / "input.xlsx"
+    write_study(again, units=UnitsFirst.US, example=script().study())
+    with ZipFile(again) as made, ZipFile(PROJECT / "input.xlsx") as committed:
+        names = set(made.namelist())
+        assert names == set(committed.namelist())
+        for part in names - {"docProps/core.xml"}:
+            assert made.read(part) == committed.read(part), part
+
+
+def test_the_project_has_the_size_of_a_catalog():
+    found = plan(PROJECT)
+    assert found.shape == (1, 8, 3, 20)
+    assert [motion.id for motion in found.motions.motions[0]] == [f"RM{n}" for n in range(1, 8)]
+    assert len(found.campaign.columns) == 28
