@@ -19,6 +19,8 @@ from report.cli.doctor import doctor
 from report.cli.motion import motion
 from report.cli.plan import plan
 from report.cli.report import new, report
+from report.cli.sbom import sbom
+from report.cli.sign import sign
 from report.cli.slide import slide
 from report.cli.study import study
 from report.cli.terminal import INPUT_ERROR, show_warnings, unwritten
@@ -57,8 +59,8 @@ def main() -> None:
 
 
 COMMANDS = (
-    batch, check, doctor, motion, new, plan, report, slide, study, verify, verify_package,
-    watch,
+    batch, check, doctor, motion, new, plan, report, sbom, sign, slide, study, verify,
+    verify_package, watch,
 )  # fmt: skip
 for command in COMMANDS:
     main.add_command(command)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Set
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -29,8 +29,8 @@ def differences(first: PdfReader, second: PdfReader, allowed: Allowed) -> Iterat
     walk = _Walk(allowed)
     pages = zip(first.pages, second.pages, strict=False)
     for count, (one, two) in enumerate(pages, start=1):
-        # First, so that what belongs to a sheet is told by it.
-        yield from walk.below(f"sheet {count}", one, two)
+        # First, and without the ways up, so that what belongs to a sheet is told by it.
+        yield from walk.below(f"sheet {count}", one, two, skipped=_UPWARD)
     if len(first.pages) != len(second.pages):
         yield f"number of sheets: {len(first.pages)} and {len(second.pages)}"
     yield from walk.below("document", first.trailer["/Root"], second.trailer["/Root"])
@@ -43,7 +43,9 @@ class _Walk:
     allowed: Allowed
     seen: set[tuple[int, int]] = field(default_factory=set)
 
-    def below(self, place: str, one: Any, two: Any) -> Iterator[str]:
+    def below(
+        self, place: str, one: Any, two: Any, *, skipped: Set[str] = frozenset()
+    ) -> Iterator[str]:
         pending = [(place, one, two)]
         while pending:
             place, one, two = pending.pop()
@@ -54,7 +56,7 @@ class _Walk:
             if one is MISSING or two is MISSING or type(one) is not type(two):
                 yield place
             elif isinstance(one, DictionaryObject):
-                pending += _entries(place, one, two)
+                pending += _entries(place, one, two, skipped)
                 if isinstance(one, StreamObject) and one.get_data() != two.get_data():
                     yield place
             elif isinstance(one, ArrayObject):
@@ -67,13 +69,15 @@ class _Walk:
         return item.get_object() if isinstance(item, IndirectObject) else item
 
 
+_UPWARD = {"/Parent", "/P"}
 _PACKING = {"/Length", "/Filter", "/DecodeParms"}
 
 
-def _entries(place: str, one: Any, two: Any) -> Iterator[tuple[str, Any, Any]]:
-    keys = dict.fromkeys((*one, *two))
-    for key in keys:
-        if isinstance(one, StreamObject) and key in _PACKING:
+def _entries(place: str, one: Any, two: Any, skipped: Set[str]) -> Iterator[tuple[str, Any, Any]]:
+    if isinstance(one, StreamObject):
+        skipped = skipped | _PACKING
+    for key in dict.fromkeys((*one, *two)):
+        if key in skipped:
             continue
         yield f"{place} {key}", one.get(key, MISSING), two.get(key, MISSING)
 

@@ -1,0 +1,37 @@
+"""The command `roofslip sign`: the engineer's signature in the seal box of a package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from report.cli.report import SOURCE
+from report.cli.terminal import input_errors
+
+
+@click.command()
+@click.argument("file", metavar="FILE.pdf", type=SOURCE)
+@click.option("--p12", type=SOURCE, required=True, metavar="CERT.p12",
+              help="PKCS#12 file with the private key and the certificate.")  # fmt: skip
+@click.option("--password", prompt=True, hide_input=True, envvar="ROOFSLIP_P12_PASSWORD",
+              help="Of CERT.p12; without it, from ROOFSLIP_P12_PASSWORD or asked for.")  # fmt: skip
+@click.option("--time-stamp", default="", metavar="URL",
+              help="Of a time-stamp authority (RFC 3161): PAdES B-T instead of B-B.")  # fmt: skip
+@click.option("--out", type=SOURCE, help="File to write; default: FILE-signed.pdf beside it.")
+def sign(file: Path, p12: Path, password: str, time_stamp: str, out: Path | None) -> None:
+    """Sign a package in the field over its seal box (PAdES baseline).
+
+    The package itself stays as it is, and verifies as before. Nothing is sent anywhere but to URL.
+    """
+    from report.proof.sign import signed
+    from solver.files import write_whole
+    from solver.model import InputError
+
+    target = out or file.with_name(f"{file.stem}-signed.pdf")
+    with input_errors(file):
+        if target.exists() and target.samefile(file):
+            raise InputError("the signed package needs a name of its own; choose another --out")
+        content = signed(file.read_bytes(), p12.read_bytes(), password, time_stamp)
+        write_whole(target, content)
+    click.echo(target)

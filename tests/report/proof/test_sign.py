@@ -1,0 +1,235 @@
+"""Signing with certificates of certomancer and a time-stamp server of its own; no network."""
+
+import datetime as dt
+import io
+import threading
+from http.server import BaseHTTPRequestHandler, HTTPServer
+
+import pytest
+import yaml
+from asn1crypto import tsp
+from certomancer.registry import (
+    ArchLabel,
+    CertLabel,
+    CertomancerConfig,
+    ServiceLabel,
+)
+from click.testing import CliRunner
+from cryptography.hazmat.primitives import serialization
+from cryptography.hazmat.primitives.asymmetric import rsa
+from pyhanko.keys import load_certs_from_pemder_data
+from pyhanko.pdf_utils.reader import PdfFileReader
+from pyhanko.sign.validation import validate_pdf_signature
+from pyhanko_certvalidator import ValidationContext
+
+import stand_in
+import tampering
+from report.cli.main import main
+from report.proof.package import Package
+from report.proof.updates import appended
+from report.typeset.finish import FIELD
+from report.typeset.pdf import lay_out
+
+PASSWORD = "pass word"
+CONFIG = """
+external-url-prefix: "http://localhost"
+keysets:
+  keys: {keys: {root: {path: root.pem}, engineer: {path: engineer.pem}, clock: {path: clock.pem}}}
+pki-architectures:
+  test:
+    keyset: keys
+    entities:
+      root: {common-name: Root}
+      engineer: {common-name: "Jane Doe, S.E."}
+      clock: {common-name: Clock}
+    certs:
+      root:
+        subject: root
+        issuer: root
+        validity: {valid-from: "2020-01-01T00:00:00+0000", valid-to: "2100-01-01T00:00:00+0000"}
+        extensions:
+          - {id: basic_constraints, critical: true, value: {ca: true}}
+          - {id: key_usage, critical: true,
+             smart-value: {schema: key-usage, params: [key_cert_sign, crl_sign]}}
+      engineer:
+        subject: engineer
+        issuer: root
+        validity: {valid-from: "2020-01-01T00:00:00+0000", valid-to: "2100-01-01T00:00:00+0000"}
+        extensions:
+          - {id: key_usage, critical: true,
+             smart-value: {schema: key-usage, params: [digital_signature, non_repudiation]}}
+      clock:
+        subject: clock
+        issuer: root
+        validity: {valid-from: "2020-01-01T00:00:00+0000", valid-to: "2100-01-01T00:00:00+0000"}
+        extensions:
+          - {id: key_usage, critical: true,
+             smart-value: {schema: key-usage, params: [digital_signature]}}
+          - {id: extended_key_usage, critical: true, value: [time_stamping]}
+    services:
+      time-stamping:
+        clock: {signing-cert: clock}
+"""
+
+
+@pytest.fixture(scope="module")
+def authority(tmp_path_factory):
+    """Certificates for an engineer and a clock, with keys made now."""
+    folder = tmp_path_factory.mktemp("keys")
+    for name in ("root", "engineer", "clock"):
+        key = rsa.generate_private_key(public_exponent=65537, key_size=2048)
+        (folder / f"{name}.pem").write_bytes(
+            key.private_bytes(
+                serialization.Encoding.PEM,
+                serialization.PrivateFormat.PKCS8,
+                serialization.NoEncryption(),
+            )
+        )
+    config = CertomancerConfig(yaml.safe_load(CONFIG), key_search_dir=str(folder))
+    return config.get_pki_arch(ArchLabel("test"))
+
+
+@pytest.fixture(scope="module")
+def p12(authority, tmp_path_factory):
+    path = tmp_path_factory.mktemp("p12") / "engineer.p12"
+    path.write_bytes(authority.package_pkcs12(CertLabel("engineer"), password=PASSWORD.encode()))
+    return path
+
+
+@pytest.fixture(scope="module")
+def clock(authority):
+    """The address of a time-stamp server on this machine."""
+
+    class Stamps(BaseHTTPRequestHandler):
+        def do_POST(self):
+            asked = self.rfile.read(int(self.headers["Content-Length"]))
+            stamper = authority.service_registry.summon_timestamper(
+                ServiceLabel("clock"), dt.datetime.now(dt.UTC)
+            )
+            answer = stamper.request_tsa_response(tsp.TimeStampReq.load(asked)).dump()
+            self.send_response(200)
+            self.send_header("Content-Type", "application/timestamp-reply")
+            self.send_header("Content-Length", str(len(answer)))
+            self.end_headers()
+            self.wfile.write(answer)
+
+        def log_message(self, *_):
+            pass
+
+    with HTTPServer(("127.0.0.1", 0), Stamps) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+        thread.join()
+
+
+@pytest.fixture(scope="module")
+def data():
+    return lay_out(stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0))))
+
+
+@pytest.fixture
+def sign(data, p12, tmp_path):
+    """A function that signs with the command; returns the outcome and the signed bytes."""
+
+    def run(*options, content=data, password=PASSWORD):
+        path = tmp_path / "calc-package.pdf"
+        path.write_bytes(content)
+        words = ["sign", str(path), "--p12", str(p12), "--password", password, *options]
+        done = CliRunner().invoke(main, words)
+        made = tmp_path / "calc-package-signed.pdf"
+        return done, made.read_bytes() if made.exists() else b""
+
+    return run
+
+
+def package_of(whole, first):
+    return Package(path=None, data=whole, first=first, manifest=None, files={})
+
+
+def checked(content, authority):
+    """Return what pyHanko says about the one signature of a file."""
+    (signature,) = PdfFileReader(io.BytesIO(content)).embedded_signatures
+    root = authority.get_cert(CertLabel("root"))
+    (trusted,) = load_certs_from_pemder_data(root.dump())
+    context = ValidationContext(trust_roots=[trusted], allow_fetching=False)
+    return signature, validate_pdf_signature(signature, context, context)
+
+
+def test_a_signature_is_pades_b_b_without_a_network(sign, authority, data):
+    done, content = sign()
+    assert done.exit_code == 0, done.output
+    assert content.startswith(data)
+    signature, status = checked(content, authority)
+    assert signature.field_name == FIELD
+    assert signature.sig_object["/SubFilter"] == "/ETSI.CAdES.detached"
+    assert status.bottom_line
+    assert status.timestamp_validity is None
+    assert appended(package_of(content, data)).signed == (FIELD,)
+    assert appended(package_of(content, data)).others == ()
+
+
+def test_a_time_stamp_makes_it_b_t(sign, authority, clock, data):
+    done, content = sign("--time-stamp", clock)
+    assert done.exit_code == 0, done.output
+    _, status = checked(content, authority)
+    assert status.bottom_line
+    assert status.timestamp_validity.valid
+    assert appended(package_of(content, data)).others == ()
+
+
+def test_what_is_appended_after_the_signature_is_found(sign, data):
+    _, content = sign()
+    for more in (b"\n", b"% more\n", b"1 0 obj\n<<>>\nendobj\n"):
+        found = appended(package_of(content + more, data))
+        assert "appended: bytes that no signature covers" in found.others
+
+
+def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, data, tmp_path):
+    import pikepdf
+    from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+
+    writer = IncrementalPdfFileWriter(io.BytesIO(data))
+    page = writer.root["/Pages"]["/Kids"][3]
+    contents = page.raw_get("/Contents")
+    stream = contents.get_object()
+    stream._data = stream.data.replace(b"BT", b"BT 2 0 0 2 0 0 Tm", 1)
+    stream._encoded_data = None
+    writer.mark_update(contents)
+    out = io.BytesIO()
+    writer.write(out)
+    with pikepdf.open(io.BytesIO(out.getvalue())) as pdf:
+        assert b"2 0 0 2 0 0 Tm" in pdf.pages[3].Contents.read_bytes()
+    done, content = sign(content=out.getvalue())
+    assert done.exit_code == 0, done.output
+    found = appended(package_of(content, data))
+    assert found.signed == (FIELD,)
+    assert "appended: sheet 4 /Contents" in found.others
+
+
+def test_a_second_signature_has_no_field(sign, data):
+    _, content = sign()
+    done, _ = sign(content=content)
+    assert done.exit_code == 2
+    assert "cannot be signed" in done.output
+
+
+def test_another_password_is_an_input_error(sign):
+    done, content = sign(password="other")
+    assert done.exit_code == 2
+    assert "another password" in done.output
+    assert content == b""
+
+
+def test_a_clock_that_does_not_answer_is_an_input_error(sign):
+    done, content = sign("--time-stamp", "http://127.0.0.1:9")
+    assert done.exit_code == 2, done.output
+    assert content == b""
+
+
+def test_a_rewritten_file_is_no_update(sign, data):
+    again = tampering.rewritten(data, lambda pdf: None)
+    done, content = sign(content=again)
+    assert done.exit_code == 0
+    assert content.startswith(again)
