@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Set
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
@@ -103,6 +104,16 @@ def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
     """
     file, _, channel = name.partition(BAR)
     return _path(book.path.parent, file.strip()), channel.strip()
+
+
+def bytes_of(book: OpenBook, names: Set[str]) -> int:
+    """Return the size of the files of some names [bytes]; of what is no file, nothing."""
+    total = 0
+    for name in names:
+        with suppress(InputError):
+            if find_heading(book, name) is None:
+                total += find_file(book, name)[0].stat().st_size
+    return total
 
 
 def _path(folder: Path, name: str) -> Path:

@@ -8,11 +8,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from report.motions.components import Components, RecordFile, read_components
+from report.motions.files import bytes_of
 from report.motions.history import PreparedMotion, shake
 from report.motions.stiff_links import stiff_links
-from report.sheet.fields import Fault
+from report.sheet.fields import Fault, Place
+from report.sheet.motion_checks import LABELS
 from report.sheet.read import Sheet
 from solver.model import Motion
+
+# Of all files, each counted for every motion that names it: what is read within 10 s.
+MAX_TOGETHER = 64_000_000
+# Once a record is at fault: the faults so far are told without reading all others.
+MAX_BESIDE_FAULTS = 10_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,6 +41,12 @@ class Shaking:
     records: tuple[RecordFile, ...]
 
 
+_TOO_MUCH = (
+    f"the records to here have more than {MAX_TOGETHER / 1e6:.0f} MB together; give fewer motions, "
+    "or convert the records (roofslip motion convert)"
+)
+
+
 def prepare(sheet: Sheet) -> Shaking:
     """Read the records that a workbook names and prepare its motions.
 
@@ -44,7 +57,14 @@ def prepare(sheet: Sheet) -> Shaking:
     """
     by_motion: list[Components] = []
     faults: list[Fault] = []
+    total = 0
     for index, row in enumerate(sheet.draft["motions"]):
+        total += bytes_of(sheet.book, {row[field] for field in LABELS if row.get(field)})
+        if faults and total > MAX_BESIDE_FAULTS:
+            break
+        if total > MAX_TOGETHER:
+            faults.append(Fault(Place("motions", index, "record"), _TOO_MUCH))
+            break
         match read_components(sheet.book, index, row):
             case Components() as components:
                 by_motion.append(components)

@@ -18,6 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from mutations import trouble
 
+import report  # noqa: F401  # before openpyxl is loaded: it decides what that reads with
+
 _BATCH = 500
 
 
