@@ -200,7 +200,7 @@ class TestMotions:
             ({"ay_mps2": np.empty(0), "az_mps2": np.empty(0)}, "M2, no y and no z", 1),
         ):
             other = motion("M2", 2, **changes)
-            row = only(acceptance([full, other], [math.nan] * 2, nothing, nothing), "Components")
+            row = only(acceptance([full, other], [math.nan] * 2, nothing, nothing), "components")
             assert (row.found, row.worst, row.satisfied) == (count, words, count == 3)
 
 
