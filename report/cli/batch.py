@@ -5,20 +5,32 @@ A project that fails stops no other. Read `report.cli.report` first.
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import sys
 import time
 import traceback
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 import click
 
-from report.cli.terminal import FAIL_ON_NG, INPUT_ERROR, NOT_OK, QUIET, Progress, no_collections
+from report.cli.terminal import (
+    AS_JSON,
+    FAIL_ON_NG,
+    INPUT_ERROR,
+    NOT_OK,
+    QUIET,
+    SCHEMA_VERSION,
+    Progress,
+    no_collections,
+)
 
 INTERNAL_ERROR = 1
 
@@ -32,8 +44,8 @@ class Outcome:
     source : Path
     verdict : str
         Empty without a package.
-    largest : str
-        Largest D/C of its clearances; empty for none.
+    ratios : tuple of float
+        D/C of its clearances; NaN without a design displacement.
     package : str
         Path of the PDF.
     problems : tuple of str
@@ -45,7 +57,7 @@ class Outcome:
 
     source: Path
     verdict: str = ""
-    largest: str = ""
+    ratios: tuple[float, ...] = ()
     package: str = ""
     problems: tuple[str, ...] = ()
     internal: str = ""
@@ -58,6 +70,11 @@ class Outcome:
         errors = f"{count} problem{'s' if count > 1 else ''}" if count else "internal error"
         return self.verdict or errors
 
+    @property
+    def largest(self) -> tuple[float, ...]:
+        """The largest D/C alone, of which NaN is the worst; nothing without clearances."""
+        return tuple(sorted(self.ratios, key=lambda r: (r != r, r))[-1:])
+
 
 @click.command()
 @click.argument(
@@ -65,18 +82,21 @@ class Outcome:
 )
 @FAIL_ON_NG
 @QUIET
-def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool) -> None:
+@AS_JSON
+def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: bool) -> None:
     """Write the packages of many projects, each to its own out/, and print one table.
 
     A project with an error stops no other. The exit code is 2 if any input has an error, and 1
     after an internal error.
     """
-    outcomes = run(sources, quiet=quiet)
-    if not quiet:
+    outcomes = run(sources, quiet=quiet or as_json)
+    if as_json:
+        click.echo(json.dumps(_document(outcomes), ensure_ascii=False))
+    elif not quiet:
         for line in table(outcomes):
             click.echo(line)
     for outcome in outcomes:
-        for text in (*outcome.problems, *outcome.internal.splitlines()):
+        for text in (*(() if as_json else outcome.problems), *outcome.internal.splitlines()):
             click.echo(f"{outcome.source}: {text}", err=True)
     if any(outcome.internal for outcome in outcomes):
         sys.exit(INTERNAL_ERROR)
@@ -84,6 +104,25 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool) -> None:
         sys.exit(INPUT_ERROR)
     if fail_on_ng and any(outcome.verdict != "OK" for outcome in outcomes):
         sys.exit(NOT_OK)
+
+
+def _document(outcomes: Sequence[Outcome]) -> Mapping[str, Any]:
+    """Return the outcomes for JSON, with null for no value."""
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "projects": [
+            {
+                "source": str(outcome.source),
+                "verdict": outcome.verdict or None,
+                "demand_capacity": next(filter(math.isfinite, outcome.largest), None),
+                "package": outcome.package or None,
+                "errors": outcome.problems,
+                "is_internal_error": bool(outcome.internal),
+                "seconds": round(outcome.seconds, 3),
+            }
+            for outcome in outcomes
+        ],
+    }
 
 
 def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[Outcome]:
@@ -126,7 +165,7 @@ def package(source: Path) -> Outcome:
     return Outcome(
         source=source,
         verdict=done.verdict,
-        largest=done.largest,
+        ratios=done.ratios,
         package=done.package,
         problems=done.problems,
         internal=done.internal,
@@ -137,16 +176,13 @@ def package(source: Path) -> Outcome:
 def _package(source: Path) -> Outcome:
     from report.beside import SameProcess
     from report.cli.report import make
-    from report.words.units import ratio
 
     with no_collections(), SameProcess() as second:
         assessment, folder, _, _ = make(source, None, None, lambda _: None, second)
-    ratios = [gap.demand_capacity for gap in assessment.clearances]
     return Outcome(
         source=source,
         verdict=assessment.verdict.value,
-        # NaN, no design displacement, is the worst.
-        largest=ratio(max(ratios, key=lambda r: (r != r, r))) if ratios else "",
+        ratios=tuple(gap.demand_capacity for gap in assessment.clearances),
         package=str(folder / "calc-package.pdf"),
     )
 
@@ -156,9 +192,14 @@ _COLUMNS = ("project", "verdict", "D/C", "time", "package")
 
 def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
     """Yield a line for each project."""
+    from report.words.units import ratio
+
     rows = [
         _COLUMNS,
-        *((str(o.source), o.word, o.largest, f"{o.seconds:.1f} s", o.package) for o in outcomes),
+        *(
+            (str(o.source), o.word, "".join(map(ratio, o.largest)), f"{o.seconds:.1f} s", o.package)
+            for o in outcomes
+        ),
     ]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:

@@ -6,18 +6,21 @@ Parses, calls, prints. Read `report.assessment.foresight`.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.cli.terminal import AS_JSON, QUIET, SCHEMA_VERSION, input_errors
+from report.cli.terminal import AS_JSON, QUIET, SCHEMA_VERSION, Progress, input_errors
 
 if TYPE_CHECKING:
     from report.motions.prepare import Shaking
     from report.sheet.findings import Finding
     from report.sheet.read import Sheet
+
+STEPS = 3
+"""Steps that a check reports."""
 
 
 @click.command()
@@ -34,14 +37,16 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
     a formula of the sheet that was typed over. A note needs no answer.
     """
     restored: list[str] = []
-    with input_errors(source, as_json=as_json):
+    with (
+        input_errors(source, as_json=as_json),
+        Progress(STEPS, quiet=quiet or as_json) as progress,
+    ):
         if repair:
             restored = _repaired(source)
-            if not (as_json or quiet):
-                count = len(restored)
-                listed = f": {', '.join(restored)}" if restored else ""
-                click.echo(f"{count} formula{'' if count == 1 else 's'} restored{listed}")
-        sheet, shaking, found = checked(source)
+        sheet, shaking, found = checked(source, progress)
+    if repair and not (as_json or quiet):
+        listed = f": {', '.join(restored)}" if restored else ""
+        click.echo(f"{len(restored)} formula{'' if len(restored) == 1 else 's'} restored{listed}")
     if as_json:
         click.echo(json.dumps(_document(sheet, found) | {"restored": restored}, ensure_ascii=False))
     elif not quiet:
@@ -50,7 +55,9 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
             click.echo(line)
 
 
-def checked(source: Path) -> tuple[Sheet, Shaking, tuple[Finding, ...]]:
+def checked(
+    source: Path, progress: Callable[[str], None] = lambda _: None
+) -> tuple[Sheet, Shaking, tuple[Finding, ...]]:
     """Return a workbook with its motions, and every finding in the order of the template.
 
     Raises
@@ -66,9 +73,12 @@ def checked(source: Path) -> tuple[Sheet, Shaking, tuple[Finding, ...]]:
     from report.sheet.read import read
     from report.typeset.letters import check_letters
 
+    progress("reading the workbook")
     sheet = read(source)
     check_letters(sheet)
+    progress("reading the records")
     shaking = prepare(sheet)
+    progress("comparing with the limits")
     typed_over = formula_findings(overwritten(sheet.book))
     return (
         sheet,

@@ -153,7 +153,8 @@ def suite(
     """
     if more and not records:
         raise click.UsageError(f"unexpected argument '{more[0]}'; write --records before the files")
-    with input_errors(folder), Progress() as progress:
+    # The compilation, each motion, and the chart.
+    with input_errors(folder), Progress(count + 2) as progress:
         from report.results.publish import check_writable, publish
         from report.suite.files import suite_files, suite_table
         from report.suite.inputs import check_folder, read_seeds

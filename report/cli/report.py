@@ -37,6 +37,9 @@ SOURCE = click.Path(path_type=Path)
 STEPS = 5
 """Steps that `make` reports."""
 
+EXAMPLE_STEPS = 7
+"""Motions of the example, each of which `new --example` reports."""
+
 
 @click.command()
 @click.argument("folder", metavar="DIR", type=SOURCE)
@@ -48,7 +51,7 @@ def new(folder: Path, units: str, example: bool, study: bool) -> None:
     """Write a blank DIR/input.xlsx and the folder DIR/records/ for the motions."""
     if example and study:
         raise click.UsageError("give --example or --study, not both; projects/study is an example")
-    with input_errors(folder), Progress() as progress:
+    with input_errors(folder), Progress(EXAMPLE_STEPS) as progress:
         path = _new_project(folder, units, progress, is_example=example, is_study=study)
     if example:
         click.echo(f"{path}: a warehouse with three arrays and seven motions, complete;")
@@ -82,8 +85,7 @@ def _new_project(
             raise InputError(f"{records}: is not empty; choose another folder")
         records.mkdir(parents=True, exist_ok=True)
         if is_example:
-            progress("generating the motions")
-            write_example(folder, UnitsFirst(units))
+            write_example(folder, UnitsFirst(units), progress)
         else:
             write = write_study if is_study else write_template
             write(path, units=UnitsFirst(units))

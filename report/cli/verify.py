@@ -15,6 +15,9 @@ from report.cli.terminal import Progress, input_errors, no_collections
 if TYPE_CHECKING:
     from solver.verification.evidence import Verification
 
+STEPS = 14
+"""Steps that a verification reports."""
+
 _FOLDER = click.Path(path_type=Path)
 
 
@@ -32,7 +35,7 @@ def verify(out: Path, quick: bool, records: Path | None) -> None:
     """
     from report.results.publish import check_writable, publish
 
-    with input_errors(records or out), Progress() as progress, no_collections():
+    with input_errors(records or out), Progress(STEPS) as progress, no_collections():
         check_writable(out)
         verification, files = _verification(quick, records, progress)
         progress("writing the files")

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import datetime as dt
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,15 +33,19 @@ COUNT, SEED = 7, 1566
 SOURCE = f"AC156 spectrum at the roof, seed {SEED}"
 
 
-def write_example(folder: Path, units: UnitsFirst = UnitsFirst.US) -> Path:
-    """Write records/ and input.xlsx to a folder; return the workbook."""
-    write_motions(folder / "records", "RM", suite())
+def write_example(
+    folder: Path,
+    units: UnitsFirst = UnitsFirst.US,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Path:
+    """Write records/ and input.xlsx to a folder, calling for each motion; return the workbook."""
+    write_motions(folder / "records", "RM", suite(progress))
     path = folder / "input.xlsx"
     write_template(path, units=units, example=project(units))
     return path
 
 
-def suite() -> list[SuiteMotion]:
+def suite(progress: Callable[[str], None] = lambda _: None) -> list[SuiteMotion]:
     """Return seven motions with spectra that match AC156 at the roof."""
     from solver.rules.hazard import EDITIONS
     from solver.rules.provisions import RULE_SETS
@@ -51,7 +56,11 @@ def suite() -> list[SuiteMotion]:
     across = ac156_horizontal(edition, s_ds_g=S_DS_G, z_over_h=1.0)
     upward = ac156_vertical(s_ds_g=S_DS_G)
     return make_suite(
-        (across.freq_hz, across.sa_g), (upward.freq_hz, upward.sa_g), count=COUNT, seed=SEED
+        (across.freq_hz, across.sa_g),
+        (upward.freq_hz, upward.sa_g),
+        count=COUNT,
+        seed=SEED,
+        progress=progress,
     )
 
 

@@ -1,5 +1,7 @@
 """`roofslip batch`: many projects, of which some fail."""
 
+import json
+import math
 from pathlib import Path
 
 import pytest
@@ -50,6 +52,30 @@ def outcome(**about):
 def test_the_exit_code_is_that_of_the_worst(monkeypatch, outcomes, options, code):
     monkeypatch.setattr(batch, "run", lambda *_, **__: outcomes)
     assert run("a", *options).exit_code == code
+
+
+def test_json_has_a_schema_version_and_an_entry_for_each_project(monkeypatch):
+    outcomes = [
+        outcome(verdict="NG", ratios=(0.5, 1.25), package="a/out/calc-package.pdf", seconds=2.5),
+        outcome(verdict="NG", ratios=(0.5, math.nan)),
+        outcome(problems=("Arrays!C8: slope is 'x'; give a number",)),
+    ]
+    monkeypatch.setattr(batch, "run", lambda *_, **__: outcomes)
+    done = run("a", "b", "c", "--json")
+    document = json.loads(done.stdout)
+    assert (done.exit_code, document["schema_version"], done.stderr) == (2, 1, "")
+    first, second, third = document["projects"]
+    assert first == {
+        "source": "a",
+        "verdict": "NG",
+        "demand_capacity": 1.25,
+        "package": "a/out/calc-package.pdf",
+        "errors": [],
+        "is_internal_error": False,
+        "seconds": 2.5,
+    }
+    assert second["demand_capacity"] is None
+    assert (third["verdict"], third["errors"]) == (None, ["Arrays!C8: slope is 'x'; give a number"])
 
 
 def test_an_internal_error_in_one_project_is_printed_with_its_traceback(monkeypatch):

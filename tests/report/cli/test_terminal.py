@@ -3,7 +3,12 @@
 import sys
 import warnings
 
+import pytest
+from click.testing import CliRunner
+
+from report.cli.main import main
 from report.cli.terminal import Progress, show_warnings
+from sheets import make
 
 
 def terminal(monkeypatch):
@@ -35,6 +40,29 @@ def test_without_a_number_of_steps_there_is_no_bar(monkeypatch, capsys):
     shown = capsys.readouterr().err
     assert "reading" in shown
     assert "[" not in shown.replace("\x1b[", "")
+
+
+@pytest.mark.parametrize(
+    ("command", "module", "steps"),
+    [
+        (["check", "{0}"], "check", 3),
+        (["new", "--example", "{1}"], "report", 7),
+        ("motion suite {1} --sds 1 --zh 1 --code asce7-16 --count 2".split(), "motion", 4),
+    ],
+)
+def test_the_bar_of_a_command_is_full_when_it_ends(monkeypatch, tmp_path, command, module, steps):
+    bars = []
+
+    class Kept(Progress):
+        def __exit__(self, *about):
+            bars.append((self._done, self._steps))
+            super().__exit__(*about)
+
+    monkeypatch.setattr(f"report.cli.{module}.Progress", Kept)
+    paths = make(tmp_path / "old"), tmp_path / "new"
+    done = CliRunner().invoke(main, [word.format(*paths) for word in command])
+    assert done.exit_code == 0, done.output
+    assert bars == [(steps, steps)]
 
 
 def test_elsewhere_plain_lines_start_after_a_second(monkeypatch, capsys):

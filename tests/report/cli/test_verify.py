@@ -19,6 +19,7 @@ import report.cli.verify
 import report.manual.render
 import solver.verification.run
 from report.cli.main import main
+from report.cli.terminal import Progress
 from report.figures import work
 from report.manual import blocks
 from report.typeset.pdf import lay_out
@@ -32,6 +33,14 @@ pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
 )
 DATE = dt.date(2026, 3, 5)
+
+
+class Counting(Progress):
+    """Progress whose bar must be full at the end."""
+
+    def __exit__(self, *about):
+        assert self._done == self._steps == report.cli.verify.STEPS
+        super().__exit__(*about)
 
 
 @pytest.fixture(scope="module")
@@ -55,6 +64,7 @@ def quick(tmp_path_factory):
         patch.setattr(report.manual.render, "lay_out", kept_html)
         today = SimpleNamespace(date=SimpleNamespace(today=lambda: DATE))
         patch.setattr(report.cli.verify, "dt", today)
+        patch.setattr(report.cli.verify, "Progress", Counting)
         out = tmp_path_factory.mktemp("quick") / "v"
         done = CliRunner().invoke(main, ["verify", "--quick", "--out", str(out)])
     assert done.exit_code == 0, done.output
