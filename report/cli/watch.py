@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import sys
 import time
+import zipfile
+import zlib
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
@@ -124,17 +126,22 @@ def settle(workbook: Path) -> None:
         If it cannot be opened by then.
     """
     from report.sheet.archive import open_book
-    from solver.model import InputError
 
     last = time.monotonic() + SETTLE_S
-    while True:
-        try:
+    while not _is_whole(workbook):
+        if time.monotonic() > last:
             open_book(workbook)
             return
-        except InputError:
-            if time.monotonic() > last:
-                raise
         time.sleep(_RETRY_S)
+
+
+def _is_whole(workbook: Path) -> bool:
+    """Whether a file is there with all of its parts, as far as can be told without reading them."""
+    try:
+        with zipfile.ZipFile(workbook) as archive:
+            return archive.testzip() is None
+    except (OSError, zipfile.BadZipFile, NotImplementedError, RuntimeError, ValueError, zlib.error):
+        return False
 
 
 def saves(workbook: Path, folder: Path) -> Iterator[list[str]]:

@@ -24,6 +24,9 @@ SHOWN = 60
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
+_WITH_UNIT = re.compile(
+    r"[+-]?[0-9]+\.?[0-9]*\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
+)
 _QUOTED = re.compile(r'"[^"]*"|\\.|\[[^\]]*\]')
 # With those that separate lines or change the direction of a text, which no font has.
 _CONTROL = re.compile(
@@ -127,7 +130,7 @@ def check_saved(cell: Found) -> None:
     """Raise if a cell contains an Excel error, or a formula that was never computed."""
     if cell.is_error:
         cause = f" (from {cut(cell.formula)})" if cell.formula else ""
-        raise CellError(f"is {cell.value}{cause}; correct it")
+        raise CellError(f"is {cell.value}{cause}; correct the formula, or type a value")
     if cell.formula and cell.value is None:
         raise CellError(
             f"is a formula with no saved value ({cut(cell.formula)}); open the workbook in Excel"
@@ -146,6 +149,12 @@ def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
     if entry.kind is date:
         return "give a date such as 2026-03-05"
     return f"give text of at most {entry.max_length} characters"
+
+
+def wish_for_missing(entry: Entry, unit: str = "", si: float = 1.0) -> str:
+    """Return what to write where nothing is: as `wish`, and for a text an example of it."""
+    is_text = entry.kind is str and not entry.choices
+    return f"give text such as '{entry.cell.example}'" if is_text else wish(entry, unit, si)
 
 
 def _range(entry: Entry, si: float) -> str:
@@ -221,6 +230,8 @@ def _number_in_text(text: str, wanted: str) -> float:
         raise CellError(f"is '{cut(text)}'; write {whole}, without a comma")
     if match := _DECIMAL_COMMA.fullmatch(text):
         raise CellError(f"is '{cut(text)}'; write {match[1] or '0'}.{match[2]}")
+    if _WITH_UNIT.fullmatch(text):
+        raise CellError(f"is '{cut(text)}'; {wanted}, with no unit in the cell")
     raise CellError(f"is '{cut(text)}'; {wanted}")
 
 

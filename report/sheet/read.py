@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from report.sheet.archive import OpenBook, open_book
-from report.sheet.cells import CellError, Found, plain, read_cell, wish
+from report.sheet.cells import CellError, Found, plain, read_cell, wish_for_missing
 from report.sheet.checks import faults
 from report.sheet.fields import Entry, Fault, Place, Section, YesNo, entries
 from report.sheet.locate import (
@@ -313,7 +313,7 @@ def _value(section: Section, entry: Entry, cell: Found, column: FieldColumn) -> 
     if not cell.is_blank:
         return read_cell(cell, entry, section.model, column.unit, column.si)
     if entry.is_required:
-        raise CellError(f"is missing; {wish(entry, column.unit, column.si)}")
+        raise CellError(f"is missing; {wish_for_missing(entry, column.unit, column.si)}")
     return entry.default
 
 

@@ -84,9 +84,9 @@ def test_text_that_is_not_a_list_of_coefficients_is_reported(tmp_path, text):
 CELLS = [
     ("B8", "a1", "array is 'a1', which is not in Arrays; did you mean 'A1'?"),
     ("B8", "RTU-1", "array is 'RTU-1', which is not in Arrays; give one of A1, A2"),
-    ("B8", None, "array is missing; give text of at most 40 characters"),
+    ("B8", None, "array is missing; give text such as 'A1'"),
     ("B9", "A1", "array is 'A1', already given at Links!B8; delete one"),
-    ("C8", None, "block friction is missing; give text of at most 200 characters"),
+    ("C8", None, "block friction is missing; give text such as '0.40, 0.45, 0.50'"),
     (
         "C8",
         "0.4," * 51,

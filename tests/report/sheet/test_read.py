@@ -358,7 +358,10 @@ PASTED = "Motions!C9: horizontal record:"
         (pasted([0.1, "abc", 0.2]), [f"{PASTED} Pasted!B5 is 'abc'; give a number"]),
         (pasted([0.1, "nan", 0.2]), [f"{PASTED} Pasted!B5 is 'nan'; give a number"]),
         (pasted([0.1, "0,2", 0.2]), [f"{PASTED} Pasted!B5 is '0,2'; write 0.2"]),
-        (pasted([0.1, "#N/A", 0.2]), [f"{PASTED} Pasted!B5 is #N/A; correct it"]),
+        (
+            pasted([0.1, "#N/A", 0.2]),
+            [f"{PASTED} Pasted!B5 is #N/A; correct the formula, or type a value"],
+        ),
         (
             pasted([0.1, None, 0.2]),
             [f"{PASTED} Pasted!B5 is blank, with values below it; fill it in or delete it"],
