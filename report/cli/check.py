@@ -43,10 +43,11 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
     ):
         if repair:
             restored = _repaired(source)
+            if not (as_json or quiet):
+                listed = f": {', '.join(restored)}" if restored else ""
+                count = len(restored)
+                click.echo(f"{count} formula{'' if count == 1 else 's'} restored{listed}")
         sheet, shaking, found = checked(source, progress)
-    if repair and not (as_json or quiet):
-        listed = f": {', '.join(restored)}" if restored else ""
-        click.echo(f"{len(restored)} formula{'' if len(restored) == 1 else 's'} restored{listed}")
     if as_json:
         click.echo(json.dumps(_document(sheet, found) | {"restored": restored}, ensure_ascii=False))
     elif not quiet:
