@@ -35,6 +35,8 @@ ELSEWHERE = (
     REPORT,  # run by `reported`
     ["test"],  # runs this test
     ["verify", "--quick"],  # run by tests/report/cli/test_verify.py
+    # A certificate is needed: run by tests/report/proof/test_sign.py.
+    ["sign", "projects/yours/out/calc-package.pdf", "--p12", "yours.p12"],
 )
 
 
