@@ -27,6 +27,7 @@ SCHEMA_VERSION = 1
 """Raised where a key of the manifest or a column of the parts changes its name or meaning."""
 
 NAME = "manifest.json"
+"""Beside the folder of the parts: a reader of that folder takes every file in it for a part."""
 
 _LIBRARIES = ("numpy", "numba", "llvmlite", "pyarrow")
 
@@ -110,14 +111,14 @@ def _cases_sha256(campaign: Campaign) -> str:
 
 
 def check_former(folder: Path, manifest: Mapping[str, Any]) -> None:
-    """Refuse a folder whose parts another version of the program wrote.
+    """Refuse a folder of parts that another version of the program wrote.
 
     Raises
     ------
     InputError
         With the versions and what to do; or if the manifest cannot be read.
     """
-    path = folder / NAME
+    path = folder.parent / NAME
     away = f"move the folder {folder} away or delete it, or give another one with --out"
     if not path.exists():
         return

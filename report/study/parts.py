@@ -27,7 +27,9 @@ from solver.sliding.least_model import Rung
 from solver.studies.campaign import Campaign
 from solver.studies.runs import LENGTHS, STATUSES, Rows, Runner, run_part
 
-JOURNAL = "done.jsonl"
+JOURNAL = ".done.jsonl"
+"""Hidden, so that readers of the folder skip it."""
+
 BYTES_A_ROW = 40.0
 """Size of a row on disk, for `--dry-run`: five lengths, and keys that repeat."""
 
@@ -253,7 +255,7 @@ def begin(folder: Path, manifest: Mapping[str, Any]) -> None:
     if journal.exists() and not journal.read_bytes().endswith(b"\n"):
         with journal.open("ab") as file:
             file.write(b"\n")  # ends a torn line
-    write_whole(folder / NAME, json.dumps(manifest, indent=1).encode() + b"\n")
+    write_whole(folder.parent / NAME, json.dumps(manifest, indent=1).encode() + b"\n")
 
 
 def run_missing(

@@ -162,7 +162,7 @@ def test_the_command_writes_every_file_and_prints_the_results(made, results):
         assert (out / name).stat().st_size > 100
         assert str(out / name) in output
     assert all(line in output for line in headline(results))
-    manifest = json.loads((out / "runs" / "manifest.json").read_text())
+    manifest = json.loads((out / "manifest.json").read_text())
     assert sum(manifest["models"].values()) == manifest["rows"]
     assert manifest["about"]["seed"] == 1
     rows = pd.concat(pd.read_parquet(path) for path in sorted((out / "runs").glob("part-*")))
