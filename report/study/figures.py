@@ -111,8 +111,8 @@ def _levels(unit: Unit) -> tuple[float, ...]:
 def fragilities(states: Sequence[LimitState], along: str) -> str:
     """Return fitted fragilities with their data points and the confidence of the medians."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.5))
-        axes = figure.add_axes((0.085, 0.25, 0.9, 0.72))
+        figure = Figure(figsize=(WIDTH_IN, 3.1))
+        axes = figure.add_axes((0.085, 0.29, 0.9, 0.68))
         levels = states[0].fragility.levels
         fine = np.linspace(levels[-1] / 300.0, levels[-1], 300)
         for count, state in enumerate(states):
@@ -138,7 +138,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
         axes.set_ylabel("Chance of exceedance")
         axes.grid(True)
         axes.set_axisbelow(True)
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, handlelength=2.4)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3, handlelength=2.4)
         bare(axes)
         return svg_text(figure)
 

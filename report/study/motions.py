@@ -107,7 +107,8 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
             continue
         part = _COMPONENT.fullmatch(path.stem)
         motion, field = (part[1], _FIELDS[part[2].lower()]) if part else (path.stem, "record")
-        groups.setdefault(motion, {"id": motion[:40]})[field] = f"{name}/{path.name}"
+        row = groups.setdefault(motion, {"id": motion[:40], "source": f"{name}/{path.name}"})
+        row[field] = f"{name}/{path.name}"
     lost = [motion for motion, row in groups.items() if "record" not in row]
     if lost or not groups:
         wrong = f"'{name}' has no record" + (f" {lost[0]}-x" if lost else "")

@@ -527,9 +527,8 @@ def _array(results: StudyResults, one: ArrayResult) -> ManualSection:
         f"{f' to {plan.array.reaches}' if plan.array.reaches else ''}.",
         f"Incremental dynamic analysis at {counts.levels.size} intensities under "
         f"{int(counts.counted.max())} motions; lognormal by maximum likelihood (Baker 2015), with "
-        f"{100 * CONFIDENCE:g} % confidence by bootstrap over the motions. A run without a value "
-        "is "
-        f"{lost}; {counts.censored} are censored.",
+        f"{100 * CONFIDENCE:g}\u00a0% confidence by bootstrap over the motions. A run without a "
+        f"value is {lost}; {counts.censored} are censored.",
     ]
     unknown = [state.name for state in one.states if not state.fragility.fitted.is_known]
     if unknown:
@@ -603,11 +602,9 @@ def _chances(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Blo
             f"At {_level(results, float(study.site_intensity or math.nan))} the clearance of "
             f"{both(results, one.plan.array.clearance_m)} is exceeded with a chance of "
             f"{percent(chance.value)} ({percent(chance.low)} to {percent(chance.high)} with "
-            f"{100 * CONFIDENCE:g} % confidence, by bootstrap over the {count} motions): {how}, "
-            "each "
-            f"under every motion, {chance.runs:,} pairs. {chance.without_value:,} have no value "
-            "and "
-            "count as exceedances.",
+            f"{100 * CONFIDENCE:g}\u00a0% confidence, by bootstrap over the {count} motions): "
+            f"{how}, each under every motion, {chance.runs:,} pairs. "
+            f"{_without(chance.without_value)}",
         ]
         charts: tuple[Chart, ...] = ()
         if one.bars:
@@ -626,6 +623,12 @@ def _chances(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Blo
                 ),
             )
         yield Block(title="Chance that the clearance is exceeded", texts=texts, charts=charts)
+
+
+def _without(count: int) -> str:
+    if not count:
+        return "Each has a final PRD."
+    return f"{count:,} have no final PRD and count as exceedances."
 
 
 def _limits(results: StudyResults) -> ManualSection:

@@ -291,10 +291,9 @@ def run_missing(
 
 def finished(folder: Path, manifest: Mapping[str, Any], done: Sequence[Done]) -> dict[str, Any]:
     """Return the manifest of a study that is done, and remove parts of other studies."""
-    models: dict[str, int] = {}
-    for part in done:
-        for title, count in part.models.items():
-            models[title] = models.get(title, 0) + count
+    done = sorted(done, key=lambda part: part.number)
+    counts = {rung.title: sum(part.models.get(rung.title, 0) for part in done) for rung in Rung}
+    models = {title: count for title, count in counts.items() if count}
     ours = {part_name(part.number) for part in done}
     for path in folder.glob("part-?????.parquet"):
         if path.name not in ours:
@@ -310,7 +309,5 @@ def finished(folder: Path, manifest: Mapping[str, Any], done: Sequence[Done]) ->
             else "parts ran on several processor models: numbers agree to 1e-12"
         ),
         "processor_seconds": round(sum(part.seconds for part in done), 3),
-        "part_sha256": {
-            part_name(p.number): p.sha256 for p in sorted(done, key=lambda p: p.number)
-        },
+        "part_sha256": {part_name(p.number): p.sha256 for p in done},
     }

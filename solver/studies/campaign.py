@@ -22,7 +22,7 @@ MOST_ROWS = 500_000
 PART_SECONDS = 5.0
 """Processor time of a part, so that a killed study repeats little."""
 
-LEAST_PARTS, MOST_PARTS = 16, 4_000
+LEAST_PARTS, MOST_PARTS = 32, 4_000
 """Enough parts for the cores, and few enough for a scheduler and a file system."""
 
 _SAMPLED_MOTIONS = 50
