@@ -138,7 +138,13 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
         axes.set_ylabel("Chance of exceedance")
         axes.grid(True)
         axes.set_axisbelow(True)
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3, handlelength=2.4)
+        axes.legend(
+            loc="upper center",
+            bbox_to_anchor=(0.5, -0.2),
+            ncols=3,
+            handlelength=2.0,
+            columnspacing=0.8,
+        )
         bare(axes)
         return svg_text(figure)
 
@@ -148,7 +154,7 @@ def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
     with style():
         height = 0.75 + 0.36 * len(bars)
         figure = Figure(figsize=(WIDTH_IN, height))
-        axes = figure.add_axes((0.18, 0.45 / height, 0.8, 1.0 - 0.6 / height))
+        axes = figure.add_axes((0.2, 0.45 / height, 0.78, 1.0 - 0.6 / height))
         for row, bar in enumerate(bars):
             ends = np.array([bar.prd_low_m, bar.prd_high_m]) / unit.si
             if np.isnan(ends).any():
