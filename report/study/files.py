@@ -8,6 +8,7 @@ from markupsafe import Markup
 
 from report.figures.base import load_fonts
 from report.manual.blocks import numbered
+from report.pages.symbols import with_symbols
 from report.study.exports import export_files
 from report.study.pages import sections
 from report.study.results import StudyResults
@@ -46,6 +47,7 @@ def study_html(results: StudyResults) -> str:
     manifest, study = results.manifest, results.plan.input.study
     program = manifest["program"]
     parts = sections(results)
+    environment.filters["typeset"] = with_symbols
     return environment.get_template("study.html").render(
         css=Markup((TEMPLATES / "package.css").read_text(encoding="utf-8")),
         title=study.title,

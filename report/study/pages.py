@@ -12,6 +12,7 @@ import numpy as np
 
 from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Picture, Table, TableColumn, TableRow
+from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.prescribed import SDC, Prescribed, compare
 from report.study.results import STATISTICS, ArrayResult, StudyResults
@@ -131,13 +132,14 @@ def _basis(results: StudyResults) -> ManualSection:
             for mat in given.mats
         ),
     )
+    letters = given.study.intensity.letters
     records = Table(
         caption="Motions",
         columns=(
             TableColumn(head="Motion", align="left", share=1.4),
             TableColumn(head="Samples"),
             TableColumn(head="Time step", unit="s"),
-            TableColumn(head=f"Factor for {given.study.intensity.letters} = 1", share=1.4),
+            TableColumn(head=with_symbols(f"Factor for {letters} = 1"), share=1.4),
             TableColumn(head="Source", align="left", share=2.4),
         ),
         rows=tuple(

@@ -33,7 +33,10 @@ def test_check_prints_each_warning_with_its_cell_and_its_name(tmp_path):
     assert "input.xlsx: no errors, " in first
     (line,) = (line for line in lines if "[weight A1]" in line)
     assert line.startswith("warning: Arrays!H8: weight is 30 lb")
-    assert any(line.startswith("warning: Motions!B7: number of components of each motion") for line in lines)
+    assert any(
+        line.startswith("warning: Motions!B7: number of components of each motion")
+        for line in lines
+    )
 
 
 def test_an_acknowledged_warning_is_printed_with_its_reason(tmp_path):

@@ -5,6 +5,7 @@ import dataclasses
 import io
 import json
 import math
+import re
 import sys
 
 import defusedxml.ElementTree
@@ -18,9 +19,10 @@ from openpyxl import load_workbook
 from pypdf import PdfReader
 
 from report.cli.main import main
+from report.pages.symbols import with_symbols
 from report.sheet.schema import UnitsFirst
 from report.study.exports import chances_of, export_files, known_states
-from report.study.files import study_files
+from report.study.files import study_files, study_html
 from report.study.prescribed import compare
 from report.study.read import read_study
 from report.study.run import estimate, planned, run_study
@@ -269,6 +271,10 @@ def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(o
     assert "Beside the prescriptive displacement" in text
     safe = int((one.ratio <= 1.0).sum())
     assert f"in {safe:,} of {one.ratio.size:,} cases" in text
+    # Set as a symbol on the pages; the charts write it as the sheet does.
+    prose = study_html(found)
+    assert str(with_symbols("S_DS")) in prose
+    assert not re.search(r"<(p|li|figcaption)>[^<]*S_DS", prose)
     # pelicun and OpenQuake have no measure S_DS.
     assert set(files) == {"study.pdf", "curves.csv", "study.xlsx"}
 
