@@ -7,8 +7,9 @@ word by word and numbers to a tolerance.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from pypdf import PdfReader
@@ -129,7 +130,8 @@ def _sheets(package: Package, ours: _Written, *, is_twin: bool) -> Iterator[str]
             changed.add(at)
             yield from (f"sheet {at + 1}: {text}" for text in listed(words))
     if is_twin:
-        places = differences(theirs, ours.pdf, _is_told_apart)
+        own = {package.results, package.files[MANIFEST]}
+        places = differences(theirs, ours.pdf, partial(_is_told_apart, own))
         yield from listed([p for p in places if not p.startswith(_told(changed))])
     else:
         yield from _annotations(theirs, ours.pdf)
@@ -163,12 +165,14 @@ def _replaced(text: str, names: Mapping[str, str]) -> str:
     return words
 
 
-def _is_told_apart(place: str, one: Any, two: Any) -> bool:
+def _is_told_apart(own: Set[bytes], place: str, one: Any, two: Any) -> bool:
     """Whether a difference is told by another comparison, or is the date of a rewriting."""
-    if place in ("document /Metadata", "document /Names /EmbeddedFiles"):
-        return one is not MISSING and two is not MISSING
-    is_file = isinstance(one, StreamObject) and one.get("/Type") == "/EmbeddedFile"
-    return is_file and two is not MISSING
+    if one is MISSING or two is MISSING:
+        return False
+    if place == "document /Metadata":
+        return True
+    # Results and manifest are compared number by number.
+    return isinstance(one, StreamObject) and one.get_data() in own
 
 
 def _annotations(theirs: PdfReader, ours: PdfReader) -> Iterator[str]:

@@ -140,6 +140,13 @@ def test_tampering_is_found(proof, data, kind):
         assert found.differences
 
 
+def test_another_type_of_an_attachment_is_found(proof, data):
+    def change(pdf):
+        pdf.attachments["records/RM1-x.csv"].obj.EF.F.Subtype = pikepdf.Name("/text/plain")
+
+    assert not proof(tampering.rewritten(data, change)).is_same
+
+
 def test_a_changed_digit_is_told_with_its_sheet_and_its_words(proof, data):
     found = proof(tampering.digit_in_text(data, random.Random(3)))
     assert not found.is_same
