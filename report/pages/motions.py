@@ -82,7 +82,7 @@ def _motion_row(motion: Motion, prepared: PreparedMotion, *, with_place: bool) -
     return TableRow(
         cells=(
             motion.id,
-            motion.source or "—",
+            with_symbols(motion.source or "—"),
             *([prepared.recorded_at.value] if with_place else []),
             *(_peak(values, motion.scale) for values in peaks),
             f"{motion.dt_s:.4g}",

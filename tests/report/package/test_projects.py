@@ -232,7 +232,7 @@ def test_the_schools_building_and_its_ground_motions_are_described(school):
     motions = school.part("5 Roof motions")
     assert "Ct hx = 0.02 × 27.90.75 = 0.243 s" in motions
     assert "2 equal stories, in shear" in motions
-    assert motions.count("Factor 1.6: A_FLX at the roof / at grade") == 7
+    assert motions.count("Factor 1.6: AFLX at the roof / at grade") == 7
     # The ground motions exceed the design spectrum at long periods, and the table shows how much.
     assert re.search(r"Ground, horizontal 7 \d\.\d\d \d\.\d\d [3-5]\.\d\d [3-5]\.\d\d", motions)
 
