@@ -58,6 +58,32 @@ def test_an_improbable_value_gives_one_warning(section, index, change, name, tex
     assert text in found[name]
 
 
+def overridden(**values):
+    """The usual input with other numbers of the rule set."""
+    return project(
+        overrides=[
+            {"provision": key, "value": value, "reason": "agreed"} for key, value in values.items()
+        ]
+    )
+
+
+def test_an_override_beyond_the_usual_range_gives_a_warning_of_its_key():
+    found = warnings(overridden(separation_edge=4.01, prescriptive_factor_in=29.0))
+    assert list(found) == ["override separation_edge", "override prescriptive_factor_in"]
+    assert found["override separation_edge"] == (
+        "value is 4.01 for the separation to an edge without qualifying parapet / design"
+        " displacement; 0.75 to 4 is usual: correct the value or its unit"
+    )
+    assert "value is 29 for the " in found["override prescriptive_factor_in"]
+    assert " 30 to 120 is usual" in found["override prescriptive_factor_in"]
+
+
+def test_an_override_at_a_limit_of_the_usual_range_gives_none():
+    for values in ((0.75, 30.0), (4.0, 120.0)):
+        pairs = zip(("separation_edge", "prescriptive_factor_in"), values, strict=True)
+        assert warnings(overridden(**dict(pairs))) == {}
+
+
 def test_a_weight_in_the_usual_range_and_a_gap_within_tolerance_give_none():
     for psf in (1.01, 29.9):
         assert warnings(changed("arrays", 0, weight_n=psf * 4800 * LB)) == {}
