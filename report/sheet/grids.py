@@ -37,7 +37,7 @@ BLOCK_HEADS = ("", "Value", "Unit", "Computed", "Allowed", "Example", "Note")
 BLOCK_WIDTHS = (28, 30, 13, 16, 24, 20, 46)
 HINT_ROWS = ("", "Allowed", "Example")
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
-STATUS_WIDTH = 10
+STATUS_WIDTH = 13  # "12 missing" in bold, in the wider type of a computer without Calibri too
 MANY, MANY_WIDTH = 6, 12
 _WIDER = 0.85
 """Of a column for text that is typed, as fonts may be wider than Calibri."""

@@ -6,7 +6,8 @@ from zipfile import ZipFile
 import defusedxml.ElementTree
 import pytest
 from openpyxl import load_workbook
-from recalculated import recalculated
+from pypdf import PdfReader
+from recalculated import converted, recalculated
 
 from report.sheet.fields import Place
 from report.sheet.read import read
@@ -126,6 +127,18 @@ def test_a_half_filled_sheet_counts_what_is_missing(tmp_path):
     assert said["Motions"] == "1 cell missing"  # the PPA
     assert said["Options"] == "3 cells missing"  # of the peer review
     assert said["Clearances"] == said["Links"] == "No cells missing"
+
+
+def test_the_count_of_missing_cells_fits_its_column_in_print(tmp_path):
+    def many_missing(book):
+        book["Arrays"]["B8"] = "A1"
+
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    (printed,) = converted([edit(path, many_missing)], tmp_path, "pdf")
+    text = "".join(page.extract_text() for page in PdfReader(printed).pages)
+    assert "12 missing" in text
+    assert "###" not in text
 
 
 def test_a_blank_sheet_asks_for_arrays_and_motions(tmp_path):
