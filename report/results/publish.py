@@ -85,7 +85,7 @@ def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> N
 
 
 def check_writable(folder: Path) -> None:
-    """Refuse a folder without permission to write, before the runs rather than after them.
+    """Refuse what is no folder to write into, before the runs rather than after them.
 
     Raises
     ------
@@ -94,6 +94,8 @@ def check_writable(folder: Path) -> None:
     existing = next(
         path for path in (folder.absolute(), *folder.absolute().parents) if path.exists()
     )
+    if not existing.is_dir():
+        raise InputError(f"{existing}: is a file, not a folder; choose another folder")
     if not os.access(existing, os.W_OK | os.X_OK):
         raise InputError(f"{existing}: no permission to write; choose another folder")
 

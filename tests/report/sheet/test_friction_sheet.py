@@ -5,6 +5,7 @@ import datetime as dt
 import pytest
 from openpyxl import load_workbook
 
+from report.sheet.grids import BLOCK_WIDTHS
 from report.sheet.schema import FrictionTests, UnitsFirst
 from sheets import INCH, edit, make, problems, project, read_workbook
 
@@ -68,7 +69,7 @@ def test_a_workbook_without_the_sheet_has_no_tests(path):
 
 def test_a_table_below_a_block_leaves_its_columns_as_they_are(path):
     note = load_workbook(path)[SHEET].column_dimensions["G"]
-    assert note.width == 50
+    assert note.width == BLOCK_WIDTHS[6]
     assert not note.hidden
 
 

@@ -278,7 +278,7 @@ def test_missing_or_invalid_options_are_reported(tmp_path, words, expected):
 
 def test_a_folder_that_cannot_be_written_is_reported(tmp_path):
     (tmp_path / "file").write_text("")
-    assert "cannot be written" in refused(tmp_path / "file", *AC156, "--count", 1)
+    assert "is a file, not a folder" in refused(tmp_path / "file", *AC156, "--count", 1)
 
 
 def test_a_component_outside_the_limits_is_counted(made, monkeypatch):
