@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from report.typeset.renderer import load
 from solver.model import DefectError
 
 _HEAD = "data:image/svg+xml;base64,"
@@ -68,6 +69,7 @@ def convert(sources: Iterable[str], css: Path) -> dict[str, Converted | None]:
     css : Path
         Styles with the fonts (`@font-face`), the same as those of the pages.
     """
+    load()
     fonts = _fonts(css)
     return {source: _converted(source, fonts) for source in dict.fromkeys(sources)}
 

@@ -71,11 +71,12 @@ def finish(document: Any, pdf: Any, attached: Sequence[Attached]) -> None:
         Its attachments.
     """
     _scope_headings(pdf)
-    _pack(pdf, {file.name: file for file in attached})
+    _name_kinds(pdf, {file.name: file for file in attached})
     _claim_ua(pdf)
     for at, page in enumerate(document.pages):
         if SEAL in page.anchors:
             _add_field(pdf, at, _rectangle(page))
+    _compress(pdf)
 
 
 def _scope_headings(pdf: Any) -> None:
@@ -91,17 +92,23 @@ def _dictionaries(pdf: Any) -> Iterator[Any]:
     return (item for item in pdf.objects if isinstance(item, dict))
 
 
-def _pack(pdf: Any, attached: Mapping[str, Attached]) -> None:
-    """Give each attachment its MIME type, and compress it once: the renderer does so twice."""
+def _name_kinds(pdf: Any, attached: Mapping[str, Attached]) -> None:
+    """Give each attachment its MIME type."""
     for item in _dictionaries(pdf):
-        if item.get("Type") != "/Filespec":
-            continue
-        file = attached[item["UF"].string]
-        stream = _object(pdf, item["EF"]["F"])
-        stream.extra["Subtype"] = f"/{file.mime.replace('/', '#2f')}"
-        stream.extra["Filter"] = "/FlateDecode"
-        stream.stream = [zlib.compress(file.content)]
-        stream.compress = False
+        if item.get("Type") == "/Filespec":
+            kind = attached[item["UF"].string].mime.replace("/", "#2f")
+            _object(pdf, item["EF"]["F"]).extra["Subtype"] = f"/{kind}"
+
+
+def _compress(pdf: Any) -> None:
+    """Compress each stream once: the renderer would for the file's identifier, and to write it."""
+    from pydyf import Stream, _to_bytes
+
+    for item in pdf.objects:
+        if isinstance(item, Stream) and item.compress:
+            item.stream = [zlib.compress(b"\n".join(map(_to_bytes, item.stream)))]
+            item.extra["Filter"] = "/FlateDecode"
+            item.compress = False
 
 
 def _object(pdf: Any, reference: bytes) -> Any:

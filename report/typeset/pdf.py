@@ -19,6 +19,7 @@ from typing import Any
 
 from report.typeset.drawings import Converted, Shown, convert, discard
 from report.typeset.finish import Attached, finish
+from report.typeset.renderer import load
 from solver.model import DefectError
 
 _HERE = Path(__file__).resolve().parents[1]
@@ -69,6 +70,7 @@ def lay_out(
     DefectError
         If the renderer logs a line of warning level or above; with these lines.
     """
+    load()
     from weasyprint.text.fonts import FontConfiguration
 
     with _clean_log(), warnings.catch_warnings():

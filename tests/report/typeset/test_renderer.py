@@ -1,0 +1,49 @@
+"""The renderer is loaded without processes, and writes each stream once."""
+
+import subprocess
+import sys
+import zlib
+
+import pytest
+
+from report.typeset.pdf import lay_out
+
+PROGRAM = """
+import subprocess
+def refuse(*args, **kwargs):
+    raise AssertionError(f"a process was started: {args}")
+subprocess.Popen.__init__ = refuse
+from ctypes.util import find_library
+from report.typeset.renderer import load
+load()
+import ctypes.util, weasyprint
+assert ctypes.util.find_library is find_library
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems need to be asked")
+def test_the_renderer_is_loaded_without_asking_a_compiler():
+    subprocess.run([sys.executable, "-c", PROGRAM], check=True, timeout=60)
+
+
+def test_streams_of_a_document_are_compressed_once(monkeypatch):
+    once: list[bytes] = []
+    compress = zlib.compress
+
+    def counted(data: bytes) -> bytes:
+        once.append(data)
+        return compress(data)
+
+    monkeypatch.setattr(zlib, "compress", counted)
+    twice: list[int] = []
+    compressor = zlib.compressobj
+
+    def opened(level: int):
+        twice.append(level)
+        return compressor(level)
+
+    monkeypatch.setattr(zlib, "compressobj", opened)
+    html = '<html lang="en-US"><title>T</title><p>One page of text.</p></html>'
+    assert b"One page of text" not in lay_out(html)
+    assert len(set(once)) == len(once) >= 3  # the page, its color profile and a font
+    assert len(twice) == 3  # the list of objects for the identifier and in the file; their places
