@@ -75,7 +75,8 @@ def _print_estimate(found: Estimate) -> None:
 
 
 def summary(results: StudyResults) -> list[str]:
-    """Return what to print at the end."""
+    """Return what to print at the end; the time is no result and not in the files to read."""
     from report.study.words import headline
 
-    return headline(results)
+    first, *others = headline(results)
+    return [f"{first}, {results.manifest['processor_seconds']:,.0f} s of processor time", *others]

@@ -63,6 +63,9 @@ class EchoRow:
     value: str
 
 
+_STUDY = "Study"
+"""Sheet of a workbook that `roofslip study` reads."""
+
 IGNORED = "not an input, ignored"
 """How the echo shows a cell under a heading that is not known."""
 
@@ -137,6 +140,8 @@ def read(path: Path) -> Sheet:
         `report.motions.prepare` those together with the errors of its records.
     """
     book = open_book(path)
+    if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
+        raise InputError(f"{_STUDY}: this is the workbook of a study; run roofslip study on it")
     gathered = gather(book, SECTIONS)
     gathered.take(faults(gathered.draft, gathered.where))
     return Sheet(

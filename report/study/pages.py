@@ -11,19 +11,17 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from report.manual.blocks import Block, Chart, ManualSection, joined, slug
-from report.pages.parts import Picture, Table, TableColumn, TableRow
-from report.pages.symbols import with_symbols
+from report.pages.parts import Table, TableColumn, TableRow
 from report.study import figures
+from report.study.array_pages import fragility
+from report.study.basis_pages import basis, limits
+from report.study.page_parts import axis, chart, length, level, on_building
 from report.study.prescribed import SDC, Prescribed, compare
-from report.study.results import STATISTICS, ArrayResult, StudyResults
-from report.study.schema import NoValue, Sampling
+from report.study.results import STATISTICS, StudyResults
 from report.study.tables import length_unit
-from report.study.words import NO_NUMBER, both, headline, percent
-from report.words.units import measured
+from report.study.words import both, headline
 from solver.model import Floats
 from solver.studies.fit import Fit
-from solver.studies.fragility import CONFIDENCE
-from solver.studies.uncertainty import HIGH, LOW
 
 MOST_LINES = 8
 """Lines of a chart."""
@@ -35,29 +33,15 @@ MOST_CUTS = 3
 def sections(results: StudyResults) -> tuple[ManualSection, ...]:
     """Return all sections except the cover and the contents."""
     buildings = range(len(results.plan.motions.buildings))
-    found = [_summary(results), _basis(results)]
+    found = [_summary(results), basis(results)]
     for b in buildings:
         found.append(_curves(results, b))
         if results.plan.input.study.allowed_m:
             found.append(_allowed(results, b, results.plan.input.study.allowed_m))
         found.append(_formula(results, b))
         found += [_prescribed(results, b, one) for one in compare(results, b)]
-    found += [_array(results, one) for one in results.arrays]
-    return (*found, _limits(results))
-
-
-def _on(results: StudyResults, building: int) -> str:
-    names = results.plan.motions.buildings
-    return f", building {names[building]}" if len(names) > 1 else ""
-
-
-def _axis(results: StudyResults) -> str:
-    return results.plan.input.study.intensity.value
-
-
-def _level(results: StudyResults, value: float) -> str:
-    measure = results.plan.input.study.intensity
-    return f"{measure.letters} = {value:g} {measure.unit}"
+    found += [fragility(results, one) for one in results.arrays]
+    return (*found, limits(results))
 
 
 def _mats(results: StudyResults, mu: float) -> str:
@@ -75,101 +59,6 @@ def _summary(results: StudyResults) -> ManualSection:
     )
 
 
-def _basis(results: StudyResults) -> ManualSection:
-    given, manifest = results.plan.input, results.manifest
-    motions = results.plan.motions.motions[0]
-    components = 1 + motions[0].has_transverse + motions[0].has_vertical
-    signs = len(motions[0].signs)
-    headings = len(motions[0].headings)
-    lost = int(results.curves.without_value.sum())
-    runs_on_grid = results.curves.without_value.size * len(motions)
-    texts = (
-        f"Each of {len(motions)} motions with {components} component"
-        f"{'s' if components > 1 else ''} is scaled to each {given.study.intensity.letters} and "
-        f"run {headings} time{'s' if headings > 1 else ''}: "
-        f"{'each horizontal component' if motions[0].has_transverse else 'the record'} along the "
-        f"slope, {'as recorded and reversed' if signs > 1 else 'in one polarity'}. The largest "
-        "PRD of these runs is the PRD of the motion.",
-        "Each run uses the simplest adequate model: a component is neglected if its effect on the "
-        "PRD and on every excursion is at most the larger of "
-        f"{1e3 * manifest['model']['matters_m']:g} "
-        f"mm and {100.0 * manifest['model']['matters_share']:g} % of the PRD.",
-        _lost_words(lost, runs_on_grid),
-        f"All runs are in the folder runs: one row for each run in Parquet files, "
-        f"{manifest['agreement']}.",
-    )
-    models = Table(
-        caption="Runs by model",
-        columns=(
-            TableColumn(head="Model", align="left", share=3.0),
-            TableColumn(head="Runs"),
-            TableColumn(head="Share"),
-        ),
-        rows=tuple(
-            TableRow(cells=(title, f"{count:,}", f"{100.0 * count / manifest['rows']:.1f} %"))
-            for title, count in manifest["models"].items()
-        ),
-    )
-    mats = Table(
-        caption="Mats",
-        columns=(
-            TableColumn(head="Mat", align="left", share=1.5),
-            TableColumn(head="μ, median"),
-            TableColumn(head="Standard deviation of ln μ", share=1.4),
-            TableColumn(head="Tested values", align="left", share=2.4),
-            TableColumn(head="Report", align="left", share=1.8),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    mat.id,
-                    f"{given.friction(mat.id).center:.3g}",
-                    f"{given.friction(mat.id).beta:.3f}",
-                    mat.tested or "none",
-                    mat.report or "none",
-                )
-            )
-            for mat in given.mats
-        ),
-    )
-    letters = given.study.intensity.letters
-    records = Table(
-        caption="Motions",
-        columns=(
-            TableColumn(head="Motion", align="left", share=1.4),
-            TableColumn(head="Samples"),
-            TableColumn(head="Time step", unit="s"),
-            TableColumn(head=with_symbols(f"Factor for {letters} = 1"), share=1.4),
-            TableColumn(head="Source", align="left", share=2.4),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    motion.id,
-                    f"{motion.ax_mps2.size:,}",
-                    f"{motion.dt_s:g}",
-                    f"{motion.scale:.4g}",
-                    motion.source or "not stated",
-                )
-            )
-            for motion in motions
-        ),
-    )
-    tables = (models, mats, records) if given.mats else (models, records)
-    return ManualSection(id="basis", title="Basis", blocks=(Block(texts=texts, tables=tables),))
-
-
-def _lost_words(lost: int, runs: int) -> str:
-    if not lost:
-        return "Every motion gave a final PRD in every case of the curves."
-    return (
-        f"{lost:,} of {runs:,} pairs of case and motion have no final PRD (uplift, or sliding at "
-        "the "
-        "end of the record). They count as larger than any limit: a statistic that depends on one "
-        "is none."
-    )
-
-
 def _some(values: Sequence[float], most: int) -> list[int]:
     """Return indices of at most `most` values, evenly spaced, the last one included."""
     step = max(1, math.ceil(len(values) / most))
@@ -184,25 +73,25 @@ def _curves(results: StudyResults, building: int) -> ManualSection:
     for m in _some(given.mus, MOST_FRICTIONS):
         named = _mats(results, given.mus[m])
         charts.append(
-            _chart(
+            chart(
                 f"intensity-{slug(named)}",
                 figures.curves(
                     levels,
                     [(f"{slopes[s]:g}°", mean[s, m]) for s in _some(given.slopes_deg, MOST_LINES)],
                     unit,
-                    along=_axis(results),
+                    along=axis(results),
                 ),
                 f"Mean PRD against {given.study.intensity.letters}, {named}, by slope.",
             )
         )
         if len(slopes) > 1:
             charts.append(
-                _chart(
+                chart(
                     f"slope-{slug(named)}",
                     figures.curves(
                         slopes,
                         [
-                            (_level(results, levels[x]), mean[:, m, x])
+                            (level(results, levels[x]), mean[:, m, x])
                             for x in _some(given.intensities, MOST_LINES)
                         ],
                         unit,
@@ -213,7 +102,7 @@ def _curves(results: StudyResults, building: int) -> ManualSection:
             )
     return ManualSection(
         id=f"curves-{building}",
-        title=f"Design curves{_on(results, building)}",
+        title=f"Design curves{on_building(results, building)}",
         blocks=(
             Block(
                 texts=(
@@ -228,10 +117,6 @@ def _curves(results: StudyResults, building: int) -> ManualSection:
     )
 
 
-def _chart(name: str, svg: str, caption: str) -> Chart:
-    return Chart(name=name, picture=Picture(svg=svg, caption=caption, alt=caption))
-
-
 def _sheets(results: StudyResults, building: int) -> Iterator[Block]:
     """Yield contour sheets, each on a page of its own."""
     given, unit = results.plan.input, length_unit(results)
@@ -243,13 +128,11 @@ def _sheets(results: StudyResults, building: int) -> Iterator[Block]:
     thick = f" Thick: {both(results, allowed)}." if given.study.allowed_m else ""
     if len(mus) > MOST_FRICTIONS:
         cuts = [
-            (mus, mean[:, :, x], "Friction coefficient μ", _level(results, levels[x]))
+            (mus, mean[:, :, x], "Friction coefficient μ", level(results, levels[x]))
             for x in _some(given.intensities, MOST_CUTS)
         ]
     else:
-        cuts = [
-            (levels, mean[:, m], _axis(results), _mats(results, mu)) for m, mu in enumerate(mus)
-        ]
+        cuts = [(levels, mean[:, m], axis(results), _mats(results, mu)) for m, mu in enumerate(mus)]
     for x, prd, along, named in cuts:
         if len(x) < 2 or np.isnan(prd).all():
             continue
@@ -259,7 +142,7 @@ def _sheets(results: StudyResults, building: int) -> Iterator[Block]:
         yield Block(
             title=f"Sheet: {named}",
             charts=(
-                _chart(f"sheet-{slug(named)}", svg, f"Contours of the mean PRD, {named}.{thick}"),
+                chart(f"sheet-{slug(named)}", svg, f"Contours of the mean PRD, {named}.{thick}"),
             ),
         )
 
@@ -276,13 +159,13 @@ def _spread(results: StudyResults, building: int) -> Table:
                     cells=(
                         f"{given.mus[m]:g}",
                         f"{given.slopes_deg[s]:g}",
-                        *(_length(results, float(value)) for value in values),
+                        *(length(results, float(value)) for value in values),
                         str(int(results.curves.without_value[building, s, m, x])),
                     )
                 )
             )
     return Table(
-        caption=f"PRD at {_level(results, given.intensities[x])}",
+        caption=f"PRD at {level(results, given.intensities[x])}",
         columns=(
             TableColumn(head="μ"),
             TableColumn(head="Slope", unit="deg"),
@@ -298,10 +181,6 @@ def _middle(results: StudyResults) -> int:
     return len(results.plan.input.intensities) // 2
 
 
-def _length(results: StudyResults, value_m: float) -> str:
-    return "none" if math.isnan(value_m) else measured(value_m, length_unit(results))
-
-
 def _allowed(results: StudyResults, building: int, allowed_m: float) -> ManualSection:
     given = results.plan.input
     shown = _some(given.intensities, MOST_LINES + 2)
@@ -311,7 +190,7 @@ def _allowed(results: StudyResults, building: int, allowed_m: float) -> ManualSe
     blocks = []
     if len(given.mus) > 1:
         table = Table(
-            caption=f"Least friction coefficient, by slope (rows) and {_axis(results)} (columns)",
+            caption=f"Least friction coefficient, by slope (rows) and {axis(results)} (columns)",
             columns=(TableColumn(head="Slope", unit="deg"), *heads),
             rows=tuple(
                 TableRow(
@@ -330,7 +209,7 @@ def _allowed(results: StudyResults, building: int, allowed_m: float) -> ManualSe
     if len(given.slopes_deg) > 1:
         top = given.slopes_deg[-1]
         table = Table(
-            caption=f"Largest slope [deg], by friction (rows) and {_axis(results)} (columns)",
+            caption=f"Largest slope [deg], by friction (rows) and {axis(results)} (columns)",
             columns=(TableColumn(head="μ"), *heads),
             rows=tuple(
                 TableRow(cells=(f"{mu:g}", *(_steepest(slopes[m, x], top) for x in shown)))
@@ -346,7 +225,7 @@ def _allowed(results: StudyResults, building: int, allowed_m: float) -> ManualSe
         blocks.append(Block(tables=(table,)))
     return ManualSection(
         id=f"allowed-{building}",
-        title=f"Least friction and largest slope{_on(results, building)}",
+        title=f"Least friction and largest slope{on_building(results, building)}",
         blocks=(
             Block(
                 texts=(
@@ -374,7 +253,7 @@ def _steepest(value: float, last: float) -> str:
 
 def _formula(results: StudyResults, building: int) -> ManualSection:
     fit = results.fits[building]
-    title = f"Simplified formula{_on(results, building)}"
+    title = f"Simplified formula{on_building(results, building)}"
     if not isinstance(fit, Fit):
         return ManualSection(
             id=f"formula-{building}",
@@ -425,8 +304,8 @@ def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
                             f"{given.mus[m]:g}",
                             f"{given.slopes_deg[s]:g}",
                             f"{given.intensities[x]:g}",
-                            _length(results, exact),
-                            _length(results, fitted) if inside else "outside",
+                            length(results, exact),
+                            length(results, fitted) if inside else "outside",
                             f"{exact / fitted:.2f}" if known else "—",
                         )
                     )
@@ -436,7 +315,7 @@ def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
         columns=(
             TableColumn(head="μ"),
             TableColumn(head="Slope", unit="deg"),
-            TableColumn(head=_axis(results)),
+            TableColumn(head=axis(results)),
             TableColumn(head="Exact", unit=unit.symbol),
             TableColumn(head="Formula", unit=unit.symbol),
             TableColumn(head="Exact / formula"),
@@ -458,13 +337,13 @@ def _prescribed(results: StudyResults, building: int, found: Prescribed) -> Manu
         ]
         name = _mats(results, given.mus[m])
         charts.append(
-            _chart(
+            chart(
                 f"prescribed-{slug(name)}",
                 figures.curves(
                     levels,
                     family,
                     unit,
-                    along=_axis(results),
+                    along=axis(results),
                     limits=((found.rules.name, found.value_m),),
                 ),
                 f"{factor:g} times the mean PRD, {name}, by slope, and the prescriptive "
@@ -489,16 +368,16 @@ def _prescribed(results: StudyResults, building: int, found: Prescribed) -> Manu
         columns=(
             TableColumn(head="Friction", align="left", share=1.6),
             TableColumn(head="Slope", unit="deg"),
-            TableColumn(head="Safe up to", unit=_axis(results), share=1.4),
+            TableColumn(head="Safe up to", unit=axis(results), share=1.4),
             TableColumn(head="Least margin", share=1.1),
-            TableColumn(head="at", unit=_axis(results), share=1.2),
+            TableColumn(head="at", unit=axis(results), share=1.2),
         ),
         rows=rows,
         kind="compact",
     )
     return ManualSection(
         id=f"prescribed-{building}",
-        title=f"Beside the prescriptive displacement{_on(results, building)}",
+        title=f"Beside the prescriptive displacement{on_building(results, building)}",
         blocks=(Block(texts=texts, charts=charts, tables=(table,)),),
     )
 
@@ -515,140 +394,3 @@ def _safety(ratio: Floats, levels: Floats) -> tuple[str, str, str]:
         return reach, "none", f"{levels[worst]:g}"
     margin = math.inf if ratio[worst] == 0.0 else 1.0 / float(ratio[worst])
     return reach, "∞" if math.isinf(margin) else f"{margin:.2f}", f"{levels[worst]:g}"
-
-
-def _array(results: StudyResults, one: ArrayResult) -> ManualSection:
-    given, plan = results.plan.input, one.plan
-    study = given.study
-    name = f"{plan.array.id}{_on(results, plan.building)}"
-    counts = one.states[0].fragility
-    lost = "an exceedance" if study.no_value is NoValue.EXCEEDANCE else "censored"
-    texts = [
-        f"Array {plan.array.id}: mat {plan.array.mat}, μ = {plan.mu:g}, slope "
-        f"{plan.array.slope_deg:g}°, clearance {both(results, plan.array.clearance_m)}"
-        f"{f' to {plan.array.reaches}' if plan.array.reaches else ''}.",
-        f"Incremental dynamic analysis at {counts.levels.size} intensities under "
-        f"{int(counts.counted.max())} motions; lognormal by maximum likelihood (Baker 2015), with "
-        f"{100 * CONFIDENCE:g}\u00a0% confidence by bootstrap over the motions. A run without a "
-        f"value is {lost}; {counts.censored} are censored.",
-    ]
-    unknown = [state.name for state in one.states if not state.fragility.fitted.is_known]
-    if unknown:
-        texts.append(
-            f"{joined(unknown)}: {NO_NUMBER}. No motion exceeds the limit at a lower intensity "
-            "than "
-            "one that does not; the intensities are too far apart, or too low."
-        )
-    rows = tuple(
-        TableRow(
-            cells=(
-                state.name,
-                state.words,
-                both(results, state.limit_m) if state.limit_m else "0",
-                *_three(state.fragility.fitted.theta, state.fragility.theta_range),
-                *_three(state.fragility.fitted.beta, state.fragility.beta_range),
-            )
-        )
-        for state in one.states
-    )
-    interval = f"{50 * (1 - CONFIDENCE):g} to {50 * (1 + CONFIDENCE):g} %"
-    table = Table(
-        caption=f"Fragilities, median {_axis(results)}",
-        columns=(
-            TableColumn(head="State", align="left", share=0.7),
-            TableColumn(head="Exceeded when", align="left", share=2.4),
-            TableColumn(head="PRD above", share=1.7),
-            TableColumn(head="Median"),
-            TableColumn(head=interval, share=1.5),
-            TableColumn(head="β"),
-            TableColumn(head=f"{interval} of β", share=1.5),
-        ),
-        rows=rows,
-    )
-    svg = figures.fragilities(one.states, _axis(results))
-    caption = (
-        "Fractions of the motions, lognormal fits, and the confidence interval of each median "
-        "(bars at 0.5)."
-    )
-    blocks = [
-        Block(
-            texts=texts,
-            charts=(_chart(f"fragility-{slug(name)}", svg, caption),),
-            tables=(table,),
-        )
-    ]
-    return ManualSection(
-        id=f"array-{slug(name)}",
-        title=f"Fragility of {name}",
-        blocks=(*blocks, *_chances(results, one, name)),
-    )
-
-
-def _three(value: float, interval: tuple[float, float]) -> tuple[str, str]:
-    if math.isnan(value):
-        return "none", "none"
-    return f"{value:.3g}", f"{interval[0]:.3g} to {interval[1]:.3g}"
-
-
-def _chances(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Block]:
-    study, unit = results.plan.input.study, length_unit(results)
-    for chance in one.chances:
-        how = (
-            f"a Latin hypercube of {study.samples} samples of friction, slope and intensity"
-            if study.sampling is Sampling.LATIN_HYPERCUBE
-            else "all combinations of the tested friction coefficients and the slope at its "
-            "tolerances and middle"
-        )
-        count = len(results.plan.motions.motions[0])
-        texts = [
-            f"At {_level(results, float(study.site_intensity or math.nan))} the clearance of "
-            f"{both(results, one.plan.array.clearance_m)} is exceeded with a chance of "
-            f"{percent(chance.value)} ({percent(chance.low)} to {percent(chance.high)} with "
-            f"{100 * CONFIDENCE:g}\u00a0% confidence, by bootstrap over the {count} motions): "
-            f"{how}, each under every motion, {chance.runs:,} pairs. "
-            f"{_without(chance.without_value)}",
-        ]
-        charts: tuple[Chart, ...] = ()
-        if one.bars:
-            texts.append(
-                "Effect of one variable at a time on the mean PRD, from its "
-                f"{100 * LOW:g} % to its {100 * HIGH:g} % quantile: {one.bars[0].name} matters "
-                "most."
-            )
-            charts = (
-                _chart(
-                    f"tornado-{slug(name)}",
-                    figures.tornado(one.bars, one.center_m, unit),
-                    "Mean PRD with each variable alone at its quantiles (numbers at the ends); "
-                    "line: "
-                    "all at their medians.",
-                ),
-            )
-        yield Block(title="Chance that the clearance is exceeded", texts=texts, charts=charts)
-
-
-def _without(count: int) -> str:
-    if not count:
-        return "Each has a final PRD."
-    return f"{count:,} have no final PRD and count as exceedances."
-
-
-def _limits(results: StudyResults) -> ManualSection:
-    given = results.plan.input
-    items = [
-        "Every array is one rigid block with one friction coefficient; velocity-dependent friction "
-        "and rows of linked blocks are not part of a study.",
-        "The motions are scaled linearly to each intensity; their spectra are not conditioned on "
-        "it.",
-        f"The statistics are those of {len(results.plan.motions.motions[0])} motions. With few "
-        "motions the 84th percentile and the dispersion are uncertain, as the confidence intervals "
-        "of the fragilities show.",
-        "Values between the cases are interpolated linearly; values beyond them are not given.",
-    ]
-    if given.study.site_intensity:
-        items.append(
-            "The chance of exceedance is for the stated distribution of intensity: it is not a "
-            "rate "
-            "in years."
-        )
-    return ManualSection(id="limits", title="Limits", blocks=(Block(items=items),))

@@ -25,8 +25,7 @@ def headline(results: StudyResults) -> list[str]:
     measure = given.study.intensity
     lines = [
         f"{manifest['rows']:,} runs of {manifest['cases']['count']:,} cases under {count} "
-        f"motion{'s' if count > 1 else ''}, {manifest['processor_seconds']:,.0f} s of processor "
-        "time"
+        f"motion{'s' if count > 1 else ''}"
     ]
     if given.study.allowed_m:
         lines += _allowed(results, given.study.allowed_m)

@@ -164,6 +164,7 @@ def test_the_command_writes_every_file_and_prints_the_results(made, results):
         assert (out / name).stat().st_size > 100
         assert str(out / name) in output
     assert all(line in output for line in headline(results))
+    assert "s of processor time\n" in output
     manifest = json.loads((out / "manifest.json").read_text())
     assert sum(manifest["models"].values()) == manifest["rows"]
     assert manifest["about"]["seed"] == 1

@@ -9,6 +9,7 @@ import pytest
 from openpyxl import load_workbook
 
 from places import ROOT
+from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.study.motions import study_motions
 from report.study.plan import plan_study
@@ -156,6 +157,12 @@ def test_a_latin_hypercube_is_the_same_for_the_same_seed(tmp_path):
     one, two = plan(folder), plan(folder)
     assert one.campaign.cases.mu.tolist() == two.campaign.cases.mu.tolist()
     assert len(one.campaign.cases[one.arrays[0].samples]) == 20
+
+
+def test_a_study_workbook_is_told_which_command_reads_it(tmp_path):
+    folder = write(tmp_path, given())
+    with pytest.raises(InputError, match="run roofslip study"):
+        read(folder)
 
 
 def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):

@@ -1,0 +1,146 @@
+"""The fragility of an array, and the chance that its clearance is exceeded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from report.manual.blocks import Block, Chart, ManualSection, joined, slug
+from report.pages.parts import Table, TableColumn, TableRow
+from report.study import figures
+from report.study.page_parts import axis, chart, level, on_building
+from report.study.results import ArrayResult, StudyResults
+from report.study.schema import NoValue, Sampling
+from report.study.tables import length_unit
+from report.study.words import NO_NUMBER, both, percent
+from solver.studies.fragility import CONFIDENCE
+from solver.studies.uncertainty import HIGH, LOW, Chance
+
+
+def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
+    """Return the section on an array: its fragilities, and the chances where asked for."""
+    name = f"{one.plan.array.id}{on_building(results, one.plan.building)}"
+    picture = chart(
+        f"fragility-{slug(name)}",
+        figures.fragilities(one.states, axis(results)),
+        "Fractions of the motions, lognormal fits, and the confidence interval of each median "
+        "(bars at 0.5).",
+    )
+    block = Block(
+        texts=[*_procedure(results, one), *_unknown(one)],
+        charts=(picture,),
+        tables=(_states(results, one),),
+    )
+    return ManualSection(
+        id=f"array-{slug(name)}",
+        title=f"Fragility of {name}",
+        blocks=(block, *_chances(results, one, name)),
+    )
+
+
+def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, str]:
+    plan, counts = one.plan, one.states[0].fragility
+    no_value = results.plan.input.study.no_value
+    lost = "an exceedance" if no_value is NoValue.EXCEEDANCE else "censored"
+    return (
+        f"Array {plan.array.id}: mat {plan.array.mat}, μ = {plan.mu:g}, slope "
+        f"{plan.array.slope_deg:g}°, clearance {both(results, plan.array.clearance_m)}"
+        f"{f' to {plan.array.reaches}' if plan.array.reaches else ''}.",
+        f"Incremental dynamic analysis at {counts.levels.size} intensities under "
+        f"{int(counts.counted.max())} motions; lognormal by maximum likelihood (Baker 2015), with "
+        f"{100 * CONFIDENCE:g}\u00a0% confidence by bootstrap over the motions. A run without a "
+        f"value is {lost}; {counts.censored} are censored.",
+    )
+
+
+def _unknown(one: ArrayResult) -> Iterator[str]:
+    names = [state.name for state in one.states if not state.fragility.fitted.is_known]
+    if names:
+        yield (
+            f"{joined(names)}: {NO_NUMBER}. No motion exceeds the limit at a lower intensity than "
+            "one that does not; the intensities are too far apart, or too low."
+        )
+
+
+def _states(results: StudyResults, one: ArrayResult) -> Table:
+    interval = f"{50 * (1 - CONFIDENCE):g} to {50 * (1 + CONFIDENCE):g} %"
+    return Table(
+        caption=f"Fragilities, median {axis(results)}",
+        columns=(
+            TableColumn(head="State", align="left", share=0.7),
+            TableColumn(head="Exceeded when", align="left", share=2.4),
+            TableColumn(head="PRD above", share=1.7),
+            TableColumn(head="Median"),
+            TableColumn(head=interval, share=1.5),
+            TableColumn(head="β"),
+            TableColumn(head=f"{interval} of β", share=1.5),
+        ),
+        rows=tuple(
+            TableRow(
+                cells=(
+                    state.name,
+                    state.words,
+                    both(results, state.limit_m) if state.limit_m else "0",
+                    *_three(state.fragility.fitted.theta, state.fragility.theta_range),
+                    *_three(state.fragility.fitted.beta, state.fragility.beta_range),
+                )
+            )
+            for state in one.states
+        ),
+    )
+
+
+def _three(value: float, interval: tuple[float, float]) -> tuple[str, str]:
+    if math.isnan(value):
+        return "none", "none"
+    return f"{value:.3g}", f"{interval[0]:.3g} to {interval[1]:.3g}"
+
+
+def _chances(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Block]:
+    title = "Chance that the clearance is exceeded"
+    for chance in one.chances:
+        texts = [_chance(results, one, chance), *_what_matters(one)]
+        charts = tuple(_tornado(results, one, name))
+        yield Block(title=title, texts=texts, charts=charts)
+
+
+def _chance(results: StudyResults, one: ArrayResult, chance: Chance) -> str:
+    study = results.plan.input.study
+    how = (
+        f"a Latin hypercube of {study.samples} samples of friction, slope and intensity"
+        if study.sampling is Sampling.LATIN_HYPERCUBE
+        else "all combinations of the tested friction coefficients and the slope at its "
+        "tolerances and middle"
+    )
+    return (
+        f"At {level(results, float(study.site_intensity or math.nan))} the clearance of "
+        f"{both(results, one.plan.array.clearance_m)} is exceeded with a chance of "
+        f"{percent(chance.value)} ({percent(chance.low)} to {percent(chance.high)} with "
+        f"{100 * CONFIDENCE:g}\u00a0% confidence, by bootstrap over the "
+        f"{len(results.plan.motions.motions[0])} motions): {how}, each under every motion, "
+        f"{chance.runs:,} pairs. {_without(chance.without_value)}"
+    )
+
+
+def _what_matters(one: ArrayResult) -> Iterator[str]:
+    if one.bars:
+        yield (
+            "Effect of one variable at a time on the mean PRD, from its "
+            f"{100 * LOW:g} % to its {100 * HIGH:g} % quantile: {one.bars[0].name} matters most."
+        )
+
+
+def _tornado(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Chart]:
+    if one.bars:
+        yield chart(
+            f"tornado-{slug(name)}",
+            figures.tornado(one.bars, one.center_m, length_unit(results)),
+            "Mean PRD with each variable alone at its quantiles (numbers at the ends); line: all "
+            "at their medians.",
+        )
+
+
+def _without(count: int) -> str:
+    if not count:
+        return "Each has a final PRD."
+    return f"{count:,} have no final PRD and count as exceedances."

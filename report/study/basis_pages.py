@@ -1,0 +1,141 @@
+"""How a study was run: motions, mats, models; and its limits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from report.manual.blocks import Block, ManualSection
+from report.pages.parts import Table, TableColumn, TableRow
+from report.pages.symbols import with_symbols
+from report.study.results import StudyResults
+
+
+def basis(results: StudyResults) -> ManualSection:
+    """Return the section on how the study was run."""
+    tables = (_models(results), *_mats(results), _motions(results))
+    block = Block(texts=_how(results), tables=tables)
+    return ManualSection(id="basis", title="Basis", blocks=(block,))
+
+
+def _how(results: StudyResults) -> tuple[str, ...]:
+    manifest, model = results.manifest, results.manifest["model"]
+    motions = results.plan.motions.motions[0]
+    components = 1 + motions[0].has_transverse + motions[0].has_vertical
+    headings = len(motions[0].headings)
+    without = results.curves.without_value
+    return (
+        f"Each of {len(motions)} motions with {components} component"
+        f"{'s' if components > 1 else ''} is scaled to each "
+        f"{results.plan.input.study.intensity.letters} and run {headings} time"
+        f"{'s' if headings > 1 else ''}: "
+        f"{'each horizontal component' if motions[0].has_transverse else 'the record'} along the "
+        f"slope, {'as recorded and reversed' if len(motions[0].signs) > 1 else 'in one polarity'}. "
+        "The largest PRD of these runs is the PRD of the motion.",
+        "Each run uses the simplest adequate model: a component is neglected if its effect on the "
+        f"PRD and on every excursion is at most the larger of {1e3 * model['matters_m']:g} mm and "
+        f"{100.0 * model['matters_share']:g} % of the PRD.",
+        _lost_words(int(without.sum()), without.size * len(motions)),
+        f"All runs are in the folder runs: one row for each run in Parquet files, "
+        f"{manifest['agreement']}.",
+    )
+
+
+def _models(results: StudyResults) -> Table:
+    manifest = results.manifest
+    return Table(
+        caption="Runs by model",
+        columns=(
+            TableColumn(head="Model", align="left", share=3.0),
+            TableColumn(head="Runs"),
+            TableColumn(head="Share"),
+        ),
+        rows=tuple(
+            TableRow(cells=(title, f"{count:,}", f"{100.0 * count / manifest['rows']:.1f} %"))
+            for title, count in manifest["models"].items()
+        ),
+    )
+
+
+def _mats(results: StudyResults) -> Iterator[Table]:
+    given = results.plan.input
+    if not given.mats:
+        return
+    yield Table(
+        caption="Mats",
+        columns=(
+            TableColumn(head="Mat", align="left", share=1.5),
+            TableColumn(head="μ, median"),
+            TableColumn(head="Standard deviation of ln μ", share=1.4),
+            TableColumn(head="Tested values", align="left", share=2.4),
+            TableColumn(head="Report", align="left", share=1.8),
+        ),
+        rows=tuple(
+            TableRow(
+                cells=(
+                    mat.id,
+                    f"{given.friction(mat.id).center:.3g}",
+                    f"{given.friction(mat.id).beta:.3f}",
+                    mat.tested or "none",
+                    mat.report or "none",
+                )
+            )
+            for mat in given.mats
+        ),
+    )
+
+
+def _motions(results: StudyResults) -> Table:
+    letters = results.plan.input.study.intensity.letters
+    return Table(
+        caption="Motions",
+        columns=(
+            TableColumn(head="Motion", align="left", share=1.4),
+            TableColumn(head="Samples"),
+            TableColumn(head="Time step", unit="s"),
+            TableColumn(head=with_symbols(f"Factor for {letters} = 1"), share=1.4),
+            TableColumn(head="Source", align="left", share=2.4),
+        ),
+        rows=tuple(
+            TableRow(
+                cells=(
+                    motion.id,
+                    f"{motion.ax_mps2.size:,}",
+                    f"{motion.dt_s:g}",
+                    f"{motion.scale:.4g}",
+                    motion.source or "not stated",
+                )
+            )
+            for motion in results.plan.motions.motions[0]
+        ),
+    )
+
+
+def _lost_words(lost: int, runs: int) -> str:
+    if not lost:
+        return "Every motion gave a final PRD in every case of the curves."
+    return (
+        f"{lost:,} of {runs:,} pairs of case and motion have no final PRD (uplift, or sliding at "
+        "the end of the record). They count as larger than any limit: a statistic that depends on "
+        "one is none."
+    )
+
+
+def limits(results: StudyResults) -> ManualSection:
+    """Return the section on what the study does not say."""
+    given = results.plan.input
+    shown = ", as the confidence intervals of the fragilities show" if results.arrays else ""
+    items = [
+        "Every array is one rigid block with one friction coefficient; velocity-dependent friction "
+        "and rows of linked blocks are not part of a study.",
+        "The motions are scaled linearly to each intensity; their spectra are not conditioned on "
+        "it.",
+        f"The statistics are those of {len(results.plan.motions.motions[0])} motions. With few "
+        f"motions the 84th percentile and the dispersion are uncertain{shown}.",
+        "Values between the cases are interpolated linearly; values beyond them are not given.",
+    ]
+    if given.study.site_intensity:
+        items.append(
+            "The chance of exceedance is for the stated distribution of intensity: it is not a "
+            "rate in years."
+        )
+    return ManualSection(id="limits", title="Limits", blocks=(Block(items=items),))
