@@ -53,6 +53,7 @@ def test_the_wheel_holds_two_packages_and_their_templates(built):
     assert {top for top in tops if not top.endswith(".dist-info")} == {"solver", "report"}
     assert any(re.fullmatch(r"report/templates/.*\.html", name) for name in names)
     assert any(re.fullmatch(r"report/templates/fonts/.*OFL.*", name) for name in names)
+    assert {"report/web/static/index.html", "report/web/static/app.js"} <= set(names)
 
 
 def test_the_sdist_holds_no_projects(built):

@@ -1,0 +1,92 @@
+// Asks the server. Requests of one kind are numbered, and the reply to an older one is dropped.
+
+/** An error whose message says to the user what to do. */
+export class ApiError extends Error {
+  constructor(message, status, problems = []) {
+    super(message);
+    this.status = status;
+    this.problems = problems;
+  }
+}
+
+const UNREACHABLE =
+  "The server does not answer. Check that `roofslip serve` is running, then move a slider or reload the page.";
+
+/** Return the calls of the server; `announce` says a sentence to a screen reader. */
+export function createApi(announce) {
+  const page = crypto.getRandomValues(new Uint32Array(2)).join("-");
+  const newest = new Map();
+  let n = 0;
+
+  // The answer of the newest request of its kind; null for an older one, even if it failed.
+  async function latest(kind, body) {
+    n += 1;
+    const mine = n;
+    newest.set(kind, mine);
+    const isNewest = () => newest.get(kind) === mine;
+    try {
+      const answer = await post(`/api/${kind}`, { page, n: mine, ...body });
+      return isNewest() ? answer : null;
+    } catch (error) {
+      if (isNewest() && error.status !== 409) throw error;
+      return null;
+    }
+  }
+
+  return {
+    announce,
+    state: () => asked("/api/state"),
+    example: () => post("/api/example", {}),
+    upload: (files) => asked("/api/upload", { method: "POST", body: form(files) }),
+    assess: (moving, values) => latest("assess", { moving, values }),
+    slide: (body) => latest("slide", body),
+    contour: (body) => latest("contour", body),
+    paths: (body) => latest("paths", body),
+    startPackage: (values) => post("/api/package", { values }),
+    packageState: (ticket) => asked(`/api/package/${ticket}`),
+    cancelPackage: (ticket) => asked(`/api/package/${ticket}`, { method: "DELETE" }),
+    workbook: (values) => downloaded("/api/workbook", json({ values })),
+  };
+}
+
+function form(files) {
+  const body = new FormData();
+  for (const { file, path } of files) body.append("files", file, path);
+  return body;
+}
+
+function json(body) {
+  return {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+  };
+}
+
+async function post(url, body) {
+  return asked(url, json(body));
+}
+
+async function asked(url, options) {
+  const reply = await sent(url, options);
+  return reply.json();
+}
+
+// The bytes of a file and the name that the server gives it.
+async function downloaded(url, options) {
+  const reply = await sent(url, options);
+  const [, name] = /filename="([^"]+)"/.exec(reply.headers.get("Content-Disposition") ?? "") ?? [];
+  return { name: name ?? "input.xlsx", blob: await reply.blob() };
+}
+
+async function sent(url, options) {
+  let reply;
+  try {
+    reply = await fetch(url, options);
+  } catch {
+    throw new ApiError(UNREACHABLE, 0);
+  }
+  if (reply.ok) return reply;
+  const told = await reply.json().catch(() => ({}));
+  throw new ApiError(told.error ?? `The server answered ${reply.status}. Reload the page.`, reply.status, told.problems);
+}

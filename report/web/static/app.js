@@ -1,0 +1,189 @@
+// Starts the page and joins its parts. Read session.js for what happens when a slider moves.
+
+import { createApi } from "./api.js";
+import { showBars } from "./bars.js";
+import { fromFragment, toFragment } from "./link.js";
+import { html, replace } from "./make.js";
+import { mountPlan } from "./plan.js";
+import { showProblems } from "./problems.js";
+import { showArrays, showClearances, showNoVerdict, showProvisional, showVerdict } from "./results.js";
+import { createSession } from "./session.js";
+import { mountSliders } from "./sliders.js";
+import { mountTabs } from "./tabs.js";
+import { mountTakeaway } from "./takeaway.js";
+import { mountUpload } from "./upload.js";
+import { createViews } from "./views.js";
+
+const CORRECT = "Correct these cells in the workbook, save it, and open it again with its records.";
+
+const part = (id) => document.getElementById(id);
+const announce = (sentence) => {
+  part("live").textContent = sentence;
+};
+
+const api = createApi(announce);
+const session = createSession(api.assess, show, fail);
+const plan = mountPlan(part("plan-drawing"));
+const views = createViews(api);
+const takeaway = mountTakeaway(
+  {
+    make: part("make-package"),
+    workbook: part("save-workbook"),
+    copy: part("copy-link"),
+    status: part("package-status"),
+  },
+  api,
+  session.values,
+  fail,
+);
+
+let state = null; // of the project that is open
+let answer = null; // the last that was shown
+let controls = null;
+const chosen = { array: null, motion: null };
+
+mountTabs(part("tabs"), (panel) => views.open(panel));
+mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, (files) => opening(() => api.upload(files)));
+part("example").addEventListener("click", () => opening(api.example));
+for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
+addEventListener("hashchange", () => state?.project && restore());
+opening(api.state, true);
+
+// Fetch a state and show it: the example, an upload, or what the session holds. Only what the
+// session holds belongs to the values in the address.
+async function opening(fetched, isRestored = false) {
+  document.body.setAttribute("aria-busy", "true");
+  part("error").hidden = true;
+  try {
+    open(await fetched(), isRestored);
+  } catch (error) {
+    fail(error);
+  } finally {
+    document.body.removeAttribute("aria-busy");
+  }
+}
+
+function open(next, isRestored) {
+  if (next.problems.length > 0) {
+    session.load({}); // what was asked of the other project is dropped
+    showProblems(part("problems"), next.problems, "Errors in the workbook", CORRECT);
+    part("problems").querySelector("h2").focus();
+    part("desk").hidden = true;
+    part("welcome").hidden = true;
+    named(next.project?.name ?? "This workbook has errors", next.project?.file ?? "");
+    return;
+  }
+  state = next;
+  part("problems").hidden = true;
+  part("desk").hidden = false;
+  part("welcome").hidden = !state.project.is_example;
+  named(state.project.name, `${state.project.file}, SHA-256 ${state.project.sha256}`);
+  replace(part("warnings"), warnings(state.warnings));
+  takeaway.clear();
+  fillSelects();
+  if (!isRestored) history.replaceState(null, "", location.pathname);
+  restore();
+}
+
+function named(name, file) {
+  part("project-name").textContent = name;
+  part("project-file").textContent = file;
+  document.title = `${name} – Roofslip`;
+}
+
+function warnings(all) {
+  if (all.length === 0) return null;
+  const lines = all.map((text) => html("li", {}, text));
+  return html("details", {}, html("summary", {}, `Warnings and notes: ${all.length}`), html("ul", {}, lines));
+}
+
+// The values of the address upon those of the workbook.
+function restore() {
+  const { sliders, choices } = state;
+  const all = [...sliders, ...choices];
+  const values = Object.fromEntries(all.map(({ id, typed }) => [id, typed]));
+  Object.assign(values, fromFragment(location.hash, sliders, choices));
+  session.load(values);
+  controls = mountSliders(part("controls"), state, values, session);
+  const isAnswered = state.answer && all.every(({ id, value }) => values[id] === value);
+  if (isAnswered) show({ phase: "rest", answer: state.answer });
+  else session.rest();
+}
+
+function fillSelects() {
+  const { arrays, motions } = state.views;
+  chosen.array = arrays[0];
+  chosen.motion = motions[0].id;
+  replace(part("array"), arrays.map((id) => html("option", { value: id }, id)));
+  replace(part("motion"), motions.map(({ id }) => html("option", { value: id }, id)));
+}
+
+// The session reports: a slider moves, the full model runs, or an answer came.
+function show({ phase, answer: next }) {
+  document.body.dataset.phase = phase;
+  for (const id of ["error", "problems"]) part(id).hidden = true;
+  if (next) showAnswer(next);
+  if (phase === "rest") showRest();
+  else showMoving(phase, next);
+}
+
+function showAnswer(next) {
+  answer = next;
+  controls.follow(answer.shown);
+  plan.show(answer);
+  showClearances(part("clearances"), answer.clearances);
+  showPicked();
+}
+
+function showPicked() {
+  const array = answer.arrays.find(({ id }) => id === chosen.array);
+  showArrays(part("arrays"), answer.arrays, chosen.array, (id) => choose({ array: id }));
+  showBars(part("bars"), array, answer.scale_m);
+}
+
+function showMoving(phase, next) {
+  views.moving();
+  takeaway.outdate();
+  if (phase === "settling") showProvisional(part("verdict"), "The full model is running.", "The values below are provisional.");
+  else if (next) showProvisional(part("verdict"), "Values while a slider moves; no verdict.", next.model_text);
+}
+
+function showRest() {
+  showVerdict(part("verdict"), answer);
+  announce(`${answer.verdict}. ${answer.verdict_text} ${answer.model_text}`);
+  const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
+  history.replaceState(null, "", fragment ? `#${fragment}` : location.pathname);
+  views.update(scene());
+}
+
+function scene() {
+  return Object.freeze({
+    values: session.values(),
+    ...chosen,
+    project: state.project,
+    views: state.views,
+    plan: answer.plan,
+    answer,
+  });
+}
+
+function choose(changed) {
+  Object.assign(chosen, changed);
+  part("array").value = chosen.array;
+  part("motion").value = chosen.motion;
+  showPicked();
+  if (document.body.dataset.phase === "rest") views.update(scene());
+}
+
+function fail(error) {
+  document.body.dataset.phase = "failed";
+  showNoVerdict(part("verdict"));
+  if (error.problems?.length > 0) showProblems(part("problems"), error.problems, "Errors in the workbook with these values", "Move the slider back, or correct the workbook.");
+  const again = error.status === 401 ? ["Reload", () => location.reload()] : ["Try again", () => (state ? session.rest() : location.reload())];
+  replace(
+    part("error"),
+    html("p", {}, error.message),
+    html("button", { type: "button", class: "button", on: { click: again[1] } }, again[0]),
+  );
+  part("error").hidden = false;
+}

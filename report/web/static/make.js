@@ -1,0 +1,55 @@
+// Makes elements of HTML and SVG. It knows nothing of Roofslip; every other module builds on it.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** Make an HTML element; attributes that are null or false are left out. */
+export function html(name, attributes, ...children) {
+  return filled(document.createElement(name), attributes, children);
+}
+
+/** Make an SVG element, likewise. */
+export function svg(name, attributes, ...children) {
+  return filled(document.createElementNS(SVG, name), attributes, children);
+}
+
+/** Replace all that is in an element. */
+export function replace(element, ...children) {
+  element.replaceChildren(...nodes(children));
+}
+
+/** Return points as the attribute of a polygon. */
+export function points(all) {
+  return all.map(([x, y]) => `${x},${y}`).join(" ");
+}
+
+/** Return a curve as the attribute of a path; null breaks the line. */
+export function path(xs, ys) {
+  let drawn = "";
+  let pen = "M";
+  for (const [k, x] of xs.entries()) {
+    const y = ys[k];
+    if (x === null || y === null) {
+      pen = "M";
+    } else {
+      drawn += `${pen}${x} ${y}`;
+      pen = "L";
+    }
+  }
+  return drawn;
+}
+
+function filled(element, attributes, children) {
+  for (const [name, value] of Object.entries(attributes ?? {})) {
+    if (name === "on") {
+      for (const [event, listener] of Object.entries(value)) element.addEventListener(event, listener);
+    } else if (value !== null && value !== undefined && value !== false) {
+      element.setAttribute(name, value === true ? "" : value);
+    }
+  }
+  element.append(...nodes(children));
+  return element;
+}
+
+function nodes(children) {
+  return children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false);
+}

@@ -1,0 +1,62 @@
+// The errors of a workbook, by cell, each with a picture of its row.
+
+import { html, replace } from "./make.js";
+
+const BESIDE = 2; // columns drawn on either side of the cell
+
+/** Show the errors of a workbook. */
+export function showProblems(element, problems, title, advice) {
+  replace(
+    element,
+    html("h2", { tabindex: "-1" }, title),
+    html("p", {}, advice),
+    html(
+      "table",
+      { class: "problems" },
+      html("thead", {}, html("tr", {}, ["No.", "Cell", "Found", "Remedy", "Row"].map(head))),
+      html("tbody", {}, problems.map(line)),
+    ),
+  );
+  element.hidden = false;
+}
+
+/** Return the columns of a row that are drawn: the first, and those around the cell. */
+export function drawn(row) {
+  const all = row.heads.keys();
+  return [...all].filter((k) => k === 0 || row.at === null || Math.abs(k - row.at) <= BESIDE);
+}
+
+function head(text) {
+  return html("th", { scope: "col" }, text);
+}
+
+function line(problem, k) {
+  const where = [problem.sheet, problem.cell].filter(Boolean).join("!");
+  return html(
+    "tr",
+    {},
+    html("td", { class: "numbers" }, String(k + 1)),
+    html("th", { scope: "row" }, where || problem.file, where ? html("small", {}, problem.file) : null),
+    html("td", {}, problem.found ?? problem.text),
+    html("td", {}, problem.remedy ?? ""),
+    html("td", {}, problem.row ? picture(problem.row) : null),
+  );
+}
+
+function picture(row) {
+  const columns = drawn(row);
+  const cell = (k) => {
+    const isFaulty = k === row.at;
+    return html("td", { class: isFaulty ? "is-faulty" : null }, row.cells[k] ?? "", isFaulty ? hidden(" (this cell)") : null);
+  };
+  return html(
+    "table",
+    { class: "row-picture" },
+    html("thead", {}, html("tr", {}, html("th", {}, hidden("Row")), columns.map((k) => head(row.heads[k])))),
+    html("tbody", {}, html("tr", {}, html("th", { scope: "row" }, String(row.number)), columns.map(cell))),
+  );
+}
+
+function hidden(text) {
+  return html("span", { class: "visually-hidden" }, text);
+}

@@ -1,0 +1,80 @@
+// The verdict, the arrays and the clearances, as the server words them.
+
+import { html, replace } from "./make.js";
+
+/** Return the tag of a verdict: inverse for NG, boxed for conditions, as in the package. */
+export function tag(verdict) {
+  if (verdict === null) return html("span", { class: "note" }, "–");
+  const looks = { NG: "tag is-ng", "OK with conditions": "tag is-conditions" };
+  return html("strong", { class: looks[verdict] ?? "tag" }, verdict);
+}
+
+/** Show the verdict of a full answer. */
+export function showVerdict(element, { verdict, verdict_text: text, reasons, model_text: model }) {
+  replace(
+    element,
+    html("p", { class: "verdict-line" }, tag(verdict), " ", text),
+    html("p", { class: "note" }, model),
+    reasons.length > 0 ? html("ul", { class: "reasons", tabindex: "0", "aria-label": "Reasons" }, reasons.map((reason) => html("li", {}, reason.text))) : null,
+  );
+}
+
+/** Show what a provisional answer is; it has no verdict. */
+export function showProvisional(element, words, model) {
+  const mark = html("strong", { class: "tag is-provisional" }, "Provisional");
+  replace(element, html("p", { class: "verdict-line" }, mark, " ", words), html("p", { class: "note" }, model));
+}
+
+/** Show that there is no verdict. */
+export function showNoVerdict(element) {
+  replace(element, html("p", { class: "verdict-line" }, "No verdict: these values have no answer."));
+}
+
+/** Show the table of arrays; `pick` gets the id of the one whose bars are to be drawn. */
+export function showArrays(element, arrays, picked, pick) {
+  const row = (array) =>
+    html(
+      "tr",
+      { class: array.id === picked ? "is-picked" : null },
+      html("th", { scope: "row" }, pickButton(array.id, array.id === picked, pick)),
+      html("td", { title: array.mean_prd }, array.mean_prd_short ?? array.mean_prd),
+      html("td", { title: `${array.design}, ${array.source}` }, array.design_short ?? array.design),
+      html("td", { title: array.prescriptive }, array.prescriptive_short ?? array.prescriptive),
+      html("td", { class: "word" }, tag(array.verdict)),
+    );
+  fill(element, "Arrays: displacement", ["Array", "Mean PRD", "Design", "Prescriptive", "Verdict"], arrays.map(row));
+}
+
+function pickButton(id, isPicked, pick) {
+  return html("button", { type: "button", class: "pick", "data-array": id, "aria-pressed": String(isPicked), on: { click: () => pick(id) } }, id);
+}
+
+/** Show the table of clearances. */
+export function showClearances(element, clearances) {
+  fill(element, "Clearances", ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"], clearances.map(clearanceRow));
+}
+
+function clearanceRow(item, k) {
+  return html(
+    "tr",
+    {},
+    html("td", { class: "count" }, String(k + 1)),
+    html("th", { scope: "row" }, `${item.array} to ${item.object}`, html("small", {}, item.direction)),
+    html("td", { title: item.provided }, item.provided_short ?? item.provided),
+    html("td", { title: item.required }, item.required_short ?? item.required),
+    html("td", {}, item.ratio_text),
+    html("td", { class: "word" }, tag(item.verdict)),
+  );
+}
+
+// A new body keeps no focus: the button that had it gets it back.
+function fill(element, caption, heads, rows) {
+  const focused = element.contains(document.activeElement) ? document.activeElement.dataset.array : null;
+  replace(
+    element,
+    html("caption", {}, caption),
+    html("thead", {}, html("tr", {}, heads.map((text) => html("th", { scope: "col" }, text)))),
+    html("tbody", {}, rows),
+  );
+  if (focused) element.querySelector(`[data-array="${CSS.escape(focused)}"]`)?.focus();
+}

@@ -1,0 +1,84 @@
+// The values and their answer: one axis while a slider moves, the full model when it rests.
+
+const REST_MS = 160;
+
+/**
+ * Return the session's runner of assessments.
+ *
+ * `assess(moving, values)` promises an answer, or null if it is stale. `show` gets
+ * `{phase, answer}`: "moving" (provisional), "settling" (the full model runs; no answer yet) or
+ * "rest". `fail` gets an error.
+ */
+export function createSession(assess, show, fail) {
+  let values = {};
+  let version = 0; // of the values
+  let timer = 0;
+  let isMoving = false; // a slider moved since the full model was last asked
+
+  // Ask, and show the answer where it still is one: `isCurrent` gets the version that was asked.
+  async function ask(moving, phase, isCurrent) {
+    const asked = version;
+    try {
+      const answer = await assess(moving, { ...values });
+      if (answer && isCurrent(asked)) show({ phase, answer });
+    } catch (error) {
+      if (isCurrent(asked)) fail(error);
+    }
+  }
+  const askMoving = createLane(async () => isMoving && ask(true, "moving", () => isMoving));
+  const askFull = createLane(async () => !isMoving && ask(false, "rest", (asked) => asked === version));
+
+  function changed(next, moves) {
+    clearTimeout(timer);
+    values = { ...values, ...next };
+    version += 1;
+    isMoving = moves;
+  }
+
+  function rest() {
+    clearTimeout(timer);
+    isMoving = false;
+    show({ phase: "settling" });
+    askFull();
+  }
+
+  return {
+    values: () => ({ ...values }),
+    /** Take the values of a project; nothing is asked, and what was asked is dropped. */
+    load: (all) => changed(all, false),
+    /** A slider moves: answer in one axis, and in full once it has rested. */
+    move(id, value) {
+      changed({ [id]: value }, true);
+      timer = setTimeout(rest, REST_MS);
+      show({ phase: "moving" });
+      askMoving();
+    },
+    /** The pointer let the slider go: it rests. */
+    release: () => isMoving && rest(),
+    /** A choice was made: answer in full at once. */
+    set(next) {
+      changed(next, false);
+      rest();
+    },
+    rest,
+  };
+}
+
+/** Return a function that runs a task once at a time; calls meanwhile become one more run. */
+export function createLane(task) {
+  let isOpen = false;
+  let isWaiting = false;
+  return async function run() {
+    if (isOpen) {
+      isWaiting = true;
+      return;
+    }
+    isOpen = true;
+    await task();
+    isOpen = false;
+    if (isWaiting) {
+      isWaiting = false;
+      await run();
+    }
+  };
+}

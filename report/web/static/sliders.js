@@ -1,0 +1,96 @@
+// Sliders and choices: native controls, so that the keyboard and a screen reader know them.
+
+import { html, replace } from "./make.js";
+
+/** Show the controls of a project; returns how to follow its answers. */
+export function mountSliders(element, { sliders, choices }, values, session) {
+  const parts = [...sliders.map((item) => slider(item, values, session)), ...choices.map((item) => choice(item, values, session))];
+  replace(element, parts.map(({ field }) => field));
+  const follow = (shown) => {
+    for (const { id, say } of parts) say(shown[id] ?? "");
+    depend(sliders, parts, session.values());
+  };
+  depend(sliders, parts, values);
+  return { follow };
+}
+
+function slider(item, values, session) {
+  const id = `slider-${item.id}`;
+  const output = html("output", { for: id, class: "numbers" });
+  const ticks = html("datalist", { id: `${id}-typed` }, html("option", { value: item.typed }));
+  const input = html("input", {
+    id,
+    type: "range",
+    min: item.least,
+    max: item.greatest,
+    step: item.step,
+    list: ticks.id,
+    "aria-describedby": item.help ? `${id}-help` : null,
+    on: {
+      input: () => {
+        session.move(item.id, input.valueAsNumber);
+        mark();
+      },
+      pointerup: session.release,
+    },
+  });
+  const back = html(
+    "button",
+    {
+      type: "button",
+      class: "back",
+      title: "Back to the workbook's value",
+      "aria-label": `${item.label}: back to the workbook's value`,
+      on: {
+        click: () => {
+          input.value = item.typed;
+          mark();
+          input.focus();
+          session.set({ [item.id]: item.typed });
+        },
+      },
+    },
+    "Reset",
+  );
+  // `hidden` would move the focus; an untouched slider keeps the button's place.
+  const mark = () => back.classList.toggle("is-idle", input.valueAsNumber === item.typed);
+  input.value = values[item.id];
+  mark();
+  const say = (text) => {
+    output.textContent = text;
+    input.setAttribute("aria-valuetext", text);
+  };
+  const field = html(
+    "div",
+    { class: "slider" },
+    html("div", { class: "slider-head" }, html("label", { for: id, title: item.help }, item.label), back),
+    output,
+    input,
+    ticks,
+    item.help ? html("p", { class: "note", id: `${id}-help` }, item.help) : null,
+  );
+  return { id: item.id, field, say };
+}
+
+function choice(item, values, session) {
+  const name = `choice-${item.id}`;
+  const options = item.options.map(({ value, label, why_not: why }) =>
+    html("option", { value, selected: value === values[item.id], disabled: Boolean(why), title: why }, label),
+  );
+  const select = html("select", { id: name, title: item.help, on: { change: () => session.set({ [item.id]: select.value }) } }, options);
+  const printed = html("p", { class: "note print-only" });
+  const field = html("div", { class: "field" }, html("label", { for: name }, item.label), select, printed);
+  const say = () => {
+    printed.textContent = select.selectedOptions[0].label;
+  };
+  return { id: item.id, field, say };
+}
+
+// Some sliders act only beside a choice.
+function depend(sliders, parts, values) {
+  for (const { id, with_choice: needed } of sliders) {
+    if (!needed) continue;
+    const acts = Object.entries(needed).every(([key, value]) => values[key] === value);
+    parts.find((part) => part.id === id).field.hidden = !acts;
+  }
+}

@@ -1,0 +1,56 @@
+// Takes a workbook and its records: dropped anywhere on the page, or chosen by the two buttons.
+
+// Excel's lock files and what file systems leave in folders.
+const HIDDEN = /(^|\/)(\.|~\$|__MACOSX\/|Thumbs\.db$)/;
+
+/** Listen to the whole page; `take` gets a list of `{file, path}`. */
+export function mountUpload({ zone, files, folder }, take) {
+  for (const input of [files, folder]) {
+    input.addEventListener("change", () => {
+      take(visible([...input.files].map((file) => ({ file, path: file.webkitRelativePath || file.name }))));
+      input.value = ""; // the same file again is a change
+    });
+  }
+  let depth = 0;
+  const shown = (isOver) => zone.classList.toggle("is-over", isOver);
+  addEventListener("dragenter", (event) => {
+    event.preventDefault();
+    depth += 1;
+    shown(true);
+  });
+  addEventListener("dragleave", () => {
+    depth -= 1;
+    if (depth === 0) shown(false);
+  });
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", async (event) => {
+    event.preventDefault();
+    depth = 0;
+    shown(false);
+    // Entries are only readable until the first await.
+    const entries = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter(Boolean);
+    take(visible((await Promise.all(entries.map(inside))).flat()));
+  });
+}
+
+/** Return the files without hidden ones. */
+export function visible(files) {
+  return files.filter(({ path }) => !HIDDEN.test(path));
+}
+
+async function inside(entry) {
+  const path = entry.fullPath.replace(/^\//, "");
+  if (entry.isFile) {
+    const file = await new Promise((done, failed) => entry.file(done, failed));
+    return [{ file, path }];
+  }
+  const found = [];
+  const reader = entry.createReader();
+  // A reader gives at most 100 entries at a time.
+  for (let part = await batch(reader); part.length > 0; part = await batch(reader)) found.push(...part);
+  return (await Promise.all(found.map(inside))).flat();
+}
+
+function batch(reader) {
+  return new Promise((done, failed) => reader.readEntries(done, failed));
+}
