@@ -1,4 +1,4 @@
-"""From a filled workbook to a calculation package. Read `report.cli.report` first."""
+"""From a filled workbook to a calculation package. Read `report.making` first."""
 
 from __future__ import annotations
 

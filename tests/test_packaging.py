@@ -56,10 +56,19 @@ def test_the_wheel_holds_two_packages_and_their_templates(built):
     assert {"report/web/static/index.html", "report/web/static/app.js"} <= set(names)
 
 
-def test_the_sdist_holds_no_projects(built):
+def test_the_wheel_holds_the_page_and_its_example(built):
+    with zipfile.ZipFile(next(built.glob("*.whl"))) as wheel:
+        names = wheel.namelist()
+    assert "report/web/static/index.html" in names
+    assert "report/web/example/input.xlsx" in names
+    assert "report/web/example/records/RM7-z.csv" in names
+
+
+def test_the_sdist_holds_no_projects_but_the_example(built):
     with tarfile.open(next(built.glob("*.tar.gz"))) as sdist:
         names = sdist.getnames()
-    assert not [name for name in names if "/projects" in name]
+    assert not [name for name in names if "/projects/" in name and "/projects/example/" not in name]
+    assert not [name for name in names if "/projects/example/out" in name]
     assert any(name.endswith("solver/kernels/one_axis.py") for name in names)
 
 

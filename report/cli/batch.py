@@ -1,6 +1,6 @@
 """The command `roofslip batch`: the packages of many projects, in as many processes as cores.
 
-A project that fails stops no other. Read `report.cli.report` first.
+A project that fails stops no other. Read `report.making` first.
 """
 
 from __future__ import annotations
@@ -175,7 +175,7 @@ def package(source: Path) -> Outcome:
 
 def _package(source: Path) -> Outcome:
     from report.beside import SameProcess
-    from report.cli.report import make
+    from report.making import make
 
     with no_collections(), SameProcess() as second:
         assessment, folder, _, _ = make(source, None, None, lambda _: None, second)

@@ -20,6 +20,7 @@ from report.cli.motion import motion
 from report.cli.plan import plan
 from report.cli.report import new, report
 from report.cli.sbom import sbom
+from report.cli.serve import serve
 from report.cli.sign import sign
 from report.cli.slide import slide
 from report.cli.study import study
@@ -59,7 +60,7 @@ def main() -> None:
 
 
 COMMANDS = (
-    batch, check, doctor, motion, new, plan, report, sbom, sign, slide, study, verify,
+    batch, check, doctor, motion, new, plan, report, sbom, serve, sign, slide, study, verify,
     verify_package, watch,
 )  # fmt: skip
 for command in COMMANDS:

@@ -1,6 +1,6 @@
 """The commands `roofslip new` and `roofslip report`.
 
-Read `make` first: one line for each step from workbook to package.
+Parse and print; `report.making` goes from workbook to package.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ import json
 import os
 import sys
 from collections.abc import Callable, Mapping
-from concurrent.futures import Executor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,11 +30,7 @@ if TYPE_CHECKING:
     from report.assessment.changes import Changes
     from report.assessment.project import Assessment
 
-OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 SOURCE = click.Path(path_type=Path)
-
-STEPS = 5
-"""Steps that `make` reports."""
 
 EXAMPLE_STEPS = 7
 """Motions of the example, each of which `new --example` reports."""
@@ -114,6 +109,7 @@ def report(
 ) -> None:
     """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary."""
     from report.beside import beside
+    from report.making import STEPS, make
 
     with (
         input_errors(source, as_json=as_json),
@@ -130,86 +126,10 @@ def report(
         sys.exit(NOT_OK)
 
 
-def make(
-    source: Path,
-    out: Path | None,
-    since: Path | None,
-    progress: Callable[[str], None],
-    second: Executor,
-) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
-    """Read a workbook, run its motions, and write the package and the tables.
-
-    A second process (`report.beside`) draws and writes what it can meanwhile.
-    """
-    second.submit(load)
-    from report.assessment.changes import NO_FORMER
-    from report.assessment.cost import cost
-    from report.assessment.evidence import plotted, support
-    from report.assessment.project import assess
-    from report.drawing.dxf import write_dxf
-    from report.drawing.plan import plan_drawing
-    from report.motions.prepare import prepare
-    from report.package.html import begin, pages
-    from report.provenance.files import attachments, fingerprint, sources
-    from report.results.compare import changes
-    from report.results.json import results_json
-    from report.results.publish import check_apart, check_writable, publish
-    from report.results.since import read_former
-    from report.results.tables import results_table
-    from report.sheet.read import read
-    from report.typeset.letters import check_letters
-    from report.typeset.pdf import draw_ahead, lay_out, pictures
-
-    progress("reading the workbook")
-    former = [read_former(path) for path in (since,) if path]
-    sheet = read(source)
-    folder = out or sheet.path.parent / "out"
-    check_letters(sheet)
-    check_writable(folder)
-    check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
-    shaking = prepare(sheet)
-    found = sources(sheet, shaking, since)
-    dear = cost(sheet.project, shaking)
-    progress(f"running the motions ({dear or 'the first run compiles the solver'})")
-    assessment = assess(sheet, shaking)
-    changed = changes(former[0], assessment) if former else NO_FORMER
-    begun = begin(assessment, changed, second)
-    shown = plotted(assessment)
-    begun = begun.plot(shown)
-    evidence = support(assessment, shown)
-    progress("writing the pages")
-    html = pages(assessment, evidence, changed, begun)
-    progress("laying out the package")
-    drawn = second.submit(draw_ahead, pictures(html))
-    results = second.submit(results_json, assessment, evidence)
-    plan = second.submit(write_dxf, plan_drawing(assessment))
-    table = second.submit(results_table, assessment, evidence.spectra)
-    short = fingerprint(sheet, shaking)
-    pdf = lay_out(html, drawn, lambda: attachments(found, results.result(), short))
-    progress("writing the result tables")
-    written = (pdf, plan.result(), table.result(), results.result())
-    files = dict(zip(OUTPUTS, written, strict=True))
-    publish(files, folder)
-    return assessment, folder, files, changed
-
-
-def load() -> None:
-    """Import what draws and writes, while the other process reads and runs."""
-    import report.drawing.dxf
-    import report.figures.charts
-    import report.package.html
-    import report.results.xlsx  # noqa: F401
-    from report.pages.pictures import load_charts
-    from report.typeset.pdf import draw_ahead
-
-    load_charts()
-    draw_ahead([])
-
-
 def _print(
     assessment: Assessment, folder: Path, files: Mapping[str, bytes], changed: Changes
 ) -> None:
-    from report.cli.summary import summary
+    from report.pages.summary import summary
 
     for line in summary(assessment):
         click.echo(plain(line))
@@ -223,7 +143,7 @@ def _print(
 def _json(
     assessment: Assessment, folder: Path, files: Mapping[str, bytes], changed: Changes
 ) -> str:
-    from report.cli.summary import document
+    from report.pages.summary import document
 
     about = {
         "schema_version": SCHEMA_VERSION,

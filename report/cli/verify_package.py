@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.report import SOURCE, STEPS, make
+from report.cli.report import SOURCE
 from report.cli.terminal import (
     AS_JSON,
     NOT_OK,
@@ -23,6 +23,7 @@ from report.cli.terminal import (
     no_collections,
     plain,
 )
+from report.making import STEPS, make
 
 if TYPE_CHECKING:
     from report.proof.verdict import Proof

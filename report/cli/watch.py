@@ -1,7 +1,7 @@
 """The command `roofslip watch`: check and report again on every save, in a process that stays warm.
 
 Owns what counts as a save, and how long to wait for one that is not finished. Read
-`report.cli.report` first.
+`report.making` first.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ class Round:
         ------
         InputError
         """
-        from report.cli.report import make
+        from report.making import make
 
         settle(self._workbook)
         with no_collections():
@@ -99,7 +99,7 @@ class Round:
         return assessment, files
 
     def _print(self, assessment: Assessment, files: Mapping[str, bytes]) -> None:
-        from report.cli.summary import summary
+        from report.pages.summary import summary
         from report.results.compare import changes
         from report.results.since import former_from
 

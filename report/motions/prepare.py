@@ -5,6 +5,7 @@ Orders the steps: `components` reads, `history` scales and carries to the roof. 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from report.motions.components import Components, RecordFile, read_components
@@ -55,6 +56,11 @@ def prepare(sheet: Sheet) -> Shaking:
     InputError
         With every problem of the workbook and of its records, in the order of the template.
     """
+    return shaking(sheet, read_records(sheet))
+
+
+def read_records(sheet: Sheet) -> tuple[Components, ...]:
+    """Read and process the records of each motion; raises as `prepare`, but knows no roof yet."""
     by_motion: list[Components] = []
     faults: list[Fault] = []
     total = 0
@@ -71,6 +77,17 @@ def prepare(sheet: Sheet) -> Shaking:
             case wrong:
                 faults += wrong
     sheet.refuse(faults)
+    return tuple(by_motion)
+
+
+def shaking(sheet: Sheet, by_motion: Sequence[Components]) -> Shaking:
+    """Scale the records of each motion and carry them to the roof.
+
+    Raises
+    ------
+    InputError
+        With the problems of the workbook.
+    """
     shaken = shake(sheet.project, by_motion)
     motions = tuple(motion for motion, _ in shaken)
     sheet.refuse(stiff_links(sheet.project, motions))

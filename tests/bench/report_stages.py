@@ -83,8 +83,8 @@ def child(project: Path) -> None:
 def twice(project: Path, out: Path) -> None:
     """Make a report as the command does, and again in the same processes; print the seconds."""
     from report.beside import beside
-    from report.cli.report import make
     from report.cli.terminal import no_collections
+    from report.making import make
 
     seconds = []
     with no_collections(), beside() as second:

@@ -12,7 +12,7 @@ import tampering
 from places import ROOT
 from report.beside import SameProcess
 from report.cli.main import main
-from report.cli.report import make
+from report.making import make
 from report.proof.package import open_package, take_out
 from report.proof.updates import appended
 from report.proof.verdict import compared

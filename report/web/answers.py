@@ -1,0 +1,115 @@
+"""An assessment as the page shows it: finished strings beside the numbers that are drawn.
+
+Computes nothing: every number and verdict is that of `report.assessment`. Read `answer`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.clearances import ClearanceCheck
+from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
+from report.pages.summary import attention
+from report.web.plan import plan
+from report.words.units import Quantity, compared, pair, ratio
+
+ONE_AXIS, FULL = "one axis", "full"
+
+
+def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
+    """Return what the page shows; values that are provisional have no verdict."""
+    shown = _Shown(assessment, is_provisional)
+    return {
+        "model": ONE_AXIS if is_provisional else FULL,
+        "is_provisional": is_provisional,
+        "verdict": shown.verdict(assessment.verdict),
+        "reasons": [] if is_provisional else reasons(assessment),
+        "scale_m": _scale_m(assessment),
+        "arrays": [_array(shown, item) for item in assessment.arrays],
+        "clearances": [_clearance(shown, gap) for gap in assessment.clearances],
+        "plan": plan(assessment, shown.verdict),
+    }
+
+
+class _Shown:
+    """How values of an assessment are shown."""
+
+    def __init__(self, assessment: Assessment, is_provisional: bool) -> None:
+        self.assessment, self._is_provisional = assessment, is_provisional
+        self.us_first = assessment.project.project.units_first == "US"
+
+    def verdict(self, verdict: Verdict) -> str | None:
+        """Return a verdict; none while values are provisional."""
+        return None if self._is_provisional else verdict.value
+
+    def length(self, value_m: float) -> str:
+        """Return a displacement in both systems of units, or that there is none."""
+        return "none" if math.isnan(value_m) else pair(value_m, Quantity.SIZE, self.us_first)
+
+
+def reasons(assessment: Assessment) -> list[dict[str, str]]:
+    """Return what needs attention, as `roofslip report` prints it."""
+    return [{"level": line.level, "text": line.text} for line in attention(assessment)]
+
+
+def finite(value: float) -> float | None:
+    """Return a number, or none for NaN and infinity, which JSON does not have."""
+    return value if math.isfinite(value) else None
+
+
+def _array(shown: _Shown, item: ArrayAssessment) -> Mapping[str, Any]:
+    values = {
+        "mean_prd": item.analysis.mean_m,
+        "largest_prd": item.analysis.largest_m,
+        "design": item.design_m,
+        "prescriptive": item.prescriptive.value_m,
+    }
+    return {
+        "id": item.id,
+        **{f"{name}_m": finite(value) for name, value in values.items()},
+        **{name: shown.length(value) for name, value in values.items()},
+        "source": item.governs.value,
+        "verdict": shown.verdict(shown.assessment.array_verdict(item)),
+        "bars": [
+            {
+                "motion": run.motion.id,
+                "prd_m": finite(run.governing.prd_m),
+                "text": shown.length(run.governing.prd_m),
+            }
+            for run in item.motions
+        ],
+    }
+
+
+def _clearance(shown: _Shown, gap: ClearanceCheck) -> Mapping[str, Any]:
+    row = gap.clearance
+    required, provided = compared(gap.required_m, row.provided_m)
+    has_none = math.isnan(gap.required_m)
+    return {
+        "array": row.array,
+        "object": row.object,
+        "direction": row.direction.value,
+        "provided_m": row.provided_m,
+        "required_m": finite(gap.required_m),
+        "ratio": finite(gap.demand_capacity),
+        "provided": pair(row.provided_m, Quantity.SIZE, shown.us_first, provided),
+        "required": "none" if has_none
+        else pair(gap.required_m, Quantity.SIZE, shown.us_first, required),
+        "ratio_text": ratio(gap.demand_capacity),
+        "verdict": shown.verdict(gap.verdict),
+    }  # fmt: skip
+
+
+def _scale_m(assessment: Assessment) -> float:
+    """Return the largest length that the bars show [m]."""
+    return max(filter(math.isfinite, _lengths(assessment.arrays)), default=0.0)
+
+
+def _lengths(arrays: Sequence[ArrayAssessment]) -> Iterator[float]:
+    for item in arrays:
+        yield from (item.design_m, item.prescriptive.value_m)
+        yield from (run.governing.prd_m for run in item.motions)

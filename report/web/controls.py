@@ -1,0 +1,175 @@
+"""The sliders and choices of a workbook, and what each of their values means, as finished text.
+
+Only those are offered that the cells of the workbook can express. Read `controls`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from report.sheet.fields import Place
+from report.sheet.read import Sheet
+from report.sheet.retyped import retyped
+from report.sheet.schema import SIDES, Array, Polarity, ProjectInput, RuleSetName
+from report.web.opened import Opened
+from report.web.values import (
+    MUS,
+    SHORT_PERIOD,
+    Values,
+    trim_unit_m,
+    trimmed,
+    typed,
+)
+from report.words.units import Quantity, number, pair
+from solver.friction_tests import MOST_MU
+from solver.model import Motion
+
+_LEAST, _MOST = 0.2, 2.0
+_TRIM = {True: (-24.0, 24.0, 1.0), False: (-600.0, 600.0, 25.0)}
+_TURN_DEG = 5.0
+
+
+def controls(given: Opened) -> Mapping[str, Any]:
+    """Return the sliders and choices of a workbook for the page."""
+    sheet = given.sheet
+    sliders = [item for item in _sliders(sheet) if _is_offered(sheet, item["id"])]
+    return {"sliders": sliders, "choices": _choices(given)}
+
+
+def shown(given: Opened) -> Mapping[str, str]:
+    """Return what the values amount to: those of the workbook as changed."""
+    data = given.sheet.project
+    return {
+        "friction": _grouped(data.arrays, _mu),
+        "slope": _grouped(data.arrays, lambda a: f"{number(math.degrees(a.slope_rad), 2)}°"),
+        "intensity": _factors(given.shaking.motions),
+        "s_ds": f"{number(data.site.s_ds, 3)} g",
+        "clearance": _clearances(data),
+        "polarity": ", ".join(dict.fromkeys(row.polarity.value for row in data.motions)),
+        "rule_set": data.site.rule_set.value,
+    }
+
+
+def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:
+    mus = [row[name] for row in sheet.draft["arrays"] for name in MUS if row.get(name)]
+    most_mu = math.floor(100.0 * min(_MOST, MOST_MU / max(mus, default=1.0))) / 100.0
+    yield _slider("friction", "Friction", "×", (0.5, most_mu, 0.01), 1.0,
+                  "Factor on every coefficient; a law by velocity as a whole.")  # fmt: skip
+    yield _slider("slope", "Slope", "deg", (-_TURN_DEG, _TURN_DEG, 0.1), 0.0,
+                  "Added to the slope of every array; no slope is less than 0.")  # fmt: skip
+    yield _slider("intensity", "Intensity", "×", (_LEAST, _MOST, 0.02), 1.0,
+                  "Factor on all motions, and on S_DS where both change together.")  # fmt: skip
+    yield _slider("s_ds", "S_DS", "×", (_LEAST, _MOST, 0.02), 1.0,
+                  "Factor on S_DS alone.") | {"with_choice": {"together": "no"}}  # fmt: skip
+    is_us = trim_unit_m(sheet) > 0.01
+    yield _slider("clearance", "Clearance", "in" if is_us else "mm", _TRIM[is_us], 0.0,
+                  "Every side of every rectangular array moves inward by this much; the "
+                  "clearances follow the plan.")  # fmt: skip
+
+
+def _slider(
+    name: str, label: str, unit: str, span: tuple[float, float, float], start: float, words: str
+) -> dict[str, Any]:
+    least, greatest, step = span
+    return {
+        "id": name, "label": label, "unit": unit, "least": least, "greatest": greatest,
+        "step": step, "value": start, "typed": start, "help": words,
+    }  # fmt: skip
+
+
+def _is_offered(sheet: Sheet, name: str) -> bool:
+    """Whether the workbook has every cell that a slider changes."""
+    return all(place in sheet.addresses for place in _cells_of(sheet, name))
+
+
+def _cells_of(sheet: Sheet, name: str) -> Sequence[Place]:
+    motions = range(len(sheet.draft["motions"]))
+    site = sheet.draft["site"][0]
+    s_ds = [Place("site", 0, field) for field in SHORT_PERIOD if site.get(field) is not None]
+    scaling = [Place("motions", i, field) for i in motions for field in ("scaling", "scale_value")]
+    arrays = enumerate(sheet.draft["arrays"])
+    return {
+        "friction": [Place("arrays", i, mu) for i, row in arrays for mu in MUS if row.get(mu)],
+        "slope": [Place("arrays", i, "slope_value") for i, _ in arrays],
+        "intensity": [*scaling, *s_ds],
+        "s_ds": [*scaling, *s_ds],
+        "clearance": [Place("arrays", i, side) for i, _ in trimmed(sheet) for side in SIDES],
+    }[name]
+
+
+def _choices(given: Opened) -> Sequence[Mapping[str, Any]]:
+    sheet = given.sheet
+    polarities = list(dict.fromkeys(row["polarity"] for row in sheet.draft["motions"]))
+    has_cells = all(
+        Place("motions", i, "polarity") in sheet.addresses for i in range(len(given.by_motion))
+    )
+    return [
+        _choice("together", "S_DS with the motions", "yes", {"yes": "Together", "no": "Apart"},
+                "Whether intensity changes S_DS as well, or the motions alone."),
+        *([_choice("polarity", "Polarity", polarities[0] if len(polarities) == 1 else "",
+                   ({} if len(polarities) == 1 else {"": "as in the workbook"})
+                   | {p.value: p.value for p in Polarity},
+                   "Runs of each horizontal component.")] if has_cells else []),
+        _rule_sets(given),
+    ]  # fmt: skip
+
+
+def _choice(
+    name: str, label: str, start: str, options: Mapping[str, str], words: str
+) -> dict[str, Any]:
+    return {
+        "id": name,
+        "label": label,
+        "options": [{"value": v, "label": text, "why_not": ""} for v, text in options.items()],
+        "value": start,
+        "typed": start,
+        "help": words,
+    }
+
+
+def _rule_sets(given: Opened) -> Mapping[str, Any]:
+    start = given.sheet.project.site.rule_set.value
+    names = {rule.value: rule.value for rule in RuleSetName}
+    choice = _choice("rule_set", "Rule set", start, names, "The provisions to compare with.")
+    for option in choice["options"]:
+        option["why_not"] = _why_not(given, {"rule_set": option["value"]})
+    return choice
+
+
+def _why_not(given: Opened, values: Values) -> str:
+    """Return the first problem that the workbook would have with values; empty for none."""
+    changed = retyped(given.sheet, typed(given.sheet, given.scales, values))
+    return next((line for _, line in changed.problems), "")
+
+
+def _grouped(arrays: Sequence[Array], text_of: Any) -> str:
+    """Return a text for the arrays that share it, such as `0.45 (A1, A2); 0.50 (A3)`."""
+    groups: dict[str, list[str]] = {}
+    for array in arrays:
+        groups.setdefault(text_of(array), []).append(array.id)
+    if len(groups) == 1:
+        return next(iter(groups))
+    return "; ".join(f"{text} ({', '.join(names)})" for text, names in groups.items())
+
+
+def _mu(array: Array) -> str:
+    mus = dict.fromkeys(number(mu, 3) for name in MUS if (mu := getattr(array, name)) is not None)
+    return " to ".join((min(mus), max(mus))) if len(mus) > 1 else next(iter(mus))
+
+
+def _factors(motions: Sequence[Motion]) -> str:
+    """Return the factors on the records of the motions."""
+    factors = [motion.scale for motion in motions]
+    least, most = (number(value, 3) for value in (min(factors), max(factors)))
+    return f"× {least}" if least == most else f"× {least} to {most}"
+
+
+def _clearances(data: ProjectInput) -> str:
+    """Return the smallest clearance."""
+    if not data.clearances:
+        return ""
+    row = min(data.clearances, key=lambda row: row.provided_m)
+    text = pair(row.provided_m, Quantity.SIZE, data.project.units_first == "US")
+    return f"smallest {text}, {row.array} to {row.object}"

@@ -1,0 +1,77 @@
+"""A workbook with its records, read once: what every answer of a session starts from.
+
+Read `opened`, then `with_values`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from report.assessment.acceptance import shaking_acceptance
+from report.motions.components import Components
+from report.motions.prepare import Shaking, read_records, shaking
+from report.motions.targets import targets
+from report.sheet.read import Sheet, read
+from report.sheet.retyped import retyped
+from report.typeset.letters import check_letters
+from report.web.values import Values, typed
+from solver.records.acceptance import Acceptance
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Opened:
+    """A workbook, its records as read, and its motions as run.
+
+    Attributes
+    ----------
+    sheet : Sheet
+    by_motion : tuple of Components
+        Of each motion; the same whatever the sliders say.
+    shaking : Shaking
+    """
+
+    sheet: Sheet
+    by_motion: Sequence[Components]
+    shaking: Shaking
+
+    @property
+    def scales(self) -> dict[str, float]:
+        """Factor on the records of each motion."""
+        return {motion.id: motion.scale for motion in self.shaking.motions}
+
+
+def opened(path: Path) -> Opened:
+    """Read a workbook and its records.
+
+    Raises
+    ------
+    InputError
+        With every problem.
+    """
+    sheet = read(path)
+    check_letters(sheet)
+    by_motion = read_records(sheet)
+    return Opened(sheet=sheet, by_motion=by_motion, shaking=shaking(sheet, by_motion))
+
+
+def with_values(given: Opened, values: Values) -> Opened:
+    """Return a workbook as if the values had been typed into it.
+
+    Raises
+    ------
+    InputError
+        Where the workbook could not have them.
+    """
+    changed = typed(given.sheet, given.scales, values)
+    if not changed:
+        return given
+    sheet = retyped(given.sheet, changed)
+    sheet.refuse(())
+    return Opened(sheet=sheet, by_motion=given.by_motion, shaking=shaking(sheet, given.by_motion))
+
+
+def acceptance_of(given: Opened) -> Acceptance:
+    """Return the limits on the motions as run."""
+    return shaking_acceptance(given.shaking, targets(given.sheet.project))

@@ -1,0 +1,96 @@
+"""The roof plan as outlines for the page: what is on the roof, how far it may move, the gaps.
+
+Points are in plan [m], y upward. Reads finished numbers; the package draws the same in
+`report.figures.plan`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from report.assessment.envelopes import design_envelope
+from report.assessment.neighbors import EDGES
+from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
+from report.sheet.schema import ProjectInput, Shape
+from report.sheet.shapes import Point, around, closest, label_point
+from report.words.units import Quantity, compared
+
+ShowVerdict = Callable[[Verdict], str | None]
+
+
+def plan(assessment: Assessment, show: ShowVerdict) -> Mapping[str, Any]:
+    """Return the plan."""
+    data = assessment.project
+    envelopes = {item.id: design_envelope(item) for item in assessment.arrays}
+    return {
+        "extent": _extent(data),
+        "north_deg": data.roof.north_deg,
+        "roof": _outline(data.roof.placed),
+        "arrays": [
+            {
+                "id": item.id,
+                "outline": _outline(item.array.shape),
+                "downslope_deg": item.array.downslope_deg,
+                "envelope": _points(envelopes[item.id]),
+                "center": _point(label_point(item.array.shape)),
+            }
+            for item in assessment.arrays
+        ],
+        "objects": [
+            {
+                "id": item.id,
+                "kind": item.kind.value,
+                "outline": _outline(item.placed),
+                "is_edge": item.kind in EDGES,
+                "center": _point(label_point(item.placed)),
+            }
+            for item in data.objects
+            if item.placed is not None
+        ],
+        "gaps": list(_gaps(assessment, show)),
+    }
+
+
+def _extent(data: ProjectInput) -> Sequence[float]:
+    rows = (*data.arrays, *data.objects, data.roof)
+    box = around(row.placed for row in rows if row.placed is not None)
+    return [box.x_from_m, box.y_from_m, box.x_to_m, box.y_to_m]
+
+
+def _gaps(assessment: Assessment, show: ShowVerdict) -> Iterator[Mapping[str, Any]]:
+    data = assessment.project
+    shapes: dict[str, Shape] = {row.id: row.placed for row in data.objects if row.placed}
+    shapes |= {array.id: array.shape for array in data.arrays}
+    unit = Quantity.SIZE.us if data.project.units_first == "US" else Quantity.SIZE.si
+    for index, check in enumerate(assessment.clearances):
+        near, far = (shapes.get(n) for n in (check.clearance.array, check.clearance.object))
+        if near is None or far is None:
+            continue
+        start, end = closest(near, far)
+        provided, required = check.clearance.provided_m, check.required_m
+        show_required, show_provided = compared(required, provided)
+        yield {
+            "clearance": index,
+            "from": _point(start),
+            "to": _point(end),
+            "provided": f"{show_provided(provided, unit)} {unit.symbol}",
+            "required": "none"
+            if math.isnan(required)
+            else f"{show_required(required, unit)} {unit.symbol}",
+            "verdict": show(check.verdict),
+        }
+
+
+def _outline(shape: Shape | None) -> Sequence[Sequence[float]]:
+    return [] if shape is None else _points(shape.points)
+
+
+def _points(points: Sequence[Point]) -> Sequence[Sequence[float]]:
+    return [_point(point) for point in points]
+
+
+def _point(point: Point) -> Sequence[float]:
+    return [round(value, 4) for value in point]

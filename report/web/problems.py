@@ -1,0 +1,86 @@
+"""Input errors as data: cell, what was found, what would do, and the row of the sheet around it.
+
+Takes the finished lines of `InputError` apart; writes none. Read `problems`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from openpyxl.utils import coordinate_to_tuple
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.sheet.archive import OpenBook, open_book
+from report.sheet.cells import cut, plain
+from report.sheet.locate import CellPosition, find_table, found_at
+from report.sheet.schema import SECTIONS
+from solver.model import InputError
+
+_LINE = re.compile(r"(?P<sheet>[^!:]+)!(?P<cell>[A-Z]{1,3}[0-9]{1,7}): (?P<text>.+)", re.DOTALL)
+_MOST_COLUMNS = 40
+
+
+def problems(path: Path, lines: Sequence[str]) -> list[Mapping[str, Any]]:
+    """Return the lines of an input error, each with the row of its cell."""
+    try:
+        book = [open_book(path)]
+    except InputError:
+        book = []
+    return [_problem(path, book, line) for line in lines]
+
+
+def _problem(path: Path, book: Sequence[OpenBook], line: str) -> Mapping[str, Any]:
+    match = _LINE.fullmatch(line)
+    found, _, remedy = (match["text"] if match else line).partition("; ")
+    about = {"file": path.name, "text": line, "found": found, "remedy": remedy}
+    if match is None:
+        return about | {"sheet": "", "cell": "", "row": None}
+    rows = [_row(each, match["sheet"], match["cell"]) for each in book]
+    return about | {
+        "sheet": match["sheet"],
+        "cell": match["cell"],
+        "row": next((row for row in rows if row), None),
+    }
+
+
+def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
+    """Return the row of a cell as texts with the headings above them; none without the sheet."""
+    if title not in book.book.sheetnames:
+        return None
+    row, column = coordinate_to_tuple(cell)
+    header, columns = _headed(book, book.book[title], row, column)
+    shown = [number for number in columns if header or not _is_blank(book, title, row, number)]
+    if column not in shown:
+        shown = sorted([*shown, column])
+    return {
+        "number": row,
+        "heads": [_text(book, title, header, number) if header else "" for number in shown],
+        "cells": [_text(book, title, row, number) for number in shown],
+        "at": shown.index(column),
+    }
+
+
+def _headed(book: OpenBook, sheet: Worksheet, row: int, column: int) -> tuple[int, Sequence[int]]:
+    """Return the row of the headings above a cell, 0 for none, and the columns to show."""
+    for section in (s for s in SECTIONS if s.is_table and s.sheet == sheet.title):
+        try:
+            table = find_table(book, section)
+        except InputError:
+            continue
+        numbers = sorted(c.number for c in table.columns.values())
+        if row in table.rows and numbers:
+            return table.heading.row, numbers[:_MOST_COLUMNS]
+    last = min(sheet.max_column, _MOST_COLUMNS)
+    return 0, range(1, max(last, column if column <= _MOST_COLUMNS else 1) + 1)
+
+
+def _is_blank(book: OpenBook, title: str, row: int, column: int) -> bool:
+    return found_at(book, CellPosition(title, row, column)).is_blank
+
+
+def _text(book: OpenBook, title: str, row: int, column: int) -> str:
+    value = found_at(book, CellPosition(title, row, column)).value
+    return "" if value is None else cut(plain(value))

@@ -1,0 +1,97 @@
+"""Sessions: a folder of its own for each, removed after an hour without use.
+
+Read `Sessions`.
+"""
+
+from __future__ import annotations
+
+import secrets
+import shutil
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from report.typeset.pdf import TEMPLATES
+
+LIFE_S = 3600.0
+"""How long a session lives without use [s]."""
+
+MOST = 200
+"""Most sessions at once: each may fill a folder."""
+
+_PACKAGE = Path(__file__).resolve().parent
+EXAMPLE = next(
+    path
+    for path in (_PACKAGE / "example", TEMPLATES.parent / "projects" / "example")
+    if path.is_dir()
+)
+"""The example: within the package where it is installed, or of the checkout."""
+
+
+@dataclass(slots=True)
+class Session:
+    """A session.
+
+    Attributes
+    ----------
+    folder : Path
+        Its own; no other session reads or writes it.
+    project : Path
+        What is open: the example, or what was uploaded last.
+    used_s : float
+        When it was last used, on the clock of `Sessions`.
+    """
+
+    id: str
+    folder: Path
+    used_s: float
+    project: Path = EXAMPLE
+    opened: int = field(default=0)
+
+    @property
+    def is_example(self) -> bool:
+        """Whether the example is open."""
+        return self.project == EXAMPLE
+
+
+class Sessions:
+    """The sessions of a server, in a folder that ends with it."""
+
+    def __init__(self, folder: Path, clock: Callable[[], float] = time.monotonic) -> None:
+        self._folder, self._clock = folder, clock
+        self._by_id: dict[str, Session] = {}
+
+    def begin(self) -> Session:
+        """Begin a session; where there are too many, the one unused for longest ends."""
+        self.end_unused()
+        if len(self._by_id) >= MOST:
+            self.end(min(self._by_id.values(), key=lambda session: session.used_s))
+        name = secrets.token_urlsafe(32)
+        # Its name in the file system is another one: a listing opens no session.
+        folder = self._folder / secrets.token_hex(16)
+        folder.mkdir(mode=0o700)
+        session = Session(id=name, folder=folder, used_s=self._clock())
+        self._by_id[name] = session
+        return session
+
+    def find(self, name: str) -> Session | None:
+        """Return a session that is alive, and take note of its use."""
+        session = self._by_id.get(name)
+        if session is None or self._is_over(session):
+            return None
+        session.used_s = self._clock()
+        return session
+
+    def end_unused(self) -> None:
+        """End the sessions that were not used for an hour."""
+        for session in [s for s in self._by_id.values() if self._is_over(s)]:
+            self.end(session)
+
+    def end(self, session: Session) -> None:
+        """End a session and remove its folder."""
+        del self._by_id[session.id]
+        shutil.rmtree(session.folder, ignore_errors=True)
+
+    def _is_over(self, session: Session) -> bool:
+        return self._clock() - session.used_s > LIFE_S

@@ -1,0 +1,160 @@
+"""From values of sliders and choices to what would be typed into the workbook.
+
+A value is nothing but other contents of cells, so that the workbook written from it is assessed
+alike; no physics and no rule. Read `typed` first, then `report.web.controls`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from report.sheet.fields import Place
+from report.sheet.read import Sheet
+from report.sheet.retyped import Typed, size_of_unit
+from report.sheet.schema import SIDES, Array, Scaling, SlopeUnit, coefficients, slope_rad
+from report.sheet.shapes import Rectangle, Shape, gap_m
+from solver.rules.hazard import EDITIONS
+
+Values = Mapping[str, float | str]
+"""By id; an id that is not there is as typed in the workbook."""
+
+MUS = ("mu", "mu_fast", "mu_static")
+SHORT_PERIOD = ("s_s_g", "s_ms_g", "s_ds_g")
+"""From mapped to design values: each follows from the one before, and all are multiplied alike."""
+
+_MU_DIGITS, _SLOPE_DIGITS, _PLAN_DIGITS = 4, 4, 6
+
+
+def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Place, Typed]:
+    """Return what the values of sliders and choices put into the cells of a workbook.
+
+    Parameters
+    ----------
+    scales : mapping of str to float
+        Factor on the records of each motion, as the workbook has it.
+    """
+    factors = {name: float(values.get(name, 1.0)) for name in ("friction", "intensity", "s_ds")}
+    if values.get("together", "yes") == "yes":
+        factors["s_ds"] = factors["intensity"]
+    changed: dict[Place, Typed] = {}
+    if factors["friction"] != 1.0:
+        changed |= dict(_friction(sheet, factors["friction"]))
+    if turn_deg := float(values.get("slope", 0.0)):
+        changed |= dict(_slope(sheet, turn_deg))
+    if factors["s_ds"] != 1.0:
+        changed |= dict(_s_ds(sheet, factors["s_ds"]))
+    if factors["intensity"] != 1.0 or factors["s_ds"] != 1.0:
+        changed |= dict(_intensity(sheet, scales, factors["intensity"]))
+    if trim_m := float(values.get("clearance", 0.0)) * trim_unit_m(sheet):
+        changed |= dict(_trim(sheet, trim_m))
+    changed |= {place: str(values["polarity"]) for place in polarities(sheet, values)}
+    return changed | dict(_rule_set(sheet, values))
+
+
+def trim_unit_m(sheet: Sheet) -> float:
+    """Return the unit [m] in which arrays are trimmed: an inch, or a millimeter."""
+    return 0.0254 if sheet.project.project.units_first == "US" else 0.001
+
+
+def _given(sheet: Sheet, section: str, fields: tuple[str, ...]) -> Iterator[tuple[Place, float]]:
+    """Yield the numbers that are given in a section."""
+    for index, row in enumerate(sheet.draft[section]):
+        for field in fields:
+            if row.get(field) is not None:
+                yield Place(section, index, field), row[field]
+
+
+def _friction(sheet: Sheet, factor: float) -> Iterator[tuple[Place, Typed]]:
+    """Multiply every coefficient: a law by velocity as a whole, and those of linked blocks."""
+    for place, mu in _given(sheet, "arrays", MUS):
+        yield place, round(mu * factor, _MU_DIGITS)
+    for index, row in enumerate(sheet.draft["links"]):
+        mus = (round(mu * factor, _MU_DIGITS) for mu in coefficients(row["friction"]))
+        yield Place("links", index, "friction"), ", ".join(map(str, mus))
+
+
+def _slope(sheet: Sheet, turn_deg: float) -> Iterator[tuple[Place, Typed]]:
+    for index, row in enumerate(sheet.draft["arrays"]):
+        unit = row["slope_unit"]
+        angle = max(slope_rad(row["slope_value"], unit) + math.radians(turn_deg), 0.0)
+        per_one = {SlopeUnit.PERCENT: 100.0, SlopeUnit.IN_PER_12: 12.0}
+        is_angle = unit is SlopeUnit.DEGREES
+        value = math.degrees(angle) if is_angle else per_one[unit] * math.tan(angle)
+        yield Place("arrays", index, "slope_value"), round(value, _SLOPE_DIGITS)
+
+
+def _s_ds(sheet: Sheet, factor: float) -> Iterator[tuple[Place, Typed]]:
+    for place, value in _given(sheet, "site", SHORT_PERIOD):
+        yield place, _rounded(value * factor)
+
+
+def _intensity(
+    sheet: Sheet, scales: Mapping[str, float], factor: float
+) -> Iterator[tuple[Place, Typed]]:
+    """Multiply the factor of each motion; one scaled to a target keeps its factor as a number."""
+    for index, row in enumerate(sheet.draft["motions"]):
+        scaling, given = row["scaling"], row["scale_value"]
+        if scaling is Scaling.PPA:
+            yield Place("motions", index, "scale_value"), _rounded(given * factor)
+            continue
+        scale = scales[row["id"]]
+        if scaling is Scaling.TARGET or factor != 1.0:
+            yield Place("motions", index, "scaling"), Scaling.FACTOR.value
+            yield Place("motions", index, "scale_value"), _rounded(scale * factor)
+
+
+def _trim(sheet: Sheet, trim_m: float) -> Iterator[tuple[Place, Typed]]:
+    """Move the sides of every rectangular array inward, and let the clearances follow the plan."""
+    project = sheet.project
+    before: dict[str, Shape] = {row.id: row.placed for row in project.objects if row.placed}
+    before |= {array.id: array.shape for array in project.arrays}
+    after = dict(before)
+    for index, array in trimmed(sheet):
+        x0, x1, y0, y1 = (getattr(array, side) for side in SIDES)
+        places = [Place("arrays", index, side) for side in SIDES]
+        moved = (x0 + trim_m, x1 - trim_m, y0 + trim_m, y1 - trim_m)
+        cells = [_in_cell(sheet, *pair) for pair in zip(places, moved, strict=True)]
+        yield from zip(places, cells, strict=True)
+        after[array.id] = Rectangle(*moved)
+    for index, row in enumerate(project.clearances):
+        names = (row.array, row.object)
+        if all(name in before for name in names):
+            more = gap_m(*(after[n] for n in names)) - gap_m(*(before[n] for n in names))
+        else:
+            more = trim_m * any(after[n] is not before[n] for n in names if n in before)
+        place = Place("clearances", index, "provided_m")
+        yield place, _in_cell(sheet, place, max(row.provided_m + more, 0.0))
+
+
+def trimmed(sheet: Sheet) -> list[tuple[int, Array]]:
+    """Return the arrays that are rectangles with a cell for each side, with their rows."""
+    rows = enumerate(sheet.project.arrays)
+    return [(index, row) for index, row in rows if isinstance(row.placed, Rectangle)]
+
+
+def _in_cell(sheet: Sheet, place: Place, value: float) -> float:
+    return round(value / size_of_unit(sheet, place), _PLAN_DIGITS)
+
+
+def polarities(sheet: Sheet, values: Values) -> Iterator[Place]:
+    """Yield the cells whose polarity changes."""
+    for index, row in enumerate(sheet.draft["motions"]):
+        if values.get("polarity", "") not in ("", row["polarity"]):
+            yield Place("motions", index, "polarity")
+
+
+def _rule_set(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
+    """Change the rule set, and leave blank an edition that would contradict it."""
+    site = sheet.draft["site"][0]
+    asked = values.get("rule_set", site["rule_set"])
+    if asked == site["rule_set"]:
+        return
+    yield Place("site", 0, "rule_set"), str(asked)
+    edition = site["edition_name"]
+    if edition is not None and asked in EDITIONS and edition != asked:
+        yield Place("site", 0, "edition_name"), None
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.6g}")
