@@ -12,6 +12,7 @@ import numpy as np
 
 from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Table, TableColumn, TableRow
+from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.array_pages import fragility
 from report.study.basis_pages import basis, limits
@@ -315,7 +316,7 @@ def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
         columns=(
             TableColumn(head="μ"),
             TableColumn(head="Slope", unit="deg"),
-            TableColumn(head=axis(results)),
+            TableColumn(head=with_symbols(axis(results))),
             TableColumn(head="Exact", unit=unit.symbol),
             TableColumn(head="Formula", unit=unit.symbol),
             TableColumn(head="Exact / formula"),
@@ -368,9 +369,9 @@ def _prescribed(results: StudyResults, building: int, found: Prescribed) -> Manu
         columns=(
             TableColumn(head="Friction", align="left", share=1.6),
             TableColumn(head="Slope", unit="deg"),
-            TableColumn(head="Safe up to", unit=axis(results), share=1.4),
+            TableColumn(head="Safe up to", unit=with_symbols(axis(results)), share=1.4),
             TableColumn(head="Least margin", share=1.1),
-            TableColumn(head="at", unit=axis(results), share=1.2),
+            TableColumn(head="at", unit=with_symbols(axis(results)), share=1.2),
         ),
         rows=rows,
         kind="compact",
