@@ -277,7 +277,8 @@ def run_missing(
 
     costs = [float(campaign.seconds[part].sum()) for part in campaign.parts]
     order = sorted(missing, key=lambda number: -costs[number])
-    with ThreadPoolExecutor(get_num_threads()) as pool:
+    # One more than there are cores: a part that waits for the disk leaves no core idle.
+    with ThreadPoolExecutor(get_num_threads() + 1) as pool:
         running = {pool.submit(work, number) for number in order}
         try:
             while running:
