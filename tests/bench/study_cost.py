@@ -1,9 +1,10 @@
 """Cost of a study beside a bare sweep: overhead, use of the cores, memory, queries of its rows.
 
-    PYTHONPATH=tests .venv/bin/python tests/bench/study_cost.py [RUNS [RECORDS]]
+    PYTHONPATH=tests .venv/bin/python tests/bench/study_cost.py [RUNS [RECORDS [FOLDER]]]
 
 RUNS (10,000,000) in one axis under the example's seven motions; then the paper's grid under RECORDS
-(500) made records of 1,000 to 26,000 samples. Both cores should be idle.
+(500) records: those of a folder, and made ones of 1,000 to 26,000 samples. Both cores should be
+idle.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import statistics
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,7 +26,7 @@ from places import ROOT
 from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, peaks, read_part, run_missing
 from solver import read_record, sweep
-from solver.model import Motion
+from solver.model import InputError, Motion
 from solver.studies.campaign import Campaign, grid
 from solver.studies.runs import Runner, run_part
 from studied import frozen, motion
@@ -50,11 +52,22 @@ def made(name: str, dt_s: float, a_mps2: np.ndarray, scale: float) -> Motion:
     return replace(one, signs=(1,))
 
 
-def stand_in(records: int) -> Campaign:
-    """Made records of unequal length, with strong shaking in a tenth to a third of them."""
+def real(folder: Path) -> Iterator[Motion]:
+    """The records of a folder with one component each, scaled to 1 g."""
+    for path in sorted(folder.rglob("*")):
+        try:
+            record = read_record(path)
+        except (InputError, OSError):
+            continue
+        scale = G / float(np.abs(record.a_mps2).max())
+        yield made(path.stem, record.dt_s, record.a_mps2, scale)
+
+
+def stand_in(records: int, given: list[Motion]) -> Campaign:
+    """Given records and made ones of unequal length, with strong shaking in a tenth or more."""
     rng = np.random.default_rng(2)
-    motions = []
-    for number in range(records):
+    motions = given[:records]
+    for number in range(records - len(motions)):
         samples = int(rng.integers(1_000, 26_000))
         t = np.arange(samples) * 0.01
         freq, phase = rng.uniform(0.3, 12.0, (2, 40))
@@ -114,8 +127,9 @@ def queries(folder: Path) -> None:
 def main() -> None:
     """Print what the README states."""
     runs, records = (
-        [int(float(v)) for v in sys.argv[1:]] + [10_000_000, 500][len(sys.argv) - 1 :]
+        [int(float(v)) for v in sys.argv[1:3]] + [10_000_000, 500][len(sys.argv) - 1 :]
     )[:2]
+    given = [motion for folder in sys.argv[3:] for motion in real(Path(folder))]
     campaign = example(runs)
     small = replace(campaign, cases=campaign.cases[:50])
     run_part(Runner(small), slice(0, 50))
@@ -140,10 +154,11 @@ def main() -> None:
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
         print(f"largest memory, with a second reading of every part: {peak:.0f} MB")
         queries(folder)
-    many = stand_in(records)
+    many = stand_in(records, given)
     with tempfile.TemporaryDirectory() as name:
         wall, cpu = studied(many, Path(name) / "runs")
-    print(f"{records} records, {many.rows:,} runs: wall / processor time {wall / cpu:.2f}")
+    print(f"{records} records, {len(given)} of them given, {many.rows:,} runs:")
+    print(f"wall / processor time {wall / cpu:.2f}")
     bare_wall, bare_cpu = swept(many)
     print(f"bare sweep of the same: {bare_wall / bare_cpu:.2f}; {cpu / bare_cpu:.2f} of its time")
 
