@@ -51,7 +51,7 @@ class Surface:
     Attributes
     ----------
     array : ArrayAssessment
-        The governing array: its headings, and its friction law scaled as a whole.
+        The array whose headings are run, its friction law scaled as a whole.
     mus : array, shape (q,)
         Low-velocity friction coefficients, that of the array among them.
     slopes_rad : array, shape (p,)
@@ -61,7 +61,7 @@ class Surface:
     n_unfinished, n_runs : int
         Runs that are still sliding at the end of their record, and all runs.
     others : tuple of str
-        Ids of arrays whose friction law is not that of the governing array, scaled.
+        Ids of arrays whose friction law is not that of this array, scaled.
     """
 
     array: ArrayAssessment
@@ -150,7 +150,7 @@ def certainty(given: Assessment) -> Certainty:
     motion = governing.worst
     with ThreadPoolExecutor(THREADS) as pool:
         return Certainty(
-            surface=_surface(given, pool),
+            surface=surface(given, given.governing, pool),
             margins=tuple(_margins(given, pool)),
             motion=motion,
             turned=tuple(pool.map(partial(_turned, governing), _angles(motion.motion))),
@@ -158,29 +158,30 @@ def certainty(given: Assessment) -> Certainty:
         )
 
 
-def _surface(given: Assessment, pool: Executor) -> Surface:
-    governing, arrays = given.governing, [array.array for array in given.arrays]
-    mus = _axis([array.mu for array in arrays], governing.array.mu, N_MUS, unit=0.01, room=0.05)
+def surface(given: Assessment, item: ArrayAssessment, pool: Executor) -> Surface:
+    """Return the mean PRD of an array over a grid of friction and slope around all arrays."""
+    arrays = [array.array for array in given.arrays]
+    mus = _axis([array.mu for array in arrays], item.array.mu, N_MUS, unit=0.01, room=0.05)
     degrees = _axis(
         [math.degrees(array.slope_rad) for array in arrays],
-        math.degrees(governing.array.slope_rad),
+        math.degrees(item.array.slope_rad),
         N_SLOPES,
         unit=0.5,
         room=1.0,
     )
     slopes = np.radians(degrees)
     cells = [(slope, mu) for slope in slopes.tolist() for mu in mus.tolist()]
-    results = list(pool.map(partial(_cell, governing), cells))
+    results = list(pool.map(partial(_cell, item), cells))
     means = [sum(run.prd_m for run in cell) / len(cell) for cell in results]
     statuses = [run.status for cell in results for run in cell]
     return Surface(
-        array=governing,
+        array=item,
         mus=mus,
         slopes_rad=slopes,
         mean_m=np.reshape(means, (slopes.size, mus.size)),
         n_unfinished=statuses.count(Status.SLIDING_AT_END),
         n_runs=len(statuses),
-        others=tuple(array.id for array in arrays if not _is_like(array, governing.array)),
+        others=tuple(array.id for array in arrays if not _is_like(array, item.array)),
     )
 
 

@@ -1,6 +1,6 @@
 """Contours of the mean PRD over friction and slope, with the arrays as dots.
 
-Computes only the levels and the layout; legible in gray: black lines with their values on them.
+Computes only the layout; legible in gray: black lines with their values on them.
 """
 
 from __future__ import annotations
@@ -15,26 +15,11 @@ from matplotlib.ticker import FuncFormatter
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Surface
 from report.figures.base import GREY, INK, bare, framed, style, svg_text, tick_text
+from report.figures.levels import LEAST_M, is_decade, levels
 from report.words.units import Quantity
 from solver.model import Floats
 
 TYPE_PT = 9.0  # at smaller sizes the renderer clips the first letter of a label
-LEAST_M = 1e-4
-"""Displacement below which no contour is drawn [m]."""
-
-MOST_LEVELS = 9
-
-
-def levels(mean: Sequence[float]) -> list[float]:
-    """Return round values within a range of positive ones, at most `MOST_LEVELS`."""
-    low, high = min(mean), max(mean)
-    for steps in ((1, 1.5, 2, 3, 5, 7), (1, 2, 3, 5), (1, 2, 5), (1, 3), (1,)):
-        decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-        values = [step * 10.0**exponent for exponent in decades for step in steps]
-        inside = [value for value in values if 1.1 * low < value < high / 1.1]
-        if len(inside) <= MOST_LEVELS:
-            break
-    return inside
 
 
 def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
@@ -83,16 +68,12 @@ def _lines(axes: Axes, surface: Surface, mean: Floats) -> None:
         np.log10(mean),
         [math.log10(level) for level in drawn],
         colors=INK,
-        linewidths=[1.4 if _is_decade(level) else 0.8 for level in drawn],
+        linewidths=[1.4 if is_decade(level) else 0.8 for level in drawn],
         linestyles="solid",
     )
     names = {math.log10(level): f"{level:g}" for level in drawn}
     for label in axes.clabel(lines, fmt=names, fontsize=TYPE_PT, inline_spacing=3):
         label.set(zorder=4, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3})
-
-
-def _is_decade(level: float) -> bool:
-    return math.isclose(math.log10(level), round(math.log10(level)), abs_tol=1e-9)
 
 
 def _dot(axes: Axes, array: ArrayAssessment, *, hollow: bool) -> None:

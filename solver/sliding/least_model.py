@@ -147,7 +147,7 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     """
     if solution.rung is Rung.ROW:
         raise InputError("a row has a history for each block; call solver.sliding.row.row_history")
-    run = _run_as(scene, solution.rung)
+    run = as_run(scene, solution.rung)
     if solution.rung >= Rung.TWO_AXES:
         return two_axes.run_history(run, settings.tolerance)
     return one_axis.run_history(run)
@@ -209,9 +209,9 @@ def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solu
         return _linked(scene, settings.row, demand)
     if rung >= Rung.TWO_AXES:
         return _in_plane(scene, settings, rung, why, demand)
-    result, fuller = one_axis.run(_run_as(scene, rung)), []
+    result, fuller = one_axis.run(as_run(scene, rung)), []
     if scene.ay_mps2.any():
-        fuller.append(two_axes.run(_run_as(scene, Rung.TWO_AXES), settings.tolerance))
+        fuller.append(two_axes.run(as_run(scene, Rung.TWO_AXES), settings.tolerance))
     if rung is Rung.ONE_AXIS and scene.az_mps2.size:
         fuller.append(one_axis.run(scene))
     return _along(scene, rung, result, _left_out(result, *fuller), why, demand)
@@ -234,7 +234,7 @@ def _still(scene: Scene, demand: float) -> Solution:
     return Solution(
         rung=Rung.NO_SLIP,
         reason=f"the friction demand, {demand:.2f}, is below the friction coefficient, {hold:.2f}",
-        result=one_axis.run(_run_as(scene, Rung.NO_SLIP)),
+        result=one_axis.run(as_run(scene, Rung.NO_SLIP)),
         next_rung=Rung.NO_SLIP,
         next_effect_m=0.0,
         friction_demand=demand,
@@ -261,7 +261,7 @@ def _along(
 
 
 def _in_plane(scene: Scene, settings: Settings, rung: Rung, why: str, demand: float) -> Solution:
-    result = two_axes.run(_run_as(scene, rung), settings.tolerance)
+    result = two_axes.run(as_run(scene, rung), settings.tolerance)
     if scene.friction.is_constant or rung is Rung.SPEED_FRICTION:
         return _followed(scene, rung, result, why, demand)
     fuller = two_axes.run(scene, settings.tolerance)
@@ -310,8 +310,11 @@ def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
     )
 
 
-def _run_as(scene: Scene, rung: Rung) -> Scene:
-    """Return the scene with only the components that a rung models."""
+def as_run(scene: Scene, rung: Rung) -> Scene:
+    """Return the scene as a rung runs it, without the vertical or the friction law it neglects.
+
+    The cross-slope component is still there where a run in one axis ignores it.
+    """
     if rung is Rung.NO_SLIP:
         return replace(scene, friction=coulomb(scene.friction.mu_static))
     if rung is Rung.ONE_AXIS:

@@ -11,7 +11,8 @@ from report.assessment.certainty import certainty
 from report.assessment.evidence import support
 from report.assessment.remedies import remedies
 from report.figures.base import load_fonts
-from report.figures.certainty import MOST_LEVELS, contours, levels
+from report.figures.certainty import contours
+from report.figures.levels import MOST_LEVELS, levels
 from report.package.html import pages
 from report.pages import certainty as page
 from report.pages import front

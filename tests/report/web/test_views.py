@@ -1,0 +1,265 @@
+"""The answers of the views beside the solver and the package, value for value."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.assessment.certainty import certainty
+from report.assessment.runs import RUNGS
+from report.web import views
+from report.web.thinning import beside, peaks_kept
+from solver.model import InputError
+from solver.sliding import least_model
+from solver.sliding.least_model import Settings
+
+PEER = {"peer_reviewed": True}
+LONG = stand_in.motions(2, seconds=20.0)  # 4,000 samples: more than are drawn
+G = stand_in.G
+
+
+def made(found, **changes):
+    data = stand_in.project(**({"options": PEER} | changes))
+    return stand_in.assessed(stand_in.book(data, found))
+
+
+@pytest.fixture(scope="module")
+def usual():
+    fast = {"mu": 0.4, "mu_fast": 0.5, "mu_rate_s_per_m": 30.0}
+    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120, **fast)]
+    objects = [stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)]
+    gaps = [stand_in.clearance("A1", "RTU-1", 9.0)]
+    return made(LONG, arrays=arrays, objects=objects, clearances=gaps)
+
+
+@pytest.fixture(scope="module")
+def along():
+    """One horizontal component, and no vertical one."""
+    return made([stand_in.motion("M1", LONG[0].ax_mps2[::2])])
+
+
+def solved(assessment, array, motion, run):
+    """The history of a run, solved again from the input alone."""
+    item = next(one.array for one in assessment.arrays if one.array.id == array)
+    moved = next(one for one in assessment.shaking.motions if one.id == motion)
+    heading = next(one for one in moved.headings if one.name == run)
+    scene = moved.scene(heading, slope_rad=item.slope_rad, friction=item.friction)
+    solution = least_model.solve(scene, Settings(forced=RUNGS.get(item.model)))
+    return scene, least_model.history(scene, solution)
+
+
+def values(series):
+    return np.array([math.nan if v is None else v for v in series["v"]])
+
+
+@pytest.mark.parametrize("array", ["A1", "A2"])
+def test_a_run_is_that_of_the_solver_to_the_last_bit(usual, array):
+    answer = views.slide(usual, array, "M2")
+    _, history = solved(usual, array, "M2", answer["run"])
+    assert answer["prd_m"] == history.result.prd_m
+    assert answer["t_prd_s"] == history.result.t_prd_s
+    track, at = answer["track"], answer["track"]["i"]
+    assert track["relative_m"] == [history.u_m[at].tolist(), history.across_m[at].tolist()]
+    for series, samples in zip(answer["relative"], (history.u_m, history.across_m), strict=True):
+        assert series["v"] == samples[series["i"]].tolist()
+    slips = [(slip["from_s"], slip["to_s"]) for slip in answer["slips"]]
+    assert [t for pair in slips for t in pair] == [event.t_s for event in history.events]
+    governing = next(one for one in usual.arrays if one.array.id == array).motions[1].governing
+    assert answer["prd_m"] == governing.prd_m
+
+
+def test_any_run_of_a_motion_can_be_asked_for(usual):
+    names = [one["name"] for one in views.slide(usual, "A1", "M1")["runs"]]
+    assert names == ["record +", "record −", "transverse +", "transverse −"]
+    for name in names:
+        answer = views.slide(usual, "A1", "M1", name)
+        assert answer["prd_m"] == solved(usual, "A1", "M1", name)[1].result.prd_m
+
+
+def test_the_roof_is_its_acceleration_integrated_by_cubic_sums(usual):
+    answer = views.slide(usual, "A1", "M1", "transverse −")
+    a, dt = -LONG[0].ay_mps2, LONG[0].dt_s
+    velocity, place = [0.0], [0.0]
+    for before, after in zip(a[:-1].tolist(), a[1:].tolist(), strict=True):
+        place.append(place[-1] + dt * velocity[-1] + dt * dt * (before / 3 + after / 6))
+        velocity.append(velocity[-1] + dt * (before + after) / 2)
+    at = answer["track"]["i"]
+    assert answer["track"]["roof_m"][0] == pytest.approx(np.array(place)[at], abs=1e-12)
+    names = [series["name"] for series in answer["velocity"]]
+    assert names == ["downslope", "cross-slope", "vertical"]
+    downslope = answer["velocity"][0]
+    assert downslope["v"] == pytest.approx(np.array(velocity)[downslope["i"]], abs=1e-12)
+    series = answer["acceleration"][0]
+    assert series["v"] == a[series["i"]].tolist()
+
+
+@pytest.mark.parametrize("array", ["A1", "A2"])
+def test_the_friction_used_is_what_changes_the_velocity_of_the_solver(usual, array):
+    """By Newton's law from the velocities alone: |G - change of velocity| / N between samples."""
+    answer = views.slide(usual, array, "M1")
+    scene, history = solved(usual, array, "M1", answer["run"])
+    run = next(one for one in usual.arrays if one.array.id == array).motions[0].governing
+    slips = views._slips(history)
+    normal, demand, used = views._forces(run, history, slips)
+    cs, sn = math.cos(scene.slope_rad), math.sin(scene.slope_rad)
+    drive = (scene.g_mps2 + scene.az_mps2) * sn - scene.ax_mps2 * cs, -scene.ay_mps2
+    velocity = history.v_mps / cs, history.across_mps
+    rest = [between(g) - np.diff(v) / scene.dt_s for g, v in zip(drive, velocity, strict=True)]
+    found = np.hypot(*rest) / (G * between(normal))
+    moves = np.hypot(*velocity) > 0.05
+    moves = moves[:-1] & moves[1:]
+    assert moves.sum() > 1000
+    # The direction of sliding turns between samples, at low velocity the most.
+    off = np.abs(found / between(used) - 1.0)[moves]
+    assert off.max() < 0.03
+    assert np.median(off) < 5e-4
+    at_rest = ~views._during(slips, history.t_s)
+    assert at_rest.sum() > 100
+    assert (used[at_rest] == demand[at_rest]).all()
+    assert demand[at_rest].max() <= scene.friction.mu_static
+
+
+def between(samples):
+    return (samples[:-1] + samples[1:]) / 2
+
+
+def test_every_history_keeps_its_peaks_and_its_ends(usual):
+    answer = views.slide(usual, "A1", "M1")
+    scene, history = solved(usual, "A1", "M1", answer["run"])
+    assert answer["n_samples"] == 4000
+    full = {
+        "acceleration": [scene.ax_mps2, scene.ay_mps2, scene.az_mps2],
+        "relative": [history.u_m, history.across_m],
+        "normal": [views_normal(scene)],
+    }
+    for name, samples in full.items():
+        for series, of in zip(answer[name], samples, strict=True):
+            assert len(series["i"]) <= 3000
+            assert (series["i"][0], series["i"][-1]) == (0, 3999)
+            assert values(series).max() == of.max()
+            assert values(series).min() == of.min()
+    around = {math.floor(event.t_s / scene.dt_s) for event in history.events}
+    assert around <= set(answer["track"]["i"])
+
+
+def views_normal(scene):
+    lift = (scene.g_mps2 + scene.az_mps2) * math.cos(scene.slope_rad)
+    return (lift + scene.ax_mps2 * math.sin(scene.slope_rad)) / scene.g_mps2
+
+
+def test_in_one_axis_the_forces_are_those_of_the_model(along):
+    answer = views.slide(along, "A2", "M1")
+    assert [series["name"] for series in answer["relative"]] == ["downslope"]
+    assert [series["name"] for series in answer["acceleration"]] == ["downslope"]
+    assert set(answer["track"]["relative_m"][1]) == {0.0} == set(answer["track"]["roof_m"][1])
+    used = values(answer["friction"][0])
+    assert used.max() == 0.45
+    assert (used <= 0.45).all()
+    assert [one["label"][0] for one in answer["runs"]] == ["+", "−"]
+
+
+def test_a_run_that_lifts_off_has_forces_and_no_displacement():
+    found = [stand_in.motion("M1", LONG[0].ax_mps2, 3.0 * LONG[0].az_mps2, dt_s=0.005)]
+    answer = views.slide(made(found), "A2", "M1")
+    assert answer["prd_m"] is answer["peak"] is None
+    assert answer["slips"] == []
+    assert set(answer["relative"][0]["v"]) == {None}
+    assert min(answer["normal"][0]["v"]) < 0.0
+    assert "normal force falls below zero" in answer["texts"]["status"]
+    assert answer["texts"]["prd"] == "no PRD"
+    json.dumps(answer, allow_nan=False)
+    path = views.paths(made(found), "A2")["paths"][0]
+    assert (path["prd"], path["x_m"], path["peak"]) == ("no PRD", [], None)
+
+
+def test_a_block_that_never_slips_uses_what_friction_is_demanded():
+    found = [stand_in.motion("M1", 0.1 * LONG[0].ax_mps2)]
+    answer = views.slide(made(found), "A1", "M1")
+    used, demand = answer["friction"]
+    assert used["v"] == demand["v"]
+    assert answer["slips"] == []
+    assert answer["texts"]["prd"] == "PRD 0.0 in (0 mm) at 0.00 s"
+
+
+def test_a_slip_that_the_record_cuts_off_ends_with_it():
+    long = LONG[0].ax_mps2[:1800:2]
+    answer = views.slide(made([stand_in.motion("M1", long)]), "A2", "M1")
+    _, history = solved(made([stand_in.motion("M1", long)]), "A2", "M1", answer["run"])
+    assert history.result.end_speed_mps != 0.0
+    assert answer["slips"][-1]["to_s"] == history.t_s[-1]
+    assert "still sliding at the end" in answer["texts"]["status"]
+
+
+def test_the_contour_of_the_governing_array_is_that_of_the_package(usual):
+    surface = certainty(usual).surface
+    answer = views.contour(usual, usual.governing.array.id)
+    assert answer["mus"] == surface.mus.tolist()
+    assert answer["prd_m"] == surface.mean_m.tolist()
+    assert answer["slopes_deg"] == np.degrees(surface.slopes_rad).tolist()
+    assert answer["here"]["prd_m"] == pytest.approx(usual.governing.analysis.mean_m, rel=2e-3)
+    shown = {one["id"]: one["has_other_law"] for one in answer["arrays"]}
+    assert sum(shown.values()) == 1
+
+
+def test_levels_are_round_in_the_first_unit(usual):
+    answer = views.contour(usual, "A1")
+    prd_m = np.array(answer["prd_m"])
+    assert len(answer["levels"]) >= 3
+    for level in answer["levels"]:
+        assert max(prd_m.min(), 1e-4) < level["prd_m"] < prd_m.max()
+        assert level["text"] == f"{level['prd_m'] / 0.0254:g} in"
+
+
+def test_a_grid_where_nothing_slides_says_so_and_has_no_levels():
+    found = [stand_in.motion("M1", 1e-3 * LONG[0].ax_mps2)]
+    answer = views.contour(made(found), "A1")
+    assert answer["levels"] == []
+    assert answer["texts"]["notes"] == ["Nothing slides on the whole grid: no contours are drawn."]
+
+
+def test_paths_are_those_of_the_governing_runs_and_keep_their_peaks(usual):
+    answer = views.paths(usual, "A2")
+    assert [path["motion"] for path in answer["paths"]] == ["M1", "M2"]
+    item = next(one for one in usual.arrays if one.array.id == "A2")
+    for path, motion in zip(answer["paths"], item.motions, strict=True):
+        _, history = solved(usual, "A2", path["motion"], motion.governing.heading.name)
+        assert path["x_m"] == history.across_m[path["i"]].tolist()
+        assert path["y_m"] == (-history.u_m[path["i"]]).tolist()
+        assert len(path["i"]) <= 402
+        top = math.hypot(path["peak"]["x_m"], path["peak"]["y_m"])
+        assert top == max(map(math.hypot, path["x_m"], path["y_m"]))
+        assert top == pytest.approx(history.result.prd_m, rel=1e-3)
+        assert (min(path["x_m"]), max(path["y_m"])) == (history.across_m.min(), -history.u_m.min())
+
+
+@pytest.mark.parametrize(
+    ("asked", "found"),
+    [
+        (("A9", "M1"), "there is no array 'A9'; choose one of A1, A2"),
+        (("A1", "M9"), "there is no motion 'M9'; choose one of M1, M2"),
+        (("A1", "M1", "up"), "there is no run 'up'; choose one of record +"),
+    ],
+)
+def test_what_the_project_does_not_have_is_named_with_what_it_has(usual, asked, found):
+    with pytest.raises(InputError, match=found.replace("+", r"\+")):
+        views.slide(usual, *asked)
+
+
+def test_thinning_keeps_the_extremes_of_each_part_and_no_more_than_asked():
+    noise = np.random.default_rng(3).normal(size=10_007)
+    noise[77] = math.nan
+    at = peaks_kept(noise, 1000)
+    assert len(at) <= 1000
+    size = math.ceil(10_007 / 499)
+    for start in range(0, 10_007, size):
+        part = noise[start : start + size]
+        assert {start + np.nanargmin(part), start + np.nanargmax(part)} <= set(at.tolist())
+    assert peaks_kept(noise, 10_007).tolist() == list(range(10_007))
+    assert peaks_kept(np.full(5000, math.nan)).max() < 5000
+
+
+def test_samples_beside_times_lie_within_the_record():
+    assert beside(np.array([0.0, 0.26, 0.9999]), 0.1, 10).tolist() == [0, 1, 2, 3, 9]
+    assert beside(np.array([]), 0.1, 10).tolist() == []
