@@ -19,8 +19,9 @@ from report.assessment.certainty import Surface, surface
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import HeadingRun, MotionRun
 from report.figures.levels import LEAST_M, is_decade, levels
+from report.web.answers import finite
 from report.web.thinning import MOST, Indices, beside, peaks_kept
-from report.words.units import G_MPS2, Quantity, Unit, number, pair
+from report.words.units import G_MPS2, Quantity, Unit, measured, number, pair
 from solver.forces import forces
 from solver.model import Event, EventKind, Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
@@ -83,8 +84,8 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         "slips": [_slip(*slip, us_first) for slip in slips],
         "peak": _peak(history),
         **_series(chosen, history, roof, slips),
-        "prd_m": _number(history.result.prd_m),
-        "t_prd_s": _number(history.result.t_prd_s),
+        "prd_m": finite(history.result.prd_m),
+        "t_prd_s": finite(history.result.t_prd_s),
         "units": _units(us_first),
         "texts": _slide_texts(chosen, history, roof, us_first),
     }
@@ -113,7 +114,7 @@ def contour(assessment: Assessment, array_id: str) -> Json:
         "here": {
             "mu": item.array.mu,
             "slope_deg": math.degrees(item.array.slope_rad),
-            "prd_m": _number(float(found.mean_m[row, column])),
+            "prd_m": finite(float(found.mean_m[row, column])),
         },
         "arrays": [
             {
@@ -166,7 +167,10 @@ def _us_first(assessment: Assessment) -> bool:
 
 def _run_choice(motion: MotionRun, run: HeadingRun, us_first: bool) -> Json:
     governs = ", governing" if run is motion.governing else ""
-    label = f"{_heading(motion, run)}: {_prd(run.result.prd_m, us_first)}{governs}"
+    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
+    prd_m = run.result.prd_m
+    prd = "no PRD" if math.isnan(prd_m) else f"PRD {measured(prd_m, unit)} {unit.symbol}"
+    label = f"{_heading(motion, run)}, {prd}{governs}"
     return {"name": run.heading.name, "label": label}
 
 
@@ -406,11 +410,7 @@ def _at(values: Floats, at: Indices) -> list[float | None]:
 
 
 def _numbers(values: Floats) -> list[float | None]:
-    return [_number(value) for value in values.tolist()]
-
-
-def _number(value: float) -> float | None:
-    return value if math.isfinite(value) else None
+    return [finite(value) for value in values.tolist()]
 
 
 def _units(us_first: bool) -> dict[str, list[Json]]:

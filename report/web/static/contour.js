@@ -1,0 +1,175 @@
+// Contours of the mean PRD over friction and slope, with the arrays, and the value at a point.
+
+import { html, replace, svg } from "./make.js";
+import { measured, number, reading, tickText } from "./reading.js";
+import { scale, ticks, within } from "./view-axes.js";
+import { isolines, refined, surfaceAt } from "./view-contour.js";
+import { createView } from "./view-frame.js";
+import { set } from "./view-panels.js";
+
+const HEIGHT = 370;
+const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
+const EDGE = 0.03; // of the range, around the outermost points
+const FINE = 0.1; // of a cell
+const LABEL = 13;
+
+/** Keep the contours in an element. */
+export function mount(element, api, scene) {
+  return createView(element, scene, {
+    ask: ({ array, values }) => ({ array, values }),
+    fetch: api.contour,
+    build,
+  });
+}
+
+function build(element, data) {
+  const { mus, slopes_deg: slopes, units } = data;
+  const cross = svg("path", { class: "cursor", visibility: "hidden" });
+  const plot = svg("svg", { class: "contour", tabindex: 0, role: "application", "aria-label": data.texts.title, "aria-describedby": "contour-keys" });
+  const where = html("output", { class: "numbers", role: "status" });
+  let x = null;
+  let y = null;
+  let at = { mu: data.here.mu, slope: data.here.slope_deg };
+
+  function read(mu, slope) {
+    at = { mu: within(mu, mus[0], mus.at(-1)), slope: within(slope, slopes[0], slopes.at(-1)) };
+    set(cross, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.end}`, visibility: "visible" });
+    where.textContent = `μ ${number(at.mu, 3)}, slope ${measured(at.slope, units.slope[0])}: ${words(data, at)}`;
+  }
+
+  plot.addEventListener("pointermove", (event) => {
+    const box = plot.getBoundingClientRect();
+    read(x.inverse(event.clientX - box.left), y.inverse(event.clientY - box.top));
+  });
+  plot.addEventListener("pointerdown", () => plot.focus());
+  plot.addEventListener("keydown", (event) => {
+    const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
+    if (event.key === "Home") read(data.here.mu, data.here.slope_deg);
+    else if (move) read(moved(mus, at.mu, move[0], event.shiftKey), moved(slopes, at.slope, move[1], event.shiftKey));
+    else return;
+    event.preventDefault();
+  });
+
+  function resize() {
+    const wide = element.clientWidth;
+    if (wide === 0) return;
+    set(plot, { width: wide, height: HEIGHT, viewBox: `0 0 ${wide} ${HEIGHT}` });
+    x = scale(roomy(mus), [MARGIN.left, wide - MARGIN.right]);
+    x.end = wide - MARGIN.right;
+    y = scale(roomy(slopes), [HEIGHT - MARGIN.bottom, MARGIN.top]);
+    replace(plot, axes(data, x, y, wide), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y), cross, arrays(data, x, y));
+    read(at.mu, at.slope);
+  }
+
+  replace(
+    element,
+    html("h3", { class: "view-title" }, data.texts.title),
+    html("p", { class: "contour-reading" }, html("strong", {}, data.texts.here), where),
+    plot,
+    html("p", { class: "note", id: "contour-keys" }, "Point, or use the arrow keys: to the next computed value, with Shift a tenth of that, Home back to the array."),
+    html("p", { class: "note" }, [data.texts.caption, ...data.texts.notes].join(" ")),
+  );
+  resize();
+  return { resize, stop() {} };
+}
+
+function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units }, { mu, slope }) {
+  const { value, isComputed } = surfaceAt(mus, slopes, prd, mu, slope, least);
+  if (value === null) return "no value; a run gives no displacement";
+  if (isComputed) return `mean PRD ${reading(value, units.displacement)}, computed`;
+  const text = reading(value, units.displacement);
+  return value <= least ? `mean PRD at most ${text}, interpolated` : `mean PRD ${text}, interpolated`;
+}
+
+// The next computed value of an axis, or a tenth of the way to it.
+function moved(axis, value, way, isFine) {
+  if (way === 0) return value;
+  if (isFine) return value + (way * FINE * (axis.at(-1) - axis[0])) / (axis.length - 1);
+  const beyond = axis.filter((one) => way * (one - value) > 1e-9);
+  if (beyond.length === 0) return value;
+  return way > 0 ? beyond[0] : beyond.at(-1);
+}
+
+function roomy(axis) {
+  const room = EDGE * (axis.at(-1) - axis[0]);
+  return [axis[0] - room, axis.at(-1) + room];
+}
+
+function axes({ mus, slopes_deg: slopes, texts }, x, y, wide) {
+  const across = ticks(...roomy(mus), wide / 90);
+  const up = ticks(...roomy(slopes), 6);
+  const foot = HEIGHT - MARGIN.bottom;
+  return svg(
+    "g",
+    { class: "axes" },
+    svg("path", { class: "frame", d: `M${MARGIN.left} ${MARGIN.top}V${foot}H${x.end}` }),
+    across.values.map((mu) => [
+      svg("line", { x1: x(mu), x2: x(mu), y1: foot, y2: foot + 4 }),
+      svg("text", { class: "tick middle-of", x: x(mu), y: foot + 17 }, tickText(mu, across.step)),
+    ]),
+    up.values.map((slope) => [
+      svg("line", { x1: MARGIN.left - 4, x2: MARGIN.left, y1: y(slope), y2: y(slope) }),
+      svg("text", { class: "tick end-at", x: MARGIN.left - 7, y: y(slope) + 4 }, tickText(slope, up.step)),
+    ]),
+    svg("text", { class: "label middle-of", x: (MARGIN.left + x.end) / 2, y: HEIGHT - 6 }, texts.x),
+    svg("text", { class: "label middle-of", transform: `translate(13 ${(MARGIN.top + foot) / 2}) rotate(-90)` }, texts.y),
+  );
+}
+
+function crosses({ mus, slopes_deg: slopes, prd_m: prd }, x, y) {
+  return slopes.flatMap((slope, row) =>
+    mus.map((mu, column) => {
+      const [a, b] = [x(mu), y(slope)];
+      const isLost = prd[row][column] === null;
+      return svg("path", isLost ? { class: "lost", d: `M${a - 4} ${b - 4}l8 8m0 -8l-8 8` } : { d: `M${a - 3} ${b}h6M${a} ${b - 3}v6` });
+    }),
+  );
+}
+
+// Each level with its value on its longest line, where no other label stands.
+function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, x, y) {
+  const taken = [];
+  const fine = refined(mus, slopes, prd, least, 6);
+  return levels.map(({ prd_m: level, text, is_major: isMajor }) => {
+    const found = isolines(...fine, level, least).map((line) => line.map(([mu, slope]) => [x(mu), y(slope)]));
+    const longest = found.toSorted((a, b) => b.length - a.length)[0] ?? [];
+    const place = labelPlace(longest, text, taken, x.end);
+    return [
+      found.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: line.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join(" ") })),
+      place ? svg("text", { class: "label middle-of on-line", x: place[0], y: place[1] + 4 }, text) : null,
+    ];
+  });
+}
+
+function labelPlace(line, text, taken, right) {
+  const half = (text.length * LABEL * 0.5) / 2 + 3;
+  const fits = ([a, b]) =>
+    a - half > MARGIN.left && a + half < right && b > MARGIN.top + 8 && b < HEIGHT - MARGIN.bottom - 8 &&
+    taken.every(([c, d, other]) => Math.abs(a - c) > half + other || Math.abs(b - d) > LABEL + 3);
+  const middle = (line.length - 1) / 2;
+  const order = line.map((_, k) => k).toSorted((i, j) => Math.abs(i - middle) - Math.abs(j - middle));
+  const k = order.find((one) => fits(line[one]));
+  if (k === undefined) return null;
+  taken.push([...line[k], half]);
+  return line[k];
+}
+
+function arrays({ arrays: all, array }, x, y) {
+  const places = new Map();
+  for (const one of all) {
+    const key = `${one.mu.toFixed(3)} ${one.slope_deg.toFixed(2)}`;
+    places.set(key, [...(places.get(key) ?? []), one]);
+  }
+  return [...places.values()].map((group) => {
+    const { mu, slope_deg: slope } = group[0];
+    const isHollow = group.every((one) => one.has_other_law);
+    const isShown = group.some((one) => one.id === array);
+    const more = group.length > 2 ? ` and ${group.length - 2} more` : "";
+    return svg(
+      "g",
+      { class: "array-dot" },
+      svg("circle", { class: isHollow ? "is-hollow" : null, cx: x(mu), cy: y(slope), r: isShown ? 6 : 4.5 }),
+      svg("text", { class: `on-line ${isShown ? "strong" : "label"}`, x: x(mu) + 9, y: y(slope) - 7 }, group.slice(0, 2).map((one) => one.id).join(", ") + more),
+    );
+  });
+}

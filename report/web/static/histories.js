@@ -1,0 +1,189 @@
+// Histories of one run: roof acceleration and velocity, relative displacement, normal force.
+
+import { html, replace } from "./make.js";
+import { number } from "./reading.js";
+import { within } from "./view-axes.js";
+import { button, createView, onKeys, runSelect } from "./view-frame.js";
+import { createPanels } from "./view-panels.js";
+import { timed } from "./view-series.js";
+
+const LOOKS = { downslope: "is-first", "cross-slope": "is-across", vertical: "is-third", "normal force": "is-first" };
+const PANELS = [
+  ["Roof acceleration", "acceleration"],
+  ["Roof velocity", "velocity"],
+  ["Displacement relative to the roof", "relative", "displacement"],
+  ["Normal force", "normal"],
+];
+const HEIGHT = 430;
+const LEAST_SAMPLES = 20; // in the shortest span that is shown
+const STEPS = 400; // of the reading by arrow keys, across the span
+const ZOOM = 0.6;
+const PAN = 0.25;
+const DRAG = 4; // pixels that make a drag of a click
+const KEYS = "Drag over a span to enlarge it. Click, then wheel or + and − zoom, arrows move the reading, Shift + arrows the span, 0 shows all. Shaded: slips.";
+
+/** Keep the histories in an element. */
+export function mount(element, api, scene) {
+  return createView(element, scene, {
+    ask: ({ array, motion, values }) => ({ array, motion, values }),
+    fetch: api.slide,
+    build,
+  });
+}
+
+function build(element, data, again) {
+  const panels = createPanels({ panels: panelsOf(data), seconds: data.seconds, slips: data.slips });
+  const where = html("output", { class: "numbers when" });
+  const brush = html("div", { class: "brush", hidden: true });
+  const stage = html("div", { class: "stage", tabindex: 0, role: "application", "aria-label": "Histories", "aria-describedby": "histories-keys" }, panels.element, brush);
+  const { texts } = data;
+  const lens = createLens(data);
+  const buttons = zoomButtons(lens);
+  lens.follow((span, time) => {
+    panels.show(span);
+    panels.at(time);
+    where.textContent = `t = ${number(time, 3)} s`;
+    buttons.follow(lens);
+  });
+  zoomByKeys(stage, lens);
+  zoomByPointer(stage, brush, panels, lens);
+
+  const resize = () => panels.resize(element.clientWidth, HEIGHT);
+  replace(
+    element,
+    html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run })), buttons.element, where),
+    stage,
+    html("p", { class: "note", id: "histories-keys" }, KEYS),
+    html("p", { class: "note" }, [texts.status, texts.model, texts.roof, texts.samples].filter(Boolean).join(" ")),
+  );
+  resize();
+  lens.reset();
+  return { resize, stop() {} };
+}
+
+function panelsOf(data) {
+  return PANELS.map(([title, key, unit = key]) => ({
+    title: `${title} [${data.units[unit][0].symbol}]`,
+    units: data.units[unit],
+    series: data[key].map((one) => ({ ...timed(one, data.dt_s), look: LOOKS[one.name] })),
+  }));
+}
+
+// The span of time that is shown and the time that is read, within it.
+function createLens({ seconds, dt_s: dt, t_prd_s: peak }) {
+  let changed = null;
+  let span = [0, seconds];
+  let time = peak ?? 0;
+
+  function read(next) {
+    time = within(next, ...span);
+    changed(span, time);
+  }
+
+  function show(from, to) {
+    const length = within(to - from, Math.min(LEAST_SAMPLES * dt, seconds), seconds);
+    const start = within(from, 0, seconds - length);
+    span = [start, start + length];
+    read(time);
+  }
+
+  return {
+    follow(listener) {
+      changed = listener;
+    },
+    read,
+    show,
+    reset: () => show(0, seconds),
+    step: (way) => read(time + way * Math.max(dt, (span[1] - span[0]) / STEPS)),
+    ends: (k) => read(span[k]),
+    zoom(factor, about = time) {
+      show(about - (about - span[0]) * factor, about + (span[1] - about) * factor);
+    },
+    pan(share) {
+      const shift = share * (span[1] - span[0]);
+      time += shift;
+      show(span[0] + shift, span[1] + shift);
+    },
+    get isWhole() {
+      return span[1] - span[0] >= seconds;
+    },
+    get isFirst() {
+      return span[0] <= 0;
+    },
+    get isLast() {
+      return span[1] >= seconds;
+    },
+  };
+}
+
+function zoomButtons(lens) {
+  const closer = button("+", "Zoom in (+)", () => lens.zoom(ZOOM), { "aria-label": "Zoom in" });
+  const out = button("−", "Zoom out (−)", () => lens.zoom(1 / ZOOM), { "aria-label": "Zoom out" });
+  const earlier = button("‹", "Earlier (Shift + Left)", () => lens.pan(-PAN), { "aria-label": "Earlier" });
+  const later = button("›", "Later (Shift + Right)", () => lens.pan(PAN), { "aria-label": "Later" });
+  const all = button("All", "Whole record (0)", lens.reset, { "aria-label": "Whole record" });
+  return {
+    element: html("div", { class: "keys" }, closer, out, earlier, later, all),
+    follow({ isWhole, isFirst, isLast }) {
+      out.disabled = isWhole;
+      all.disabled = isWhole;
+      earlier.disabled = isFirst;
+      later.disabled = isLast;
+    },
+  };
+}
+
+function zoomByKeys(stage, lens) {
+  const closer = () => lens.zoom(ZOOM);
+  onKeys(stage, {
+    "+": closer,
+    "=": closer,
+    "-": () => lens.zoom(1 / ZOOM),
+    0: lens.reset,
+    Escape: lens.reset,
+    ArrowLeft: ({ shiftKey }) => (shiftKey ? lens.pan(-PAN) : lens.step(-1)),
+    ArrowRight: ({ shiftKey }) => (shiftKey ? lens.pan(PAN) : lens.step(1)),
+    PageUp: () => lens.pan(-1),
+    PageDown: () => lens.pan(1),
+    Home: () => lens.ends(0),
+    End: () => lens.ends(1),
+  });
+}
+
+// A pointer reads where it is; pressed and moved along, it marks a span, which is shown on release.
+function zoomByPointer(stage, brush, panels, lens) {
+  let from = null;
+  const place = (event) => ({ pixel: event.clientX - stage.getBoundingClientRect().left, time: panels.timeAt(event) });
+  const drop = () => {
+    from = null;
+    brush.hidden = true;
+  };
+  stage.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    stage.setPointerCapture(event.pointerId);
+    from = place(event);
+    lens.read(from.time);
+  });
+  stage.addEventListener("pointermove", (event) => {
+    const to = place(event);
+    lens.read(to.time);
+    if (!from) return;
+    brush.hidden = Math.abs(to.pixel - from.pixel) < DRAG;
+    brush.style.setProperty("left", `${Math.min(to.pixel, from.pixel)}px`);
+    brush.style.setProperty("width", `${Math.abs(to.pixel - from.pixel)}px`);
+  });
+  stage.addEventListener("pointerup", (event) => {
+    const { time } = place(event);
+    if (from && !brush.hidden) lens.show(Math.min(from.time, time), Math.max(from.time, time));
+    drop();
+  });
+  stage.addEventListener("pointercancel", drop);
+  stage.addEventListener("dblclick", lens.reset);
+  // The wheel scrolls the page until the histories are chosen: by a click, by Tab, or with Ctrl.
+  stage.addEventListener("wheel", (event) => {
+    if (document.activeElement !== stage && !event.ctrlKey) return;
+    event.preventDefault();
+    const notches = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / 100 : event.deltaY / 3;
+    lens.zoom(ZOOM ** within(-notches, -2, 2), panels.timeAt(event));
+  });
+}

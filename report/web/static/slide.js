@@ -1,0 +1,141 @@
+// Watch it slide: one run in time, with what plays it and what tells of its slips.
+
+import { html, replace } from "./make.js";
+import { number } from "./reading.js";
+import { within } from "./view-axes.js";
+import { button, createView, onKeys, runSelect } from "./view-frame.js";
+import { createPlayer } from "./view-player.js";
+import { lastUpTo } from "./view-series.js";
+import { createStage } from "./view-stage.js";
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
+const STEP_S = 0.01;
+const KEYS = "Space plays and pauses, N and P go to the next slip and the one before, arrows step, < and > change the speed. Shaded: slips.";
+
+/** Keep the run in motion in an element. */
+export function mount(element, api, scene) {
+  let speed = 1; // kept from run to run
+  const keep = (next) => {
+    speed = next;
+  };
+  return createView(element, scene, {
+    ask: ({ array, motion, values }) => ({ array, motion, values }),
+    fetch: api.slide,
+    build: (inside, data, again) => build(inside, data, { again, announce: api.announce, speed, keep }),
+  });
+}
+
+function build(element, data, { again, announce, speed, keep }) {
+  const { seconds } = data;
+  const slips = createSlips(data);
+  const player = createPlayer(seconds, slips.events, show);
+  const stage = createStage(data, player.seek);
+  const caption = html("p", { class: "numbers slip-text" });
+  const speeds = speedSelect(speed, (next) => {
+    player.speed = next;
+    keep(next);
+  });
+  const parts = controls(player, { seconds, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
+  player.speed = speed;
+
+  function show(time) {
+    const k = slips.at(time);
+    stage.at(time, data.slips[k]);
+    caption.textContent = k < 0 ? slips.rest(time) : slips.text(k);
+    parts.show(time, { isFirst: slips.before(time) < 0, isLast: slips.after(time) >= data.slips.length });
+  }
+
+  function go(k) {
+    if (!data.slips[k]) return;
+    player.pause();
+    player.seek(data.slips[k].to_s);
+    announce(slips.text(k));
+  }
+
+  onKeys(stage.element, {
+    " ": player.toggle,
+    k: player.toggle,
+    n: () => go(slips.after(player.time)),
+    p: () => go(slips.before(player.time)),
+    "<": () => speeds.change(-1),
+    ">": () => speeds.change(1),
+    ArrowLeft: ({ shiftKey }) => player.seek(player.time - (shiftKey ? 1 : STEP_S)),
+    ArrowRight: ({ shiftKey }) => player.seek(player.time + (shiftKey ? 1 : STEP_S)),
+    Home: () => player.seek(0),
+    End: () => player.seek(seconds),
+  });
+
+  function resize() {
+    if (element.clientWidth === 0) return;
+    stage.resize(element.clientWidth);
+    show(player.time);
+  }
+
+  replace(
+    element,
+    html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run }))),
+    html("p", { class: "watch-head" }, html("strong", { class: "numbers" }, data.texts.prd), caption),
+    stage.element,
+    html("div", { class: "player" }, parts.play, parts.back, parts.next, speeds.element, parts.scrub, parts.clock),
+    html("p", { class: "note", id: "slide-keys" }, KEYS),
+    html("p", { class: "note" }, [data.texts.status, data.texts.model, data.texts.roof].filter(Boolean).join(" ")),
+  );
+  resize();
+  player.seek(data.t_prd_s ?? 0);
+  player.rewind();
+  return { resize, stop: player.pause };
+}
+
+// The slips of a run: `at` a time (-1 for none), the one `before` and `after` it, and their sentences.
+function createSlips({ slips, texts }) {
+  const begins = slips.map((slip) => slip.from_s);
+  const ends = slips.map((slip) => slip.to_s);
+  const firstToEnd = (time) => lastUpTo(ends, time - 1e-12) + 1;
+  const past = (time) => lastUpTo(ends, time) + 1;
+  return {
+    events: slips.flatMap((slip) => [slip.from_s, slip.to_s]),
+    at: (time) => (begins[firstToEnd(time)] <= time ? firstToEnd(time) : -1),
+    before: (time) => firstToEnd(time) - 1,
+    after: past,
+    text: (k) => `Slip ${k + 1} of ${slips.length}: ${slips[k].text}`,
+    rest: (time) => (slips.length === 0 ? texts.status || "The array does not slip in this run." : `At rest, after ${past(time)} of ${slips.length} slips`),
+  };
+}
+
+function controls(player, { seconds, before, after }) {
+  const play = button("Play", "Play or pause (Space)", player.toggle, { class: "button primary play" });
+  const back = button("‹ Slip", "Slip before (P)", before, { "aria-label": "Slip before" });
+  const next = button("Slip ›", "Next slip (N)", after, { "aria-label": "Next slip" });
+  const scrub = html("input", { type: "range", class: "scrub", min: 0, max: seconds, step: STEP_S, "aria-label": "Time", on: { input: ({ target }) => player.seek(Number(target.value)) } });
+  const clock = html("output", { class: "numbers clock" });
+  return {
+    play,
+    back,
+    next,
+    scrub,
+    clock,
+    show(time, { isFirst, isLast }) {
+      scrub.value = time;
+      scrub.setAttribute("aria-valuetext", `${number(time, 2)} s`);
+      clock.textContent = `${number(time, 2)} s of ${number(seconds, 2)} s`;
+      play.textContent = player.isPlaying ? "Pause" : "Play";
+      back.disabled = isFirst;
+      next.disabled = isLast;
+    },
+  };
+}
+
+function speedSelect(speed, chosen) {
+  const element = html(
+    "select",
+    { "aria-label": "Speed", title: "Speed (< and >)", on: { change: ({ target }) => chosen(Number(target.value)) } },
+    SPEEDS.map((one) => html("option", { value: one, selected: one === speed }, `${one}×`)),
+  );
+  return {
+    element,
+    change(way) {
+      element.selectedIndex = within(element.selectedIndex + way, 0, SPEEDS.length - 1);
+      chosen(Number(element.value));
+    },
+  };
+}

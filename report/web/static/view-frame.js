@@ -1,0 +1,86 @@
+// What all views share: ask, draw, draw again in another size, and say what went wrong.
+
+import { html, replace } from "./make.js";
+
+/**
+ * Return a view: `ask(scene)` returns what to send, `fetch(request)` its answer, and
+ * `build(element, data, again)` draws it and returns `{ resize(), stop() }`. `again(changes)` asks
+ * with other values of the view's own.
+ */
+export function createView(element, scene, { ask, fetch, build }) {
+  let drawing = null;
+  let shown = ""; // the request that is drawn
+  let own = {};
+  let last = scene;
+  let width = 0;
+
+  async function update(next) {
+    if (next.array !== last.array || next.motion !== last.motion) own = {};
+    last = next;
+    const request = { ...ask(next), ...own };
+    const key = JSON.stringify(request);
+    if (key === shown) return element.classList.remove("is-stale");
+    shown = "";
+    drawing?.stop();
+    element.setAttribute("aria-busy", "true");
+    if (drawing) element.classList.add("is-stale");
+    else replace(element, html("p", { class: "note" }, "Calculating …"));
+    try {
+      const data = await fetch(request);
+      if (data === null) return undefined;
+      drawing?.stop();
+      element.replaceChildren();
+      drawing = build(element, data, again);
+      shown = key;
+    } catch (error) {
+      drawing = null;
+      replace(element, html("p", { role: "alert" }, error.message));
+    }
+    element.classList.remove("is-stale");
+    element.removeAttribute("aria-busy");
+    return undefined;
+  }
+
+  function again(changes) {
+    own = { ...own, ...changes };
+    update(last);
+  }
+
+  new ResizeObserver(([{ contentRect }]) => {
+    if (contentRect.width === width || contentRect.width === 0) return;
+    width = contentRect.width;
+    drawing?.resize();
+  }).observe(element);
+  update(scene);
+  return {
+    update,
+    moving() {
+      drawing?.stop();
+      element.classList.add("is-stale");
+    },
+    hide() {
+      drawing?.stop();
+    },
+  };
+}
+
+/** Return a select of the runs of a motion; `chosen` gets the name of one. */
+export function runSelect(data, chosen) {
+  const options = data.runs.map(({ name, label }) => html("option", { value: name, selected: name === data.run }, label));
+  return html("label", { class: "field" }, "Run ", html("select", { on: { change: ({ target }) => chosen(target.value) } }, options));
+}
+
+/** Return a button of a view; `title` names its key. */
+export function button(label, title, click, attributes = {}) {
+  return html("button", { type: "button", class: "button", title, on: { click }, ...attributes }, label);
+}
+
+/** Have an element, not what is in it, answer keys: `keys` are functions of the event by key. */
+export function onKeys(element, keys) {
+  element.addEventListener("keydown", (event) => {
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    if (event.target !== element || !(key in keys) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    keys[key](event);
+  });
+}

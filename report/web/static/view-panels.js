@@ -1,0 +1,157 @@
+// Histories one above the other over one axis of time, with the value at a time in their headings.
+
+import { html, svg } from "./make.js";
+import { measured, tickText } from "./reading.js";
+import { scale, ticks, within } from "./view-axes.js";
+import { curve, rangeIn, valueAt } from "./view-series.js";
+
+const LEFT = 46;
+const RIGHT = 8;
+const HEAD = 20; // height of a heading, as in views.css
+const AXIS = 22;
+const ROOM = 0.06; // of the range of the values, above and below
+let made = 0;
+
+/**
+ * Return panels: `panels` are `{ title, units, series, least, most, over }`, where `series` have `name`,
+ * `t`, `v` and `look`, `least` and `most` bound the axis, and `over` is the span of time whose values
+ * set it, the one shown if not given. Values read in the first unit.
+ */
+export function createPanels({ panels, seconds, slips }) {
+  const drawn = panels.map(createPanel);
+  const axis = svg("svg", { class: "panel-axis", "aria-hidden": true });
+  const element = html("div", { class: "panels" }, drawn.map((panel) => panel.element), axis);
+  let size = { width: 0, height: 0 };
+  let span = [0, seconds];
+  let x = scale(span, [LEFT, LEFT + 1]);
+  let now = 0;
+  let picked = null;
+
+  function draw() {
+    const { width, height } = size;
+    if (width === 0) return;
+    x = scale(span, [LEFT, width - RIGHT]);
+    const tall = Math.floor((height - AXIS) / drawn.length) - HEAD;
+    const times = ticks(...span, width / 90);
+    for (const panel of drawn) panel.draw({ width, tall, span, x, times, slips });
+    drawAxis(axis, width, x, times);
+    mark();
+  }
+
+  function mark() {
+    for (const panel of drawn) panel.mark(now, x, span, picked);
+  }
+
+  return {
+    element,
+    resize(width, height) {
+      size = { width, height };
+      draw();
+    },
+    /** Show a span of time. */
+    show(next) {
+      span = next;
+      draw();
+    },
+    /** Mark a time, and a slip if one is given, and write the values there. */
+    at(time, slip = null) {
+      now = time;
+      picked = slip;
+      mark();
+    },
+    /** Return the time under a pointer. */
+    timeAt({ clientX }) {
+      const pixel = clientX - element.getBoundingClientRect().left;
+      return within(x.inverse(pixel), ...span);
+    },
+  };
+}
+
+function createPanel({ title, units, series, least, most, over }) {
+  made += 1;
+  const clip = `panel-${made}`;
+  const values = series.map(() => html("output", { class: "numbers" }));
+  const looks = series.map(({ name, look }, k) => html("span", { class: "reading" }, sample(look), `${name} `, values[k]));
+  const bands = svg("path", { class: "slip-bands" });
+  const band = svg("rect", { class: "slip-picked", y: 0, width: 0 });
+  const grid = svg("g", { class: "grid" });
+  const labels = svg("g", { class: "panel-labels" });
+  const lines = series.map(({ look }) => svg("path", { class: `curve ${look}` }));
+  const cursor = svg("line", { class: "cursor", y1: 0 });
+  const window = svg("rect", { x: LEFT, y: 0 });
+  const plot = svg(
+    "svg",
+    { role: "img", "aria-label": `${title} in time` },
+    svg("clipPath", { id: clip }, window),
+    svg("g", { "clip-path": `url(#${clip})` }, bands, band, grid, lines.toReversed(), cursor),
+    labels,
+  );
+  const head = html("div", { class: "panel-head" }, html("strong", {}, title), looks);
+
+  return {
+    element: html("div", { class: "panel" }, head, plot),
+    draw({ width, tall, span, x, times, slips }) {
+      const right = width - RIGHT;
+      set(plot, { width, height: tall, viewBox: `0 0 ${width} ${tall}` });
+      set(window, { width: right - LEFT, height: tall });
+      set(band, { height: tall });
+      set(cursor, { y2: tall });
+      const [low, high] = limits(series, over ?? span, least, most, units[0].si);
+      const y = scale([low, high], [tall, 0]);
+      const levels = ticks(low / units[0].si, high / units[0].si, tall / 20);
+      const at = levels.values.map((value) => [value, y(value * units[0].si)]);
+      grid.replaceChildren(
+        ...times.values.map((time) => svg("line", { x1: x(time), x2: x(time), y1: 0, y2: tall })),
+        ...at.map(([value, level]) => svg("line", { class: value === 0 ? "zero" : null, x1: LEFT, x2: right, y1: level, y2: level })),
+        svg("path", { class: "frame", d: `M${LEFT} 0V${tall}H${right}` }),
+      );
+      labels.replaceChildren(
+        ...at
+          .filter(([, level]) => level > 6 && level < tall - 3)
+          .map(([value, level]) => svg("text", { class: "tick", x: LEFT - 6, y: level + 4 }, tickText(value, levels.step))),
+      );
+      set(bands, { d: slips.filter((slip) => slip.to_s > span[0] && slip.from_s < span[1]).map((slip) => `M${x(slip.from_s).toFixed(2)} 0H${x(slip.to_s).toFixed(2)}V${tall}H${x(slip.from_s).toFixed(2)}Z`).join("") });
+      series.forEach((one, k) => set(lines[k], { d: curve(one, span, x, y) }));
+    },
+    mark(time, x, span, picked) {
+      const inside = time >= span[0] && time <= span[1];
+      set(cursor, { x1: x(time), x2: x(time), visibility: inside ? "visible" : "hidden" });
+      if (picked) set(band, { x: x(picked.from_s), width: Math.max(x(picked.to_s) - x(picked.from_s), 1) });
+      set(band, { visibility: picked ? "visible" : "hidden" });
+      series.forEach((one, k) => {
+        values[k].textContent = measured(valueAt(one, time), units[0]);
+      });
+    },
+  };
+}
+
+function drawAxis(axis, width, x, { values, step }) {
+  set(axis, { width, height: AXIS, viewBox: `0 0 ${width} ${AXIS}` });
+  const room = width - RIGHT - 40; // for "Time [s]"
+  axis.replaceChildren(
+    ...values.filter((time) => x(time) < room).map((time) => svg("text", { class: "tick middle-of", x: x(time), y: 15 }, tickText(time, step))),
+    svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, "Time [s]"),
+  );
+}
+
+// The range of what is drawn in a span of time, with some room.
+function limits(series, span, least, most, unit) {
+  const ranges = series.map((one) => rangeIn(one, span)).filter(Boolean);
+  let low = least ?? Math.min(...ranges.map(([bottom]) => bottom), Infinity);
+  let high = Math.min(most ?? Infinity, Math.max(...ranges.map(([, top]) => top), -Infinity));
+  if (!(low < high)) {
+    const middle = Number.isFinite(low) ? low : 0;
+    [low, high] = [middle - unit, middle + unit];
+  }
+  const room = ROOM * (high - low);
+  return [least ?? low - room, high + room];
+}
+
+function sample(look) {
+  return svg("svg", { class: "sample", "aria-hidden": true, viewBox: "0 0 20 10" }, svg("path", { class: `curve ${look}`, d: "M0 5H20" }));
+}
+
+/** Set attributes of an element. */
+export function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+}

@@ -1,0 +1,165 @@
+// The plan in motion: the roof moves over the ground, the array over the roof, and leaves its path.
+
+import { points, replace, svg } from "./make.js";
+import { roundBelow } from "./view-axes.js";
+import { set } from "./view-panels.js";
+import { lastUpTo } from "./view-series.js";
+
+const ARRAY = 0.3; // of the drawing, that the array fills
+const MOTION = 0.34; // of the drawing, to each side, that the motion fills
+const GRID = 26; // pixels between the lines of the roof
+const BAR = 80; // pixels of the scale bar, at most
+
+/**
+ * Return a plan of a run, seen from the ground or from the roof; `at` moves it to a time and marks
+ * the slip under way on its path.
+ */
+export function createTrack(data, isFromRoof) {
+  const run = motion(data, isFromRoof);
+  const shapes = makeShapes(isFromRoof);
+  let scale = null;
+
+  return {
+    element: shapes.drawing,
+    resize(width, height) {
+      scale = scaleOf(run, data.plan.outline, width, height);
+      place(shapes, run, data, scale);
+    },
+    at(time, slip) {
+      if (!scale) return;
+      const { pixel, path, along } = scale;
+      const [roof, [x, y]] = [run.base, run.relative].map((places) => between(run.t, places, time).map((value) => value * pixel));
+      shapes.onRoof.setAttribute("transform", translation(roof));
+      shapes.moving.setAttribute("transform", translation([x, y]));
+      shapes.block.classList.toggle("is-slipping", Boolean(slip));
+      const k = Math.max(lastUpTo(run.t, time), 0);
+      const gone = along[k] + Math.hypot(x - path[k][0], -y - path[k][1]);
+      set(shapes.done, { "stroke-dasharray": `${gone.toFixed(1)} ${along.at(-1) + 1}`, visibility: gone > 0 ? "visible" : "hidden" });
+      set(shapes.picked, { points: slip ? points(piece(run, scale, slip)) : "" });
+    },
+  };
+}
+
+function makeShapes(isFromRoof) {
+  const title = isFromRoof ? "On the roof" : "From the ground";
+  const parts = {
+    title,
+    grid: svg("path", { class: "track-grid" }),
+    start: svg("polygon", { class: "track-start" }),
+    block: svg("polygon", { class: "track-block" }),
+    whole: svg("polyline", { class: "track-path" }),
+    done: svg("polyline", { class: "track-done" }),
+    picked: svg("polyline", { class: "track-picked" }),
+    peak: svg("circle", { class: "peak", r: 4 }),
+    ground: isFromRoof ? null : svg("path", { class: "track-ground" }),
+    foot: svg("g", { class: "track-foot" }),
+  };
+  const { grid, start, block, whole, done, picked, peak, ground, foot } = parts;
+  const moving = svg("g", {}, block, svg("circle", { class: "track-center", r: 3.5 }));
+  const onRoof = svg("g", {}, grid, start, moving, whole, done, picked, svg("path", { class: "start", d: "M-6 0h12M0 -6v12" }), peak);
+  const drawing = svg("svg", { role: "img", class: "track", "aria-label": `Plan in motion. ${title}` }, onRoof, ground, foot);
+  return { ...parts, moving, onRoof, drawing };
+}
+
+// Pixels of a meter, of the plan and of the motion, with the path and its length at that scale.
+function scaleOf({ reach, relative }, outline, width, height) {
+  const least = Math.min(width, height);
+  const box = boxOf(outline);
+  const perMeter = (ARRAY * least) / Math.max(box.wide, box.tall, 1e-9);
+  const factor = roundBelow((MOTION * least) / (Math.max(reach, 1e-4) * perMeter));
+  const pixel = factor * perMeter;
+  const path = relative.map(([x, y]) => [x * pixel, -y * pixel]);
+  return { width, height, box, perMeter, factor, pixel, path, along: lengths(path) };
+}
+
+function place(shapes, { peak }, data, scale) {
+  const { width, height, box, perMeter, pixel, path } = scale;
+  const [cx, cy] = [width / 2, height / 2];
+  set(shapes.drawing, { width, height, viewBox: `${-cx} ${-cy} ${width} ${height}` });
+  const shape = points(data.plan.outline.map(([x, y]) => [(x - box.x) * perMeter, (box.y - y) * perMeter].map((value) => value.toFixed(1))));
+  for (const polygon of [shapes.start, shapes.block]) set(polygon, { points: shape });
+  const line = points(path.map(([x, y]) => [x.toFixed(1), y.toFixed(1)]));
+  for (const one of [shapes.whole, shapes.done]) set(one, { points: line });
+  set(shapes.grid, { d: gridOf(width, height) });
+  if (shapes.ground) set(shapes.ground, { d: `M${-cx} 0h10M${cx} 0h-10M0 ${cy}v-10` });
+  if (peak) set(shapes.peak, { cx: (peak[0] * pixel).toFixed(1), cy: (-peak[1] * pixel).toFixed(1) });
+  set(shapes.peak, { visibility: peak ? "visible" : "hidden" });
+  drawFoot(shapes.foot, { cx, cy, scale, title: shapes.title, data });
+}
+
+// The part of the path of one slip.
+function piece({ t, relative }, { pixel, path }, { from_s: from, to_s: to }) {
+  const inside = path.slice(lastUpTo(t, from) + 1, lastUpTo(t, to) + 1);
+  const [first, last] = [from, to].map((time) => between(t, relative, time)).map(([x, y]) => [x * pixel, -y * pixel]);
+  return [first, ...inside, last];
+}
+
+// Times, and in the axes of the plan the places of the drawing's base, of the array relative to the
+// roof, and of the PRD; `reach` is how far the motion goes [m]. The array stays where it has no
+// displacement.
+function motion({ track, dt_s: dt, plan, peak }, isFromRoof) {
+  const { roof_m: roof, relative_m: moved } = track;
+  const turned = (down, across) => inPlan(down ?? 0, across ?? 0, plan.downslope_deg);
+  const relative = moved[0].map((down, k) => turned(down, moved[1][k]));
+  const base = roof[0].map((down, k) => (isFromRoof ? [0, 0] : turned(down, roof[1][k])));
+  const reach = base.reduce((most, [x, y], k) => Math.max(most, Math.hypot(x, y), Math.hypot(x + relative[k][0], y + relative[k][1])), 0);
+  return { t: track.i.map((k) => k * dt), base, relative, reach, peak: peak && turned(peak.down_m, peak.across_m) };
+}
+
+// Cross-slope is to the left of one who faces downslope.
+function inPlan(down, across, degrees) {
+  const [cos, sin] = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
+  return [down * cos - across * sin, down * sin + across * cos];
+}
+
+// The length of a path up to each of its points.
+function lengths(path) {
+  let sum = 0;
+  return path.map(([x, y], k) => {
+    if (k > 0) sum += Math.hypot(x - path[k - 1][0], y - path[k - 1][1]);
+    return sum;
+  });
+}
+
+function between(t, places, time) {
+  const k = Math.min(Math.max(lastUpTo(t, time), 0), t.length - 2);
+  const share = Math.min(Math.max((time - t[k]) / (t[k + 1] - t[k]), 0), 1);
+  return [0, 1].map((axis) => places[k][axis] + share * (places[k + 1][axis] - places[k][axis]));
+}
+
+function boxOf(outline) {
+  const [x, y] = [0, 1].map((axis) => outline.map((point) => point[axis]));
+  const [x0, x1, y0, y1] = [Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];
+  return { x: (x0 + x1) / 2, y: (y0 + y1) / 2, wide: x1 - x0, tall: y1 - y0 };
+}
+
+// Lines on the roof, beyond the drawing on all sides, so that it never ends while it moves.
+function gridOf(width, height) {
+  const [across, up] = [Math.ceil(width / GRID), Math.ceil(height / GRID)];
+  const [w, h] = [across * GRID, up * GRID];
+  let lines = "";
+  for (let k = -across; k <= across; k += 1) lines += `M${k * GRID} ${-h}V${h}`;
+  for (let k = -up; k <= up; k += 1) lines += `M${-w} ${k * GRID}H${w}`;
+  return lines;
+}
+
+function translation([x, y]) {
+  return `translate(${x.toFixed(2)} ${(-y).toFixed(2)})`;
+}
+
+function drawFoot(foot, { cx, cy, scale: { pixel, factor }, title, data }) {
+  const unit = data.units.displacement[0];
+  const length = roundBelow(BAR / pixel / unit.si);
+  const wide = length * unit.si * pixel;
+  const [left, low] = [-cx + 10, cy - 12];
+  const [dx, dy] = inPlan(1, 0, data.plan.downslope_deg);
+  const [ax, ay] = [cx - 26, cy - 26];
+  replace(
+    foot,
+    svg("path", { class: "bar-line", d: `M${left} ${low - 4}v8M${left} ${low}h${wide}m0 -4v8` }),
+    svg("text", { class: "label on-line", x: left + wide + 6, y: low + 4 }, `${length} ${unit.symbol}`),
+    svg("text", { class: "tick on-line", x: left, y: -cy + 16 }, factor === 1 ? `${title}, motion to scale` : `${title}, motion × ${factor}`),
+    svg("path", { class: "arrow", d: `M${-14 * dx} ${14 * dy}L${14 * dx} ${-14 * dy}m${-8 * dx - 4 * dy} ${8 * dy - 4 * dx}l${8 * dx + 4 * dy} ${-8 * dy + 4 * dx}l${-8 * dx + 4 * dy} ${8 * dy + 4 * dx}`, transform: `translate(${ax} ${ay})` }),
+    svg("text", { class: "tick on-line end-at", x: cx - 8, y: cy - 48 }, "downslope"),
+  );
+}
