@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import report  # noqa: F401  # before any test loads openpyxl: it decides what that reads with
+from browsing import chromium
 
 RECORDS = Path(__file__).resolve().parents[2] / "shared" / "records"
 SAMPLES = Path(__file__).parent / "data" / "motions"
@@ -97,3 +98,11 @@ def altered(file):
         return file(text, name)
 
     return write
+
+
+# Of a module: while it is open, asyncio.run of another library fails in the same thread.
+@pytest.fixture(scope="module")
+def browser():
+    """Debian's Chromium."""
+    with chromium() as started:
+        yield started

@@ -1,0 +1,64 @@
+"""Chromium for tests of the page, and the page's own scripts without a server."""
+
+import shutil
+from contextlib import contextmanager
+
+import pytest
+
+from places import ROOT
+
+STATIC = ROOT / "report" / "web" / "static"
+FONTS = ROOT / "templates" / "fonts"
+DESK = {"width": 1280, "height": 720}
+TABLET = {"width": 800, "height": 1100}
+ALONE = "http://scripts.test"
+_KINDS = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
+
+
+@contextmanager
+def chromium():
+    """Yield Debian's Chromium; skip where it is not installed."""
+    path = shutil.which("chromium")
+    if path is None:
+        pytest.skip("Chromium is not installed: sudo apt-get install chromium")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
+@contextmanager
+def quiet_page(browser, **options):
+    """Yield a page of a session of its own; what its console says or its policy refuses fails."""
+    context = browser.new_context(viewport=DESK, **options)
+    context.set_default_timeout(15_000)
+    page = context.new_page()
+    said = []
+    page.on("console", lambda message: said.append(message.text))
+    page.on("pageerror", lambda error: said.append(str(error)))
+    try:
+        yield page
+        assert said == []
+    finally:
+        context.close()
+
+
+def serve_scripts(page):
+    """Answer a page from the static folder alone."""
+
+    def handle(route):
+        name = route.request.url.removeprefix(ALONE).partition("?")[0].removeprefix("/static/")
+        if name == "/":
+            route.fulfill(body="<!doctype html><title>scripts</title>", content_type="text/html")
+        elif (STATIC / name).is_file():
+            kind = _KINDS[(STATIC / name).suffix]
+            route.fulfill(path=STATIC / name, content_type=kind)
+        else:
+            route.fulfill(status=404)
+
+    page.route(f"{ALONE}/**", handle)
+    page.goto(f"{ALONE}/")

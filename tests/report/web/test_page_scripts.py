@@ -1,0 +1,191 @@
+"""The functions of the page's scripts, in the browser that runs them, without a server."""
+
+import re
+
+import pytest
+
+from browsing import STATIC, quiet_page, serve_scripts
+
+
+@pytest.fixture(scope="module")
+def page(browser):
+    with quiet_page(browser) as page:
+        serve_scripts(page)
+        yield page
+
+
+def called(page, module, body, given=None):
+    """Return what a body of JavaScript returns with a module `m` and what is given `g`."""
+    script = f"async (g) => {{ const m = await import('/static/{module}.js'); {body} }}"
+    return page.evaluate(script, given)
+
+
+SLIDERS = [{"id": "friction", "typed": 1.0}, {"id": "slope", "typed": 0.0}]
+CHOICES = [{"id": "polarity", "typed": "both", "options": [{"value": "both"}, {"value": "+"}]}]
+
+
+def test_a_link_holds_what_was_changed_and_restores_it(page):
+    values = {"friction": 0.95, "slope": 0.0, "polarity": "+"}
+    given = {"values": values, "sliders": SLIDERS, "choices": CHOICES}
+    body = """
+        const fragment = m.toFragment(g.values, [...g.sliders, ...g.choices]);
+        return [fragment, m.fromFragment("#" + fragment, g.sliders, g.choices)];"""
+    fragment, restored = called(page, "link", body, given)
+    assert fragment == "friction=0.95&polarity=%2B"
+    assert restored == {"friction": 0.95, "polarity": "+"}
+
+
+@pytest.mark.parametrize(
+    "fragment", ["", "#friction=", "#friction=NaN", "#polarity=sideways", "#constructor=1"]
+)
+def test_a_link_that_names_no_value_changes_nothing(page, fragment):
+    given = {"fragment": fragment, "sliders": SLIDERS, "choices": CHOICES}
+    body = "return m.fromFragment(g.fragment, g.sliders, g.choices);"
+    assert called(page, "link", body, given) == {}
+
+
+SESSION = """
+    const asked = [], shown = [];
+    const assess = (moving, values) => new Promise((done, failed) => {
+      asked.push({ moving, values, done: () => done({ of: values.x, moving }), failed });
+    });
+    const failed = [];
+    const fail = (error) => failed.push(error);
+    const session = m.createSession(assess, (one) => shown.push(one), fail);
+    const tick = () => new Promise((done) => setTimeout(done, 0));
+    const answers = () =>
+      shown.filter(({ answer }) => answer).map(({ phase, answer }) => [phase, answer.of]);
+"""
+
+
+def test_while_a_slider_moves_one_request_is_open_and_only_the_newest_values_wait(page):
+    body = f"""{SESSION}
+        for (const x of [1, 2, 3]) session.move("x", x);
+        const open = asked.length;
+        asked[0].done(); await tick();
+        return [open, asked.map(({{ moving, values }}) => [moving, values.x]), answers()];"""
+    assert called(page, "session", body) == [1, [[True, 1], [True, 3]], [["moving", 1]]]
+
+
+def test_the_full_model_answers_at_rest_and_a_late_provisional_answer_is_dropped(page):
+    body = f"""{SESSION}
+        session.move("x", 1);
+        session.release();
+        asked[1].done(); await tick();
+        asked[0].done(); await tick();
+        return [asked.map(({{ moving }}) => moving), answers(), shown.at(-1).phase];"""
+    assert called(page, "session", body) == [[True, False], [["rest", 1]], "rest"]
+
+
+def test_a_full_answer_for_values_that_have_changed_is_dropped(page):
+    body = f"""{SESSION}
+        session.set({{ x: 1 }});
+        session.set({{ x: 2 }});
+        asked[0].done(); await tick();
+        const early = answers();
+        asked[1].done(); await tick();
+        return [early, asked.map(({{ values }}) => values.x), answers()];"""
+    assert called(page, "session", body) == [[], [1, 2], [["rest", 2]]]
+
+
+def test_after_an_error_the_next_value_is_asked(page):
+    body = f"""{SESSION}
+        session.set({{ x: 1 }});
+        asked[0].failed(new Error("gone")); await tick();
+        session.set({{ x: 2 }});
+        asked[1].done(); await tick();
+        return [failed.map(({{ message }}) => message), answers()];"""
+    assert called(page, "session", body) == [["gone"], [["rest", 2]]]
+
+
+def test_a_slider_that_stays_where_it_is_rests(page):
+    body = f"""{SESSION}
+        session.move("x", 1);
+        asked[0].done(); await tick();
+        const before = asked.length;
+        while (asked.length === before) await new Promise((done) => setTimeout(done, 20));
+        return [asked.at(-1).moving, shown.at(-1).phase];"""
+    assert called(page, "session", body) == [False, "settling"]
+
+
+def test_labels_are_placed_near_free_of_one_another_and_inside(page):
+    body = """
+        const frame = { x: 0, y: 0, wide: 300, tall: 200 };
+        const taken = m.along([0, 100], [300, 100]);
+        const boxes = [];
+        for (let k = 0; k < 40; k += 1) {
+          const box = m.place(60, 30, [150, 100], [...taken, ...boxes], frame);
+          if (box) boxes.push(box);
+        }
+        return [boxes, taken];"""
+    boxes, taken = called(page, "place", body)
+    assert len(boxes) > 6
+    for k, box in enumerate(boxes):
+        assert 0 <= box["x"] <= 300 - 60
+        assert 0 <= box["y"] <= 200 - 30
+        for other in [*taken, *boxes[:k]]:
+            apart_x = max(box["x"] - other["x"] - other["wide"], other["x"] - box["x"] - 60)
+            apart_y = max(box["y"] - other["y"] - other["tall"], other["y"] - box["y"] - 30)
+            assert max(apart_x, apart_y) >= 3
+    middles = [abs(box["y"] + 15 - 100) for box in boxes]
+    assert min(middles) == middles[0] < 30
+
+
+def test_hidden_files_and_excels_lock_are_not_sent(page):
+    names = ["p/input.xlsx", "p/~$input.xlsx", "p/.DS_Store", "p/records/a.csv", "__MACOSX/p/x"]
+    body = "return m.visible(g.map((path) => ({ path }))).map(({ path }) => path);"
+    assert called(page, "upload", body, names) == ["p/input.xlsx", "p/records/a.csv"]
+
+
+def test_the_picture_of_a_row_shows_its_first_cell_and_those_around_the_fault(page):
+    row = {"heads": [""] * 12, "cells": [""] * 12}
+    body = "return g.map((row) => m.drawn(row));"
+    shown = called(page, "problems", body, [row | {"at": 7}, row | {"at": 0}, row | {"at": None}])
+    assert shown == [[0, 5, 6, 7, 8, 9], [0, 1, 2], list(range(12))]
+
+
+@pytest.mark.parametrize(
+    ("key", "at", "goes"),
+    [("ArrowRight", 4, 0), ("ArrowLeft", 0, 4), ("Home", 3, 0), ("End", 1, 4), ("a", 1, -1)],
+)
+def test_arrow_keys_go_around_the_tabs(page, key, at, goes):
+    body = "return m.destination(g.key, g.at, 5);"
+    assert called(page, "tabs", body, {"key": key, "at": at}) == goes
+
+
+def test_a_null_breaks_a_drawn_curve(page):
+    assert called(page, "make", "return m.path([0, 1, 2, 3], [5, null, 6, 7]);") == "M0 5M2 6L3 7"
+
+
+def test_no_script_or_page_uses_the_network_or_inline_code():
+    for file in STATIC.iterdir():
+        text = file.read_text()
+        assert not re.search(r"https?://(?!www\.w3\.org/2000/svg)", text), file
+        assert not re.search(r"innerHTML|\beval\(|new Function|\sstyle=|\son[a-z]+=\"", text), file
+
+
+_COLOR = re.compile(r"--([\w-]+): (#[0-9a-f]{3,6});")
+
+
+def _luminance(color):
+    digits = color[1:] if len(color) == 7 else "".join(2 * digit for digit in color[1:])
+    parts = [int(digits[k : k + 2], 16) / 255 for k in (0, 2, 4)]
+    linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
+    return sum(w * p for w, p in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+
+def _contrast(a, b):
+    darker, lighter = sorted((_luminance(a), _luminance(b)))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+@pytest.mark.parametrize("theme", [0, 1], ids=["light", "dark"])
+def test_text_has_the_contrast_of_wcag_aa(theme):
+    blocks = re.findall(r":root \{(.*?)\}", (STATIC / "style.css").read_text(), re.DOTALL)
+    colors = dict(_COLOR.findall(blocks[theme]))
+    for text in ("ink", "muted", "accent"):
+        for ground in ("paper", "wash", "accent-wash"):
+            assert _contrast(colors[text], colors[ground]) >= 4.5, (text, ground)
+    # What bounds a control or draws a curve needs 3 (WCAG 1.4.11).
+    for line in ("rule", "across"):
+        assert _contrast(colors[line], colors["paper"]) >= 3.0, line
