@@ -1,6 +1,8 @@
 """Chromium for tests of the page, and the page's own scripts without a server."""
 
 import shutil
+import subprocess
+import sys
 from contextlib import contextmanager
 
 import pytest
@@ -62,3 +64,36 @@ def serve_scripts(page):
 
     page.route(f"{ALONE}/**", handle)
     page.goto(f"{ALONE}/")
+
+
+@contextmanager
+def served():
+    """Yield the address of a server of the page, with its token; the server ends with the test."""
+    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as server:
+        try:
+            yield server.stdout.readline().strip()
+        finally:
+            server.terminate()
+
+
+def opened(page, address):
+    """Open the page and wait for the first verdict."""
+    page.goto(address)
+    at_rest(page)
+
+
+def at_rest(page):
+    """Wait until the full model has answered."""
+    page.wait_for_selector("body[data-phase=rest]")
+
+
+def moved(page, slider, value):
+    """Move a slider as a pointer does, and leave it there."""
+    page.locator(f"#slider-{slider}").evaluate(
+        """(input, value) => {
+          input.value = value;
+          input.dispatchEvent(new InputEvent("input", { bubbles: true }));
+        }""",
+        value,
+    )

@@ -177,8 +177,12 @@ function choose(changed) {
 
 function fail(error) {
   document.body.dataset.phase = "failed";
-  showNoVerdict(part("verdict"));
-  if (error.problems?.length > 0) showProblems(part("problems"), error.problems, "Errors in the workbook with these values", "Move the slider back, or correct the workbook.");
+  const refused = (error.problems ?? []).map(({ text }) => text);
+  showNoVerdict(part("verdict"), refused);
+  if (refused.length > 0) {
+    announce(`No verdict. ${refused[0]}`);
+    return;
+  }
   const again = error.status === 401 ? ["Reload", () => location.reload()] : ["Try again", () => (state ? session.rest() : location.reload())];
   replace(
     part("error"),

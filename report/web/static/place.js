@@ -3,7 +3,7 @@
 const ANGLES = 24;
 const STEP_PX = 4;
 const PIECE_PX = 8;
-const REACH_PX = 170;
+const REACH_PX = 110;
 const AIR_PX = 3;
 
 /** Return the free box of a size that is nearest to a point, inside the frame; null if none is free. */

@@ -9,8 +9,9 @@ const FOOT_PX = 58; // scale bar and north
 const LINE_PX = 15;
 const LETTER_PX = 6.6; // of the plan's type, on average
 const CIRCLE_PX = 10;
+const NUMBER_ALONE = [2 * CIRCLE_PX + 4, 36]; // with room for the mark NG below it
 const TICK_PX = 5;
-const NG_PX = 30;
+const ARROW_PX = 6;
 
 /** Draw plans into an element; returns `show(plan)`. */
 export function mountPlan(element) {
@@ -115,13 +116,15 @@ function arrow([x, y], degrees) {
 
 function arrayName({ id, center }, array, to, taken) {
   const [x, y] = to(center);
-  const wide = LETTER_PX * 12;
-  taken.push({ x: x - wide / 2, y: y - LINE_PX, wide, tall: 4.6 * LINE_PX });
+  const design = array ? `Δ ${array.design_short ?? array.design}` : "";
+  const wide = LETTER_PX * Math.max(id.length, design.length);
+  taken.push({ x: x - wide / 2, y: y - LINE_PX, wide, tall: 2 * LINE_PX });
+  taken.push({ x: x - ARROW_PX, y: y + LINE_PX, wide: 2 * ARROW_PX, tall: 2.6 * LINE_PX });
   return svg(
     "g",
     { class: "middle" },
     svg("text", { class: "strong", x, y: y - 2 }, id),
-    array ? svg("text", { class: "label", x, y: y + LINE_PX - 2 }, `Δ ${array.design_short ?? array.design}`) : null,
+    svg("text", { class: "label", x, y: y + LINE_PX - 2 }, design),
   );
 }
 
@@ -195,7 +198,7 @@ function placed(gaps, to, taken, frame) {
     return order.map((gap) => {
       const middle = middleOf(gap, to);
       const whole = place(...calloutSize(gap), middle, full, frame);
-      const at = whole ?? place(2 * CIRCLE_PX, 2 * CIRCLE_PX, middle, full, frame);
+      const at = whole ?? place(...NUMBER_ALONE, middle, full, frame);
       if (at) full.push(at);
       return { gap, at, isWhole: whole !== null };
     });
@@ -221,34 +224,38 @@ function calloutLines({ provided, required }) {
 
 function calloutSize(gap) {
   const letters = Math.max(...calloutLines(gap).map((line) => line.length));
-  return [2 * CIRCLE_PX + 10 + letters * LETTER_PX + (gap.verdict === "NG" ? NG_PX : 0), 2 * LINE_PX + 6];
+  return [2 * CIRCLE_PX + 12 + letters * LETTER_PX, 2 * LINE_PX + 6];
 }
 
 // Number, provided and required, led to the middle of the gap; the number alone where it is tight.
+// The mark NG is below the number, so that a verdict moves no label.
 function callout(gap, at, isWhole, to) {
   const middle = middleOf(gap, to);
   const isNg = gap.verdict === "NG";
-  const left = at.x + CIRCLE_PX + (isWhole ? 4 : 0);
+  const left = isWhole ? at.x + CIRCLE_PX + 5 : at.x + at.wide / 2;
   const y = at.y + at.tall / 2;
-  const text = (line, k) => svg("text", { class: "label", x: left + CIRCLE_PX + 5, y: at.y + LINE_PX * (k + 1) - 1 }, line);
+  const text = (line, k) => svg("text", { class: "label", x: left + CIRCLE_PX + 6, y: at.y + LINE_PX * (k + 1) - 1 }, line);
   return svg(
     "g",
     { class: isNg ? "callout is-ng" : "callout" },
     svg("line", { class: "leader", x1: middle[0], y1: middle[1], ...nearest(at, middle) }),
     isWhole ? svg("rect", { class: "frame", x: at.x, y: at.y, width: at.wide, height: at.tall }) : null,
-    svg("circle", { cx: left, cy: y, r: CIRCLE_PX - 1 }),
-    svg("text", { class: "label number", x: left, y: y + 4.5 }, String(gap.clearance + 1)),
+    numbered(gap.clearance + 1, left, isNg ? y - 8 : y),
     isWhole ? calloutLines(gap).map(text) : null,
-    isWhole && isNg ? ngBox(at.x + at.wide - NG_PX + 1, y) : null,
+    isNg ? ngBox(left, y + 9) : null,
   );
+}
+
+function numbered(number, x, y) {
+  return [svg("circle", { cx: x, cy: y, r: CIRCLE_PX - 2 }), svg("text", { class: "label number", x, y: y + 4.5 }, String(number))];
 }
 
 function ngBox(x, y) {
   return svg(
     "g",
     { class: "ng-box" },
-    svg("rect", { x, y: y - 9, width: 25, height: 18 }),
-    svg("text", { class: "strong", x: x + 12.5, y: y + 4.5 }, "NG"),
+    svg("rect", { x: x - 11.5, y: y - 7, width: 23, height: 14 }),
+    svg("text", { class: "strong", x, y: y + 4.5 }, "NG"),
   );
 }
 

@@ -15,7 +15,7 @@ export function showVerdict(element, { verdict, verdict_text: text, reasons, mod
     element,
     html("p", { class: "verdict-line" }, tag(verdict), " ", text),
     html("p", { class: "note" }, model),
-    reasons.length > 0 ? html("ul", { class: "reasons", tabindex: "0", "aria-label": "Reasons" }, reasons.map((reason) => html("li", {}, reason.text))) : null,
+    list(reasons.map((reason) => reason.text)),
   );
 }
 
@@ -25,9 +25,14 @@ export function showProvisional(element, words, model) {
   replace(element, html("p", { class: "verdict-line" }, mark, " ", words), html("p", { class: "note" }, model));
 }
 
-/** Show that there is no verdict. */
-export function showNoVerdict(element) {
-  replace(element, html("p", { class: "verdict-line" }, "No verdict: these values have no answer."));
+/** Show that these values have no answer, and why. */
+export function showNoVerdict(element, reasons) {
+  replace(element, html("p", { class: "verdict-line" }, "No verdict: these values have no answer."), list(reasons));
+}
+
+function list(reasons) {
+  if (reasons.length === 0) return null;
+  return html("ul", { class: "reasons", tabindex: "0", "aria-label": "Reasons" }, reasons.map((text) => html("li", {}, text)));
 }
 
 /** Show the table of arrays; `pick` gets the id of the one whose bars are to be drawn. */
