@@ -1,5 +1,6 @@
 """Chromium for tests of the page, and the page's own scripts without a server."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,8 @@ FONTS = ROOT / "templates" / "fonts"
 DESK = {"width": 1280, "height": 720}
 TABLET = {"width": 800, "height": 1100}
 ALONE = "http://scripts.test"
+_REFUSED = "the server responded with a status of 422"
+_ANSWERED = re.compile(r"the server responded with a status of (409|422|503)")
 _KINDS = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 
 
@@ -40,7 +43,8 @@ def quiet_page(browser, **options):
     context.set_default_timeout(15_000)
     page = context.new_page()
     said = []
-    page.on("console", lambda message: said.append(message.text))
+    # A refused value is no fault of the page, and Chromium reports its status.
+    page.on("console", lambda message: _REFUSED in message.text or said.append(message.text))
     page.on("pageerror", lambda error: said.append(str(error)))
     try:
         yield page

@@ -14,6 +14,7 @@ import { mountTakeaway } from "./takeaway.js";
 import { mountUpload } from "./upload.js";
 import { createViews } from "./views.js";
 
+const ENDED = 401; // the session
 const CORRECT = "Correct these cells in the workbook, save it, and open it again with its records.";
 
 const part = (id) => document.getElementById(id);
@@ -22,7 +23,7 @@ const announce = (sentence) => {
 };
 
 const api = createApi(announce);
-const session = createSession(api.assess, show, fail);
+const session = createSession(api.assess, show, failAnswer);
 const plan = mountPlan(part("plan-drawing"));
 const views = createViews(api);
 const takeaway = mountTakeaway(
@@ -53,7 +54,7 @@ opening(api.state, true);
 // session holds belongs to the values in the address.
 async function opening(fetched, isRestored = false) {
   document.body.setAttribute("aria-busy", "true");
-  part("error").hidden = true;
+  hideError();
   try {
     open(await fetched(), isRestored);
   } catch (error) {
@@ -121,8 +122,10 @@ function fillSelects() {
 // The session reports: a slider moves, the full model runs, or an answer came.
 function show({ phase, answer: next }) {
   document.body.dataset.phase = phase;
-  for (const id of ["error", "problems"]) part(id).hidden = true;
-  if (next) showAnswer(next);
+  if (next) {
+    hideError();
+    showAnswer(next);
+  }
   if (phase === "rest") showRest();
   else showMoving(phase, next);
 }
@@ -175,19 +178,22 @@ function choose(changed) {
   if (document.body.dataset.phase === "rest") views.update(scene());
 }
 
-function fail(error) {
+// The values have no answer: refused with their problems, or the server did not answer.
+function failAnswer(error, moving) {
+  const isRefused = error.problems?.length > 0;
+  if (moving && !isRefused) return; // the full model is asked next, and tells
   document.body.dataset.phase = "failed";
-  const refused = (error.problems ?? []).map(({ text }) => text);
-  showNoVerdict(part("verdict"), refused);
-  if (refused.length > 0) {
-    announce(`No verdict. ${refused[0]}`);
-    return;
-  }
-  const again = error.status === 401 ? ["Reload", () => location.reload()] : ["Try again", () => (state ? session.rest() : location.reload())];
-  replace(
-    part("error"),
-    html("p", {}, error.message),
-    html("button", { type: "button", class: "button", on: { click: again[1] } }, again[0]),
-  );
+  showNoVerdict(part("verdict"), isRefused ? error.problems.map(({ text }) => text) : []);
+  if (isRefused) announce(`No verdict. ${error.message}`);
+  else fail(error, "Try again", session.rest);
+}
+
+function fail(error, what = "Close", act = hideError) {
+  const [label, action] = error.status === ENDED ? ["Reload", () => location.reload()] : [what, act];
+  replace(part("error"), html("p", {}, error.message), html("button", { type: "button", class: "button", on: { click: action } }, label));
   part("error").hidden = false;
+}
+
+function hideError() {
+  part("error").hidden = true;
 }

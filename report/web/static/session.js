@@ -7,7 +7,7 @@ const REST_MS = 160;
  *
  * `assess(moving, values)` promises an answer, or null if it is stale. `show` gets
  * `{phase, answer}`: "moving" (provisional), "settling" (the full model runs; no answer yet) or
- * "rest". `fail` gets an error.
+ * "rest". `fail` gets an error, and whether a slider moves.
  */
 export function createSession(assess, show, fail) {
   let values = {};
@@ -22,7 +22,7 @@ export function createSession(assess, show, fail) {
       const answer = await assess(moving, { ...values });
       if (answer && isCurrent(asked)) show({ phase, answer });
     } catch (error) {
-      if (isCurrent(asked)) fail(error);
+      if (isCurrent(asked)) fail(error, moving);
     }
   }
   const askMoving = createLane(async () => isMoving && ask(true, "moving", () => isMoving));
