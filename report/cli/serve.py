@@ -1,23 +1,42 @@
-"""The command `roofslip serve`: the page, for the browser of this machine or of a network.
+"""The command `roofslip serve`: the page, for the browser of this machine or of others.
 
-Parses and prints; `report.web` answers. Read `serve`.
+Parses, listens and prints; `report.web` answers. Read `serve`.
 """
 
 from __future__ import annotations
 
+import ipaddress
+import re
 import secrets
 import socket
 import sys
 import tempfile
+import threading
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from report.cli.batch import INTERNAL_ERROR
 from report.cli.terminal import INPUT_ERROR
 
-LOOPBACK = "127.0.0.1"
-PORT = 8765
-_PACKAGES = "starlette, uvicorn and python-multipart"
+if TYPE_CHECKING:
+    import uvicorn
+
+LOOPBACK, PORT = "127.0.0.1", 8765
+SHORTEST_TOKEN = 20
+
+_TOKEN = re.compile(r"[A-Za-z0-9_~.-]+")
+_NEEDED = {"starlette": "starlette", "uvicorn": "uvicorn", "python_multipart": "python-multipart"}
+_NOT_ENCRYPTED = (
+    "warning: the connection is not encrypted; put a reverse proxy with TLS in front of it"
+)
+_STOPPED_S = 3
+_VISIT_S = 120.0
 
 
 @click.command()
@@ -25,53 +44,133 @@ _PACKAGES = "starlette, uvicorn and python-multipart"
               help="0: any that is free.")  # fmt: skip
 @click.option("--no-browser", is_flag=True, help="Open no browser.")
 @click.option("--host", metavar="ADDRESS", help="Listen on this address of the machine, so that "
-              "others can reach it. Needs --token-file.")  # fmt: skip
+              "other machines reach the page. Needs --token-file.")  # fmt: skip
 @click.option("--token-file", type=click.Path(path_type=Path, exists=True, dir_okay=False),
-              help="File with the token of the address, 20 characters or more.")  # fmt: skip
-def serve(port: int, no_browser: bool, host: str | None, token_file: Path | None) -> None:
-    """Open the page in the browser: drop a workbook, move the sliders, take the package.
+              help=f"File with the token of the address: {SHORTEST_TOKEN} letters and digits or "
+              "more.")  # fmt: skip
+@click.option("--once", is_flag=True, help="Load the page with the example as a browser does, "
+              "print what it took, and end.")  # fmt: skip
+def serve(
+    port: int, no_browser: bool, host: str | None, token_file: Path | None, once: bool
+) -> None:
+    """Show the page in the browser: drop a workbook, move the sliders, take the package.
 
-    Prints the address with its token, and serves until Ctrl+C. Only this machine can reach it
-    unless --host is given.
+    Prints the address with its token, and serves until Ctrl+C. Without --host, only this machine
+    can reach it. Every visitor has a session, whose files are removed after an hour without use.
     """
-    try:
-        import uvicorn
-
-        from report.web.access import Gate
-        from report.web.app import made
-        from report.web.sessions import Sessions
-    except ModuleNotFoundError as error:
-        click.echo(f"{error.name} is not installed; install {_PACKAGES}.", err=True)
-        sys.exit(INPUT_ERROR)
+    _check_packages()
     if host is not None and token_file is None:
         raise click.UsageError("--host needs --token-file: a file with the token of the address")
-    token = _token(token_file)
-    listening = _listening(host or LOOPBACK, port)
-    port = listening.getsockname()[1]
-    names = [host] if host else [LOOPBACK, "localhost"]
-    with tempfile.TemporaryDirectory(prefix="roofslip-serve-") as folder:
-        gate = Gate(
-            token=token, hosts=[f"{name}:{port}" for name in names], cookie=f"roofslip-{port}"
-        )
-        config = uvicorn.Config(
-            made(gate, Sessions(Path(folder))), log_level="warning", access_log=False
-        )
-        click.echo(f"http://{names[0]}:{port}/?token={token}")
-        if not no_browser:
-            click.launch(f"http://{names[0]}:{port}/?token={token}")
-        uvicorn.Server(config).run(sockets=[listening])
+    token = secrets.token_urlsafe(24) if token_file is None else _token(token_file)
+    with (
+        _listening(host or LOOPBACK, port) as listening,
+        tempfile.TemporaryDirectory(prefix="roofslip-serve-") as folder,
+    ):
+        port = listening.getsockname()[1]
+        name, hosts = _names(host, port)
+        address = f"http://{name}:{port}/?token={token}"
+        click.echo(address)
+        if host is not None:
+            click.echo(_NOT_ENCRYPTED, err=True)
+        server = _server(Path(folder), token, hosts, port)
+        visit = _Visit(server, address)
+        if once:
+            visit.start()
+        elif not no_browser:
+            click.launch(address)
+        with suppress(KeyboardInterrupt):
+            server.run(sockets=[listening])
+    if once:
+        click.echo(visit.sentence)
+        sys.exit(0 if visit.is_answered else INTERNAL_ERROR)
 
 
-def _token(file: Path | None) -> str:
-    return secrets.token_urlsafe(24) if file is None else file.read_text(encoding="utf-8").strip()
+def _check_packages() -> None:
+    missing = [name for module, name in _NEEDED.items() if find_spec(module) is None]
+    if missing:
+        click.echo(f"The page needs {', '.join(missing)}: install roofslip[serve].", err=True)
+        sys.exit(INPUT_ERROR)
+
+
+def _names(host: str | None, port: int) -> tuple[str, Sequence[str]]:
+    """Return the name in the address, and the values of Host that are answered; none for any."""
+    if host is None:
+        return LOOPBACK, [f"{name}:{port}" for name in (LOOPBACK, "localhost")]
+    with suppress(ValueError):
+        address = ipaddress.ip_address(host)
+        if address.is_unspecified:
+            return socket.gethostname(), ()
+        host = f"[{host}]" if address.version == 6 else host
+    return host, [f"{host}:{port}"]
+
+
+def _token(file: Path) -> str:
+    """Return the token of a file; exit where it is too short, or no part of an address."""
+    token = file.read_text(encoding="utf-8", errors="replace").strip()
+    if len(token) < SHORTEST_TOKEN or not _TOKEN.fullmatch(token):
+        wanted = f"{SHORTEST_TOKEN} or more letters, digits, '-', '_', '.' and '~', on one line"
+        click.echo(f"{file}: has no token; give {wanted}.", err=True)
+        sys.exit(INPUT_ERROR)
+    return token
 
 
 def _listening(host: str, port: int) -> socket.socket:
-    """Return a socket that listens; exit where the port is taken."""
-    listening = socket.socket()
+    """Return a socket that listens; exit where it cannot."""
     try:
-        listening.bind((host, port))
+        family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
+        return socket.create_server((host, port), family=family)
     except OSError as error:
-        click.echo(f"{host}:{port} is not free ({error.strerror}); give another --port.", err=True)
+        reason = error.strerror or error
+        click.echo(f"{host}, port {port}: cannot listen there ({reason}); give another --port"
+                   " or --host.", err=True)  # fmt: skip
         sys.exit(INPUT_ERROR)
-    return listening
+
+
+def _server(folder: Path, token: str, hosts: Sequence[str], port: int) -> uvicorn.Server:
+    import uvicorn
+
+    from report.web.access import Gate
+    from report.web.app import made
+    from report.web.sessions import Sessions
+
+    gate = Gate(token=token, hosts=hosts, cookie=f"roofslip-{port}")
+    return uvicorn.Server(
+        uvicorn.Config(
+            made(gate, Sessions(folder)),
+            log_level="warning",
+            access_log=False,  # the first address has the token
+            server_header=False,
+            timeout_graceful_shutdown=_STOPPED_S,
+        )
+    )
+
+
+class _Visit(threading.Thread):
+    """Loads the page as a browser does, then ends the server."""
+
+    def __init__(self, server: uvicorn.Server, address: str) -> None:
+        super().__init__(daemon=True)
+        self._server, self._address = server, address
+        self.is_answered = False
+        self.sentence = "the page did not answer"
+
+    def run(self) -> None:
+        """Load the page and its first answer."""
+        import json
+        from http.cookiejar import CookieJar
+        from urllib.request import HTTPCookieProcessor, ProxyHandler, build_opener
+
+        began = time.monotonic()
+        # Only this server is asked, and no proxy of the environment.
+        browser = build_opener(ProxyHandler({}), HTTPCookieProcessor(CookieJar()))
+        page, _, _ = self._address.partition("?")
+        try:
+            browser.open(self._address, timeout=_VISIT_S).read()
+            state = json.load(browser.open(f"{page}api/state", timeout=_VISIT_S))
+            verdict = state["answer"]["verdict"]
+            self.sentence = f"the example: {verdict}, after {time.monotonic() - began:.1f} s"
+            self.is_answered = True
+        except (OSError, ValueError) as error:
+            self.sentence = f"the page did not answer ({error})"
+        finally:
+            self._server.should_exit = True

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from report.assessment.runs import MotionRun
 from report.figures.base import GREY, INK, WIDTH_IN, style, svg_text, tick_text
-from report.words.units import Quantity
+from report.words.units import Quantity, round_below
 from solver.model import Floats, SlideHistory
 
 COLUMNS = 7
@@ -148,9 +148,3 @@ def _scale_bar(axes: Axes, m_per_in: float, us_first: bool) -> None:
     axes.plot([right - wide, right], [0.1, 0.1], color=INK, linewidth=2.0, solid_capstyle="butt")
     axes.text(right + 0.06, 0.1, f"{length:g} {unit.symbol}", va="center")
     axes.axhline(FOOT_IN - 0.03, color=GREY, linewidth=0.4)
-
-
-def round_below(value: float) -> float:
-    """Return the largest of 1, 2, 5 times a power of ten that is not above a value."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return max(digit * power for digit in (1.0, 2.0, 5.0) if digit * power <= value * (1 + 1e-9))

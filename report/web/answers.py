@@ -13,11 +13,18 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
+from report.pages.front import verdict_sentence
+from report.pages.registry import package_data
 from report.pages.summary import attention
 from report.web.plan import plan
-from report.words.units import Quantity, compared, pair, ratio
+from report.words.units import Quantity, Show, compared, measured, pair, ratio
 
 ONE_AXIS, FULL = "one axis", "full"
+
+_PROVISIONAL = (
+    "Provisional: each run in one axis with vertical, cross-slope motion neglected. The full model "
+    "follows when the slider rests."
+)
 
 
 def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
@@ -25,8 +32,10 @@ def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
     shown = _Shown(assessment, is_provisional)
     return {
         "model": ONE_AXIS if is_provisional else FULL,
+        "model_text": _PROVISIONAL if is_provisional else _whole(assessment),
         "is_provisional": is_provisional,
         "verdict": shown.verdict(assessment.verdict),
+        "verdict_text": None if is_provisional else verdict_sentence(package_data(assessment)),
         "reasons": [] if is_provisional else reasons(assessment),
         "scale_m": _scale_m(assessment),
         "arrays": [_array(shown, item) for item in assessment.arrays],
@@ -50,6 +59,18 @@ class _Shown:
         """Return a displacement in both systems of units, or that there is none."""
         return "none" if math.isnan(value_m) else pair(value_m, Quantity.SIZE, self.us_first)
 
+    def short(self, value_m: float, show: Show = measured) -> str:
+        """Return a length in the first system of units."""
+        unit = Quantity.SIZE.us if self.us_first else Quantity.SIZE.si
+        return "none" if math.isnan(value_m) else f"{show(value_m, unit)} {unit.symbol}"
+
+
+def _whole(assessment: Assessment) -> str:
+    """Return which models the values are of."""
+    found = {run.solution.rung for a in assessment.arrays for m in a.motions for run in m.runs}
+    names = ", ".join(f"{rung.title} ({int(rung)})" for rung in sorted(found))
+    return f"Full model, as in the package. Models of the runs: {names}."
+
 
 def reasons(assessment: Assessment) -> list[dict[str, str]]:
     """Return what needs attention, as `roofslip report` prints it."""
@@ -72,6 +93,7 @@ def _array(shown: _Shown, item: ArrayAssessment) -> Mapping[str, Any]:
         "id": item.id,
         **{f"{name}_m": finite(value) for name, value in values.items()},
         **{name: shown.length(value) for name, value in values.items()},
+        **{f"{name}_short": shown.short(value) for name, value in values.items()},
         "source": item.governs.value,
         "verdict": shown.verdict(shown.assessment.array_verdict(item)),
         "bars": [
@@ -79,6 +101,7 @@ def _array(shown: _Shown, item: ArrayAssessment) -> Mapping[str, Any]:
                 "motion": run.motion.id,
                 "prd_m": finite(run.governing.prd_m),
                 "text": shown.length(run.governing.prd_m),
+                "short": shown.short(run.governing.prd_m),
             }
             for run in item.motions
         ],
@@ -99,6 +122,8 @@ def _clearance(shown: _Shown, gap: ClearanceCheck) -> Mapping[str, Any]:
         "provided": pair(row.provided_m, Quantity.SIZE, shown.us_first, provided),
         "required": "none" if has_none
         else pair(gap.required_m, Quantity.SIZE, shown.us_first, required),
+        "provided_short": shown.short(row.provided_m, provided),
+        "required_short": shown.short(gap.required_m, required),
         "ratio_text": ratio(gap.demand_capacity),
         "verdict": shown.verdict(gap.verdict),
     }  # fmt: skip

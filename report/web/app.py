@@ -1,49 +1,98 @@
 """The routes of the page, each from a request to an answer.
 
-Computes nothing (`jobs`) and admits nobody (`access`). Read `made`.
+Computes nothing (`workers`) and admits nobody (`access`). Read `made`.
 """
 
 from __future__ import annotations
 
+import asyncio
 import mimetypes
-from collections.abc import Mapping
+import os
+from collections.abc import AsyncIterator, Mapping, Sequence
+from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 from starlette.applications import Starlette
-from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
 from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from report.web import jobs
 from report.web.access import Access, Gate
-from report.web.problems import problems
-from report.web.sessions import EXAMPLE, Session, Sessions
+from report.web.desk import Desk, RefusedError, desk_of, session_of
+from report.web.downloads import package_routes, workbook
+from report.web.receiving import receive_json, received
+from report.web.sessions import EXAMPLE, Sessions
+from report.web.workers import LostError, Rank, StaleError
 from solver.model import InputError
 
 STATIC = Path(__file__).resolve().parent / "static"
+CLEANING_S = 60.0
 
 # Windows takes the type of a file from its registry, where scripts may be plain text.
 mimetypes.add_type("text/javascript", ".js")
 mimetypes.add_type("image/svg+xml", ".svg")
 
 
-def made(gate: Gate, sessions: Sessions) -> Starlette:
-    """Return the application."""
+def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
+    """Return the application.
+
+    Parameters
+    ----------
+    processes : int
+        That compute; 0 for one for each core, and two at least.
+    """
+    desk = Desk(sessions, processes or max(os.cpu_count() or 1, 2))
+
+    @asynccontextmanager
+    async def lifespan(app: Starlette) -> AsyncIterator[None]:
+        app.state.desk = desk
+        desk.start()
+        cleaning = asyncio.create_task(_clean(desk))
+        try:
+            yield
+        finally:
+            cleaning.cancel()
+            with suppress(asyncio.CancelledError):
+                await cleaning
+            await desk.stop()
+
     return Starlette(
         routes=[
             Route("/", _index),
             Route("/api/state", _state),
             Route("/api/example", _example, methods=["POST"]),
+            Route("/api/upload", _upload, methods=["POST"]),
             Route("/api/assess", _assess, methods=["POST"]),
+            *(Route(f"/api/{name}", _view, methods=["POST"], name=name) for name in _VIEWS),
+            Route("/api/workbook", workbook, methods=["POST"]),
+            *package_routes(),
             Mount("/static", StaticFiles(directory=STATIC)),
         ],
         middleware=[Middleware(Access, gate=gate, sessions=sessions)],
-        exception_handlers={InputError: _refused},
+        exception_handlers={
+            InputError: _refused,
+            RefusedError: _refused,
+            StaleError: _stale,
+            LostError: _lost,
+            HTTPException: _failed,
+        },
+        lifespan=lifespan,
     )
+
+
+_VIEWS = {"slide": ("array", "motion", "run"), "contour": ("array",), "paths": ("array",)}
+"""Views, each with what names its subject."""
+
+
+async def _clean(desk: Desk) -> None:
+    """End the sessions that are not used, again and again."""
+    while True:
+        await asyncio.sleep(CLEANING_S)
+        await desk.clean()
 
 
 async def _index(_: Request) -> Response:
@@ -51,56 +100,64 @@ async def _index(_: Request) -> Response:
 
 
 async def _state(request: Request) -> Response:
-    return await _whole_state(_session(request))
+    return await _whole_state(request)
 
 
 async def _example(request: Request) -> Response:
-    session = _session(request)
-    session.project = EXAMPLE
-    return await _whole_state(session)
+    session_of(request).workbook = EXAMPLE
+    return await _whole_state(request)
 
 
-async def _assess(request: Request) -> Response:
-    session, asked = _session(request), await _json(request)
-    values, is_moving = asked.get("values", {}), bool(asked.get("moving"))
-    workbook = session.project / "input.xlsx"
-    try:
-        found = await run_in_threadpool(jobs.assessed, workbook, values, is_moving=is_moving)
-    except InputError as error:
-        lines = problems(workbook, error.problems)
-        return JSONResponse({"error": error.problems[0], "problems": lines}, 422)
-    return JSONResponse({"n": asked.get("n", 0), **found})
+async def _upload(request: Request) -> Response:
+    session = session_of(request)
+    session.workbook = await received(request, session.new_folder())
+    return await _whole_state(request)
 
 
-async def _whole_state(session: Session) -> Response:
-    workbook = session.project / "input.xlsx"
-    found = dict(await run_in_threadpool(jobs.state, workbook, workbook.name))
+async def _whole_state(request: Request) -> Response:
+    session, desk = session_of(request), desk_of(request)
+    found = dict(await desk.ask(session, {"do": "state"}, Rank.READ))
     if found["project"]:
-        found["project"] = found["project"] | {"is_example": session.is_example}
+        about = {"file": session.workbook.name, "is_example": session.is_example}
+        found["project"] = found["project"] | about
     return JSONResponse(found)
 
 
-def _session(request: Request) -> Session:
-    session: Session = request.state.session
-    return session
+async def _assess(request: Request) -> Response:
+    asked = await receive_json(request)
+    job = {"do": "assess", "values": asked["values"], "moving": bool(asked.get("moving"))}
+    rank = Rank.MOVING if job["moving"] else Rank.AT_REST
+    found = await desk_of(request).ask(session_of(request), job, rank, asked)
+    return JSONResponse({"n": asked["n"], **found})
 
 
-async def _json(request: Request) -> Mapping[str, Any]:
-    """Return the body of a request.
-
-    Raises
-    ------
-    InputError
-    """
-    try:
-        asked = await request.json()
-    except ValueError as error:
-        raise InputError("the request is not JSON; load the page again") from error
-    if not isinstance(asked, dict) or not isinstance(asked.get("values", {}), dict):
-        raise InputError("the request is not what the page sends; load the page again")
-    return asked
+async def _view(request: Request) -> Response:
+    asked = await receive_json(request)
+    kind = request.url.path.rpartition("/")[2]
+    job = {"do": kind, "values": asked["values"]}
+    job |= {name: str(asked[name]) for name in _VIEWS[kind] if asked.get(name) is not None}
+    return JSONResponse(await desk_of(request).ask(session_of(request), job, Rank.VIEW, asked))
 
 
 async def _refused(_: Request, error: Exception) -> Response:
-    lines = error.problems if isinstance(error, InputError) else [str(error)]
-    return JSONResponse({"error": lines[0], "problems": []}, 400)
+    if isinstance(error, RefusedError):
+        return _error(str(error), 422, error.problems)
+    return _error(str(error).partition("\n")[0], 422)
+
+
+async def _stale(_: Request, __: Exception) -> Response:
+    return JSONResponse({"stale": True}, 409)
+
+
+async def _lost(_: Request, error: Exception) -> Response:
+    return _error(str(error) or "The process that computes has ended. Try it again.", 503)
+
+
+async def _failed(_: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)
+    return _error(f"{error.detail}.", error.status_code)
+
+
+def _error(sentence: str, status: int, problems: Sequence[Mapping[str, Any]] = ()) -> Response:
+    about = {"error": sentence[:1].upper() + sentence[1:], "problems": list(problems)}
+    return JSONResponse(about, status)

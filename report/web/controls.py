@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
+from report.sheet.cells import cut
 from report.sheet.fields import Place
 from report.sheet.read import Sheet
 from report.sheet.retyped import retyped
@@ -24,13 +26,14 @@ from report.web.values import (
 )
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import MOST_MU
-from solver.model import Motion
+from solver.model import InputError, Motion
 
 _LEAST, _MOST = 0.2, 2.0
 _TRIM = {True: (-24.0, 24.0, 1.0), False: (-600.0, 600.0, 25.0)}
 _TURN_DEG = 5.0
 
 
+@lru_cache(16)
 def controls(given: Opened) -> Mapping[str, Any]:
     """Return the sliders and choices of a workbook for the page."""
     sheet = given.sheet
@@ -50,6 +53,37 @@ def shown(given: Opened) -> Mapping[str, str]:
         "polarity": ", ".join(dict.fromkeys(row.polarity.value for row in data.motions)),
         "rule_set": data.site.rule_set.value,
     }
+
+
+def check(given: Opened, values: Values) -> None:
+    """Refuse values that no slider or choice of the workbook has.
+
+    Raises
+    ------
+    InputError
+        With every such value.
+    """
+    known = controls(given)
+    sliders = {item["id"]: item for item in known["sliders"]}
+    choices = {item["id"]: item for item in known["choices"]}
+    wrong: list[str] = []
+    for name, value in values.items():
+        if name in sliders:
+            span = sliders[name]["least"], sliders[name]["greatest"]
+            if not _is_number(value) or not span[0] <= float(value) <= span[1]:
+                wanted = f"give a number from {span[0]:g} to {span[1]:g}"
+                wrong.append(f"{sliders[name]['label']} is {cut(str(value))}; {wanted}")
+        elif name not in choices:
+            wrong.append(f"{cut(name)}: the workbook has no such slider; leave it out")
+        elif value not in (options := [each["value"] for each in choices[name]["options"]]):
+            wanted = f"choose {' or '.join(options)}"
+            wrong.append(f"{choices[name]['label']} is {cut(str(value))}; {wanted}")
+    if wrong:
+        raise InputError(wrong)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:

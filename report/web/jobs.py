@@ -1,61 +1,59 @@
-"""What is computed for the page: each job from a folder and values to data for JSON.
+"""What is computed for the page: each job from a workbook and values to data for JSON.
 
-Knows no session and no request. Read `state` and `assessed`.
+Knows no session and no request. Read `perform`, then `answer_at`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from report.assessment.project import Assessment, assess, reassess
+from report.sheet.parts import changed
+from report.sheet.retyped import cells
 from report.sheet.schema import Model, ProjectInput
+from report.web import views
 from report.web.answers import answer
-from report.web.controls import controls, shown
+from report.web.controls import check, controls, shown
 from report.web.opened import Opened, opened, with_values
 from report.web.problems import problems
-from report.web.values import Values
+from report.web.values import Values, typed
 from solver.model import InputError, Motion
 
-KEPT = 16
-"""Projects that stay open."""
+KEPT_PROJECTS, KEPT_ANSWERS = 16, 8
+"""Projects and assessments that a process keeps."""
+
+Json = Mapping[str, Any]
 
 
-@lru_cache(KEPT)
-def _open(workbook: Path) -> Opened:
-    return opened(workbook)
+def perform(job: Json) -> Json:
+    """Do a job named by its key `do`, and return its answer, or its problems.
 
-
-def state(workbook: Path, file: str) -> Mapping[str, Any]:
-    """Return everything about a project at the values of its workbook.
-
-    Parameters
-    ----------
-    workbook : Path
-    file : str
-        Its name as the user knows it.
+    Workbooks that are wrong, and values that no workbook can have, are problems; anything else is
+    an internal error and is raised.
     """
+    workbook = Path(job["workbook"])
+    try:
+        return {"answer": _JOBS[job["do"]](workbook, job)}
+    except InputError as error:
+        return {"problems": problems(workbook, error.problems)}
+
+
+def state(workbook: Path, job: Json) -> Json:
+    """Return everything about a project at the values of its workbook."""
     try:
         given = _open(workbook)
     except InputError as error:
-        return {
-            "project": None,
-            "problems": problems(workbook, error.problems),
-            "warnings": [],
-            "sliders": [],
-            "choices": [],
-            "views": {"arrays": [], "motions": []},
-            "answer": None,
-        }
-    answered = _answered(given, is_moving=False)
+        return _nothing_but(problems(workbook, error.problems))
+    answered = answer_at(workbook, {"values": {}, "moving": False})
     project = given.sheet.project.project
     return {
         "project": {
             "name": project.name,
-            "file": file,
             "sha256": given.sheet.sha256,
             "units_first": project.units_first.value,
         },
@@ -66,36 +64,77 @@ def state(workbook: Path, file: str) -> Mapping[str, Any]:
             "arrays": [array.id for array in given.sheet.project.arrays],
             "motions": [_motion(motion) for motion in given.shaking.motions],
         },
-        "answer": answered | {"n": 0},
+        "answer": {"n": 0, **answered},
     }
 
 
-def assessed(workbook: Path, values: Values, *, is_moving: bool) -> Mapping[str, Any]:
-    """Return the answer at values of the sliders.
+def _nothing_but(found: object) -> Json:
+    return {
+        "project": None,
+        "problems": found,
+        "warnings": [],
+        "sliders": [],
+        "choices": [],
+        "views": {"arrays": [], "motions": []},
+        "answer": None,
+    }
 
-    Raises
-    ------
-    InputError
-        Where the workbook could not have them.
-    """
-    return _answered(with_values(_open(workbook), values), is_moving=is_moving)
+
+def answer_at(workbook: Path, job: Json) -> Json:
+    """Return the answer at values: of runs in one axis while a slider moves, else complete."""
+    given = _at(workbook, job["values"])
+    if not job["moving"]:
+        whole = answer(_assessment(workbook, _key(job["values"])), is_provisional=False)
+        return {**whole, "shown": shown(given)}
+    start = replace(_assessment(workbook, _key({})), sheet=given.sheet, shaking=given.shaking)
+    provisional = reassess(start, _in_one_axis(given.sheet.project))
+    return {**answer(provisional, is_provisional=True), "shown": shown(given)}
 
 
-@lru_cache(KEPT)
-def _at_rest(workbook: Path) -> Assessment:
-    """Return the assessment of a workbook as it is."""
+def write(workbook: Path, job: Json) -> Json:
+    """Write the workbook with the values in its cells to another path."""
     given = _open(workbook)
+    check(given, job["values"])
+    cells_of = cells(given.sheet, typed(given.sheet, given.scales, job["values"]))
+    data = workbook.read_bytes()
+    Path(job["to"]).write_bytes(changed(data, cells_of) if cells_of else data)
+    return {}
+
+
+def _view(draw: Callable[[Assessment, Json], Json]) -> Callable[[Path, Json], Json]:
+    return lambda workbook, job: draw(_assessment(workbook, _key(job["values"])), job)
+
+
+_JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
+    "state": state,
+    "assess": answer_at,
+    "write": write,
+    "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job.get("run"))),
+    "contour": _view(lambda a, job: views.contour(a, job["array"])),
+    "paths": _view(lambda a, job: views.paths(a, job["array"])),
+}
+
+
+@lru_cache(KEPT_PROJECTS)
+def _open(workbook: Path) -> Opened:
+    return opened(workbook)
+
+
+def _at(workbook: Path, values: Values) -> Opened:
+    given = _open(workbook)
+    check(given, values)
+    return with_values(given, values)
+
+
+@lru_cache(KEPT_ANSWERS)
+def _assessment(workbook: Path, key: str) -> Assessment:
+    """Return the complete assessment at values, which are the key."""
+    given = _at(workbook, json.loads(key))
     return assess(given.sheet, given.shaking)
 
 
-def _answered(given: Opened, *, is_moving: bool) -> dict[str, Any]:
-    if is_moving:
-        start = _at_rest(given.sheet.path)
-        changed = replace(start, sheet=given.sheet, shaking=given.shaking)
-        assessment = reassess(changed, _in_one_axis(given.sheet.project))
-    else:
-        assessment = assess(given.sheet, given.shaking)
-    return answer(assessment, is_provisional=is_moving) | {"shown": shown(given)}
+def _key(values: Values) -> str:
+    return json.dumps(dict(values), sort_keys=True)
 
 
 def _in_one_axis(data: ProjectInput) -> ProjectInput:
@@ -103,6 +142,5 @@ def _in_one_axis(data: ProjectInput) -> ProjectInput:
     return data.model_copy(update={"arrays": tuple(arrays)})
 
 
-def _motion(motion: Motion) -> Mapping[str, Any]:
-    runs = enumerate(heading.name for heading in motion.headings)
-    return {"id": motion.id, "runs": [{"value": value, "label": name} for value, name in runs]}
+def _motion(motion: Motion) -> Json:
+    return {"id": motion.id, "runs": [heading.name for heading in motion.headings]}

@@ -9,18 +9,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from report.assessment.acceptance import shaking_acceptance
 from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking
-from report.motions.targets import targets
 from report.sheet.read import Sheet, read
 from report.sheet.retyped import retyped
 from report.typeset.letters import check_letters
 from report.web.values import Values, typed
-from solver.records.acceptance import Acceptance
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Opened:
     """A workbook, its records as read, and its motions as run.
 
@@ -70,8 +67,3 @@ def with_values(given: Opened, values: Values) -> Opened:
     sheet = retyped(given.sheet, changed)
     sheet.refuse(())
     return Opened(sheet=sheet, by_motion=given.by_motion, shaking=shaking(sheet, given.by_motion))
-
-
-def acceptance_of(given: Opened) -> Acceptance:
-    """Return the limits on the motions as run."""
-    return shaking_acceptance(given.shaking, targets(given.sheet.project))

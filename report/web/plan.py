@@ -14,9 +14,9 @@ from report.assessment.envelopes import design_envelope
 from report.assessment.neighbors import EDGES
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.sheet.schema import ProjectInput, Shape
+from report.sheet.schema import ObjectKind, ProjectInput, Shape
 from report.sheet.shapes import Point, around, closest, label_point
-from report.words.units import Quantity, compared
+from report.words.units import Quantity, compared, round_below
 
 ShowVerdict = Callable[[Verdict], str | None]
 
@@ -45,12 +45,14 @@ def plan(assessment: Assessment, show: ShowVerdict) -> Mapping[str, Any]:
                 "kind": item.kind.value,
                 "outline": _outline(item.placed),
                 "is_edge": item.kind in EDGES,
+                "has_parapet": item.kind is ObjectKind.EDGE_WITH_PARAPET,
                 "center": _point(label_point(item.placed)),
             }
             for item in data.objects
             if item.placed is not None
         ],
         "gaps": list(_gaps(assessment, show)),
+        "scale_bar": _scale_bar(data),
     }
 
 
@@ -58,6 +60,14 @@ def _extent(data: ProjectInput) -> Sequence[float]:
     rows = (*data.arrays, *data.objects, data.roof)
     box = around(row.placed for row in rows if row.placed is not None)
     return [box.x_from_m, box.y_from_m, box.x_to_m, box.y_to_m]
+
+
+def _scale_bar(data: ProjectInput) -> Mapping[str, Any]:
+    """Return a round length, about a seventh of the width."""
+    x0, _, x1, _ = _extent(data)
+    unit = Quantity.PLAN.us if data.project.units_first == "US" else Quantity.PLAN.si
+    length = round_below((x1 - x0) / 6.0 / unit.si)
+    return {"length_m": length * unit.si, "text": f"{length:g} {unit.symbol}"}
 
 
 def _gaps(assessment: Assessment, show: ShowVerdict) -> Iterator[Mapping[str, Any]]:

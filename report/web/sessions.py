@@ -9,10 +9,8 @@ import secrets
 import shutil
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-
-from report.typeset.pdf import TEMPLATES
 
 LIFE_S = 3600.0
 """How long a session lives without use [s]."""
@@ -21,11 +19,8 @@ MOST = 200
 """Most sessions at once: each may fill a folder."""
 
 _PACKAGE = Path(__file__).resolve().parent
-EXAMPLE = next(
-    path
-    for path in (_PACKAGE / "example", TEMPLATES.parent / "projects" / "example")
-    if path.is_dir()
-)
+_HOMES = (_PACKAGE / "example", _PACKAGE.parents[1] / "projects" / "example")
+EXAMPLE = next(path for path in _HOMES if path.is_dir()) / "input.xlsx"
 """The example: within the package where it is installed, or of the checkout."""
 
 
@@ -37,22 +32,31 @@ class Session:
     ----------
     folder : Path
         Its own; no other session reads or writes it.
-    project : Path
+    workbook : Path
         What is open: the example, or what was uploaded last.
     used_s : float
         When it was last used, on the clock of `Sessions`.
+    uploads : int
+        How many there were; each has a folder of its own.
     """
 
     id: str
     folder: Path
     used_s: float
-    project: Path = EXAMPLE
-    opened: int = field(default=0)
+    workbook: Path = EXAMPLE
+    uploads: int = 0
 
     @property
     def is_example(self) -> bool:
         """Whether the example is open."""
-        return self.project == EXAMPLE
+        return self.workbook == EXAMPLE
+
+    def new_folder(self) -> Path:
+        """Return an empty folder for an upload."""
+        self.uploads += 1
+        folder = self.folder / f"upload-{self.uploads}"
+        folder.mkdir()
+        return folder
 
 
 class Sessions:
@@ -92,6 +96,11 @@ class Sessions:
         """End a session and remove its folder."""
         del self._by_id[session.id]
         shutil.rmtree(session.folder, ignore_errors=True)
+
+    @property
+    def alive(self) -> list[Session]:
+        """The sessions."""
+        return list(self._by_id.values())
 
     def _is_over(self, session: Session) -> bool:
         return self._clock() - session.used_s > LIFE_S

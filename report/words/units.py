@@ -151,3 +151,9 @@ def ratio(value: float) -> str:
     if math.isnan(value):
         return "none"
     return "∞" if math.isinf(value) else number(math.ceil(value * 100.0 - 1e-7) / 100.0, 2)
+
+
+def round_below(value: float) -> float:
+    """Return the largest of 1, 2, 5 times a power of ten that is not above a value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return max(digit * power for digit in (1.0, 2.0, 5.0) if digit * power <= value * (1 + 1e-9))

@@ -9,7 +9,7 @@ import pytest
 
 import stand_in
 from report.figures.charts import hodographs, load_fonts
-from report.figures.hodograph import STEP_IN, _Panel, _path, round_below, thinned
+from report.figures.hodograph import STEP_IN, _Panel, _path, thinned
 from report.typeset.pdf import TEMPLATES
 
 
@@ -81,8 +81,3 @@ def test_thinning_keeps_the_ends_and_no_point_is_farther_than_a_step_from_the_ne
     assert (x_few[0], y_few[0], x_few[-1], y_few[-1]) == (x[0], y[0], x[-1], y[-1])
     assert len(x_few) == pytest.approx(6.0 / STEP_IN, rel=0.02)
     assert np.hypot(np.diff(x_few), np.diff(y_few)).max() < 1.3 * STEP_IN
-
-
-@pytest.mark.parametrize(("value", "length"), [(1.0, 1.0), (4.9, 2.0), (99.0, 50.0), (0.7, 0.5)])
-def test_the_bar_is_one_two_or_five(value, length):
-    assert round_below(value) == pytest.approx(length)

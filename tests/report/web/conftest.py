@@ -10,18 +10,30 @@ from report.web.sessions import Sessions
 HOST, TOKEN = "127.0.0.1:8765", "a-token-of-this-server"
 
 
-@pytest.fixture(scope="module")
-def app(tmp_path_factory):
+@pytest.fixture(scope="session")
+def sessions(tmp_path_factory):
+    return Sessions(tmp_path_factory.mktemp("sessions"))
+
+
+@pytest.fixture(scope="session")
+def served(sessions):
+    """The server with one process that computes, ended with the tests."""
     gate = Gate(token=TOKEN, hosts=[HOST], cookie="roofslip-8765")
-    return made(gate, Sessions(tmp_path_factory.mktemp("sessions")))
+    with browser(made(gate, sessions, processes=1)) as client:
+        yield client
+
+
+def browser(app):
+    client = TestClient(app, base_url=f"http://{HOST}", follow_redirects=False)
+    client.headers["origin"] = f"http://{HOST}"
+    return client
 
 
 @pytest.fixture
-def visitor(app):
+def visitor(served):
     """A browser before it opens the address."""
-    with TestClient(app, base_url=f"http://{HOST}", follow_redirects=False) as client:
-        client.headers["origin"] = f"http://{HOST}"
-        yield client
+    served.cookies.clear()
+    return served
 
 
 @pytest.fixture

@@ -1,5 +1,23 @@
 """The routes of the page, without a socket."""
 
+import io
+import time
+import zipfile
+
+import pytest
+
+from places import ROOT
+from report.sheet.read import read
+from sheets import edit
+
+TOKEN = "a-token-of-this-server"
+EXAMPLE = ROOT / "projects" / "example"
+
+
+def asked(client, values, *, moving=False, n=1):
+    body = {"page": "p", "n": n, "moving": moving, "values": values}
+    return client.post("/api/assess", json=body)
+
 
 def test_a_first_visit_shows_the_example_with_its_answer(client):
     state = client.get("/api/state").json()
@@ -11,8 +29,7 @@ def test_a_first_visit_shows_the_example_with_its_answer(client):
 
 
 def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(client):
-    asked = {"n": 1, "moving": False, "values": {"rule_set": "ASCE 7-22"}}
-    answer = client.post("/api/assess", json=asked)
+    answer = asked(client, {"rule_set": "ASCE 7-22"})
     assert answer.status_code == 422
     found = answer.json()["problems"][0]
     assert found["text"].startswith("Site!B11: F_a is 1.2")
@@ -20,9 +37,131 @@ def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(clien
     assert found["row"]["cells"][found["row"]["at"]] == "1.2"
 
 
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"friction": 9.0}, "Friction is 9.0; give a number from 0.5 to 2"),
+        ({"friction": "0.9"}, "Friction is 0.9; give a number"),
+        ({"gravity": 1.0}, "Gravity: the workbook has no such slider"),
+        ({"polarity": "sideways"}, "Polarity is sideways; choose both or"),
+    ],
+)
+def test_a_value_that_no_slider_has_is_refused(client, values, sentence):
+    answer = asked(client, values)
+    assert answer.status_code == 422
+    assert answer.json()["error"].startswith(sentence)
+
+
 def test_values_of_a_slider_that_moves_are_provisional_and_carry_no_verdict(client):
-    asked = {"n": 2, "moving": True, "values": {"friction": 0.95}}
-    found = client.post("/api/assess", json=asked).json()
+    found = asked(client, {"friction": 0.95}, moving=True).json()
     assert (found["model"], found["is_provisional"], found["reasons"]) == ("one axis", True, [])
     of = [found, *found["arrays"], *found["clearances"], *found["plan"]["gaps"]]
     assert {item["verdict"] for item in of} == {None}
+
+
+@pytest.mark.parametrize("body", [b"", b"[]", b"{", b'{"values": 3}', b'{"n": "1"}', b"[" * 90000])
+def test_a_request_that_is_not_one_of_the_page_is_refused(client, body):
+    answer = client.post("/api/assess", content=body, headers={"content-type": "application/json"})
+    assert answer.status_code == 422
+    assert answer.json()["error"].endswith("load the page again")
+
+
+def test_a_form_of_another_page_is_no_request(client):
+    answer = client.post("/api/assess", data={"values": "{}"})
+    assert answer.status_code == 415
+
+
+def test_views_answer_from_the_values_of_the_sliders(client):
+    about = {"page": "p", "n": 1, "array": "A2", "motion": "RM6", "values": {}}
+    first = client.post("/api/slide", json=about).json()
+    second = client.post("/api/slide", json=about | {"values": {"friction": 0.9}}).json()
+    assert second["prd_m"] > first["prd_m"]
+    assert len(client.post("/api/paths", json=about).json()["paths"]) == 7
+    answer = client.post("/api/slide", json=about | {"array": "A9"})
+    assert answer.status_code == 422
+
+
+def folder_of(project):
+    paths = [project / "input.xlsx", *(project / "records").iterdir()]
+    return [(f"{project.name}/{p.relative_to(project).as_posix()}", p.read_bytes()) for p in paths]
+
+
+def sent(client, files):
+    return client.post("/api/upload", files=[("files", file) for file in files])
+
+
+def test_a_folder_and_its_zip_give_the_same_state(client):
+    files = folder_of(EXAMPLE)
+    first = sent(client, files).json()
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in files:
+            archive.writestr(name, content)
+    second = sent(client, [("example.zip", packed.getvalue())]).json()
+    assert first == second
+    assert not first["project"]["is_example"]
+    assert first["answer"]["verdict"] == "OK"
+    assert client.post("/api/example").json()["project"]["is_example"]
+
+
+def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_path):
+    path = tmp_path / "input.xlsx"
+    path.write_bytes((EXAMPLE / "input.xlsx").read_bytes())
+    edit(path, lambda book: book["Arrays"].__setitem__("E8", "wet"))
+    state = sent(client, [("input.xlsx", path.read_bytes())]).json()
+    assert state["project"] is None
+    assert state["answer"] is None
+    by_cell = {item["cell"]: item for item in state["problems"] if item["sheet"] == "Arrays"}
+    row = by_cell["E8"]["row"]
+    assert (row["heads"][row["at"]], row["cells"][row["at"]]) == ("Friction coefficient", "wet")
+    # The records were not sent: every motion says so.
+    assert len([item for item in state["problems"] if item["sheet"] == "Motions"]) >= 7
+
+
+def test_sessions_cannot_see_each_other(client):
+    sent(client, folder_of(EXAMPLE))
+    mine = dict(client.cookies)
+    client.cookies.clear()
+    client.get(f"/?token={TOKEN}")
+    assert client.get("/api/state").json()["project"]["is_example"]
+    assert dict(client.cookies) != mine
+
+
+def test_the_workbook_with_the_values_is_read_back_as_what_was_assessed(client, tmp_path):
+    values = {"friction": 0.93, "slope": 0.7, "intensity": 1.06, "clearance": -3.0}
+    answer = client.post("/api/workbook", json={"values": values})
+    assert answer.headers["content-disposition"] == 'attachment; filename="input.xlsx"'
+    path = tmp_path / "input.xlsx"
+    path.write_bytes(answer.content)
+    shown = asked(client, values).json()["shown"]
+    arrays = read(path).project.arrays
+    assert [array.mu for array in arrays] == pytest.approx([0.465, 0.465, 0.372])
+    assert shown["friction"].startswith("0.465 (A1, A2)")
+
+
+def test_a_package_is_queued_and_cancelled(client):
+    ticket = client.post("/api/package", json={"values": {}}).json()["ticket"]
+    again = client.post("/api/package", json={"values": {}})
+    assert again.status_code == 422
+    assert again.json()["error"].startswith("A package is being made already")
+    assert client.get(f"/api/package/{ticket}/calc-package.pdf").status_code == 404
+    assert client.delete(f"/api/package/{ticket}").json()["state"] == "cancelled"
+    client.cookies.clear()
+    client.get(f"/?token={TOKEN}")
+    assert client.get(f"/api/package/{ticket}").status_code == 404
+
+
+def test_a_process_that_is_killed_is_replaced(client, served):
+    import os
+    import signal
+
+    workers = served.app.state.desk.workers
+    (before,) = workers.pids
+    os.kill(before, signal.SIGKILL)
+    found = asked(client, {"friction": 0.97}, moving=True)
+    assert found.status_code == 200
+    for _ in range(100):
+        if workers.pids and workers.pids != [before]:
+            break
+        time.sleep(0.1)
+    assert workers.pids != [before]

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from report.words.units import Quantity, compared, measured, no_less, no_more, pair
+from report.words.units import Quantity, compared, measured, no_less, no_more, pair, round_below
 
 LENGTHS_M = st.floats(0.01, 20.0)
 
@@ -68,3 +68,8 @@ def test_no_value_stays_no_value():
 )
 def test_displacements_print_in_whole_millimeters_of_any_size(value_m, text):
     assert pair(value_m, Quantity.DISPLACEMENT) == text
+
+
+@pytest.mark.parametrize(("value", "length"), [(1.0, 1.0), (4.9, 2.0), (99.0, 50.0), (0.7, 0.5)])
+def test_the_bar_is_one_two_or_five(value, length):
+    assert round_below(value) == pytest.approx(length)

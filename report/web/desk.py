@@ -1,0 +1,92 @@
+"""What the routes ask: the sessions, the processes that compute and the packages, together.
+
+Read `Desk.ask`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from starlette.requests import Request
+
+from report.web.packages import Packages
+from report.web.sessions import EXAMPLE, Session, Sessions
+from report.web.workers import Place, Rank, Workers
+
+INTERNAL = "An internal error; see what roofslip serve printed."
+
+
+class RefusedError(Exception):
+    """What a workbook could not have, with each problem as data."""
+
+    def __init__(self, sentence: str, problems: Sequence[Mapping[str, Any]]) -> None:
+        super().__init__(sentence)
+        self.problems = problems
+
+
+class Desk:
+    """The sessions, processes and packages of a server."""
+
+    def __init__(self, sessions: Sessions, processes: int) -> None:
+        self.sessions, self.packages = sessions, Packages()
+        self.workers = Workers(processes)
+        self._asked = 0
+
+    def start(self) -> None:
+        """Start the processes, each with the example."""
+        self.workers.start({"do": "state", "workbook": str(EXAMPLE)})
+
+    async def stop(self) -> None:
+        """End every process."""
+        await self.packages.stop()
+        await self.workers.stop()
+
+    async def clean(self) -> None:
+        """End the sessions that are not used, with their packages."""
+        before = {session.id for session in self.sessions.alive}
+        self.sessions.end_unused()
+        for name in before - {session.id for session in self.sessions.alive}:
+            await self.packages.forget(name)
+
+    async def ask(
+        self,
+        session: Session,
+        job: Mapping[str, Any],
+        rank: Rank,
+        asked: Mapping[str, Any] | None = None,
+    ) -> Mapping[str, Any]:
+        """Return the answer to a job about what is open in a session.
+
+        Parameters
+        ----------
+        asked : mapping, optional
+            Request whose page and number tell which of two jobs is the newer one.
+
+        Raises
+        ------
+        RefusedError, StaleError, LostError
+        """
+        self._asked += 1
+        page, number = (asked["page"], asked["n"]) if asked else (str(self._asked), 0)
+        place = Place((session.id, str(job["do"]), page), number)
+        found = await self.workers.ask({**job, "workbook": str(session.workbook)}, rank, place)
+        if "answer" in found:
+            answer: Mapping[str, Any] = found["answer"]
+            return answer
+        if "internal" in found:
+            raise RefusedError(INTERNAL, [])
+        first = found["refused"] if "refused" in found else found["problems"][0]["text"]
+        raise RefusedError(first, found["problems"])
+
+
+def session_of(request: Request) -> Session:
+    """Return the session that `report.web.access` found."""
+    session: Session = request.state.session
+    return session
+
+
+def desk_of(request: Request) -> Desk:
+    """Return the desk of the server."""
+    desk: Desk = request.app.state.desk
+    return desk

@@ -1,0 +1,97 @@
+"""What the page gives away: the workbook with its values, and packages with their progress.
+
+Read `workbook`, then `package_routes`.
+"""
+
+from __future__ import annotations
+
+import secrets
+from typing import Any
+
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, Response
+from starlette.routing import Route
+
+from report.making import OUTPUTS
+from report.web.desk import desk_of, session_of
+from report.web.packages import Package, State, copied
+from report.web.receiving import receive_json
+from report.web.workers import Rank
+
+_TYPES = {
+    ".pdf": "application/pdf",
+    ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+    ".json": "application/json",
+    ".dxf": "image/vnd.dxf",
+}
+
+
+def package_routes() -> list[Route]:
+    """Return the routes of packages."""
+    return [
+        Route("/api/package", _begin, methods=["POST"]),
+        Route("/api/package/{ticket}", _about, methods=["GET"]),
+        Route("/api/package/{ticket}", _cancel, methods=["DELETE"]),
+        Route("/api/package/{ticket}/{name}", _file, methods=["GET"]),
+    ]
+
+
+async def workbook(request: Request) -> Response:
+    """Return the workbook with the values written into its cells."""
+    session, values = session_of(request), (await receive_json(request))["values"]
+    path = session.folder / f"written-{secrets.token_hex(8)}.xlsx"
+    await desk_of(request).ask(session, _writing(values, str(path)), Rank.AT_REST)
+    data = await run_in_threadpool(path.read_bytes)
+    await run_in_threadpool(path.unlink)
+    return _attached(Response(data, media_type=_TYPES[".xlsx"]), session.workbook.name)
+
+
+async def _begin(request: Request) -> Response:
+    session, desk = session_of(request), desk_of(request)
+    values = (await receive_json(request))["values"]
+    desk.packages.check_free(session)
+    folder = session.folder / f"package-{secrets.token_hex(8)}"
+    await run_in_threadpool(copied, session.workbook, folder)
+    path = folder / session.workbook.name
+    await desk.ask(session, _writing(values, str(path)), Rank.AT_REST)
+    package = desk.packages.begin(session, folder)
+    return JSONResponse({"ticket": package.ticket})
+
+
+def _writing(values: Any, to: str) -> dict[str, Any]:
+    return {"do": "write", "values": values, "to": to}
+
+
+async def _about(request: Request) -> Response:
+    return JSONResponse(desk_of(request).packages.about(_package(request)))
+
+
+async def _cancel(request: Request) -> Response:
+    package = _package(request)
+    await desk_of(request).packages.cancel(package)
+    return JSONResponse(desk_of(request).packages.about(package))
+
+
+async def _file(request: Request) -> Response:
+    package, name = _package(request), request.path_params["name"]
+    path = package.out / name
+    if package.state is not State.DONE or name not in OUTPUTS:
+        raise HTTPException(404, "There is no such file of this package")
+    response = FileResponse(path, media_type=_TYPES[path.suffix])
+    return response if "view" in request.query_params else _attached(response, name)
+
+
+def _attached(response: Response, name: str) -> Response:
+    plain = "".join(letter for letter in name if letter.isalnum() or letter in " -_.()")
+    ascii_name = plain.encode("ascii", "ignore").decode() or "input.xlsx"
+    response.headers["Content-Disposition"] = f'attachment; filename="{ascii_name}"'
+    return response
+
+
+def _package(request: Request) -> Package:
+    found = desk_of(request).packages.find(session_of(request), request.path_params["ticket"])
+    if found is None:
+        raise HTTPException(404, "There is no such package in this session")
+    return found

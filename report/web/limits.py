@@ -1,0 +1,35 @@
+"""Limits on what a process of the page may use, where the system has them.
+
+Windows has none of these; there only the limit on time holds. Read `limit_memory`.
+"""
+
+from __future__ import annotations
+
+import importlib
+
+
+def limit_memory(most_bytes: int) -> None:
+    """Limit the address space of this process and of those it starts."""
+    _limit("RLIMIT_AS", most_bytes)
+
+
+def limit_files(most_bytes: int) -> None:
+    """Limit the size of each file that is written."""
+    _limit("RLIMIT_FSIZE", most_bytes)
+
+
+def limit_processor(most_s: int) -> None:
+    """Limit the processor time of this process."""
+    _limit("RLIMIT_CPU", most_s)
+
+
+def _limit(name: str, value: int) -> None:
+    try:
+        resource = importlib.import_module("resource")
+    except ModuleNotFoundError:
+        return
+    kind = getattr(resource, name)
+    _, most = resource.getrlimit(kind)
+    if most != resource.RLIM_INFINITY:
+        value = min(value, most)
+    resource.setrlimit(kind, (value, most))

@@ -1,0 +1,51 @@
+"""Makes one package for the page, in a process with limits, and says how far it is.
+
+Started by `report.web.packages` as `python -m report.web.maker FOLDER`: a line of JSON out for
+each step. The process that draws beside it gets the same limits.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import traceback
+from pathlib import Path
+
+from report.web.limits import limit_files, limit_memory, limit_processor
+
+MEMORY_BYTES = 8 << 30
+FILE_BYTES = 1 << 30
+PROCESSOR_S = 900
+
+
+def main() -> None:
+    """Make the package of the workbook in a folder."""
+    limit_memory(MEMORY_BYTES)
+    limit_files(FILE_BYTES)
+    limit_processor(PROCESSOR_S)
+    from report.beside import beside
+    from report.making import make
+    from solver.model import InputError
+
+    folder = Path(sys.argv[1])
+    workbook = next(folder.glob("*.xlsx"))
+    try:
+        with beside() as second:
+            make(workbook, folder / "out", None, lambda stage: _say(stage=stage), second)
+    except InputError as error:
+        _say(stage="failed", message=error.problems[0])
+    except MemoryError:
+        _say(stage="failed", message="It needs more memory than a package may use.")
+    except Exception:
+        traceback.print_exc()
+        _say(stage="failed", message="An internal error; see what roofslip serve printed.")
+    else:
+        _say(stage="done")
+
+
+def _say(**said: str) -> None:
+    print(json.dumps(said), flush=True)
+
+
+if __name__ == "__main__":
+    main()

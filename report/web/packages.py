@@ -1,0 +1,199 @@
+"""Packages of the sessions: one at a time, the others in a queue with their place.
+
+Each is made by a process of its own (`report.web.maker`), which ends with its cancelling. Read
+`Packages.begin`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import secrets
+import shutil
+import signal
+import sys
+from asyncio.subprocess import DEVNULL, PIPE, Process
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+from report.making import STEPS
+from report.web.sessions import Session
+from solver.model import InputError
+
+LONGEST_S = 900.0
+"""Longest time of a package [s]; then its process is ended."""
+
+KEPT = 5
+"""Packages that a session keeps; older ones are removed."""
+
+
+class State(StrEnum):
+    """What becomes of a package."""
+
+    QUEUED = "queued"
+    RUNNING = "running"
+    DONE = "done"
+    FAILED = "failed"
+    CANCELLED = "cancelled"
+
+    @property
+    def is_over(self) -> bool:
+        """Whether nothing more happens."""
+        return self not in (State.QUEUED, State.RUNNING)
+
+
+@dataclass(slots=True, eq=False)
+class Package:
+    """A package of a session: its folder holds the workbook as written, and out/ with the files."""
+
+    ticket: str
+    owner: str
+    folder: Path
+    state: State = State.QUEUED
+    stage: str = "waiting"
+    step: int = 0
+    message: str = ""
+    process: Process | None = None
+
+    @property
+    def out(self) -> Path:
+        """Where its files are."""
+        return self.folder / "out"
+
+
+class Packages:
+    """The packages of all sessions."""
+
+    def __init__(self) -> None:
+        self._all: dict[str, Package] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._turn = asyncio.Lock()
+
+    def begin(self, session: Session, folder: Path) -> Package:
+        """Queue the package of a project that was written to a folder.
+
+        Raises
+        ------
+        InputError
+            While another one of the session waits or is made.
+        """
+        self.check_free(session)
+        own = [each for each in self._all.values() if each.owner == session.id]
+        for old in own[: len(own) - KEPT + 1]:
+            del self._all[old.ticket]
+            shutil.rmtree(old.folder, ignore_errors=True)
+        package = Package(ticket=secrets.token_hex(12), owner=session.id, folder=folder)
+        self._all[package.ticket] = package
+        task = asyncio.create_task(self._make(package))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return package
+
+    def check_free(self, session: Session) -> None:
+        """Refuse a second package at a time."""
+        own = [each for each in self._all.values() if each.owner == session.id]
+        if any(not each.state.is_over for each in own):
+            raise InputError("A package is being made already; wait for it, or cancel it.")
+
+    def find(self, session: Session, ticket: str) -> Package | None:
+        """Return a package of a session."""
+        package = self._all.get(ticket)
+        return package if package is not None and package.owner == session.id else None
+
+    def about(self, package: Package) -> Mapping[str, Any]:
+        """Return how far a package is; its place in the queue is 0 once it is begun."""
+        queued = [each for each in self._all.values() if each.state is State.QUEUED]
+        return {
+            "ticket": package.ticket,
+            "state": package.state.value,
+            "place": queued.index(package) + 1 if package in queued else 0,
+            "stage": package.stage,
+            "part": package.step / (STEPS + 1) if package.state is not State.DONE else 1.0,
+            "message": package.message,
+        }
+
+    async def cancel(self, package: Package) -> None:
+        """End a package, and the process that makes it."""
+        if package.state.is_over:
+            return
+        package.state, package.stage = State.CANCELLED, "cancelled"
+        if package.process is not None:
+            await _end(package.process)
+
+    async def forget(self, owner: str) -> None:
+        """End and forget the packages of a session."""
+        for package in [each for each in self._all.values() if each.owner == owner]:
+            await self.cancel(package)
+            del self._all[package.ticket]
+
+    async def stop(self) -> None:
+        """End every package."""
+        for package in self._all.values():
+            await self.cancel(package)
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    async def _make(self, package: Package) -> None:
+        async with self._turn:
+            if package.state is State.QUEUED:
+                package.state = State.RUNNING
+                await self._run(package)
+
+    async def _run(self, package: Package) -> None:
+        """Have a process make a package, and follow it."""
+        package.process = process = await asyncio.create_subprocess_exec(
+            sys.executable, "-P", "-m", "report.web.maker", str(package.folder),
+            stdin=DEVNULL, stdout=PIPE, start_new_session=True,
+            env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+        )  # fmt: skip
+        try:
+            await asyncio.wait_for(_follow(package, process), LONGEST_S)
+        except TimeoutError:
+            package.message = f"It took longer than {LONGEST_S / 60:.0f} minutes and was stopped."
+        await _end(process)
+        if package.state is not State.RUNNING:
+            return
+        package.state = State.DONE if package.stage == "done" else State.FAILED
+        if package.state is State.FAILED and not package.message:
+            package.message = "The process that made the package ended. Try it again."
+
+
+async def _follow(package: Package, process: Process) -> None:
+    """Take what the process says, a line of JSON at a time."""
+    assert process.stdout is not None
+    while line := await process.stdout.readline():
+        said = json.loads(line)
+        package.stage = said.get("stage", package.stage)
+        package.message = said.get("message", package.message)
+        package.step += 1
+
+
+async def _end(process: Process) -> None:
+    """End a process with those that it started."""
+    with suppress(ProcessLookupError, PermissionError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        elif process.returncode is None:
+            process.kill()
+    await process.wait()
+
+
+def copied(workbook: Path, folder: Path) -> None:
+    """Give a folder the files beside a workbook, without another copy where the system links."""
+
+    def link(source: str, target: str) -> None:
+        try:
+            os.link(source, target)
+        except OSError:
+            shutil.copyfile(source, target)
+
+    shutil.copytree(
+        workbook.parent,
+        folder,
+        copy_function=link,
+        ignore=lambda top, names: [n for n in names if n in ("out", "pages", workbook.name)],
+    )

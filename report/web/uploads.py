@@ -1,0 +1,172 @@
+"""Files from a browser, stored in a folder of their own: sizes, names and zips are checked here.
+
+Nothing is trusted before it is written: no path leaves the folder, no link is made, and bytes are
+counted as they arrive. Read `store`.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import stat
+import unicodedata
+import zipfile
+import zlib
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path, PurePosixPath
+from typing import IO
+
+from solver.model import InputError
+
+MB = 1_000_000
+MOST_SENT = 100 * MB
+MOST_STORED = 200 * MB
+MOST_FILES = 500
+
+_MOST_NAME, _DEEPEST = 200, 8
+_FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]|[. ]$')
+_DEVICE = re.compile(r"(con|prn|aux|nul|com[0-9]|lpt[0-9])(\..*)?", re.IGNORECASE)
+_CHUNK = 1 << 20
+_ENCRYPTED = 0x1
+
+File = tuple[str, IO[bytes]]
+
+
+def store(files: Sequence[File], folder: Path) -> Path:
+    """Store what was sent in an empty folder, and return the workbook among it.
+
+    Parameters
+    ----------
+    files : sequence of (str, binary file)
+        Each with its relative path; one of them may be a zip, which is then the only one.
+
+    Raises
+    ------
+    InputError
+        With what is refused; the folder may then hold a part of the files.
+    """
+    if not files:
+        raise InputError("no file was sent; drop the workbook together with its records")
+    zips = [item for item in files if item[0].lower().endswith(".zip")]
+    if zips and len(files) > 1:
+        raise InputError("a zip was sent with other files; drop the zip alone, or the files alone")
+    room = _Room(folder)
+    if zips:
+        with _opened(zips[0][1]) as archive:
+            for name, content in _members(archive):
+                room.take(name, content)
+    for name, content in files if not zips else ():
+        room.take(name, content)
+    return _workbook(room.paths)
+
+
+class _Room:
+    """A folder while it is filled: its names without regard to capitals, and its bytes."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._spelled: dict[str, str] = {}
+        self._left = MOST_STORED
+        self.paths: list[Path] = []
+
+    def take(self, name: str, content: IO[bytes]) -> None:
+        """Write one file."""
+        path = checked(name)
+        if self._is_hidden(path):
+            return
+        if len(self.paths) >= MOST_FILES:
+            raise InputError(f"more than {MOST_FILES} files; drop the workbook and its records")
+        self._check_spelling(path)
+        target = self._folder.joinpath(*path.parts)
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with target.open("xb") as out:
+                while chunk := content.read(_CHUNK):
+                    self._left -= len(chunk)
+                    if self._left < 0:
+                        raise InputError(f"more than {MOST_STORED // MB} MB; drop fewer records")
+                    out.write(chunk)
+        except (FileExistsError, NotADirectoryError, IsADirectoryError) as error:
+            raise InputError(f"{name}: a file and a folder of one name; rename one") from error
+        self.paths.append(target)
+
+    def _check_spelling(self, path: PurePosixPath) -> None:
+        """Refuse a path that other systems would take for another one."""
+        for part in (path, *path.parents):
+            key = unicodedata.normalize("NFC", str(part)).casefold()
+            first = self._spelled.setdefault(key, str(part))
+            if first != str(part) or (part == path and str(path) in map(str, self._written())):
+                raise InputError(f"{path}: the same name as {first} but for capitals; rename one")
+
+    def _written(self) -> Iterator[PurePosixPath]:
+        return (PurePosixPath(*p.relative_to(self._folder).parts) for p in self.paths)
+
+    @staticmethod
+    def _is_hidden(path: PurePosixPath) -> bool:
+        return any(part.startswith((".", "~$")) or part == "__MACOSX" for part in path.parts)
+
+
+def checked(name: str) -> PurePosixPath:
+    """Return a relative path that stays within its folder on every system.
+
+    Raises
+    ------
+    InputError
+    """
+    parts = name.replace("\\", "/").split("/")
+    is_bad = (
+        len(name) > _MOST_NAME
+        or len(parts) > _DEEPEST
+        or any(part in ("", ".", "..") for part in parts)
+        or any(_FORBIDDEN.search(part) or _DEVICE.fullmatch(part) for part in parts)
+    )
+    if is_bad:
+        shown = _FORBIDDEN.sub("?", name)[:60]
+        raise InputError(f"'{shown}' is no path within a folder; rename the file")
+    return PurePosixPath(*parts)
+
+
+def _opened(content: IO[bytes]) -> zipfile.ZipFile:
+    try:
+        return zipfile.ZipFile(content)
+    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
+        raise InputError("the zip is damaged; make it again") from error
+
+
+def _members(archive: zipfile.ZipFile) -> Iterator[File]:
+    """Yield the files of a zip; refuse a link, and what is encrypted or damaged."""
+    members = [info for info in archive.infolist() if not info.is_dir()]
+    for info in members:
+        kind = stat.S_IFMT(info.external_attr >> 16)
+        if kind not in (0, stat.S_IFREG):
+            raise InputError(f"{_short(info)}: a link, not a file; put the file into the zip")
+        if info.flag_bits & _ENCRYPTED:
+            raise InputError("the zip has a password; make it without one")
+    for info in members:
+        try:
+            with archive.open(info) as content:
+                yield info.filename, content
+        except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError, OSError) as error:
+            raise InputError(f"{_short(info)}: damaged in the zip; make it again") from error
+
+
+def _short(info: zipfile.ZipInfo) -> str:
+    return _FORBIDDEN.sub("?", info.filename)[:60]
+
+
+def _workbook(paths: Iterable[Path]) -> Path:
+    """Return the workbook: input.xlsx, or the only one that is nearest to the top."""
+    found = sorted((p for p in paths if p.suffix.lower() == ".xlsx"), key=lambda p: len(p.parts))
+    named = [path for path in found if path.name.lower() == "input.xlsx"]
+    top = [path for path in named or found if len(path.parts) == len((named or found)[0].parts)]
+    if len(top) == 1:
+        return top[0]
+    if not top:
+        raise InputError("no workbook (.xlsx) was sent; drop it together with its records")
+    names = ", ".join(sorted(path.name for path in top)[:5])
+    raise InputError(f"{len(top)} workbooks were sent ({names}); name the one to use input.xlsx")
+
+
+def remove(folder: Path) -> None:
+    """Remove a folder with all that was stored in it."""
+    shutil.rmtree(folder, ignore_errors=True)

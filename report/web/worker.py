@@ -1,0 +1,45 @@
+"""A warm process that computes for the page: a line of JSON in for each job, a line out.
+
+Started by `report.web.workers` as `python -m report.web.worker`; ends with its input.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import traceback
+from typing import Any
+
+from report.web.limits import limit_memory
+
+MEMORY_BYTES = 6 << 30
+_TOO_LARGE = "this needs more memory than a session may use; drop fewer or shorter records"
+
+
+def main() -> None:
+    """Do the jobs that arrive until the input ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server decides what an interrupt ends
+    out = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)  # what a library prints is no answer
+    limit_memory(MEMORY_BYTES)
+    from report.web.jobs import perform
+
+    for line in sys.stdin:
+        out.write(f"{_answered(perform, line)}\n")
+        out.flush()
+
+
+def _answered(perform: Any, line: str) -> str:
+    try:
+        return json.dumps(perform(json.loads(line)), allow_nan=False)
+    except MemoryError:
+        return json.dumps({"problems": [], "refused": _TOO_LARGE})
+    except Exception:
+        traceback.print_exc()
+        return json.dumps({"problems": [], "internal": traceback.format_exc(limit=-1)})
+
+
+if __name__ == "__main__":
+    main()
