@@ -22,7 +22,7 @@ from report.figures.levels import LEAST_M, is_decade, levels
 from report.web.answers import finite
 from report.web.thinning import MOST, Indices, beside, peaks_kept
 from report.words.units import G_MPS2, Quantity, Unit, measured, number, pair
-from solver.forces import forces
+from solver.forces import Forces, forces
 from solver.model import Event, EventKind, Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
 from solver.records.record import Record
@@ -224,7 +224,7 @@ def _series(
         "velocity": [_history(one.name, velocity_displacement(one)[0]) for one in roof],
         "relative": [_history(name, values) for name, values in relative.items()],
         "normal": [_history("normal force", normal)],
-        "friction": [_history("used", used), _history("demand", demand)],
+        "friction": [_used(run, used, history.events), _history("demand", demand)],
     }
 
 
@@ -239,17 +239,41 @@ def _forces(
     """
     scene = _modeled(run)
     of = forces(scene)
-    drive = np.hypot(of.down_mps2, of.across_mps2)
-    presses = of.normal_mps2 > 0.0
-    demand = np.divide(drive, of.normal_mps2, out=np.full(drive.size, math.nan), where=presses)
+    demand = _demand_at(of, np.arange(of.normal_mps2.size, dtype=np.float64))
     across = history.across_mps if history.across_mps.size else 0.0
     speed = np.hypot(history.v_mps / math.cos(scene.slope_rad), across)
     law = scene.friction
     drop = law.mu_fast - law.mu_slow
     sliding = law.mu_fast - drop * np.exp(-law.rate_s_per_m * speed)
     used = np.where(_during(slips, history.t_s), sliding, demand)
-    used[~presses | np.isnan(history.u_m)] = math.nan
+    used[np.isnan(demand) | np.isnan(history.u_m)] = math.nan
     return of.normal_mps2 / scene.g_mps2, demand, used
+
+
+def _used(run: HeadingRun, used: Floats, events: Sequence[Event]) -> Json:
+    """Return the friction used, with its jumps where a slip begins and ends, between samples."""
+    law, dt_s = _modeled(run).friction, run.scene.dt_s
+    at = peaks_kept(used, max(MOST - 2 * len(events), MOST // 2))
+    jumps = np.array([event.t_s for event in events]) / dt_s
+    # Where the block turns back at once, the demand is above what friction can give at rest.
+    at_rest = np.minimum(_demand_at(forces(_modeled(run)), jumps), law.mu_static)
+    begins = [event.kind is EventKind.SLIP for event in events]
+    before = np.where(begins, at_rest, law.mu_slow)
+    after = np.where(begins, law.mu_slow, at_rest)
+    i, v = np.concatenate([at, jumps, jumps]), np.concatenate([used[at], before, after])
+    order = np.argsort(i, kind="stable")
+    return {"name": "used", "i": i[order].tolist(), "v": _at(v, order)}
+
+
+def _demand_at(of: Forces, at: Floats) -> Floats:
+    """Return the friction demand between samples, where forces are linear; NaN without contact."""
+    samples = np.arange(of.normal_mps2.size)
+    down, across, normal = (
+        np.interp(at, samples, force) for force in (of.down_mps2, of.across_mps2, of.normal_mps2)
+    )
+    demand = np.full(normal.size, math.nan)
+    np.divide(np.hypot(down, across), normal, out=demand, where=normal > 0.0)
+    return demand
 
 
 def _modeled(run: HeadingRun) -> Scene:

@@ -121,6 +121,34 @@ def test_the_friction_used_is_what_changes_the_velocity_of_the_solver(usual, arr
     assert demand[at_rest].max() <= scene.friction.mu_static
 
 
+@pytest.mark.parametrize("array", ["A1", "A2"])
+def test_the_friction_used_jumps_where_a_slip_begins_and_ends(usual, array):
+    """From the demand, which is then the coefficient, and back to the demand."""
+    answer = views.slide(usual, array, "M1")
+    scene, _ = solved(usual, array, "M1", answer["run"])
+    series, dt = answer["friction"][0], answer["dt_s"]
+    i, v = np.array(series["i"]), values(series)
+    assert (np.diff(i) >= 0.0).all()
+    assert len(i) <= 3000
+    mu = {"A1": 0.45, "A2": 0.4}[array]
+    for slip in answer["slips"]:
+        assert v[i == slip["from_s"] / dt] == pytest.approx([mu, mu], abs=2e-3)
+        first, last = v[i == slip["to_s"] / dt]
+        assert first == mu
+        assert last == pytest.approx(min(demand_at(scene, slip["to_s"]), mu), abs=1e-9)
+
+
+def demand_at(scene, t_s):
+    """|G| / N between samples, from the accelerations there."""
+    t, cs, sn = np.arange(scene.ax_mps2.size) * scene.dt_s, *unit(scene.slope_rad)
+    x, y, z = (np.interp(t_s, t, a) for a in (scene.ax_mps2, scene.ay_mps2, scene.az_mps2))
+    return math.hypot((G + z) * sn - x * cs, y) / ((G + z) * cs + x * sn)
+
+
+def unit(angle_rad):
+    return math.cos(angle_rad), math.sin(angle_rad)
+
+
 def between(samples):
     return (samples[:-1] + samples[1:]) / 2
 
@@ -190,6 +218,7 @@ def test_a_slip_that_the_record_cuts_off_ends_with_it():
     assert history.result.end_speed_mps != 0.0
     assert answer["slips"][-1]["to_s"] == history.t_s[-1]
     assert "still sliding at the end" in answer["texts"]["status"]
+    assert answer["friction"][0]["v"][-1] == 0.45
 
 
 def test_the_contour_of_the_governing_array_is_that_of_the_package(usual):
