@@ -53,21 +53,21 @@ def has_ground(package: PackageData) -> bool:
 def motion_table(motions: Sequence[Motion], preparations: Sequence[PreparedMotion]) -> Table:
     """Return the list of the motions as run."""
     grounds = [prepared.recorded_at is RecordedAt.GROUND for prepared in preparations]
-    where = [TableColumn(head="Recorded", align="left", share=0.9)] if any(grounds) else []
+    where = [TableColumn(head="Recorded", align="left", share=1.25)] if any(grounds) else []
     return Table(
         caption="Roof motions as run, after scaling",
         columns=(
-            TableColumn(head="Motion", align="left", share=1.0),
-            TableColumn(head="Source", align="left", share=3.7),
+            TableColumn(head="Motion", align="left", share=0.9),
+            TableColumn(head="Source", align="left", share=3.5),
             *where,
-            TableColumn(head="Peak", unit="record, g", share=1.0),
-            TableColumn(head="Peak", unit="transv., g", share=1.0),
-            TableColumn(head="Peak", unit="vertical, g", share=1.1),
-            TableColumn(head="Step", unit="s", share=0.7),
-            TableColumn(head="Duration", unit="s", share=0.85),
-            TableColumn(head="Scaling", align="left", share=1.5),
+            TableColumn(head="Peak [g]", unit="record", share=1.0),
+            TableColumn(head="Peak [g]", unit="transv.", share=1.0),
+            TableColumn(head="Peak [g]", unit="vertical", share=1.1),
+            TableColumn(head="Step", unit="s", share=1.1),
+            TableColumn(head="Duration", unit="s", share=1.1),
+            TableColumn(head="Scaling", align="left", share=1.35),
             TableColumn(head="Factor", share=0.8),
-            TableColumn(head="Polarity", align="center", share=0.85),
+            TableColumn(head="Polarity", align="center", share=1.0),
         ),
         rows=tuple(
             _motion_row(motion, prepared, with_place=any(grounds))
@@ -85,7 +85,7 @@ def _motion_row(motion: Motion, prepared: PreparedMotion, *, with_place: bool) -
             with_symbols(motion.source or "—"),
             *([prepared.recorded_at.value] if with_place else []),
             *(_peak(values, motion.scale) for values in peaks),
-            f"{motion.dt_s:.4g}",
+            f"{motion.dt_s:.3g}",
             number((len(motion.ax_mps2) - 1) * motion.dt_s, 2),
             prepared.scaling,
             f"{motion.scale:.4g}",

@@ -272,7 +272,7 @@ def _ratios(package: PackageData) -> Table:
             *fmt.columns("Design"),
             TableColumn(head="Analysis / prescr.", share=1.2),
             TableColumn(head="Design / prescr.", share=1.2),
-            TableColumn(head="Governs", align="left", share=1.4),
+            TableColumn(head="Governs", align="left", share=1.75),
         ),
         rows=tuple(_ratio_row(package, array) for array in package.assessment.arrays),
         kind="compact",

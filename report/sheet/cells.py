@@ -90,6 +90,8 @@ def plain(value: object) -> str:
             return value.date().isoformat()
         case float() if value.is_integer() and abs(value) < 1e15:
             return str(int(value))
+        case float():
+            return f"{value:.15g}"  # the digits that a spreadsheet keeps of what was typed
         case date() | time():
             return value.isoformat()
         case _:
