@@ -343,6 +343,8 @@ def _slide_texts(
         "without baseline correction; the roof moves "
         f"{pair(travel, Quantity.DISPLACEMENT, us_first)} at most.",
         "samples": drawn,
+        "axes": "Down is downslope; cross is cross-slope, positive to the left when facing "
+        "downslope.",
     }
 
 

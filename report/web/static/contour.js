@@ -57,7 +57,8 @@ function build(element, data) {
     x = scale(roomy(mus), [MARGIN.left, wide - MARGIN.right]);
     x.end = wide - MARGIN.right;
     y = scale(roomy(slopes), [HEIGHT - MARGIN.bottom, MARGIN.top]);
-    replace(plot, axes(data, x, y, wide), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y), cross, arrays(data, x, y));
+    const named = placed(data, x, y);
+    replace(plot, axes(data, x, y, wide), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y, named), cross, named.map(arrayDot));
     read(at.mu, at.slope);
   }
 
@@ -127,8 +128,8 @@ function crosses({ mus, slopes_deg: slopes, prd_m: prd }, x, y) {
 }
 
 // Each level with its value on its longest line, where no other label stands.
-function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, x, y) {
-  const taken = [];
+function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, x, y, named) {
+  const taken = named.flatMap(({ at: [a, b], name }) => [[a, b, 8], [a + 9 + halfOf(name), b - 11, halfOf(name)]]);
   const fine = refined(mus, slopes, prd, least, 6);
   return levels.map(({ prd_m: level, text, is_major: isMajor }) => {
     const found = isolines(...fine, level, least).map((line) => line.map(([mu, slope]) => [x(mu), y(slope)]));
@@ -142,7 +143,7 @@ function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, 
 }
 
 function labelPlace(line, text, taken, right) {
-  const half = (text.length * LABEL * 0.5) / 2 + 3;
+  const half = halfOf(text);
   const fits = ([a, b]) =>
     a - half > MARGIN.left && a + half < right && b > MARGIN.top + 8 && b < HEIGHT - MARGIN.bottom - 8 &&
     taken.every(([c, d, other]) => Math.abs(a - c) > half + other || Math.abs(b - d) > LABEL + 3);
@@ -154,22 +155,31 @@ function labelPlace(line, text, taken, right) {
   return line[k];
 }
 
-function arrays({ arrays: all, array }, x, y) {
+// Half the width of a label, about.
+function halfOf(text) {
+  return (text.length * LABEL * 0.5) / 2 + 3;
+}
+
+// The arrays at each friction and slope, with the name that they share there.
+function placed({ arrays: all, array }, x, y) {
   const places = new Map();
   for (const one of all) {
     const key = `${one.mu.toFixed(3)} ${one.slope_deg.toFixed(2)}`;
     places.set(key, [...(places.get(key) ?? []), one]);
   }
-  return [...places.values()].map((group) => {
-    const { mu, slope_deg: slope } = group[0];
-    const isHollow = group.every((one) => one.has_other_law);
-    const isShown = group.some((one) => one.id === array);
-    const more = group.length > 2 ? ` and ${group.length - 2} more` : "";
-    return svg(
-      "g",
-      { class: "array-dot" },
-      svg("circle", { class: isHollow ? "is-hollow" : null, cx: x(mu), cy: y(slope), r: isShown ? 6 : 4.5 }),
-      svg("text", { class: `on-line ${isShown ? "strong" : "label"}`, x: x(mu) + 9, y: y(slope) - 7 }, group.slice(0, 2).map((one) => one.id).join(", ") + more),
-    );
-  });
+  return [...places.values()].map((group) => ({
+    at: [x(group[0].mu), y(group[0].slope_deg)],
+    name: group.slice(0, 2).map((one) => one.id).join(", ") + (group.length > 2 ? ` and ${group.length - 2} more` : ""),
+    isHollow: group.every((one) => one.has_other_law),
+    isShown: group.some((one) => one.id === array),
+  }));
+}
+
+function arrayDot({ at: [a, b], name, isHollow, isShown }) {
+  return svg(
+    "g",
+    { class: "array-dot" },
+    svg("circle", { class: isHollow ? "is-hollow" : null, cx: a, cy: b, r: isShown ? 6 : 4.5 }),
+    svg("text", { class: `on-line ${isShown ? "strong" : "label"}`, x: a + 9, y: b - 7 }, name),
+  );
 }

@@ -5,9 +5,8 @@ import { number } from "./reading.js";
 import { within } from "./view-axes.js";
 import { button, createView, onKeys, runSelect } from "./view-frame.js";
 import { createPanels } from "./view-panels.js";
-import { timed } from "./view-series.js";
+import { seriesOf } from "./view-series.js";
 
-const LOOKS = { downslope: "is-first", "cross-slope": "is-across", vertical: "is-third", "normal force": "is-first" };
 const PANELS = [
   ["Roof acceleration", "acceleration"],
   ["Roof velocity", "velocity"],
@@ -15,6 +14,7 @@ const PANELS = [
   ["Normal force", "normal"],
 ];
 const HEIGHT = 430;
+const NARROW = 570; // below it the headings have two lines
 const LEAST_SAMPLES = 20; // in the shortest span that is shown
 const STEPS = 400; // of the reading by arrow keys, across the span
 const ZOOM = 0.6;
@@ -48,13 +48,13 @@ function build(element, data, again) {
   zoomByKeys(stage, lens);
   zoomByPointer(stage, brush, panels, lens);
 
-  const resize = () => panels.resize(element.clientWidth, HEIGHT);
+  const resize = () => panels.resize(element.clientWidth, HEIGHT, { isNarrow: element.clientWidth < NARROW });
   replace(
     element,
     html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run })), buttons.element, where),
     stage,
     html("p", { class: "note", id: "histories-keys" }, KEYS),
-    html("p", { class: "note" }, [texts.status, texts.model, texts.roof, texts.samples].filter(Boolean).join(" ")),
+    html("p", { class: "note" }, [texts.status, texts.axes, texts.model, texts.roof, texts.samples].filter(Boolean).join(" ")),
   );
   resize();
   lens.reset();
@@ -65,7 +65,7 @@ function panelsOf(data) {
   return PANELS.map(([title, key, unit = key]) => ({
     title: `${title} [${data.units[unit][0].symbol}]`,
     units: data.units[unit],
-    series: data[key].map((one) => ({ ...timed(one, data.dt_s), look: LOOKS[one.name] })),
+    series: seriesOf(data, key),
   }));
 }
 

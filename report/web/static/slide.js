@@ -26,7 +26,7 @@ export function mount(element, api, scene) {
 }
 
 function build(element, data, { again, announce, speed, keep }) {
-  const { seconds } = data;
+  const { seconds, texts } = data;
   const slips = createSlips(data);
   const player = createPlayer(seconds, slips.events, show);
   const stage = createStage(data, player.seek);
@@ -74,11 +74,11 @@ function build(element, data, { again, announce, speed, keep }) {
   replace(
     element,
     html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run }))),
-    html("p", { class: "watch-head" }, html("strong", { class: "numbers" }, data.texts.prd), caption),
+    html("p", { class: "watch-head" }, html("strong", { class: "numbers" }, texts.prd), caption),
     stage.element,
     html("div", { class: "player" }, parts.play, parts.back, parts.next, speeds.element, parts.scrub, parts.clock),
     html("p", { class: "note", id: "slide-keys" }, KEYS),
-    html("p", { class: "note" }, [data.texts.status, data.texts.model, data.texts.roof].filter(Boolean).join(" ")),
+    html("p", { class: "note" }, [texts.status, texts.axes, texts.model, texts.roof].filter(Boolean).join(" ")),
   );
   resize();
   player.seek(data.t_prd_s ?? 0);

@@ -7,7 +7,7 @@ import { curve, rangeIn, valueAt } from "./view-series.js";
 
 const LEFT = 46;
 const RIGHT = 8;
-const HEAD = 20; // height of a heading, as in views.css
+const HEADS = [20, 38]; // heights of a heading of one line and of two, as in views.css
 const AXIS = 22;
 const ROOM = 0.06; // of the range of the values, above and below
 let made = 0;
@@ -21,17 +21,17 @@ export function createPanels({ panels, seconds, slips }) {
   const drawn = panels.map(createPanel);
   const axis = svg("svg", { class: "panel-axis", "aria-hidden": true });
   const element = html("div", { class: "panels" }, drawn.map((panel) => panel.element), axis);
-  let size = { width: 0, height: 0 };
+  let size = { width: 0, height: 0, head: HEADS[0] };
   let span = [0, seconds];
   let x = scale(span, [LEFT, LEFT + 1]);
   let now = 0;
   let picked = null;
 
   function draw() {
-    const { width, height } = size;
+    const { width, height, head } = size;
     if (width === 0) return;
     x = scale(span, [LEFT, width - RIGHT]);
-    const tall = Math.floor((height - AXIS) / drawn.length) - HEAD;
+    const tall = Math.floor((height - AXIS) / drawn.length) - head;
     const times = ticks(...span, width / 90);
     for (const panel of drawn) panel.draw({ width, tall, span, x, times, slips });
     drawAxis(axis, width, x, times);
@@ -44,8 +44,10 @@ export function createPanels({ panels, seconds, slips }) {
 
   return {
     element,
-    resize(width, height) {
-      size = { width, height };
+    /** Fill a width and height; where the width is too small, the headings have two lines. */
+    resize(width, height, { isNarrow = false } = {}) {
+      size = { width, height, head: HEADS[Number(isNarrow)] };
+      element.classList.toggle("is-narrow", isNarrow);
       draw();
     },
     /** Show a span of time. */

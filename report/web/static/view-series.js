@@ -1,8 +1,16 @@
 // Histories as the server sends them: numbers of samples and values, null where there is none.
 
-/** Return a history with its times. */
-export function timed({ name, i, v }, dt) {
-  return { name, t: Float64Array.from(i, (k) => k * dt), v };
+const NAMES = { downslope: "down", "cross-slope": "cross", "normal force": "N / W" };
+const LOOKS = { "cross-slope": "is-across", vertical: "is-third", demand: "is-third" };
+
+/** Return the histories of a kind, such as `velocity`: their times and values, name and look. */
+export function seriesOf(data, kind) {
+  return data[kind].map(({ name, i, v }) => ({
+    name: NAMES[name] ?? name,
+    look: LOOKS[name] ?? "is-first",
+    t: Float64Array.from(i, (k) => k * data.dt_s),
+    v,
+  }));
 }
 
 /** Return the number of the last of ascending values that is not above one; -1 if all are. */

@@ -3,7 +3,7 @@
 import { html } from "./make.js";
 import { within } from "./view-axes.js";
 import { createPanels } from "./view-panels.js";
-import { rangeIn, timed } from "./view-series.js";
+import { rangeIn, seriesOf } from "./view-series.js";
 import { createTrack } from "./view-track.js";
 
 const HEIGHT = 330;
@@ -11,12 +11,10 @@ const GROUND = 142; // height of the plan seen from the ground
 const GAP = 6;
 const WHOLE = 128; // height of the displacement over the whole run
 const CLOSE_S = 4; // of the forces, around the time
-const NARROW = 520; // below it the plans are above the histories
+const NARROW = 540; // below it the plans are above the histories
 const PLAN = 0.4; // of the width
 const BETWEEN = 12; // plans and histories
 const MOST_DEMAND = 1.6; // times the largest friction used: the axis of friction ends there
-const NAMES = { downslope: "down", "cross-slope": "cross", "normal force": "N / W" };
-const LOOKS = { downslope: "is-first", "cross-slope": "is-across", "normal force": "is-first", used: "is-first", demand: "is-third" };
 
 /** Return the stage of a run; `seek` is called with the time where the whole run is pressed. */
 export function createStage(data, seek) {
@@ -57,13 +55,12 @@ export function createStage(data, seek) {
 }
 
 function panelsOf(data) {
-  const series = (key) => data[key].map((one) => ({ ...timed(one, data.dt_s), name: NAMES[one.name] ?? one.name, look: LOOKS[one.name] }));
-  const friction = series("friction");
+  const friction = seriesOf(data, "friction");
   const over = [0, data.seconds];
   const [, most] = rangeIn(friction[0], over) ?? [0, 1];
   return [
-    { title: "Displacement", units: data.units.displacement, series: series("relative") },
-    { title: "Normal force", units: data.units.normal, series: series("normal"), over },
+    { title: "Displacement", units: data.units.displacement, series: seriesOf(data, "relative") },
+    { title: "Normal force", units: data.units.normal, series: seriesOf(data, "normal"), over },
     { title: "Friction F / N", units: data.units.friction, series: friction, least: 0, most: MOST_DEMAND * Math.max(most, 0.1), over },
   ];
 }

@@ -463,13 +463,19 @@ def test_paths_are_at_one_scale_and_read_point_by_point(page, assessment):
     assert f"at 8.00 s: {pair(far, Quantity.DISPLACEMENT)} from" in text(page, ".paths-foot output")
 
 
-def test_every_view_fits_a_narrow_column(page, run, assessment):
+CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
+  .filter((one) => one.scrollWidth > one.clientWidth || one.scrollHeight > one.clientHeight + 1)
+  .map((one) => one.className)"""
+
+
+@pytest.mark.parametrize("wide", [411, 590, 760])
+def test_nothing_of_a_view_is_cut_off_in_any_width_of_the_page(page, run, assessment, wide):
     for view, data in (
         ("slide", run),
         ("histories", run),
         ("contour", views.contour(assessment, "A1")),
         ("paths", views.paths(assessment, "A1")),
     ):
-        mounted(page, view, data, wide=460)
-        wide = page.locator(".view").evaluate("(one) => [one.scrollWidth, one.clientWidth]")
-        assert wide[0] <= wide[1], view
+        mounted(page, view, data, wide=wide)
+        page.evaluate("document.fonts.ready")
+        assert page.evaluate(CLIPPED) == [], view
