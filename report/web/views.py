@@ -23,7 +23,7 @@ from report.web.answers import finite
 from report.web.thinning import MOST, Indices, beside, peaks_kept
 from report.words.units import G_MPS2, Quantity, Unit, measured, number, pair
 from solver.forces import Forces, forces
-from solver.model import Event, EventKind, Floats, InputError, Scene, SlideHistory, Status
+from solver.model import INCH_M, Event, EventKind, Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
@@ -37,10 +37,11 @@ _T = TypeVar("_T")
 MOST_ON_TRACK = 1500  # of one direction, beside the events
 MOST_ON_PATH = 200  # of one direction; a path is drawn an inch or two wide
 
+_VELOCITY = (Unit("in/s", INCH_M, 1), Unit("mm/s", 1e-3, 0))
 _ONE_UNIT: Mapping[str, Unit] = {
-    "acceleration": Unit("g", G_MPS2, 3),
-    "normal": Unit("W", 1.0, 3),
-    "friction": Unit("", 1.0, 3),
+    "acceleration": Unit("g", G_MPS2, 2),
+    "normal": Unit("W", 1.0, 2),
+    "friction": Unit("", 1.0, 2),
     "time": Unit("s", 1.0, 2),
     "slope": Unit("deg", 1.0, 2),
 }
@@ -441,8 +442,8 @@ def _numbers(values: Floats) -> list[float | None]:
 
 def _units(us_first: bool) -> dict[str, list[Json]]:
     """Return the units of each quantity, the preferred one first."""
-    both = {"displacement": Quantity.DISPLACEMENT, "velocity": Quantity.VELOCITY}
-    pairs = {name: quantity.value[:: 1 if us_first else -1] for name, quantity in both.items()}
+    both = {"displacement": Quantity.DISPLACEMENT.value, "velocity": _VELOCITY}
+    pairs = {name: units[:: 1 if us_first else -1] for name, units in both.items()}
     alone = {name: (unit,) for name, unit in _ONE_UNIT.items()}
     return {
         name: [{"symbol": u.symbol, "si": u.si, "decimals": u.decimals} for u in units]

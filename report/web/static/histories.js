@@ -27,13 +27,13 @@ export function mount(element, api, scene) {
   return createView(element, scene, {
     ask: ({ array, motion, values }) => ({ array, motion, values }),
     fetch: api.slide,
-    build,
+    build: (inside, data, again) => build(inside, data, again, api.announce),
   });
 }
 
-function build(element, data, again) {
+function build(element, data, again, announce) {
   const panels = createPanels({ panels: panelsOf(data), seconds: data.seconds, slips: data.slips });
-  const where = html("output", { class: "numbers when" });
+  const where = html("span", { class: "numbers when" });
   const brush = html("div", { class: "brush", hidden: true });
   const stage = html("div", { class: "stage", tabindex: 0, role: "application", "aria-label": "Histories", "aria-describedby": "histories-keys" }, panels.element, brush);
   const { texts } = data;
@@ -45,7 +45,7 @@ function build(element, data, again) {
     where.textContent = `t = ${number(time, 3)} s`;
     buttons.follow(lens);
   });
-  zoomByKeys(stage, lens);
+  zoomByKeys(stage, lens, () => announce(`${where.textContent}. ${panels.words(lens.time)}.`));
   zoomByPointer(stage, brush, panels, lens);
 
   const resize = () => panels.resize(element.clientWidth, HEIGHT, { isNarrow: element.clientWidth < NARROW });
@@ -104,6 +104,9 @@ function createLens({ seconds, dt_s: dt, t_prd_s: peak }) {
       time += shift;
       show(span[0] + shift, span[1] + shift);
     },
+    get time() {
+      return time;
+    },
     get isWhole() {
       return span[1] - span[0] >= seconds;
     },
@@ -133,7 +136,11 @@ function zoomButtons(lens) {
   };
 }
 
-function zoomByKeys(stage, lens) {
+function zoomByKeys(stage, lens, tell) {
+  const read = (move) => {
+    move();
+    tell();
+  };
   const closer = () => lens.zoom(ZOOM);
   onKeys(stage, {
     "+": closer,
@@ -141,12 +148,12 @@ function zoomByKeys(stage, lens) {
     "-": () => lens.zoom(1 / ZOOM),
     0: lens.reset,
     Escape: lens.reset,
-    ArrowLeft: ({ shiftKey }) => (shiftKey ? lens.pan(-PAN) : lens.step(-1)),
-    ArrowRight: ({ shiftKey }) => (shiftKey ? lens.pan(PAN) : lens.step(1)),
+    ArrowLeft: ({ shiftKey }) => (shiftKey ? lens.pan(-PAN) : read(() => lens.step(-1))),
+    ArrowRight: ({ shiftKey }) => (shiftKey ? lens.pan(PAN) : read(() => lens.step(1))),
     PageUp: () => lens.pan(-1),
     PageDown: () => lens.pan(1),
-    Home: () => lens.ends(0),
-    End: () => lens.ends(1),
+    Home: () => read(() => lens.ends(0)),
+    End: () => read(() => lens.ends(1)),
   });
 }
 

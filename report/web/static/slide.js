@@ -107,7 +107,7 @@ function controls(player, { seconds, before, after }) {
   const back = button("‹ Slip", "Slip before (P)", before, { "aria-label": "Slip before" });
   const next = button("Slip ›", "Next slip (N)", after, { "aria-label": "Next slip" });
   const scrub = html("input", { type: "range", class: "scrub", min: 0, max: seconds, step: STEP_S, "aria-label": "Time", on: { input: ({ target }) => player.seek(Number(target.value)) } });
-  const clock = html("output", { class: "numbers clock" });
+  const clock = html("span", { class: "numbers clock" });
   return {
     play,
     back,

@@ -61,6 +61,8 @@ export function createPanels({ panels, seconds, slips }) {
       picked = slip;
       mark();
     },
+    /** Return the values at a time in words. */
+    words: (time) => drawn.map((panel) => panel.words(time)).join("; "),
     /** Return the time under a pointer. */
     timeAt({ clientX }) {
       const pixel = clientX - element.getBoundingClientRect().left;
@@ -72,7 +74,7 @@ export function createPanels({ panels, seconds, slips }) {
 function createPanel({ title, units, series, least, most, over }) {
   made += 1;
   const clip = `panel-${made}`;
-  const values = series.map(() => html("output", { class: "numbers" }));
+  const values = series.map(() => html("span", { class: "value numbers" }));
   const looks = series.map(({ name, look }, k) => html("span", { class: "reading" }, sample(look), `${name} `, values[k]));
   const bands = svg("path", { class: "slip-bands" });
   const band = svg("rect", { class: "slip-picked", y: 0, width: 0 });
@@ -124,12 +126,13 @@ function createPanel({ title, units, series, least, most, over }) {
         values[k].textContent = measured(valueAt(one, time), units[0]);
       });
     },
+    words: (time) => `${title}: ${series.map((one) => `${one.name} ${measured(valueAt(one, time), units[0])}`).join(", ")}`,
   };
 }
 
 function drawAxis(axis, width, x, { values, step }) {
   set(axis, { width, height: AXIS, viewBox: `0 0 ${width} ${AXIS}` });
-  const room = width - RIGHT - 40; // for "Time [s]"
+  const room = width - RIGHT - 68; // "Time [s]" and half of a number
   axis.replaceChildren(
     ...values.filter((time) => x(time) < room).map((time) => svg("text", { class: "tick middle-of", x: x(time), y: 15 }, tickText(time, step))),
     svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, "Time [s]"),
