@@ -17,7 +17,7 @@ G = 9.80665
 # Files that take more than two seconds; in the whole suite they start first, so that no core idles
 # at its end.
 SLOW = (
-    "test_readme", "test_package", "test_projects", "test_answers", "test_verify",
+    "test_readme", "test_page", "test_package", "test_projects", "test_answers", "test_verify",
     "test_two_axes_kernel", "test_campaign", "test_watch", "test_recalculated", "test_cli",
     "test_drawn_roof", "test_verify_package",
     "test_two_axes", "test_two_axes_friction", "test_suite_files", "test_synthesis",
@@ -30,7 +30,8 @@ SLOW = (
     "test_study", "test_study_cluster", "test_plane_scipy", "test_neighbors", "test_roof",
     "test_plan", "test_check_cli", "test_foresight", "test_links", "test_friction_sheet",
     "test_live", "test_clearances", "test_outlines", "test_tagged", "test_archive",
-    "test_front_matter", "test_fill", "test_labels_fit", "test_json", "test_excel", "test_parts",
+    "test_front_matter", "test_page_scripts", "test_fill", "test_labels_fit", "test_json",
+    "test_excel", "test_parts",
 )  # fmt: skip
 
 

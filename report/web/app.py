@@ -29,7 +29,15 @@ from report.web.sessions import EXAMPLE, Sessions
 from report.web.workers import LostError, Rank, StaleError
 from solver.model import InputError
 
-STATIC = Path(__file__).resolve().parent / "static"
+_HERE = Path(__file__).resolve().parent
+STATIC = _HERE / "static"
+# In a wheel the templates are inside the package, in a checkout beside it.
+_REPORT = _HERE.parent
+FONTS = next(
+    path
+    for path in (_REPORT / "templates" / "fonts", _REPORT.parent / "templates" / "fonts")
+    if path.is_dir()
+)
 CLEANING_S = 60.0
 
 # Windows takes the type of a file from its registry, where scripts may be plain text.
@@ -70,6 +78,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             *(Route(f"/api/{name}", _view, methods=["POST"], name=name) for name in _VIEWS),
             Route("/api/workbook", workbook, methods=["POST"]),
             *package_routes(),
+            Mount("/static/fonts", StaticFiles(directory=FONTS)),
             Mount("/static", StaticFiles(directory=STATIC)),
         ],
         middleware=[Middleware(Access, gate=gate, sessions=sessions)],

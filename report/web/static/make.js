@@ -17,6 +17,12 @@ export function replace(element, ...children) {
   element.replaceChildren(...nodes(children));
 }
 
+/** Return words with their subscripts: S_DS is an S with a small DS. */
+export function words(text) {
+  const parts = text.split(/\b([A-Z])_(\w{1,3})\b/);
+  return parts.map((part, k) => (k % 3 === 2 ? html("sub", {}, part) : part));
+}
+
 /** Return points as the attribute of a polygon. */
 export function points(all) {
   return all.map(([x, y]) => `${x},${y}`).join(" ");

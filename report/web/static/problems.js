@@ -1,6 +1,6 @@
 // The errors of a workbook, by cell, each with a picture of its row.
 
-import { html, replace } from "./make.js";
+import { html, replace, words } from "./make.js";
 
 const BESIDE = 2; // columns drawn on either side of the cell
 
@@ -37,8 +37,8 @@ function line(problem, k) {
     {},
     html("td", { class: "numbers" }, String(k + 1)),
     html("th", { scope: "row" }, where || problem.file, where ? html("small", {}, problem.file) : null),
-    html("td", {}, problem.found ?? problem.text),
-    html("td", {}, problem.remedy ?? ""),
+    html("td", {}, words(problem.found ?? problem.text)),
+    html("td", {}, words(problem.remedy ?? "")),
     html("td", {}, problem.row ? picture(problem.row) : null),
   );
 }

@@ -1,6 +1,6 @@
 // The verdict, the arrays and the clearances, as the server words them.
 
-import { html, replace } from "./make.js";
+import { html, replace, words } from "./make.js";
 
 /** Return the tag of a verdict: inverse for NG, boxed for conditions, as in the package. */
 export function tag(verdict) {
@@ -20,9 +20,9 @@ export function showVerdict(element, { verdict, verdict_text: text, reasons, mod
 }
 
 /** Show what a provisional answer is; it has no verdict. */
-export function showProvisional(element, words, model) {
+export function showProvisional(element, what, model) {
   const mark = html("strong", { class: "tag is-provisional" }, "Provisional");
-  replace(element, html("p", { class: "verdict-line" }, mark, " ", words), html("p", { class: "note" }, model));
+  replace(element, html("p", { class: "verdict-line" }, mark, " ", what), html("p", { class: "note" }, model));
 }
 
 /** Show that these values have no answer, and why. */
@@ -32,7 +32,7 @@ export function showNoVerdict(element, reasons) {
 
 function list(reasons) {
   if (reasons.length === 0) return null;
-  return html("ul", { class: "reasons", tabindex: "0", "aria-label": "Reasons" }, reasons.map((text) => html("li", {}, text)));
+  return html("ul", { class: "reasons", tabindex: "0", "aria-label": "Reasons" }, reasons.map((text) => html("li", {}, words(text))));
 }
 
 /** Show the table of arrays; `pick` gets the id of the one whose bars are to be drawn. */

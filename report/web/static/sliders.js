@@ -1,6 +1,6 @@
 // Sliders and choices: native controls, so that the keyboard and a screen reader know them.
 
-import { html, replace } from "./make.js";
+import { html, replace, words } from "./make.js";
 
 /** Show the controls of a project; returns how to follow its answers. */
 export function mountSliders(element, { sliders, choices }, values, session) {
@@ -63,7 +63,7 @@ function slider(item, values, session) {
   const field = html(
     "div",
     { class: "slider" },
-    html("div", { class: "slider-head" }, html("label", { for: id, title: item.help }, item.label), back),
+    html("div", { class: "slider-head" }, html("label", { for: id, title: item.help }, words(item.label)), back),
     output,
     input,
     ticks,
@@ -79,7 +79,7 @@ function choice(item, values, session) {
   );
   const select = html("select", { id: name, title: item.help, on: { change: () => session.set({ [item.id]: select.value }) } }, options);
   const printed = html("p", { class: "note print-only" });
-  const field = html("div", { class: "field" }, html("label", { for: name }, item.label), select, printed);
+  const field = html("div", { class: "field" }, html("label", { for: name }, words(item.label)), select, printed);
   const say = () => {
     printed.textContent = select.selectedOptions[0].label;
   };

@@ -153,6 +153,12 @@ def test_arrow_keys_go_around_the_tabs(page, key, at, goes):
     assert called(page, "tabs", body, {"key": key, "at": at}) == goes
 
 
+def test_a_subscript_is_set_as_one(page):
+    body = "return m.html('p', {}, m.words('S_DS and F_a of A_1B, a_b')).innerHTML;"
+    words = called(page, "make", body)
+    assert words == "S<sub>DS</sub> and F<sub>a</sub> of A<sub>1B</sub>, a_b"
+
+
 def test_a_null_breaks_a_drawn_curve(page):
     assert called(page, "make", "return m.path([0, 1, 2, 3], [5, null, 6, 7]);") == "M0 5M2 6L3 7"
 

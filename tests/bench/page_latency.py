@@ -1,0 +1,59 @@
+"""How long the page takes to follow a slider, in the browser: from the event to the drawn answer.
+
+PYTHONPATH=tests .venv/bin/python tests/bench/page_latency.py [MOVES]
+
+One axis is the answer while a slider moves; two axes is the full model after it was let go. Prints
+the median, the 95th percentile and the largest of all moves [ms].
+"""
+
+import sys
+
+import numpy as np
+
+from browsing import chromium, opened, quiet_page, served
+
+MEASURED = """
+([slider, values, isLetGo]) => {
+  const input = document.querySelector(`#slider-${slider}`);
+  const table = document.querySelector("#arrays");
+  // A provisional answer that takes longer than the slider rests is overtaken by the full one.
+  const ends = ["rest", isLetGo ? "rest" : "moving"];
+  const isAnswered = () => ends.includes(document.body.dataset.phase);
+  const once = (value) => new Promise((done) => {
+    const observer = new MutationObserver(() => {
+      if (!isAnswered()) return;
+      observer.disconnect();
+      requestAnimationFrame(() => done(performance.now() - start));
+    });
+    observer.observe(table, { childList: true });
+    const start = performance.now();
+    input.value = value;
+    input.dispatchEvent(new InputEvent("input", { bubbles: true }));
+    if (isLetGo) input.dispatchEvent(new PointerEvent("pointerup", { bubbles: true }));
+  });
+  return values.reduce(async (before, value) => [...await before, await once(value)], []);
+}
+"""
+
+
+def main(moves: int) -> None:
+    """Measure moves of three sliders of the example."""
+    spans = {"friction": (0.8, 1.0), "slope": (-0.4, 2.0), "intensity": (0.8, 1.2)}
+    with chromium() as browser, served() as address, quiet_page(browser) as page:
+        opened(page, address)
+        for name, is_let_go in (("one axis", False), ("two axes", True)):
+            times = []
+            for slider, span in spans.items():
+                steps = np.linspace(*span, 1 + moves // 3)
+                values = [round(float(step), 2) for step in steps]
+                times += page.evaluate(MEASURED, [slider, values, is_let_go])[1:]
+                page.wait_for_selector("body[data-phase=rest]")
+            half, most = np.percentile(times, [50, 95])
+            print(
+                f"{name}: {len(times)} moves, median {half:.0f} ms, 95th percentile {most:.0f} ms,"
+                f" largest {max(times):.0f} ms"
+            )
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 90)

@@ -1,0 +1,270 @@
+"""The page in a real browser, with a real server: what a user sees and takes away."""
+
+import base64
+import io
+import json
+import math
+import re
+import shutil
+from urllib.parse import urlsplit
+
+import openpyxl
+import pytest
+from pypdf import PdfReader
+
+from browsing import TABLET, at_rest, moved, opened, quiet_page, served
+from places import ROOT
+
+EXAMPLE = ROOT / "projects" / "example"
+INCH_M = 0.0254
+
+
+@pytest.fixture(scope="module")
+def address():
+    with served() as address:
+        yield address
+
+
+@pytest.fixture
+def page(browser, address):
+    with quiet_page(browser) as page:
+        opened(page, address)
+        yield page
+
+
+def verdicts(page):
+    return page.locator("#verdict .tag, #results .tag").all_inner_texts()
+
+
+def numbers(page, table, column):
+    return page.locator(f"#{table} tbody tr > :nth-child({column})").all_inner_texts()
+
+
+def required(clearance):
+    """A required separation [in]; one that is not provided is rounded up, as in the package."""
+    value = clearance["required_m"] / INCH_M
+    is_more = clearance["required_m"] > clearance["provided_m"]
+    return f"{math.ceil(10 * value - 1e-6) / 10 if is_more else value:.1f} in"
+
+
+def saved(page, click):
+    with page.expect_download() as download:
+        click()
+    return download.value.suggested_filename, download.value.path().read_bytes()
+
+
+def test_a_first_visit_shows_the_example_running_and_says_what_to_do(page):
+    assert "This is the example" in page.inner_text("#welcome")
+    assert page.title().startswith(page.inner_text("h1"))
+    assert "token" not in page.url
+    assert [text for text in verdicts(page) if text != "OK"] == []
+    assert len(verdicts(page)) == 1 + 3 + 6
+    assert page.locator("#plan-drawing .array").count() == 3
+    assert page.locator("#plan-drawing .callout").count() == 6
+    assert page.locator("#bars tbody tr").count() == 7
+    assert page.evaluate("document.fonts.check('13px \"Source Sans 3\"')")
+    width = page.evaluate("[document.body.scrollWidth, innerWidth]")
+    assert width[0] <= width[1]
+
+
+def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(page):
+    page.evaluate(
+        """() => {
+          window.seen = [];
+          new MutationObserver(() => {
+            const shown = [...document.querySelectorAll(".tag, .ng-box")].filter(
+              (tag) => tag.checkVisibility({ visibilityProperty: true }));
+            window.seen.push([document.body.dataset.phase, shown.map((tag) => tag.textContent),
+              document.querySelector("#verdict").innerText]);
+          }).observe(document.querySelector("#verdict"), { childList: true });
+        }"""
+    )
+    # It goes on moving until its values are shown, as under a finger.
+    for step in range(100):
+        moved(page, "friction", 0.7 + step % 2 / 100)
+        if "in one axis" in page.inner_text("#verdict"):
+            break
+    at_rest(page)
+    seen = page.evaluate("seen")
+    moving = [(tags, words) for phase, tags, words in seen if phase == "moving"]
+    assert moving
+    assert all(tags == ["Provisional"] for tags, _ in moving)
+    assert "in one axis" in moving[-1][1]
+    assert "Full model" in page.inner_text("#verdict")
+    assert verdicts(page)[0] == "NG"
+    failing = numbers(page, "clearances", 6).count("NG")
+    assert failing > 0
+    assert page.locator("#plan-drawing .gap.is-ng").count() == failing
+    assert page.locator("#plan-drawing .ng-box").all_text_contents() == ["NG"] * failing
+
+
+def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, address):
+    moved(page, "slope", 1.0)
+    page.wait_for_url("**/#slope=1")
+    shown = numbers(page, "arrays", 3)
+    page.reload()
+    at_rest(page)
+    assert page.locator("#slider-slope").input_value() == "1"
+    assert numbers(page, "arrays", 3) == shown
+    page.get_by_label("Slope: back to the workbook's value").click()
+    page.wait_for_url(re.compile(r"/$"))
+    assert numbers(page, "arrays", 3) != shown
+
+
+def test_the_page_works_with_the_keyboard_alone(page):
+    def tabbed_to(selector):
+        for _ in range(40):
+            page.keyboard.press("Tab")
+            if page.locator(selector).evaluate("(found) => found === document.activeElement"):
+                return
+        raise AssertionError(f"Tab does not reach {selector}")
+
+    tabbed_to("#files")
+    tabbed_to("#make-package")
+    tabbed_to("#slider-friction")
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_url("**/#friction=0.99")
+    tabbed_to("#tab-plan")
+    page.keyboard.press("End")
+    assert page.locator("#histories").is_visible()
+    page.keyboard.press("Home")
+    assert page.locator("#plan").is_visible()
+    tabbed_to('[data-array="A2"]')
+    page.keyboard.press("Enter")
+    assert "A2" in page.inner_text("#bars caption")
+    assert page.evaluate("document.activeElement.dataset.array") == "A2"
+
+
+def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
+    page.select_option("#choice-together", "no")
+    at_rest(page)
+    assert page.locator("#slider-s_ds").is_visible()
+    page.goto(f"{page.url.partition('#')[0]}#friction=1.9")
+    page.wait_for_selector("body[data-phase=failed]")
+    assert "Arrays!" in page.inner_text("#verdict")
+    assert verdicts(page) == [] or page.locator("#results .tag:visible").count() == 0
+    page.get_by_label("Friction: back to the workbook's value").click()
+    at_rest(page)
+    assert verdicts(page)[0] == "OK"
+
+
+def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
+    project = tmp_path / "yours"
+    shutil.copytree(EXAMPLE / "records", project / "records")
+    book = openpyxl.load_workbook(EXAMPLE / "input.xlsx")
+    sheet = book["Arrays"]
+    cells = {cell.value: cell for row in sheet.iter_rows() for cell in row}
+    row, column = cells["A2"].row, cells["CG height [in]"].column
+    sheet.cell(row, column, "low")
+    book.save(project / "input.xlsx")
+    where = sheet.cell(row, column).coordinate
+    page.set_input_files("#folder", project)
+    page.wait_for_selector("#problems tbody tr")
+    assert page.locator("#problems tbody th").first.inner_text().startswith(f"Arrays!{where}")
+    assert page.locator("#problems .is-faulty").first.inner_text().startswith("low")
+    assert page.locator("#desk").is_hidden()
+    assert page.evaluate("document.activeElement.textContent") == "Errors in the workbook"
+    page.click("#example")
+    at_rest(page)
+    assert page.locator("#problems").is_hidden()
+
+
+def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
+    workbook = base64.b64encode((EXAMPLE / "input.xlsx").read_bytes()).decode()
+    page.evaluate(
+        """(workbook) => {
+          // What a browser gives for a dropped folder, which no script can make.
+          const bytes = Uint8Array.from(atob(workbook), (letter) => letter.charCodeAt(0));
+          const entry = (path, content) => ({ isFile: true, fullPath: `/mine/${path}`,
+            file: (done) => done(new File([content], path.split("/").at(-1))) });
+          const listed = [entry("input.xlsx", bytes), entry("~$input.xlsx", "locked"),
+            entry("records/RM1-x.csv", "0 0")];
+          const folder = { isFile: false, fullPath: "/mine",
+            createReader: () => ({ readEntries: (done) => done(listed.splice(0, 2)) }) };
+          const drop = new Event("drop", { bubbles: true, cancelable: true });
+          drop.dataTransfer = { items: [{ webkitGetAsEntry: () => folder }] };
+          document.body.dispatchEvent(drop);
+        }""",
+        workbook,
+    )
+    page.wait_for_selector("#problems tbody tr")
+    files = page.inner_text("#problems")
+    assert "records/RM1-y.csv" in files
+    assert "RM1-x.csv does not exist" not in files
+
+
+def test_the_package_the_workbook_and_the_page_agree(page):
+    moved(page, "friction", 0.8)
+    page.wait_for_url("**/#friction=0.8")
+    name, bytes_ = saved(page, lambda: page.click("#save-workbook"))
+    book = openpyxl.load_workbook(io.BytesIO(bytes_))
+    mus = [cell.value for row in book["Arrays"].iter_rows() for cell in row]
+    assert name.endswith(".xlsx")
+    assert 0.4 in mus
+    page.click("#make-package")
+    page.wait_for_selector("#package-status progress")
+    page.wait_for_selector("#package-status .made", timeout=150_000)
+    _, made = saved(page, lambda: page.click("text=results.json"))
+    results = json.loads(made)
+    assert page.inner_text("#verdict .tag") == results["verdict"]
+    design = [f"{array['design_m'] / INCH_M:.1f} in" for array in results["arrays"]]
+    assert numbers(page, "arrays", 3) == design
+    assert numbers(page, "clearances", 4) == list(map(required, results["clearances"]))
+    assert numbers(page, "clearances", 6) == [item["verdict"] for item in results["clearances"]]
+    name, pdf = saved(page, lambda: page.click("text=Calc package"))
+    assert name == "calc-package.pdf"
+    summary = "".join(sheet.extract_text() for sheet in PdfReader(io.BytesIO(pdf)).pages[:6])
+    assert all(value.removesuffix(" in") in summary for value in design)
+    moved(page, "friction", 0.9)
+    assert "before the last change" in page.inner_text("#package-status")
+
+
+def test_a_package_that_is_cancelled_leaves_the_page_as_it_was(page):
+    page.click("#make-package")
+    page.click("text=Cancel")
+    page.wait_for_selector("text=The package was cancelled.")
+    assert page.locator("#make-package").is_enabled()
+
+
+def test_on_a_tablet_nothing_is_cut_off_and_in_print_no_control_is_left(page):
+    page.set_viewport_size(TABLET)
+    width = page.evaluate("[document.body.scrollWidth, innerWidth]")
+    assert width[0] <= width[1]
+    page.emulate_media(media="print")
+    for gone in ("#make-package", "#tabs", "#slider-friction", "#choice-rule_set", "label.button"):
+        assert page.locator(gone).first.is_hidden(), gone
+    assert page.locator("#controls output").first.is_visible()
+    assert page.locator("#controls .print-only").first.is_visible()
+
+
+def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back(browser, address):
+    with quiet_page(browser) as page:
+        opened(page, address)
+        busy = {"status": 503, "json": {"error": "Busy."}}
+        page.route("**/api/assess", lambda route: route.fulfill(**busy))
+        moved(page, "friction", 0.95)
+        page.wait_for_selector("#error:visible")
+        assert "Busy." in page.inner_text("#error")
+        assert page.locator(".tag:visible").count() == 0
+        page.unroute("**/api/assess")
+        page.click("text=Try again")
+        at_rest(page)
+        page.wait_for_selector("#error", state="hidden")
+
+
+def test_a_screen_reader_gets_names_for_all_and_the_verdict_at_rest(page):
+    unnamed = page.evaluate(
+        """() => {
+          const kinds = "button, input, select, [role=img], [role=tabpanel]";
+          const all = document.querySelectorAll(kinds);
+          const named = (each) => each.labels?.length || each.textContent.trim() || each.ariaLabel
+            || each.getAttribute("aria-labelledby");
+          return [...all].filter((each) => each.checkVisibility() && !named(each))
+            .map((each) => each.outerHTML);
+        }"""
+    )
+    assert unnamed == []
+    assert page.inner_text("#live").startswith("OK.")
+    assert page.locator("#slider-friction").get_attribute("aria-valuetext")
+    assert "required" in page.locator("#plan-description").text_content()
+    assert urlsplit(page.url).query == ""
