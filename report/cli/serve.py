@@ -8,6 +8,7 @@ from __future__ import annotations
 import ipaddress
 import re
 import secrets
+import signal
 import socket
 import sys
 import tempfile
@@ -78,6 +79,8 @@ def serve(
             visit.start()
         elif not no_browser:
             click.launch(address)
+        # The server sends itself the signal that stopped it: the folder is removed then as well.
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
         with suppress(KeyboardInterrupt):
             server.run(sockets=[listening])
     if once:

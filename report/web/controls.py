@@ -38,7 +38,7 @@ def controls(given: Opened) -> Mapping[str, Any]:
     """Return the sliders and choices of a workbook for the page."""
     sheet = given.sheet
     sliders = [item for item in _sliders(sheet) if _is_offered(sheet, item["id"])]
-    return {"sliders": sliders, "choices": _choices(given)}
+    return {"sliders": [_stopped(given, item) for item in sliders], "choices": _choices(given)}
 
 
 def shown(given: Opened) -> Mapping[str, str]:
@@ -111,6 +111,33 @@ def _slider(
         "id": name, "label": label, "unit": unit, "least": least, "greatest": greatest,
         "step": step, "value": start, "typed": start, "help": words,
     }  # fmt: skip
+
+
+def _stopped(given: Opened, slider: dict[str, Any]) -> dict[str, Any]:
+    """Return a slider that ends where the workbook could have no value beyond, and says why."""
+    for end in ("least", "greatest"):
+        away = round((slider[end] - slider["typed"]) / slider["step"])
+        if not _problem_at(given, slider, away):
+            continue
+        # The last step without a problem, and the first with one.
+        good, bad = 0, away
+        while abs(bad - good) > 1:
+            middle = (good + bad) // 2
+            good, bad = (good, middle) if _problem_at(given, slider, middle) else (middle, bad)
+        slider = slider | {
+            end: _value_at(slider, good),
+            "help": f"{slider['help']} {end.capitalize()}: {_problem_at(given, slider, bad)}.",
+        }
+    return slider
+
+
+def _problem_at(given: Opened, slider: Mapping[str, Any], steps: int) -> str:
+    values = {slider["id"]: _value_at(slider, steps)}
+    return _why_not(given, values | slider.get("with_choice", {}))
+
+
+def _value_at(slider: Mapping[str, Any], steps: int) -> float:
+    return float(round(slider["typed"] + steps * slider["step"], 6))
 
 
 def _is_offered(sheet: Sheet, name: str) -> bool:

@@ -40,7 +40,7 @@ def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(clien
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"friction": 9.0}, "Friction is 9.0; give a number from 0.5 to 2"),
+        ({"friction": 9.0}, "Friction is 9.0; give a number from 0.5 to 1.01"),
         ({"friction": "0.9"}, "Friction is 0.9; give a number"),
         ({"gravity": 1.0}, "Gravity: the workbook has no such slider"),
         ({"polarity": "sideways"}, "Polarity is sideways; choose both or"),
