@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 
@@ -29,7 +29,7 @@ from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_rows import friction_rows
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
-from report.assessment.runs import MotionRun, nan_is_worst, run_motion
+from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion
 from report.assessment.verdict import Row, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
@@ -181,8 +181,13 @@ def _trouble(results: Sequence[SlideResult]) -> str:
     return f"{status.sentence} (at {fastest:.3f} m/s)"
 
 
-def assess(sheet: Sheet, shaking: Shaking) -> Assessment:
+def assess(sheet: Sheet, shaking: Shaking, accepted: Acceptance | None = None) -> Assessment:
     """Run every array under every motion and check every limit and clearance.
+
+    Parameters
+    ----------
+    accepted : Acceptance, optional
+        Limits on the motions, where they are known for the same motions and targets.
 
     Raises
     ------
@@ -190,46 +195,91 @@ def assess(sheet: Sheet, shaking: Shaking) -> Assessment:
         For an override of a provision that the rule set does not have.
     """
     data = sheet.project
-    acceptance = shaking_acceptance(shaking, targets(data))
-    return _assess(sheet, shaking, data, acceptance, check_models=True)
+    acceptance = accepted or shaking_acceptance(shaking, targets(data))
+    with ThreadPoolExecutor(THREADS) as pool:
+        begun = _begin(pool, run_motion, data, shaking.motions, check_models=True)
+        # The runs with less friction follow without a pause, while the arrays are checked.
+        softer = with_friction(data, 1.0 - SHIFT)
+        begun_less = _begin(pool, run_motion, softer, shaking.motions, check_models=False)
+        whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
+        return whole(data, begun=begun, less=lambda: whole(softer, begun=begun_less))
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:
     """Assess another input under the same motions, with its own models only."""
-    return _assess(given.sheet, given.shaking, project, given.acceptance, check_models=False)
+    return _again(given, project, run_motion)
+
+
+def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
+    """Assess another input in one axis, for provisional values (`runs.run_along`)."""
+    return _again(given, project, run_along)
+
+
+def _again(given: Assessment, project: ProjectInput, run: RunMotion) -> Assessment:
+    motions = given.shaking.motions
+    with ThreadPoolExecutor(THREADS) as pool:
+        begun = _begin(pool, run, project, motions, check_models=False)
+        return _assess(given.sheet, given.shaking, project, acceptance=given.acceptance,
+                       pool=pool, begun=begun)  # fmt: skip
+
+
+RunMotion = Callable[[Array, Motion], MotionRun]
+
+_Begun = Sequence[tuple[Sequence[Future[MotionRun]], Sequence[Future[MotionRun]]]]
+"""Runs of each array, and those with the adequate models, while they are computed."""
+
+
+def _begin(
+    pool: Executor,
+    run: RunMotion,
+    data: ProjectInput,
+    motions: Sequence[Motion],
+    *,
+    check_models: bool,
+) -> _Begun:
+    """Begin the runs of an input; `check_models` compares requested models with adequate ones."""
+
+    def begun(array: Array) -> tuple[Sequence[Future[MotionRun]], Sequence[Future[MotionRun]]]:
+        # Runs in two axes and of rows release the GIL: two proceed in parallel.
+        runs = [pool.submit(run, array, motion) for motion in motions]
+        if array.model is Model.CHOOSE or not check_models:
+            return runs, runs
+        chosen = partial(run_motion, array, model=Model.CHOOSE)
+        return runs, [pool.submit(chosen, motion) for motion in motions]
+
+    return [begun(array) for array in data.arrays]
 
 
 def _assess(
     sheet: Sheet,
     shaking: Shaking,
     data: ProjectInput,
-    acceptance: Acceptance,
     *,
-    check_models: bool,
+    acceptance: Acceptance,
+    pool: Executor,
+    begun: _Begun,
+    less: Callable[[], Assessment] | None = None,
 ) -> Assessment:
-    """Assess an input.
+    """Assess an input from its runs.
 
     Parameters
     ----------
-    check_models : bool
-        Whether requested models are compared with the adequate ones, one rigid block with a row
-        of linked blocks, and the verdicts with those for less friction.
+    less : callable, optional
+        Assesses the same with less friction. With it, one rigid block is compared with a row of
+        linked blocks, and the verdicts with those for less friction.
     """
     site = data.site
     rules = ruled(data)
     started = time.perf_counter()
-    # Runs in two axes and of rows release the GIL: two proceed in parallel.
-    with ThreadPoolExecutor(THREADS) as pool:
-        runs = [_runs(pool, array, shaking.motions, check_models) for array in data.arrays]
-        seconds = time.perf_counter() - started
-        arrays = tuple(
-            assess_array(data, rules, array, *pair, motions_qualify=acceptance.qualifies)
-            for array, pair in zip(data.arrays, runs, strict=True)
-        )
-        links = data.links if check_models else ()
-        linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
-    softer = with_friction(data, 1.0 - SHIFT)
-    less = _assess(sheet, shaking, softer, acceptance, check_models=False) if check_models else None
+    runs = [_done(*pair) for pair in begun]
+    seconds = time.perf_counter() - started
+    arrays = tuple(
+        assess_array(data, rules, array, *pair, motions_qualify=acceptance.qualifies)
+        for array, pair in zip(data.arrays, runs, strict=True)
+    )
+    links = data.links if less else ()
+    linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
+    softer = less() if less else None
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     nearby = neighbors(data, arrays, sheet.addresses)
     return Assessment(
@@ -256,9 +306,9 @@ def _assess(
             *motion_rows(acceptance, arrays),
             *(row for item in arrays for row in array_rows(data, item)),
             *plan_rows(data, nearby),
-            *(_friction_rows(clearances, less) if less else ()),
+            *(_friction_rows(clearances, softer) if softer else ()),
         ),
-        less=less,
+        less=softer,
         solver_seconds=seconds,
     )
 
@@ -274,11 +324,9 @@ def _verdict(is_ok: bool) -> Verdict:
     return Verdict.OK if is_ok else Verdict.NG
 
 
-def _runs(
-    pool: Executor, array: Array, motions: Sequence[Motion], check_models: bool
-) -> tuple[tuple[MotionRun, ...], ...]:
-    """Return the runs of an array, and those with the adequate models."""
-    runs = tuple(pool.map(partial(run_motion, array), motions))
-    if array.model is Model.CHOOSE or not check_models:
-        return runs, runs
-    return runs, tuple(pool.map(partial(run_motion, array, model=Model.CHOOSE), motions))
+def _done(
+    runs: Sequence[Future[MotionRun]], needed: Sequence[Future[MotionRun]]
+) -> tuple[tuple[MotionRun, ...], tuple[MotionRun, ...]]:
+    """Return the runs of an array; one object twice where no model is requested."""
+    done = tuple(run.result() for run in runs)
+    return done, done if needed is runs else tuple(run.result() for run in needed)

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from report.sheet.schema import Array, Direction, Model
 from solver.model import Heading, Motion, Scene, SlideHistory, SlideResult, Status
+from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
 from solver.sliding.least_model import Rung, Settings, Solution
 
@@ -100,6 +101,24 @@ def run_motion(array: Array, motion: Motion, model: Model | None = None) -> Moti
         Replaces the model of the array.
     """
     return motion_run(motion, [run_heading(array, motion, h, model) for h in motion.headings])
+
+
+def run_along(array: Array, motion: Motion) -> MotionRun:
+    """Run one array under one motion in one axis, in all of its runs: quick, and not for design.
+
+    Each component acts along the slope together with the vertical one; what acts cross-slope is
+    neglected, and no model is compared.
+    """
+    return motion_run(motion, [_heading_along(array, motion, h) for h in motion.headings])
+
+
+def _heading_along(array: Array, motion: Motion, heading: Heading) -> HeadingRun:
+    scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
+    scene = replace(scene, ay_mps2=NO_RECORD)
+    # Nothing else models velocity-dependent friction than the choice of a model.
+    forced = Rung.ONE_AXIS_VERTICAL if scene.friction.is_constant else None
+    solution = least_model.solve(scene, Settings(forced=forced))
+    return HeadingRun(heading=heading, scene=scene, solution=solution)
 
 
 def motion_run(motion: Motion, runs: Sequence[HeadingRun]) -> MotionRun:

@@ -12,10 +12,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from report.assessment.project import Assessment, assess, reassess
+from report.assessment.project import Assessment, anticipate, assess
 from report.sheet.parts import changed
 from report.sheet.retyped import cells
-from report.sheet.schema import Model, ProjectInput
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import check, controls, shown
@@ -87,7 +86,7 @@ def answer_at(workbook: Path, job: Json) -> Json:
         whole = answer(_assessment(workbook, _key(job["values"])), is_provisional=False)
         return {**whole, "shown": shown(given)}
     start = replace(_assessment(workbook, _key({})), sheet=given.sheet, shaking=given.shaking)
-    provisional = reassess(start, _in_one_axis(given.sheet.project))
+    provisional = anticipate(start, given.sheet.project)
     return {**answer(provisional, is_provisional=True), "shown": shown(given)}
 
 
@@ -129,17 +128,15 @@ def _at(workbook: Path, values: Values) -> Opened:
 @lru_cache(KEPT_ANSWERS)
 def _assessment(workbook: Path, key: str) -> Assessment:
     """Return the complete assessment at values, which are the key."""
-    given = _at(workbook, json.loads(key))
-    return assess(given.sheet, given.shaking)
+    given, start = _at(workbook, json.loads(key)), _open(workbook)
+    # Friction, slope and clearance change no motion.
+    known = given is not start and given.shaking is start.shaking
+    accepted = _assessment(workbook, _key({})).acceptance if known else None
+    return assess(given.sheet, given.shaking, accepted)
 
 
 def _key(values: Values) -> str:
     return json.dumps(dict(values), sort_keys=True)
-
-
-def _in_one_axis(data: ProjectInput) -> ProjectInput:
-    arrays = (row.model_copy(update={"model": Model.ONE_AXIS_VERTICAL}) for row in data.arrays)
-    return data.model_copy(update={"arrays": tuple(arrays)})
 
 
 def _motion(motion: Motion) -> Json:

@@ -6,11 +6,12 @@ Read `opened`, then `with_values`.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking
+from report.motions.stiff_links import stiff_links
 from report.sheet.read import Sheet, read
 from report.sheet.retyped import retyped
 from report.typeset.letters import check_letters
@@ -66,4 +67,16 @@ def with_values(given: Opened, values: Values) -> Opened:
         return given
     sheet = retyped(given.sheet, changed)
     sheet.refuse(())
+    if _has_motions_of(given.sheet, sheet):
+        sheet.refuse(stiff_links(sheet.project, given.shaking.motions))
+        return replace(given, sheet=sheet)
     return Opened(sheet=sheet, by_motion=given.by_motion, shaking=shaking(sheet, given.by_motion))
+
+
+def _has_motions_of(before: Sheet, after: Sheet) -> bool:
+    """Whether two sheets have the same motions and targets: only arrays and clearances differ."""
+    return all(
+        rows == after.draft[key]
+        for key, rows in before.draft.items()
+        if key not in ("arrays", "clearances", "links")
+    )

@@ -1,0 +1,134 @@
+"""Values of the sliders as contents of cells: what is shown is what the written workbook gives."""
+
+import json
+import shutil
+from functools import cache
+
+import pytest
+
+from places import ROOT
+from report.assessment.project import assess
+from report.sheet.parts import changed
+from report.sheet.retyped import cells, retyped
+from report.sheet.schema import Scaling
+from report.web import jobs
+from report.web.answers import answer
+from report.web.controls import controls, shown
+from report.web.opened import opened, with_values
+from report.web.values import typed
+from sheets import make
+
+PROJECTS = ROOT / "projects"
+
+
+@cache
+def start(project):
+    return opened(PROJECTS / project)
+
+
+def written(project, values, folder):
+    """The project with the values written into the cells of its workbook."""
+    given = start(project)
+    shutil.copytree(PROJECTS / project / "records", folder / "records")
+    new = cells(given.sheet, typed(given.sheet, given.scales, values))
+    data = (PROJECTS / project / "input.xlsx").read_bytes()
+    (folder / "input.xlsx").write_bytes(changed(data, new))
+    return opened(folder)
+
+
+@pytest.mark.parametrize(
+    ("project", "values"),
+    [
+        ("example", {"friction": 0.93, "slope": 0.7, "clearance": -3.0, "polarity": "reversed"}),
+        ("example", {"intensity": 1.06, "together": "no", "s_ds": 0.92, "rule_set": "ASCE 7-16"}),
+        ("conditions", {"friction": 1.1, "intensity": 0.9, "slope": -0.4}),
+        ("school", {"friction": 0.9, "intensity": 1.04, "clearance": 50.0}),
+    ],
+)
+def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
+    project, values, tmp_path
+):
+    workbook = PROJECTS / project / "input.xlsx"
+    at_rest = jobs.perform(
+        {"do": "assess", "workbook": str(workbook), "values": values, "moving": False}
+    )
+    again = written(project, values, tmp_path)
+    whole = answer(assess(again.sheet, again.shaking), is_provisional=False)
+    expected = json.dumps({**whole, "shown": shown(again)})
+    assert json.dumps(at_rest["answer"]) == expected
+    # The values do change what is shown.
+    start = jobs.perform({"do": "assess", "workbook": str(workbook), "values": {}, "moving": False})
+    assert at_rest["answer"]["arrays"] != start["answer"]["arrays"]
+
+
+@pytest.mark.parametrize("project", ["example", "school", "conditions"])
+def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
+    given = start(project)
+    values = {"friction": 0.87, "slope": 0.3, "intensity": 0.94, "clearance": 2.0}
+    offered = {item["id"]: item for item in controls(given)["sliders"]}
+    assert offered.keys() >= values.keys()
+    again = written(project, values, tmp_path)
+    assert again.sheet.project == with_values(given, values).sheet.project
+    assert again.sheet.project != given.sheet.project
+
+
+def test_a_law_by_velocity_is_multiplied_as_a_whole():
+    given = start("example")
+    law = with_values(given, {"friction": 0.5}).sheet.project.arrays[2]
+    assert (law.mu, law.mu_fast, law.mu_rate_s_per_m) == (0.2, 0.25, 20.0)
+
+
+def test_intensity_changes_motions_and_s_ds_together_or_apart():
+    given = start("example")
+
+    def found(values):
+        changed_ = with_values(given, values)
+        return changed_.shaking.motions[0].scale, round(changed_.sheet.project.site.s_ds / 1.566, 4)
+
+    assert found({"intensity": 1.2}) == (1.2, 1.2)
+    assert found({"intensity": 1.2, "together": "no"}) == (1.2, 1.0)
+    assert found({"s_ds": 0.8, "together": "no"}) == (1.0, 0.8)
+    # While both change together, the slider of S_DS alone says nothing.
+    assert found({"s_ds": 0.8}) == (1.0, 1.0)
+
+
+def test_a_motion_scaled_to_a_target_keeps_its_factor_when_s_ds_changes(tmp_path):
+    row = {"id": "M1", "record": "records/x.csv", "units": "g", "dt_s": 0.01}
+    given = opened(make(tmp_path, motions=[row | {"scaling": Scaling.TARGET.value}]))
+    (scale,) = given.scales.values()
+    changed_ = with_values(given, {"together": "no", "s_ds": 1.5})
+    (motion,) = changed_.shaking.motions
+    assert motion.scale == pytest.approx(scale, rel=1e-5)
+    assert with_values(given, {"intensity": 1.5}).shaking.motions[0].scale == pytest.approx(
+        1.5 * scale, rel=1e-5
+    )
+
+
+def test_clearances_follow_the_sides_of_the_arrays():
+    given = start("example")
+    before = given.sheet.project.clearances
+    after = with_values(given, {"clearance": 6.0}).sheet.project.clearances
+    more = [b.provided_m - a.provided_m for a, b in zip(before, after, strict=True)]
+    # Between two arrays both sides move.
+    sides = [2 if row.object.startswith("A") else 1 for row in before]
+    assert more == pytest.approx([6.0 * 0.0254 * count for count in sides], abs=1e-7)
+
+
+def test_sliders_end_where_the_workbook_could_have_no_value_beyond():
+    given = start("example")
+    friction = controls(given)["sliders"][0]
+    assert (friction["id"], friction["greatest"]) == ("friction", 1.01)
+    assert "the tests give 0.505" in friction["help"]
+    scales = given.scales
+    at_end = retyped(given.sheet, typed(given.sheet, scales, {"friction": 1.01}))
+    beyond = retyped(given.sheet, typed(given.sheet, scales, {"friction": 1.02}))
+    assert not at_end.problems
+    assert beyond.problems
+
+
+def test_values_as_typed_change_no_cell():
+    given = start("example")
+    same = {item["id"]: item["typed"] for item in controls(given)["sliders"]}
+    same |= {item["id"]: item["typed"] for item in controls(given)["choices"]}
+    assert typed(given.sheet, given.scales, same) == {}
+    assert with_values(given, same) is given
