@@ -53,8 +53,7 @@ def store(files: Sequence[File], folder: Path) -> Path:
     room = _Room(folder)
     if zips:
         with _opened(zips[0][1]) as archive:
-            for name, content in _members(archive):
-                room.take(name, content)
+            _unpack(archive, room)
     for name, content in files if not zips else ():
         room.take(name, content)
     return _workbook(room.paths)
@@ -133,8 +132,8 @@ def _opened(content: IO[bytes]) -> zipfile.ZipFile:
         raise InputError("the zip is damaged; make it again") from error
 
 
-def _members(archive: zipfile.ZipFile) -> Iterator[File]:
-    """Yield the files of a zip; refuse a link, and what is encrypted or damaged."""
+def _unpack(archive: zipfile.ZipFile, room: _Room) -> None:
+    """Write the files of a zip; refuse a link, and what is encrypted or damaged."""
     members = [info for info in archive.infolist() if not info.is_dir()]
     for info in members:
         kind = stat.S_IFMT(info.external_attr >> 16)
@@ -145,8 +144,8 @@ def _members(archive: zipfile.ZipFile) -> Iterator[File]:
     for info in members:
         try:
             with archive.open(info) as content:
-                yield info.filename, content
-        except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError, OSError) as error:
+                room.take(info.filename, content)
+        except (zipfile.BadZipFile, zlib.error, NotImplementedError, EOFError) as error:
             raise InputError(f"{_short(info)}: damaged in the zip; make it again") from error
 
 

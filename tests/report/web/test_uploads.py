@@ -1,0 +1,129 @@
+"""Files from a browser: paths, links, bombs and sizes are refused before anything is read."""
+
+import io
+import stat
+import zipfile
+
+import pytest
+
+from report.web import uploads
+from report.web.uploads import checked, store
+from solver.model import InputError
+
+
+def sent(*names, content=b"x"):
+    return [(name, io.BytesIO(content)) for name in names]
+
+
+def packed(members, **options):
+    """A zip of members, each a name or a ZipInfo with its content."""
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED, **options) as archive:
+        for name, content in members:
+            archive.writestr(name, content)
+    return [("project.zip", io.BytesIO(data.getvalue()))]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../input.xlsx", "a/../../b", "/etc/passwd", "\\\\host\\share", "C:\\x.csv", "..\\x.csv",
+        "a//b", "./a", "", "a/", "con", "records/NUL.csv", "x.csv.", "x ", "a\x00b", "a\nb", "a:b",
+        "a" * 201, "/".join("abcdefghi"), "~/x|y",
+    ],
+)  # fmt: skip
+def test_a_path_that_leaves_its_folder_on_any_system_is_refused(name, tmp_path):
+    with pytest.raises(InputError, match="is no path within a folder"):
+        checked(name)
+    with pytest.raises(InputError):
+        store(sent("input.xlsx", name), tmp_path)
+    # In a zip, a name ends with its first NUL, and one that ends in a slash is a folder.
+    if name and "\x00" not in name and not name.endswith("/"):
+        with pytest.raises(InputError):
+            store(packed([("again/input.xlsx", b""), (name, b"")]), tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} <= {"input.xlsx", "again"}
+    assert not (tmp_path.parent / "input.xlsx").exists()
+
+
+def test_a_link_in_a_zip_is_refused(tmp_path):
+    link = zipfile.ZipInfo("records/x.csv")
+    link.external_attr = (stat.S_IFLNK | 0o777) << 16
+    with pytest.raises(InputError, match="a link, not a file"):
+        store(packed([("input.xlsx", b""), (link, b"/etc/passwd")]), tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_bomb_is_stopped_while_it_is_unpacked(tmp_path, monkeypatch):
+    monkeypatch.setattr(uploads, "MOST_STORED", 3_000_000)
+    with pytest.raises(InputError, match="more than 3 MB"):
+        store(packed([("input.xlsx", bytes(50_000_000))]), tmp_path)
+    assert sum(path.stat().st_size for path in tmp_path.rglob("*") if path.is_file()) <= 3_000_000
+
+
+def test_a_bomb_that_states_a_small_size_is_stopped(tmp_path):
+    data = bytearray(packed([("input.xlsx", bytes(1_000_000))])[0][1].getvalue())
+    # The size in the directory at the end, and in the header before the file.
+    for at in (data.find(b"PK\x01\x02") + 24, data.find(b"PK\x03\x04") + 22):
+        data[at : at + 4] = (10).to_bytes(4, "little")
+    with pytest.raises(InputError, match="damaged in the zip"):
+        store([("project.zip", io.BytesIO(bytes(data)))], tmp_path)
+    assert sum(path.stat().st_size for path in tmp_path.iterdir()) <= 10
+
+
+def test_too_many_files_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(uploads, "MOST_FILES", 3)
+    with pytest.raises(InputError, match="more than 3 files"):
+        store(sent("input.xlsx", "a.csv", "b.csv", "c.csv"), tmp_path)
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("a.csv", "A.csv"), ("records/a.csv", "Records/b.csv"), ("a.csv", "a.csv"),
+        ("a", "a/b.csv"), ("a/b.csv", "a"), ("caf\u00e9.csv", "cafe\u0301.csv"),
+    ],
+)  # fmt: skip
+def test_names_that_another_system_takes_for_one_are_refused(names, tmp_path):
+    with pytest.raises(InputError, match=r"rename one"):
+        store(sent("input.xlsx", *names), tmp_path)
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"not a zip", bytes(100)])
+def test_a_damaged_zip_is_refused(content, tmp_path):
+    with pytest.raises(InputError, match="the zip is damaged"):
+        store([("a.zip", io.BytesIO(content))], tmp_path)
+
+
+def test_a_zip_with_a_password_is_refused(tmp_path):
+    data = bytearray(packed([("input.xlsx", b"abc")])[0][1].getvalue())
+    for mark, at in ((b"PK\x01\x02", 8), (b"PK\x03\x04", 6)):
+        data[data.find(mark) + at] |= 1
+    with pytest.raises(InputError, match="has a password"):
+        store([("a.zip", io.BytesIO(bytes(data)))], tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("names", "found"),
+    [
+        (("a/input.xlsx", "a/out/results.xlsx"), "a/input.xlsx"),
+        (("a/work.xlsx", "a/out/results.xlsx"), "a/work.xlsx"),
+        (("work.xlsx", "~$work.xlsx", ".hidden/input.xlsx"), "work.xlsx"),
+        (("__MACOSX/input.xlsx", "b/INPUT.XLSX", "other.xlsx"), "b/INPUT.XLSX"),
+    ],
+)
+def test_the_workbook_is_found_among_the_files(names, found, tmp_path):
+    assert store(sent(*names), tmp_path) == tmp_path / found
+
+
+@pytest.mark.parametrize(
+    ("names", "problem"),
+    [
+        ((), "no file was sent"),
+        (("a.csv",), r"no workbook \(.xlsx\) was sent"),
+        (("a.xlsx", "b.xlsx"), r"2 workbooks were sent \(a.xlsx, b.xlsx\)"),
+        (("a.zip", "b.xlsx"), "a zip was sent with other files"),
+    ],
+)
+def test_without_one_workbook_the_sentence_says_what_to_do(names, problem, tmp_path):
+    with pytest.raises(InputError, match=problem):
+        store(sent(*names), tmp_path)
