@@ -237,6 +237,40 @@ def test_on_a_tablet_nothing_is_cut_off_and_in_print_no_control_is_left(page):
     assert page.locator("#controls .print-only").first.is_visible()
 
 
+def drawn(page, view, selector, wanted):
+    """Wait until a view shows a text of the tables."""
+    shown = page.locator(f"#{view} .view:not(.is-stale) {selector}", has_text=wanted)
+    shown.first.wait_for()
+    return shown.first.inner_text()
+
+
+def test_the_views_draw_what_is_chosen_with_the_values_of_the_tables(page):
+    page.click("#tab-slide")
+    page.select_option("#array", "A2")
+    page.select_option("#motion", "RM3")
+    prd = page.locator("#bars tbody tr", has_text="RM3").locator("td.numbers").inner_text()
+    assert drawn(page, "slide", ".watch-head strong", prd).startswith(f"PRD {prd} (")
+    page.focus("#slide .watch")
+    page.keyboard.press("Home")
+    page.keyboard.press("n")
+    assert drawn(page, "slide", ".slip-text", "Slip 1 of").endswith(" mm)")
+    page.click("#tab-histories")
+    assert drawn(page, "histories", ".toolbar select", f"PRD {prd}, governing")
+    page.click("#tab-paths")
+    for row in page.locator("#bars tbody tr").all():
+        motion, value = row.locator("th").inner_text(), row.locator("td.numbers").inner_text()
+        assert drawn(page, "paths", "figcaption", f"PRD {value} (").startswith(motion)
+    page.click("#tab-contour")
+    mean = numbers(page, "arrays", 2)[1]
+    assert drawn(page, "contour", ".contour-reading output", f"mean PRD {mean} (")
+    moved(page, "friction", 0.9)
+    assert page.inner_text("#stale-note") == "Drawn for the values before the slider moved."
+    at_rest(page)
+    changed = numbers(page, "arrays", 2)[1]
+    assert changed != mean
+    assert drawn(page, "contour", ".contour-reading strong", f"A2: mean PRD {changed} (")
+
+
 def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back(browser, address):
     with quiet_page(browser) as page:
         opened(page, address)
