@@ -88,7 +88,10 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         "prd_m": finite(history.result.prd_m),
         "t_prd_s": finite(history.result.t_prd_s),
         "units": _units(us_first),
-        "texts": _slide_texts(chosen, history, roof, us_first),
+        "texts": {
+            "title": f"Array {array_id}, motion {motion_id}, run {chosen.heading.name}",
+            **_slide_texts(chosen, history, roof, us_first),
+        },
     }
 
 

@@ -51,6 +51,7 @@ function build(element, data, again, announce) {
   const resize = () => panels.resize(element.clientWidth, HEIGHT, { isNarrow: element.clientWidth < NARROW });
   replace(
     element,
+    html("p", { class: "print-only" }, `${texts.title}: ${texts.prd}`),
     html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run })), buttons.element, where),
     stage,
     html("p", { class: "note", id: "histories-keys" }, KEYS),

@@ -31,12 +31,8 @@ function build(element, data, { again, announce, speed, keep }) {
   const player = createPlayer(seconds, slips.events, show);
   const stage = createStage(data, player.seek);
   const caption = html("p", { class: "numbers slip-text" });
-  const speeds = speedSelect(speed, (next) => {
-    player.speed = next;
-    keep(next);
-  });
+  const speeds = speedSelect(player, speed, keep);
   const parts = controls(player, { seconds, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
-  player.speed = speed;
 
   function show(time) {
     const k = slips.at(time);
@@ -73,6 +69,7 @@ function build(element, data, { again, announce, speed, keep }) {
 
   replace(
     element,
+    html("p", { class: "print-only" }, texts.title),
     html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run }))),
     html("p", { class: "watch-head" }, html("strong", { class: "numbers" }, texts.prd), caption),
     stage.element,
@@ -125,17 +122,23 @@ function controls(player, { seconds, before, after }) {
   };
 }
 
-function speedSelect(speed, chosen) {
+// How fast the player plays, which `keep` remembers.
+function speedSelect(player, speed, keep) {
+  const choose = (next) => {
+    player.speed = next;
+    keep(next);
+  };
   const element = html(
     "select",
-    { "aria-label": "Speed", title: "Speed (< and >)", on: { change: ({ target }) => chosen(Number(target.value)) } },
+    { "aria-label": "Speed", title: "Speed (< and >)", on: { change: ({ target }) => choose(Number(target.value)) } },
     SPEEDS.map((one) => html("option", { value: one, selected: one === speed }, `${one}×`)),
   );
+  player.speed = speed;
   return {
     element,
     change(way) {
       element.selectedIndex = within(element.selectedIndex + way, 0, SPEEDS.length - 1);
-      chosen(Number(element.value));
+      choose(Number(element.value));
     },
   };
 }

@@ -470,6 +470,17 @@ CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
   .map((one) => one.className)"""
 
 
+def test_in_print_a_run_is_named_and_no_control_is_left(page, run):
+    for view in ("slide", "histories"):
+        mounted(page, view, run)
+        page.emulate_media(media="print")
+        title = text(page, ".view .print-only")
+        assert title.startswith(f"Array A2, motion M1, run {run['run']}")
+        for gone in ("select", "button", "[type=range]", "[id$=-keys]"):
+            assert page.locator(f".view {gone}:visible").count() == 0, gone
+        page.emulate_media(media="screen")
+
+
 @pytest.mark.parametrize("wide", [411, 590, 760])
 def test_nothing_of_a_view_is_cut_off_in_any_width_of_the_page(page, run, assessment, wide):
     for view, data in (
