@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import report  # noqa: F401  # before any test loads openpyxl: it decides what that reads with
+import report.beside  # before any test loads openpyxl: the package decides what that reads with
 from browsing import chromium
 
 RECORDS = Path(__file__).resolve().parents[2] / "shared" / "records"
@@ -49,6 +49,18 @@ def pytest_collection_finish(session):
     gc.collect()
     gc.freeze()
     gc.set_threshold(100_000, 20, 100)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_process():
+    """Commands called in this process start none beside them: the other worker has that core.
+
+    `tests/report/test_beside.py` tests the second process, and scripts in other tests start it.
+    """
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(report.beside, "SecondProcess", report.beside.SameProcess)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -1,22 +1,26 @@
 """Every command and every line of Python in the README runs, in a separate folder.
 
-The report of the example runs as by a script, the other commands in this process.
+The report of the example runs as by a script, the other commands in this process. What the reader
+is to fill in is here a small project.
 """
 
 import json
 import re
 import shlex
 import shutil
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
+import packages
+import report.typeset.pdf
 from places import ROOT
 from report.cli.main import main
+from report.results.publish import STAMP
+from report.typeset.pdf import lay_out
+from sheets import make
 from solver.model import Friction
 from solver.sliding.checked import scene, slide
 from solver.sliding.two_axes import run as run_in_two_axes
@@ -42,7 +46,7 @@ ELSEWHERE = (
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Example and study alone, as in a fresh checkout; a new project is a copy of the example."""
+    """Example and study alone, as in a fresh checkout."""
     top = tmp_path_factory.mktemp("checkout")
     ignored = shutil.ignore_patterns("out")
     for name in ("example", "study"):
@@ -51,43 +55,36 @@ def folder(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def reported(folder):
-    """The example's folder, and its report as by a script."""
+def reported(tmp_path_factory):
+    """The example with its report as by a script."""
     assert shlex.join(["./roofslip", *REPORT]) in COMMANDS
-    done = subprocess.run(
-        [sys.executable, "-m", "report.cli", *REPORT],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return folder / "projects" / "example", done
+    return packages.reported(tmp_path_factory, "example", by_script=True)
 
 
 @pytest.fixture(scope="module")
 def commanded(folder):
-    """The folder after the other commands."""
+    """The folder after the other commands; pages that are already laid out are not again."""
+    laid_out = {}
+
+    def kept(html, drawn=None, attached=tuple):
+        files = tuple(attached())
+        if (html, files) not in laid_out:
+            laid_out[html, files] = lay_out(html, drawn, lambda: files)
+        return laid_out[html, files]
+
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
+        patch.setattr(report.typeset.pdf, "lay_out", kept)
         for command in COMMANDS:
             words = shlex.split(command)[1:]
             if words in ELSEWHERE:
                 continue
             done = CliRunner().invoke(main, words)
             assert done.exit_code == 0, command + done.output
-            if words[0] == "new":
-                fill(folder)
+            if words == ["new", "projects/yours"]:
+                assert (folder / "projects" / "yours" / "input.xlsx").is_file()
+                make(folder / "projects" / "yours")
     return folder
-
-
-def fill(top):
-    """Fill in the new project as a user would, here with the input of the example."""
-    example, yours = (top / "projects" / name for name in ("example", "yours"))
-    assert (yours / "input.xlsx").is_file()
-    shutil.copy(example / "input.xlsx", yours / "input.xlsx")
-    shutil.copytree(example / "records", yours / "records", dirs_exist_ok=True)
 
 
 def test_every_command_of_the_readme_runs(commanded):
@@ -101,46 +98,47 @@ def test_the_study_of_the_readme_has_its_curves(commanded):
     assert (out / "study.pdf").stat().st_size > 10_000
 
 
-def test_two_processes_write_the_same_bytes(reported, commanded):
-    for name in ("calc-package.pdf", "results.xlsx", "results.json"):
-        one, two = (top / "out" / name for top in (reported[0], commanded / "projects" / "yours"))
-        assert one.read_bytes() == two.read_bytes(), name
+def test_two_processes_and_one_write_the_same_bytes(reported, commanded):
+    """A report has a second process beside it, a project of a batch does not."""
+    names = {path.name for path in reported.out.iterdir()}
+    assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}
+    for name in names:
+        of_batch = commanded / "projects" / "example" / "out" / name
+        assert (reported.out / name).read_bytes() == of_batch.read_bytes(), name
 
 
 def test_report_prints_each_array_and_where_the_files_are(reported):
-    job, done = reported
-    lines = done.stdout.splitlines()
+    lines = reported.stdout.splitlines()
     assert lines[0].split("  ")[0] == "array"
     assert [line.split()[0] for line in lines[1:4]] == ["A1", "A2", "A3"]
     assert all("81.6 in (2072 mm)" in line for line in lines[1:4])
     assert all(line.endswith("OK") for line in lines[1:4])
     for name in ("calc-package.pdf", "results.xlsx", "results.json"):
         assert f"projects/example/out/{name}" in lines
-        assert (job / "out" / name).stat().st_size > 1000
+        assert (reported.out / name).stat().st_size > 1000
 
 
 def test_the_readme_shows_what_the_example_prints(reported):
-    _, done = reported
-    printed = "\n".join(done.stdout.splitlines()[:5])
+    printed = "\n".join(reported.stdout.splitlines()[:5])
     assert f"```\n{printed}\n```" in README
 
 
 def test_progress_is_plain_lines_when_piped(reported):
-    _, done = reported
-    assert "\x1b" not in done.stderr
-    assert "\r" not in done.stderr
-    assert all(line.startswith("[") for line in done.stderr.splitlines())
+    assert "\x1b" not in reported.stderr
+    assert "\r" not in reported.stderr
+    assert all(line.startswith("[") for line in reported.stderr.splitlines())
 
 
 def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
-    job, _ = reported
-    document = json.loads((job / "out" / "results.json").read_text())
+    document = json.loads((reported.out / "results.json").read_text())
     runs = [(array, run) for array in document["arrays"] for run in array["runs"]]
     assert len(runs) == 3 * 7 * 4
     for array, run_ in runs:
         columns = [
             np.loadtxt(
-                job / "records" / f"{run_['motion']}-{letter}.csv", delimiter=",", skiprows=2
+                reported.project / "records" / f"{run_['motion']}-{letter}.csv",
+                delimiter=",",
+                skiprows=2,
             )
             for letter in ("xyz" if run_["along"] == "record" else "yxz")
         ]

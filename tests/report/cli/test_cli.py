@@ -10,14 +10,11 @@ from zipfile import ZipFile
 
 import numpy as np
 from click.testing import CliRunner
-from pypdf import PdfReader
 
-import report.assessment.sensitivity
-import report.beside
+import packages
 import report.package.html
 from places import ROOT
 from report.cli.main import main
-from report.results.publish import STAMP
 from sheets import make, project
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -123,7 +120,7 @@ def test_check_of_a_missing_file_exits_2(tmp_path):
 
 
 def test_an_internal_error_exits_1_with_the_traceback(tmp_path, monkeypatch):
-    shutil.copytree(EXAMPLE, tmp_path / "job", ignore=shutil.ignore_patterns("out"))
+    make(tmp_path / "job")
 
     def broken(*_):
         raise RuntimeError("internal error")
@@ -133,23 +130,6 @@ def test_an_internal_error_exits_1_with_the_traceback(tmp_path, monkeypatch):
     assert done.exit_code == 1
     assert isinstance(done.exception, RuntimeError)
     assert not (tmp_path / "job" / "out").exists()
-
-
-def test_the_files_are_the_same_without_a_second_process(tmp_path, monkeypatch):
-    monkeypatch.setattr(report.assessment.sensitivity, "_seconds", lambda scene: 1e-3)
-    book = make(tmp_path)
-    assert run("report", book, "--out", tmp_path / "with").exit_code == 0
-
-    def refused():
-        raise OSError("no more processes")
-
-    monkeypatch.setattr(report.beside, "SecondProcess", refused)
-    assert run("report", book, "--out", tmp_path / "without").exit_code == 0
-    names = {path.name for path in (tmp_path / "with").iterdir()}
-    outputs = {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx"}
-    assert names == outputs | {STAMP}
-    for name in names:
-        assert (tmp_path / "with" / name).read_bytes() == (tmp_path / "without" / name).read_bytes()
 
 
 def test_a_failed_run_leaves_the_older_package(tmp_path):
@@ -172,7 +152,8 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     motions = [motion | {"pad_s": 20.0} for motion in given["motions"]]
     arrays = [array | {"slope_value": 7.0} for array in given["arrays"]]
     changes = {"links": [row], "options": options, "motions": motions, "arrays": arrays}
-    done = run("report", make(tmp_path, **changes))
+    with packages.unlaid():
+        done = run("report", make(tmp_path, **changes))
     assert done.exit_code == 0
     assert (
         "NG: one rigid block has not been shown to be adequate for array A2; see part 12"
@@ -184,28 +165,28 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     assert results["verdict"] == "NG"
     assert results["linked"][0]["rigid_is_enough"] is False
     assert results["linked"][0]["estimated_m"] > results["linked"][0]["design_m"] > 0.0
-    pdf = PdfReader(tmp_path / "out" / "calc-package.pdf")
-    text = " ".join(" ".join(page.extract_text() for page in pdf.pages).split())
+    text = packages.words((tmp_path / "out" / "calc-package.pdf").read_text(encoding="utf-8"))
     assert "Array A2: a row of linked blocks" in text
     assert "One rigid block has not been shown to be adequate" in text
 
 
 def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_path):
-    first = run("report", make(tmp_path))
+    with packages.unlaid():
+        first = run("report", make(tmp_path))
     assert first.exit_code == 0
     assert "since revision" not in first.output
     former = tmp_path / "issued.json"
     former.write_bytes((tmp_path / "out" / "results.json").read_bytes())
     given = project().model_dump()
     arrays = [given["arrays"][0] | {"mu": 0.33}, *given["arrays"][1:]]
-    done = run("report", make(tmp_path, arrays=arrays), "--since", former)
+    with packages.unlaid():
+        done = run("report", make(tmp_path, arrays=arrays), "--since", former)
     assert done.exit_code == 0, done.output
     (line,) = (text for text in done.output.splitlines() if text.startswith("since revision"))
     assert line.startswith("since revision 1: ")
     assert "input 1," in line
     (letter,) = re.findall(r"; see appendix ([A-Z]) of the package$", line)
-    pdf = PdfReader(tmp_path / "out" / "calc-package.pdf")
-    text = " ".join(" ".join(page.extract_text() for page in pdf.pages).split())
+    text = packages.words((tmp_path / "out" / "calc-package.pdf").read_text(encoding="utf-8"))
     assert f"{letter} Changes since revision 1" in text
     assert "Friction coefficient" in text
 

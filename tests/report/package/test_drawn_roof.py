@@ -7,8 +7,8 @@ import pytest
 import shapely
 from click.testing import CliRunner
 from openpyxl import load_workbook
-from pypdf import PdfReader
 
+import packages
 from places import ROOT
 from report.cli.main import main
 from report.sheet.read import read
@@ -82,7 +82,8 @@ def reported(tmp_path_factory):
         assert done.exit_code == 0, done.output
     complete(job / "input.xlsx", folder)
     shutil.copytree(ROOT / "projects" / "example" / "records", job / "records", dirs_exist_ok=True)
-    done = CliRunner().invoke(main, ["report", str(job)])
+    with packages.unlaid():
+        done = CliRunner().invoke(main, ["report", str(job)])
     assert done.exit_code == 0, done.output
     return job, done.output
 
@@ -104,8 +105,8 @@ def test_weight_per_area_takes_the_area_of_the_outline(reported):
 
 
 def test_the_package_says_which_array_is_an_outline(reported):
-    pages = PdfReader(reported[0] / "out" / "calc-package.pdf").pages
-    text = " ".join(" ".join(page.extract_text().split()) for page in pages)
+    html = (reported[0] / "out" / "calc-package.pdf").read_text(encoding="utf-8")
+    text = packages.words(html)
     assert "By an outline, of which the rectangle around it is given: A1 (6 vertices)." in text
 
 

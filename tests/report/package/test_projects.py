@@ -8,12 +8,11 @@ from zipfile import ZipFile
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from openpyxl import load_workbook
 from pypdf import PdfReader
 
+import packages
 from places import ROOT
-from report.cli.main import main
 from report.motions.prepare import prepare
 from report.motions.targets import targets
 from report.sheet.read import read
@@ -30,10 +29,10 @@ class Made:
     """What `roofslip report` printed and wrote."""
 
     terminal: str
-    pages: list[str]
+    pages: tuple[str, ...]
     results: dict
     book: object
-    filled: list[float]
+    filled: tuple[float, ...]
 
     @property
     def whole(self):
@@ -55,45 +54,45 @@ class Made:
         return text[: after.start()] if after else text
 
 
-def filled(page):
-    """The share of a sheet between its head and its lowest line above the foot."""
+def read_page(page):
+    """The words of a sheet, and how much of it is above its lowest line, foot and head left out."""
     heights = []
 
     def note(text, matrix, at, *_):
         if text.strip():
             heights.append(at[4] * matrix[1] + at[5] * matrix[3] + matrix[5])
 
-    page.extract_text(visitor_text=note)
+    words = " ".join(page.extract_text(visitor_text=note).split())
     top, bottom = float(page.mediabox.height) - 0.9 * 72, 0.95 * 72
-    return (top - min(y for y in heights if bottom < y < top)) / (top - bottom)
+    return words, (top - min(y for y in heights if bottom < y < top)) / (top - bottom)
 
 
-def report(name, folder):
-    done = CliRunner().invoke(main, ["report", str(PROJECTS / name), "--out", str(folder)])
-    assert done.exit_code == 0, done.output
-    reader = PdfReader(folder / "calc-package.pdf")
+def made(done):
+    out = done.out
+    pages = PdfReader(out / "calc-package.pdf").pages
+    words, filled = zip(*map(read_page, pages), strict=True)
     return Made(
-        terminal=done.output,
-        pages=[" ".join(page.extract_text().split()) for page in reader.pages],
-        results=json.loads((folder / "results.json").read_text(encoding="utf-8")),
-        book=load_workbook(folder / "results.xlsx", data_only=True),
-        filled=[filled(page) for page in reader.pages],
+        terminal=done.stdout,
+        pages=words,
+        results=json.loads((out / "results.json").read_text(encoding="utf-8")),
+        book=load_workbook(out / "results.xlsx", data_only=True),
+        filled=filled,
     )
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def school(tmp_path_factory):
-    return report("school", tmp_path_factory.mktemp("school"))
+    return made(packages.reported(tmp_path_factory, "school"))
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def conditions(tmp_path_factory):
-    return report("conditions", tmp_path_factory.mktemp("conditions"))
+    return made(packages.reported(tmp_path_factory, "conditions"))
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def example(tmp_path_factory):
-    return report("example", tmp_path_factory.mktemp("example"))
+    return made(packages.reported(tmp_path_factory, "example", by_script=True))
 
 
 def test_the_example_has_at_most_28_sheets(example):

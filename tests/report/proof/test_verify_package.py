@@ -8,11 +8,9 @@ import pikepdf
 import pytest
 from click.testing import CliRunner
 
+import packages
 import tampering
-from places import ROOT
-from report.beside import SameProcess
 from report.cli.main import main
-from report.making import make
 from report.proof.package import open_package, take_out
 from report.proof.updates import appended
 from report.proof.verdict import compared
@@ -21,12 +19,7 @@ from solver.model import InputError
 
 @pytest.fixture(scope="module")
 def job(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("job")
-    project = ROOT / "projects" / "conditions"
-    shutil.copy(project / "input.xlsx", folder)
-    shutil.copytree(project / "records", folder / "records")
-    make(folder, None, None, lambda doing: None, SameProcess())
-    return folder
+    return packages.reported(tmp_path_factory, "conditions").project
 
 
 @pytest.fixture(scope="module")

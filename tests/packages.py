@@ -1,0 +1,101 @@
+"""Packages of the projects, each made once in a run of the tests, and packages without layout."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from html import unescape
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import report.typeset.pdf
+from places import ROOT
+from report.cli.main import main
+
+
+def once(factory: pytest.TempPathFactory, name: str, fill: Callable[[Path], object]) -> Path:
+    """Return a folder of this run of the tests, filled by the worker that first asks for it."""
+    top = factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        top = top.parent
+    folder, filled = top / name, top / f"{name}-is-filled"
+    with (top / f"{name}-lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not filled.exists():
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            fill(folder)
+            filled.touch()
+    return folder
+
+
+@dataclass(frozen=True)
+class Reported:
+    """The folder of a project with its report, and what the command printed; only read it."""
+
+    project: Path
+    stdout: str
+    stderr: str
+
+    @property
+    def out(self) -> Path:
+        return self.project / "out"
+
+
+def reported(factory: pytest.TempPathFactory, name: str, *, by_script: bool = False) -> Reported:
+    """Return a project with its report, run in this process or as by a script."""
+    fill = partial(_report, name=name, run=_script if by_script else _here)
+    top = once(factory, f"{name}-by-script" if by_script else name, fill)
+    return Reported(
+        project=top / "projects" / name,
+        stdout=(top / "stdout").read_text(encoding="utf-8"),
+        stderr=(top / "stderr").read_text(encoding="utf-8"),
+    )
+
+
+def _report(top: Path, name: str, run: Callable[[Path, str], tuple[str, str]]) -> None:
+    source, project = ROOT / "projects" / name, top / "projects" / name
+    shutil.copytree(source / "records", project / "records")
+    shutil.copy(source / "input.xlsx", project)
+    for stream, text in zip(("stdout", "stderr"), run(top, f"projects/{name}"), strict=True):
+        (top / stream).write_text(text, encoding="utf-8")
+
+
+def _here(top: Path, project: str) -> tuple[str, str]:
+    done = CliRunner().invoke(main, ["report", str(top / project)])
+    assert done.exit_code == 0, done.output
+    return done.stdout, done.stderr
+
+
+def _script(top: Path, project: str) -> tuple[str, str]:
+    command = [sys.executable, "-m", "report.cli", "report", project]
+    done = subprocess.run(
+        command, cwd=top, capture_output=True, text=True, check=False, timeout=240
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout, done.stderr
+
+
+@contextmanager
+def unlaid() -> Iterator[None]:
+    """Have packages written as HTML: the layout takes four fifths of the time of a small one."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(report.typeset.pdf, "pictures", lambda html: [])
+        patch.setattr(report.typeset.pdf, "lay_out", lambda html, *_: html.encode())
+        yield
+
+
+def words(html: str) -> str:
+    """Return the words of a package or manual before its layout."""
+    body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
+    return " ".join(unescape(body).split())
