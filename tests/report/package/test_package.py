@@ -61,8 +61,13 @@ def few(count=3, seconds=8.0):
 
 
 @pytest.fixture(scope="module")
-def pdf():
-    return made()
+def html():
+    return stand_in.html(stand_in.book())
+
+
+@pytest.fixture(scope="module")
+def pdf(html):
+    return lay_out(html)
 
 
 @pytest.fixture(scope="module")
@@ -113,8 +118,9 @@ def test_the_text_is_as_it_was(texts):
     assert lines + "\n" == GOLDEN.read_text(encoding="utf-8")
 
 
-def test_two_renders_give_the_same_bytes(pdf):
-    assert made() == pdf
+def test_two_runs_give_the_same_pages(html):
+    """Layout is tested for it in test_tagged.py, and all together in test_readme.py."""
+    assert stand_in.html(stand_in.book()) == html
 
 
 def test_the_document_says_what_it_is(pdf):

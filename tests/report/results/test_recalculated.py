@@ -6,7 +6,7 @@ import io
 import openpyxl
 import pytest
 from pypdf import PdfReader
-from recalculated import converted
+from recalculated import converted, recalculated
 
 import stand_in
 from report.assessment.spectra import spectra
@@ -29,37 +29,72 @@ def assessed(**changes):
     return stand_in.assessed(stand_in.book(stand_in.project(**changes)))
 
 
-def saved_as(folder, content, kind="xlsx"):
-    """The workbook as LibreOffice saves it."""
-    (folder / "results.xlsx").write_bytes(content)
-    (path,) = converted([folder / "results.xlsx"], folder, kind)
-    return io.BytesIO(path.read_bytes())
+def written(assessment):
+    return openpyxl.load_workbook(io.BytesIO(results_xlsx(assessment, spectra(assessment))))
 
 
 def compared(sheet, row, columns):
     return [sheet[f"{column}{row}"].value for column in columns]
 
 
-def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(tmp_path):
-    gaps = [gap.model_dump() for gap in stand_in.project().clearances]
-    before = assessed()
-    book = openpyxl.load_workbook(io.BytesIO(results_xlsx(before, spectra(before))))
-    narrow = 10 * INCH
+@pytest.fixture(scope="module")
+def before():
+    return assessed()
+
+
+@pytest.fixture(scope="module")
+def reviewed():
+    return assessed(options=REVIEWED)
+
+
+NARROW_M = 10 * INCH
+
+
+def change_inputs(book):
     inputs = {row[0].value: row[1] for row in book["Inputs"].iter_rows(min_row=5)}
     inputs["S_DS [g]"].value = 1.3
     inputs["Importance factor I_e"].value = 1.25
     inputs["Design value statistic"].value = "1.1 x largest"
     inputs["Peer review"].value = "Yes"
-    book["Clearances"]["K6"].value = narrow / INCH
-    changed = io.BytesIO()
-    book.save(changed)
-    gaps[1] |= {"provided_m": narrow}
+    book["Clearances"]["K6"].value = NARROW_M / INCH
+
+
+def other_array(reviewed):
+    """The array whose displacement does not govern the first clearance."""
+    first = reviewed.clearances[0]
+    assert {first.clearance.array, first.clearance.object} == {"A1", "A3"}
+    return "A1" if first.governing_array == "A3" else "A3"
+
+
+def change_peaks(book, array):
+    runs = book["Runs"]
+    head = [cell.value for cell in runs[1]]
+    for row in runs.iter_rows(min_row=2):
+        if row[0].value == array:
+            row[head.index("PRD [in]")].value = 90.0
+
+
+@pytest.fixture(scope="module")
+def changed(before, reviewed, tmp_path_factory):
+    """Two workbooks that were changed as by an engineer, as LibreOffice saves them in one start."""
+    folder = tmp_path_factory.mktemp("changed")
+    of_inputs, of_peaks = written(before), written(reviewed)
+    change_inputs(of_inputs)
+    change_peaks(of_peaks, other_array(reviewed))
+    paths = [folder / "inputs.xlsx", folder / "peaks.xlsx"]
+    of_inputs.save(paths[0])
+    of_peaks.save(paths[1])
+    return recalculated(paths, folder)
+
+
+def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(before, changed):
+    gaps = [gap.model_dump() for gap in stand_in.project().clearances]
+    gaps[1] |= {"provided_m": NARROW_M}
     site = SITE | {"s_ds_g": 1.3, "i_e": 1.25}
     after = assessed(site=site, options=REVIEWED, clearances=gaps)
     assert before.clearances[1].ok
     assert not after.clearances[1].ok
-    recalculated = openpyxl.load_workbook(saved_as(tmp_path, changed.getvalue()), data_only=True)
-    design, clearances = recalculated["Design"], recalculated["Clearances"]
+    design, clearances = changed[0]["Design"], changed[0]["Clearances"]
     assert design["B3"].value == after.verdict.value
     for row, item in enumerate(after.arrays, start=5):
         values = compared(design, row, "FGHIKMN")
@@ -81,41 +116,29 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(t
         assert compared(clearances, row, "EM") == [governing, gap.verdict.value]
 
 
-def test_the_governing_array_follows_a_peak_that_is_changed(tmp_path):
-    before = assessed(options=REVIEWED)
-    first = before.clearances[0]
-    assert {first.clearance.array, first.clearance.object} == {"A1", "A3"}
-    other = "A1" if first.governing_array == "A3" else "A3"
-    book = openpyxl.load_workbook(io.BytesIO(results_xlsx(before, spectra(before))))
-    runs = book["Runs"]
-    head = [cell.value for cell in runs[1]]
-    for row in runs.iter_rows(min_row=2):
-        if row[0].value == other:
-            row[head.index("PRD [in]")].value = 90.0
-    changed = io.BytesIO()
-    book.save(changed)
-    recalculated = openpyxl.load_workbook(saved_as(tmp_path, changed.getvalue()), data_only=True)
-    sheet = recalculated["Clearances"]
-    assert sheet["E5"].value == f"{other}, any"
+def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
+    sheet = changed[1]["Clearances"]
+    assert sheet["E5"].value == f"{other_array(reviewed)}, any"
     assert sheet["F5"].value == pytest.approx(1.1 * 90.0)
     assert sheet["M5"].value == ("OK" if sheet["I5"].value <= sheet["K5"].value else "NG")
 
 
-def test_every_sheet_prints_as_wide_as_a_page(tmp_path):
-    assessment = assessed()
-    content = results_xlsx(assessment, spectra(assessment))
-    sheets = openpyxl.load_workbook(io.BytesIO(content)).worksheets
+def test_every_sheet_prints_as_wide_as_a_page(before, tmp_path):
+    path = tmp_path / "results.xlsx"
+    path.write_bytes(results_xlsx(before, spectra(before)))
+    sheets = openpyxl.load_workbook(path).worksheets
     for sheet in sheets:
         assert (sheet.page_setup.orientation, sheet.page_setup.paperSize) == ("landscape", 1)
         assert sheet.page_setup.fitToWidth in (1, None)  # 1 where it is not stated
         assert sheet.page_setup.fitToHeight == 0
         assert sheet.sheet_properties.pageSetUpPr.fitToPage
         assert sheet.print_title_rows
-    pages = PdfReader(saved_as(tmp_path, content, "pdf")).pages
+    (printed,) = converted([path], tmp_path, "pdf")
+    texts = [page.extract_text() for page in PdfReader(printed).pages]
     # No sheet is split in its width: every page shows the first column's heading.
     names = [sheet.title for sheet in sheets]
-    counts = {name: sum(f", {name}" in page.extract_text() for page in pages) for name in names}
+    counts = {name: sum(f", {name}" in text for text in texts) for name in names}
     assert all(counts.values()), counts
-    assert len(pages) == sum(counts.values())
+    assert len(texts) == sum(counts.values())
     long = {"Runs", "Records", "Motions", "Requirements", "Peaks", "Spectra"}
     assert all(count == 1 for name, count in counts.items() if name not in long), counts

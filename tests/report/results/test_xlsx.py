@@ -19,17 +19,28 @@ def xlsx(assessment):
     return results_xlsx(assessment, spectra(assessment))
 
 
+def opened(content):
+    """The formulas and the values of a workbook."""
+    return [openpyxl.load_workbook(io.BytesIO(content), data_only=flag) for flag in (False, True)]
+
+
 def made(book):
-    content = xlsx(stand_in.assessed(book))
-    formulas, values = (
-        openpyxl.load_workbook(io.BytesIO(content), data_only=flag) for flag in (False, True)
-    )
-    return formulas, values
+    return opened(xlsx(stand_in.assessed(book)))
 
 
 @pytest.fixture(scope="module")
-def usual():
-    return made(stand_in.book())
+def assessment():
+    return stand_in.assessed(stand_in.book())
+
+
+@pytest.fixture(scope="module")
+def content(assessment):
+    return xlsx(assessment)
+
+
+@pytest.fixture(scope="module")
+def usual(content):
+    return opened(content)
 
 
 class Text(str):
@@ -78,8 +89,14 @@ FUNCTIONS = {
 }
 
 
-def compute(book, sheet, cell):
-    """Evaluate a cell of a workbook: only what the result formulas use."""
+def compute(book, sheet, cell, known):
+    """Evaluate a cell of a workbook, once: only what the result formulas use."""
+    if (sheet, cell) not in known:
+        known[sheet, cell] = evaluated(book, sheet, cell, known)
+    return known[sheet, cell]
+
+
+def evaluated(book, sheet, cell, known):
     value = book[sheet][cell].value
     if not (isinstance(value, str) and value.startswith("=")):
         return value
@@ -95,9 +112,9 @@ def compute(book, sheet, cell):
         where = match["sheet"] or sheet
         if match["first"]:
             block = book[where][f"{match['first']}:{match['last']}"]
-            found = (compute(book, where, c.coordinate) for row in block for c in row)
+            found = (compute(book, where, c.coordinate, known) for row in block for c in row)
             return ",".join(map(shown, found))
-        return shown(compute(book, where, match["cell"].replace("$", "")))
+        return shown(compute(book, where, match["cell"].replace("$", ""), known))
 
     at = r"\$?[A-Z]{1,2}\$?\d+"
     area = rf"(?P<first>{at}):(?P<last>{at})"
@@ -137,13 +154,13 @@ CASES = {
 @pytest.mark.parametrize("case", CASES)
 def test_every_formula_gives_the_value_written_with_it(case):
     formulas, values = made(stand_in.book(stand_in.project(**CASES[case])))
-    checked = 0
+    checked, known = 0, {}
     for sheet in formulas:
         for row in sheet.iter_rows():
             for cell in row:
                 if cell.data_type == "f":
                     cached = values[sheet.title][cell.coordinate].value
-                    value = compute(formulas, sheet.title, cell.coordinate)
+                    value = compute(formulas, sheet.title, cell.coordinate, known)
                     if not isinstance(cached, str):
                         cached = pytest.approx(cached, rel=1e-12, abs=1e-12)
                     assert value == cached, cell
@@ -153,8 +170,9 @@ def test_every_formula_gives_the_value_written_with_it(case):
 
 def test_the_effect_of_links_follows_from_their_runs():
     data = stand_in.project(**CASES["a row of linked blocks"])
-    formulas, values = made(stand_in.book(data))
-    first, second = stand_in.assessed(stand_in.book(data)).linked
+    assessment = stand_in.assessed(stand_in.book(data))
+    formulas, values = opened(xlsx(assessment))
+    first, second = assessment.linked
     rows = list(values["LinkRuns"].iter_rows(min_row=2, values_only=True))
     assert len(rows) == 2 * 28
     assert rows[0][5] == pytest.approx(first.motions[0].runs[0].prd_m / 0.0254)
@@ -195,9 +213,9 @@ def test_a_clearance_follows_from_the_runs_through_its_direction():
         "directional_license": "CA S0000",
         "directional_date": dt.date(2026, 3, 1),
     }
-    book = stand_in.book(stand_in.project(options=options))
-    formulas, values = made(book)
-    gap = stand_in.assessed(book).clearances[3]
+    assessment = stand_in.assessed(stand_in.book(stand_in.project(options=options)))
+    formulas, values = opened(xlsx(assessment))
+    gap = assessment.clearances[3]
     assert (gap.governing_array, gap.governing_direction) == ("A3", Direction.UP)
     assert values["Clearances"]["E8"].value == "A3, up"
     source = formulas["Clearances"]["F8"].value
@@ -216,10 +234,9 @@ def test_a_clearance_follows_from_the_runs_through_its_direction():
     assert formulas["Peaks"][f"D{peaks[1]}"].value.startswith("=MAX(Runs!")
 
 
-def test_a_clearance_takes_the_full_displacement_of_the_sheet_design():
-    book = stand_in.book()
-    formulas, values = made(book)
-    gap = stand_in.assessed(book).clearances[3]
+def test_a_clearance_takes_the_full_displacement_of_the_sheet_design(assessment, usual):
+    formulas, values = usual
+    gap = assessment.clearances[3]
     assert values["Clearances"]["E8"].value == "A3, any"
     assert formulas["Clearances"]["F8"].value == "=Design!$N$7"
     assert values["Design"]["N7"].value == pytest.approx(gap.design_m / 0.0254)
@@ -262,12 +279,10 @@ def test_the_spectrum_of_every_motion_is_listed_by_component(usual):
     assert "Transverse, M7 [g]" in head
 
 
-def test_two_runs_give_the_same_bytes():
-    book = stand_in.book()
-    assessment = stand_in.assessed(book)
-    assert xlsx(assessment) == xlsx(assessment)
-    created = openpyxl.load_workbook(io.BytesIO(xlsx(assessment))).properties.created
-    assert created.date() == book.input.project.date
+def test_two_runs_give_the_same_bytes(assessment, content, usual):
+    assert xlsx(assessment) == content
+    formulas, _ = usual
+    assert formulas.properties.created.date() == assessment.sheet.project.project.date
 
 
 def test_the_processing_of_each_component_is_listed(usual):
@@ -282,18 +297,17 @@ def test_the_processing_of_each_component_is_listed(usual):
 def test_the_prescriptive_route_has_one_design_value_in_every_direction(count):
     """Of two motions there is no value from analysis; three give one that lacks components."""
     shaking = [replace(motion, ay_mps2=stand_in.NO_RECORD) for motion in stand_in.motions(count)]
-    book = stand_in.book(shaking=tuple(shaking))
-    formulas, values = made(book)
-    for row, item in enumerate(stand_in.assessed(book).arrays):
+    assessment = stand_in.assessed(stand_in.book(shaking=tuple(shaking)))
+    formulas, values = opened(xlsx(assessment))
+    for row, item in enumerate(assessment.arrays):
         assert item.governs == "prescriptive"
         for cell in (f"{column}{5 + 4 * row + k}" for column in "HI" for k in range(4)):
             assert values["Directions"][cell].value == pytest.approx(item.design_m / 0.0254)
         assert formulas["Directions"][f"H{5 + 4 * row}"].value == f"=Design!N{5 + row}"
 
 
-def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual):
+def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(assessment, usual):
     _, values = usual
-    assessment = stand_in.assessed(stand_in.book())
     first = values.worksheets[0]
     assert [first["A3"].value, first["B3"].value] == ["Verdict", assessment.verdict.value]
     words = [first.cell(5 + k, 19).value for k in range(3)]
