@@ -1,16 +1,14 @@
 """What several tests share: real records, where they lie beside the checkout, and seeded noise."""
 
 import gc
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import report.beside  # before any test loads openpyxl: the package decides what that reads with
 from browsing import chromium
+from places import RECORDS, SAMPLES
 
-RECORDS = Path(__file__).resolve().parents[2] / "shared" / "records"
-SAMPLES = Path(__file__).parent / "data" / "motions"
 G = 9.80665
 
 

@@ -8,8 +8,8 @@ import numba
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from conftest import RECORDS
 
+from places import RECORDS
 from report.cli.main import main
 from report.figures.base import load_fonts
 from report.manual.building import answer, building

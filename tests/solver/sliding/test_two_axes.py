@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import RECORDS
 from hypothesis import given
 from hypothesis import strategies as st
 
 import plane_oracle
+from places import RECORDS
 from solver.formats.reader import read_motion_file
 from solver.model import EventKind, Friction, Scene, coulomb
 from solver.sliding import checked

@@ -5,8 +5,8 @@ import shutil
 import numba
 import numpy as np
 import pytest
-from conftest import RECORDS, SAMPLES
 
+from places import RECORDS, SAMPLES
 from solver.verification.scenes import own_records
 from solver.verification.triples import own_triples, recorded_triples
 
