@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
 from starlette.requests import Request
@@ -119,7 +120,9 @@ async def _example(request: Request) -> Response:
 
 async def _upload(request: Request) -> Response:
     session = session_of(request)
-    session.workbook = await received(request, session.new_folder())
+    folder = session.new_folder()
+    session.workbook = await received(request, folder)
+    await run_in_threadpool(session.keep_only, folder)
     return await _whole_state(request)
 
 

@@ -83,9 +83,9 @@ def answer_at(workbook: Path, job: Json) -> Json:
     """Return the answer at values: of runs in one axis while a slider moves, else complete."""
     given = _at(workbook, job["values"])
     if not job["moving"]:
-        whole = answer(_assessment(workbook, _key(job["values"])), is_provisional=False)
+        whole = answer(_at_rest(workbook, job["values"]), is_provisional=False)
         return {**whole, "shown": shown(given)}
-    start = replace(_assessment(workbook, _key({})), sheet=given.sheet, shaking=given.shaking)
+    start = replace(_at_rest(workbook, {}), sheet=given.sheet, shaking=given.shaking)
     provisional = anticipate(start, given.sheet.project)
     return {**answer(provisional, is_provisional=True), "shown": shown(given)}
 
@@ -101,7 +101,7 @@ def write(workbook: Path, job: Json) -> Json:
 
 
 def _view(draw: Callable[[Assessment, Json], Json]) -> Callable[[Path, Json], Json]:
-    return lambda workbook, job: draw(_assessment(workbook, _key(job["values"])), job)
+    return lambda workbook, job: draw(_at_rest(workbook, job["values"]), job)
 
 
 _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
@@ -125,18 +125,22 @@ def _at(workbook: Path, values: Values) -> Opened:
     return with_values(given, values)
 
 
+def _at_rest(workbook: Path, values: Values) -> Assessment:
+    """Return the complete assessment at values; those as typed are the same as none."""
+    known = controls(_open(workbook))
+    typed_ = {item["id"]: item["typed"] for item in (*known["sliders"], *known["choices"])}
+    other = {name: value for name, value in values.items() if value != typed_.get(name)}
+    return _assessment(workbook, json.dumps(other, sort_keys=True))
+
+
 @lru_cache(KEPT_ANSWERS)
 def _assessment(workbook: Path, key: str) -> Assessment:
-    """Return the complete assessment at values, which are the key."""
+    """Return the complete assessment at values, given as JSON."""
     given, start = _at(workbook, json.loads(key)), _open(workbook)
     # Friction, slope and clearance change no motion.
     known = given is not start and given.shaking is start.shaking
-    accepted = _assessment(workbook, _key({})).acceptance if known else None
+    accepted = _at_rest(workbook, {}).acceptance if known else None
     return assess(given.sheet, given.shaking, accepted)
-
-
-def _key(values: Values) -> str:
-    return json.dumps(dict(values), sort_keys=True)
 
 
 def _motion(motion: Motion) -> Json:

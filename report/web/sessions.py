@@ -18,6 +18,7 @@ LIFE_S = 3600.0
 MOST = 200
 """Most sessions at once: each may fill a folder."""
 
+_UPLOAD = "upload-"
 _PACKAGE = Path(__file__).resolve().parent
 _HOMES = (_PACKAGE / "example", _PACKAGE.parents[1] / "projects" / "example")
 EXAMPLE = next(path for path in _HOMES if path.is_dir()) / "input.xlsx"
@@ -54,9 +55,15 @@ class Session:
     def new_folder(self) -> Path:
         """Return an empty folder for an upload."""
         self.uploads += 1
-        folder = self.folder / f"upload-{self.uploads}"
+        folder = self.folder / f"{_UPLOAD}{self.uploads}"
         folder.mkdir()
         return folder
+
+    def keep_only(self, upload: Path) -> None:
+        """Remove the folders of earlier uploads."""
+        for folder in self.folder.glob(f"{_UPLOAD}*"):
+            if folder != upload:
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 class Sessions:

@@ -1,0 +1,90 @@
+"""`roofslip serve`: what it prints and refuses, and one server of its own on loopback."""
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import urllib.request
+from http.cookiejar import CookieJar
+
+import pytest
+from click.testing import CliRunner
+
+from places import ROOT
+from report.cli.main import main
+
+WAIT_S = 120.0
+TOKEN = "a-token-of-twenty-letters"
+
+
+def served(*arguments, **options):
+    return CliRunner().invoke(main, ["serve", *arguments], **options)
+
+
+def test_a_host_needs_a_token_file():
+    done = served("--host", "127.0.0.1")
+    assert done.exit_code == 2
+    assert "--host needs --token-file" in done.output
+
+
+@pytest.mark.parametrize("token", ["", "short", "a token with spaces in it", "x" * 19])
+def test_a_token_that_can_be_guessed_or_is_no_part_of_an_address_is_refused(token, tmp_path):
+    path = tmp_path / "token"
+    path.write_text(token)
+    done = served("--host", "127.0.0.1", "--token-file", str(path))
+    assert done.exit_code == 2
+    assert "20 or more letters" in done.output
+
+
+def test_a_port_that_is_taken_is_named():
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        done = served("--no-browser", "--port", str(port))
+    assert done.exit_code == 2
+    assert f"127.0.0.1, port {port}: cannot listen there" in done.output
+
+
+def test_a_missing_package_is_named(monkeypatch):
+    monkeypatch.setattr("report.cli.serve.find_spec", lambda name: None)
+    done = served("--no-browser")
+    assert done.exit_code == 2
+    assert "install roofslip[serve]" in done.output
+
+
+def test_the_server_answers_and_leaves_nothing_behind(tmp_path):
+    token = tmp_path / "token"
+    token.write_text(f"{TOKEN}\n")
+    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
+    command += ["--host", "127.0.0.1", "--token-file", str(token)]
+    server = subprocess.Popen(
+        command,
+        cwd=ROOT,
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        address = server.stdout.readline().strip()
+        match = re.fullmatch(
+            r"(http://127\.0\.0\.1:\d+/)\?token=a-token-of-twenty-letters", address
+        )
+        browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(CookieJar()))
+        page = browser.open(address, timeout=WAIT_S)
+        assert page.url == match[1]
+        assert b"<title>" in page.read()
+        state = json.load(browser.open(f"{match[1]}api/state", timeout=WAIT_S))
+        assert state["answer"]["verdict"] == "OK"
+        assert "server" not in {name.lower() for name in page.headers}
+        assert len(list(tmp_path.glob("roofslip-serve-*"))) == 1
+    finally:
+        server.send_signal(signal.SIGTERM)
+        _, warned = server.communicate(timeout=30)
+    assert warned.strip() == (
+        "warning: the connection is not encrypted; put a reverse proxy with TLS in front of it"
+    )
+    assert server.returncode == 0
+    assert not list(tmp_path.glob("roofslip-serve-*"))

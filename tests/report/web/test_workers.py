@@ -1,0 +1,149 @@
+"""Which job goes next, and what becomes of jobs whose process is lost; with processes that echo."""
+
+import asyncio
+import json
+import sys
+from asyncio.subprocess import PIPE
+
+import pytest
+
+from report.web import workers
+from report.web.workers import LostError, Place, Rank, StaleError, Workers
+
+# Answers with the job itself, after the seconds that it says; ends where it says so.
+ECHO = """
+import json, os, sys, time
+for line in sys.stdin:
+    job = json.loads(line)
+    time.sleep(job.get("seconds", 0))
+    if job.get("ends"):
+        os._exit(1)
+    print(line, end="", flush=True)
+"""
+
+
+@pytest.fixture(autouse=True)
+def echoing(monkeypatch):
+    """Processes that load nothing."""
+
+    async def started(self):
+        process = await asyncio.create_subprocess_exec(
+            sys.executable, "-I", "-S", "-c", ECHO, stdin=PIPE, stdout=PIPE
+        )
+        self._processes.add(process)
+        return process
+
+    monkeypatch.setattr(Workers, "_started", started)
+
+
+def done(number, script):
+    """Run a script with so many processes, which are all ended after it."""
+
+    async def run():
+        pool = Workers(number)
+        pool.start({})
+        try:
+            return await asyncio.wait_for(script(pool), 60.0)
+        finally:
+            await pool.stop()
+            assert pool.pids == []
+
+    return asyncio.run(run())
+
+
+def ask(pool, name, rank=Rank.AT_REST, key="p", number=1, **job):
+    place = Place((key, "assess"), number)
+    return asyncio.create_task(pool.ask({"name": name, **job}, rank, place))
+
+
+async def busy(pool, seconds=0.3, key="busy"):
+    """Keep a process busy."""
+    task = ask(pool, "busy", Rank.MOVING, key=key, seconds=seconds)
+    await asyncio.sleep(seconds / 3)
+    return task
+
+
+def test_a_newer_job_of_a_page_replaces_one_that_waits():
+    async def script(pool):
+        running = await busy(pool, 0.6)
+        waiting = [ask(pool, f"n{n}", number=n) for n in range(1, 6)]
+        found = await asyncio.gather(running, *waiting, return_exceptions=True)
+        return found[1:]
+
+    *stale, last = done(1, script)
+    assert {type(each) for each in stale} == {StaleError}
+    assert last["name"] == "n5"
+
+
+def test_an_older_job_that_comes_late_is_stale():
+    async def script(pool):
+        running = await busy(pool, 0.6)
+        newer = ask(pool, "newer", number=7)
+        await asyncio.sleep(0)
+        older = ask(pool, "older", number=6)
+        other = ask(pool, "other page", number=1, key="q")
+        return await asyncio.gather(running, newer, older, other, return_exceptions=True)
+
+    _, newer, older, other = done(1, script)
+    assert newer["name"] == "newer"
+    assert isinstance(older, StaleError)
+    assert other["name"] == "other page"
+
+
+def test_quick_jobs_go_first_and_equal_ones_in_order():
+    async def script(pool):
+        order = []
+        running = await busy(pool, 0.6)
+        ranks = [Rank.READ, Rank.VIEW, Rank.AT_REST, Rank.MOVING, Rank.MOVING]
+        tasks = [ask(pool, rank.name, rank, key=str(k)) for k, rank in enumerate(ranks)]
+        for k, task in enumerate(tasks):
+            task.add_done_callback(lambda _, k=k: order.append(k))
+        await asyncio.gather(running, *tasks)
+        return order
+
+    assert done(1, script) == [3, 4, 2, 1, 0]
+
+
+def test_one_process_stays_free_while_workbooks_are_read():
+    async def script(pool):
+        reads = [ask(pool, "read", Rank.READ, key=str(k), seconds=1.0) for k in range(3)]
+        await asyncio.sleep(0.3)
+        moving = await asyncio.wait_for(ask(pool, "moving", Rank.MOVING), 0.6)
+        for each in reads:
+            each.cancel()
+        return moving["name"]
+
+    assert done(2, script) == "moving"
+
+
+def test_a_job_whose_process_ends_is_tried_once_more_and_then_lost():
+    async def script(pool):
+        first = set(pool.pids)
+        lost = await asyncio.gather(ask(pool, "fatal", ends=True), return_exceptions=True)
+        again = await ask(pool, "after it", number=2)
+        return lost[0], again["name"], first & set(pool.pids)
+
+    lost, again, left = done(1, script)
+    assert isinstance(lost, LostError)
+    assert (again, left) == ("after it", set())
+
+
+def test_a_job_that_takes_too_long_is_stopped_and_says_so(monkeypatch):
+    monkeypatch.setattr(workers, "LONGEST_S", 0.3)
+
+    async def script(pool):
+        lost = await asyncio.gather(ask(pool, "slow", seconds=30), return_exceptions=True)
+        return lost[0], (await ask(pool, "quick", number=2))["name"]
+
+    lost, quick = done(1, script)
+    assert str(lost) == "This took longer than 0 s and was stopped."
+    assert quick == "quick"
+
+
+def test_an_answer_is_a_line_whatever_is_in_it():
+    text = "a line\u2028 another\n\x00 \u00e9"
+
+    async def script(pool):
+        return await ask(pool, text)
+
+    assert json.loads(json.dumps(done(1, script)))["name"] == text
