@@ -72,7 +72,8 @@ def check(given: Opened, values: Values) -> None:
             span = sliders[name]["least"], sliders[name]["greatest"]
             if not _is_number(value) or not span[0] <= float(value) <= span[1]:
                 wanted = f"give a number from {span[0]:g} to {span[1]:g}"
-                wrong.append(f"{sliders[name]['label']} is {cut(str(value))}; {wanted}")
+                why = f" ({sliders[name]['why']})" if sliders[name]["why"] else ""
+                wrong.append(f"{sliders[name]['label']} is {cut(str(value))}; {wanted}{why}")
         elif name not in choices:
             wrong.append(f"{cut(name)}: the workbook has no such slider; leave it out")
         elif value not in (options := [each["value"] for each in choices[name]["options"]]):
@@ -109,7 +110,7 @@ def _slider(
     least, greatest, step = span
     return {
         "id": name, "label": label, "unit": unit, "least": least, "greatest": greatest,
-        "step": step, "value": start, "typed": start, "help": words,
+        "step": step, "value": start, "typed": start, "help": words, "why": "",
     }  # fmt: skip
 
 
@@ -124,9 +125,11 @@ def _stopped(given: Opened, slider: dict[str, Any]) -> dict[str, Any]:
         while abs(bad - good) > 1:
             middle = (good + bad) // 2
             good, bad = (good, middle) if _problem_at(given, slider, middle) else (middle, bad)
+        why = f"beyond the {end}: {_problem_at(given, slider, bad)}"
         slider = slider | {
             end: _value_at(slider, good),
-            "help": f"{slider['help']} {end.capitalize()}: {_problem_at(given, slider, bad)}.",
+            "why": f"{slider['why']}; {why}" if slider["why"] else why,
+            "help": f"{slider['help']} {why[0].upper()}{why[1:]}.",
         }
     return slider
 

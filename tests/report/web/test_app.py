@@ -151,33 +151,6 @@ def test_a_package_is_queued_and_cancelled(client):
     assert client.get(f"/api/package/{ticket}").status_code == 404
 
 
-@pytest.mark.slow
-def test_what_is_shown_at_rest_is_what_the_package_has(client):
-    values = {"friction": 0.95, "slope": 0.4, "intensity": 1.04}
-    shown = asked(client, values).json()
-    ticket = client.post("/api/package", json={"values": values}).json()["ticket"]
-    stages, last = [], time.monotonic() + 300.0
-    while (about := client.get(f"/api/package/{ticket}").json())["state"] in ("queued", "running"):
-        assert time.monotonic() < last, about
-        stages += [about["stage"]] * (about["stage"] not in stages)
-        time.sleep(0.1)
-    assert about["state"] == "done", about
-    assert "laying out the package" in stages
-    files = {
-        name: client.get(f"/api/package/{ticket}/{name}")
-        for name in ("calc-package.pdf", "results.xlsx", "plan.dxf", "results.json")
-    }
-    assert {answer.status_code for answer in files.values()} == {200}
-    assert files["calc-package.pdf"].content.startswith(b"%PDF")
-    results = files["results.json"].json()
-    assert results["verdict"] == shown["verdict"]
-    for key in ("design_m", "mean_prd_m"):
-        assert [a[key] for a in results["arrays"]] == [a[key] for a in shown["arrays"]]
-    for key in ("required_m", "provided_m", "verdict"):
-        found = [gap[key] for gap in results["clearances"]]
-        assert found == [gap[key] for gap in shown["clearances"]]
-
-
 def test_a_process_that_is_killed_is_replaced(client, served):
     import os
     import signal
