@@ -4,8 +4,7 @@ import { html, replace, svg } from "./make.js";
 import { measured, number, reading, tickText } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
-import { createView } from "./view-frame.js";
-import { set } from "./view-panels.js";
+import { createView, set } from "./view-frame.js";
 
 const HEIGHT = 370;
 const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };

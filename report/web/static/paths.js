@@ -3,8 +3,7 @@
 import { html, replace, svg } from "./make.js";
 import { measured, number, reading } from "./reading.js";
 import { roundBelow } from "./view-axes.js";
-import { createView } from "./view-frame.js";
-import { set } from "./view-panels.js";
+import { createView, set } from "./view-frame.js";
 
 const LEAST_WIDE = 128; // of a panel
 const ROOM = 10; // around the paths

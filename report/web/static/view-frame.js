@@ -12,14 +12,18 @@ export function createView(element, scene, { ask, fetch, build }) {
   let shown = ""; // the request that is drawn
   let own = {};
   let last = scene;
-  let width = 0;
+  let isMoving = false; // whether a slider moves, so that what is drawn is out of date
 
   async function update(next) {
     if (next.array !== last.array || next.motion !== last.motion) own = {};
     last = next;
+    isMoving = false;
     const request = { ...ask(next), ...own };
     const key = JSON.stringify(request);
-    if (key === shown) return element.classList.remove("is-stale");
+    if (key === shown) {
+      element.classList.remove("is-stale");
+      return;
+    }
     shown = "";
     drawing?.stop();
     element.setAttribute("aria-busy", "true");
@@ -27,7 +31,7 @@ export function createView(element, scene, { ask, fetch, build }) {
     else replace(element, html("p", { class: "note" }, "Calculating …"));
     try {
       const data = await fetch(request);
-      if (data === null) return undefined;
+      if (data === null) return;
       drawing?.stop();
       element.replaceChildren();
       drawing = build(element, data, again);
@@ -36,9 +40,8 @@ export function createView(element, scene, { ask, fetch, build }) {
       drawing = null;
       replace(element, html("p", { role: "alert" }, error.message));
     }
-    element.classList.remove("is-stale");
+    element.classList.toggle("is-stale", isMoving);
     element.removeAttribute("aria-busy");
-    return undefined;
   }
 
   function again(changes) {
@@ -46,15 +49,12 @@ export function createView(element, scene, { ask, fetch, build }) {
     update(last);
   }
 
-  new ResizeObserver(([{ contentRect }]) => {
-    if (contentRect.width === width || contentRect.width === 0) return;
-    width = contentRect.width;
-    drawing?.resize();
-  }).observe(element);
+  onWidth(element, () => drawing?.resize());
   update(scene);
   return {
     update,
     moving() {
+      isMoving = true;
       drawing?.stop();
       element.classList.add("is-stale");
     },
@@ -62,6 +62,16 @@ export function createView(element, scene, { ask, fetch, build }) {
       drawing?.stop();
     },
   };
+}
+
+// Call a function when an element gets another width; it has none while its tab is closed.
+function onWidth(element, changed) {
+  let width = 0;
+  new ResizeObserver(([{ contentRect }]) => {
+    if (contentRect.width === width || contentRect.width === 0) return;
+    width = contentRect.width;
+    changed();
+  }).observe(element);
 }
 
 /** Return a select of the runs of a motion; `chosen` gets the name of one. */
@@ -83,4 +93,9 @@ export function onKeys(element, keys) {
     event.preventDefault();
     keys[key](event);
   });
+}
+
+/** Set attributes of an element. */
+export function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }

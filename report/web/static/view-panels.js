@@ -3,6 +3,7 @@
 import { html, svg } from "./make.js";
 import { measured, tickText } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
+import { set } from "./view-frame.js";
 import { curve, rangeIn, valueAt } from "./view-series.js";
 
 const LEFT = 46;
@@ -154,9 +155,4 @@ function limits(series, span, least, most, unit) {
 
 function sample(look) {
   return svg("svg", { class: "sample", "aria-hidden": true, viewBox: "0 0 20 10" }, svg("path", { class: `curve ${look}`, d: "M0 5H20" }));
-}
-
-/** Set attributes of an element. */
-export function set(element, attributes) {
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }

@@ -2,7 +2,7 @@
 
 import { points, replace, svg } from "./make.js";
 import { roundBelow } from "./view-axes.js";
-import { set } from "./view-panels.js";
+import { set } from "./view-frame.js";
 import { lastUpTo } from "./view-series.js";
 
 const ARRAY = 0.3; // of the drawing, that the array fills

@@ -332,6 +332,23 @@ def test_another_run_is_asked_for_by_name_and_an_error_is_said(page, run):
     assert "run" not in page.evaluate("asked[2]")  # another motion: its governing run
 
 
+def test_an_answer_that_comes_while_a_slider_moves_is_marked_as_out_of_date(page, run):
+    mounted(page, "slide", run)
+    page.evaluate(
+        """async (data) => {
+      let answer;
+      reply = () => new Promise((done) => { answer = done; });
+      view.update({ values: { friction: 2 }, array: 'A2', motion: 'M1' });
+      view.moving();
+      answer(data);
+      await new Promise((done) => setTimeout(done, 0));
+    }""",
+        run,
+    )
+    assert page.locator(".view[aria-busy]").count() == 0
+    assert "is-stale" in page.locator(".view").get_attribute("class")
+
+
 def test_a_run_without_displacement_is_drawn_at_rest(page):
     lifted = stand_in.motion("M1", MOTIONS[0].ax_mps2, 4.0 * MOTIONS[0].az_mps2, dt_s=0.005)
     data = stand_in.project(options=PEER)
