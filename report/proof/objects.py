@@ -24,7 +24,8 @@ MISSING = object()
 def differences(first: PdfReader, second: PdfReader, allowed: Allowed) -> Iterator[str]:
     """Yield the places at which two PDFs differ, pages as `sheet 3`.
 
-    Only what is reached from the root is compared; streams are compared unpacked.
+    Only what is reached from the root, and the information dictionary, are compared; streams are
+    compared unpacked.
     """
     walk = _Walk(allowed)
     pages = zip(first.pages, second.pages, strict=False)
@@ -34,6 +35,13 @@ def differences(first: PdfReader, second: PdfReader, allowed: Allowed) -> Iterat
     if len(first.pages) != len(second.pages):
         yield f"number of sheets: {len(first.pages)} and {len(second.pages)}"
     yield from walk.below("document", first.trailer["/Root"], second.trailer["/Root"])
+    yield from walk.below("document /Info", *(information(pdf) for pdf in (first, second)))
+
+
+def information(pdf: PdfReader) -> Any:
+    """Return the information dictionary of a PDF, or `MISSING`."""
+    found = pdf.trailer.get("/Info")
+    return MISSING if found is None else found.get_object()
 
 
 @dataclass

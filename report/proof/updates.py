@@ -20,6 +20,7 @@ _SIGNED = {"/V", "/AP", "/F", "/Lock"}
 """What signing may add to a signature field or change in it."""
 
 _FORM = {"/SigFlags", "/Fields"}
+_WRITING = {"document /Info /ModDate", "document /Info /Producer"}
 _HEX = re.compile(rb"<[0-9A-Fa-f\s]*>")
 
 
@@ -102,7 +103,7 @@ def _is_signing(place: str, one: Any, two: Any) -> bool:
         return two is not MISSING and _same_but(one, two, _FORM)
     if place == "document /Metadata":
         return two is not MISSING and _titles(one) == _titles(two)
-    return place == "document /Extensions"
+    return place == "document /Extensions" or place in _WRITING
 
 
 def _is_signed_field(one: Any, two: Any) -> bool:

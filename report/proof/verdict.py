@@ -12,17 +12,21 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from defusedxml.ElementTree import fromstring
 from pypdf import PdfReader
 from pypdf.generic import StreamObject
 
 from report.proof.numbers import listed, number_differences, word_differences
-from report.proof.objects import MISSING, differences
+from report.proof.objects import MISSING, differences, information
 from report.proof.package import Manifest, Package, guarded, mismatched, reader
 from report.proof.updates import Appended
 from report.provenance.files import MANIFEST, RESULTS
 
 SAME_VERSION, OTHER_VERSION = 1e-12, 1e-9
 """Relative tolerance of numbers that this version wrote elsewhere, and that another one wrote."""
+
+_XMP = "{http://ns.adobe.com/xap/1.0/}"
+_REWRITTEN = (f"{_XMP}ModifyDate", f"{_XMP}MetadataDate")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,6 +139,7 @@ def _sheets(package: Package, ours: _Written, *, is_twin: bool) -> Iterator[str]
         yield from listed([p for p in places if not p.startswith(_told(changed))])
     else:
         yield from _annotations(theirs, ours.pdf)
+        yield from _information(theirs, ours.pdf)
     if len(theirs.pages) != len(ours.pdf.pages):
         yield f"it has {len(theirs.pages)} sheets; the input gives {len(ours.pdf.pages)}"
 
@@ -169,10 +174,22 @@ def _is_told_apart(own: Set[bytes], place: str, one: Any, two: Any) -> bool:
     """Whether a difference is told by another comparison, or is the date of a rewriting."""
     if one is MISSING or two is MISSING:
         return False
-    if place == "document /Metadata":
+    if place == "document /Info /ModDate":
         return True
+    if place == "document /Metadata":
+        return _facts(one) == _facts(two)
     # Results and manifest are compared number by number.
     return isinstance(one, StreamObject) and one.get_data() in own
+
+
+def _facts(metadata: Any) -> list[tuple[str, str, Any]]:
+    """Return what the metadata of a document state, without the date of a rewriting."""
+    items = fromstring(metadata.get_data()).iter()
+    return [
+        (item.tag, (item.text or "").strip(), sorted(item.items()))
+        for item in items
+        if item.tag not in _REWRITTEN
+    ]
 
 
 def _annotations(theirs: PdfReader, ours: PdfReader) -> Iterator[str]:
@@ -183,6 +200,17 @@ def _annotations(theirs: PdfReader, ours: PdfReader) -> Iterator[str]:
         )
         if one != two:
             yield f"sheet {count}: {len(one)} annotations; the input gives {len(two)}"
+
+
+def _information(theirs: PdfReader, ours: PdfReader) -> Iterator[str]:
+    """Yield what the information of two documents says differently, versions and dates apart."""
+    one, two = (information(pdf) for pdf in (theirs, ours))
+    if one is MISSING or two is MISSING:
+        yield "document /Info"
+        return
+    for key in sorted({*one.keys(), *two.keys()} - {"/ModDate", "/Producer"}):
+        if one.get(key) != two.get(key):
+            yield f"document /Info {key}"
 
 
 def as_json(proof: Proof) -> str:

@@ -140,6 +140,34 @@ def test_another_type_of_an_attachment_is_found(proof, data):
     assert not proof(tampering.rewritten(data, change)).is_same
 
 
+@pytest.mark.parametrize("key", ["/Title", "/Author", "/Creator", "/Producer", "/CreationDate"])
+def test_another_entry_of_the_information_of_the_document_is_found(proof, data, key):
+    def change(pdf):
+        pdf.docinfo[key] = "Another one"
+
+    found = proof(tampering.rewritten(data, change))
+    assert f"document /Info {key}" in found.differences
+
+
+def test_information_that_was_added_or_taken_away_is_found(proof, data):
+    def add(pdf):
+        pdf.docinfo["/Subject"] = "Approved"
+
+    def remove(pdf):
+        del pdf.trailer["/Info"]
+
+    assert "document /Info /Subject" in proof(tampering.rewritten(data, add)).differences
+    assert "document /Info" in proof(tampering.rewritten(data, remove)).differences
+
+
+def test_other_metadata_are_found(proof, data):
+    def change(pdf):
+        stream = pdf.Root.Metadata
+        stream.write(stream.read_bytes().replace(b"Warehouse", b"Hospital"))
+
+    assert "document /Metadata" in proof(tampering.rewritten(data, change)).differences
+
+
 def test_a_changed_digit_is_told_with_its_sheet_and_its_words(proof, data):
     found = proof(tampering.digit_in_text(data, random.Random(3)))
     assert not found.is_same
