@@ -1,0 +1,309 @@
+"""Shake-table tests from a folder: table accelerations, friction, and the slip that was measured.
+
+Reads `tests.csv` and the records beside it; runs nothing. Read `table_tests`.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from pathlib import Path
+
+from solver.formats import read_record
+from solver.model import InputError, Scene, coulomb
+from solver.records.record import Record, shown
+from solver.sliding.checked import scene
+
+NAME = "tests.csv"
+"""File of a folder of tests, one row for each test."""
+
+MOST_BYTES, MOST_TESTS, MOST_LETTERS = 1_000_000, 1000, 200
+MOST_SLIP_M = 100.0
+BAR = "|"
+"""Separates a file from its channel, as in the workbook."""
+
+_LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
+_WORDS = ("Test", "Data", "Source", "x", "y", "z")
+_PRD, _RESIDUAL = "PRD", "Residual"
+_SLOPE, _FRICTION, _STATIC = "Slope [deg]", "Friction", "Static friction"
+_RANGES = {_SLOPE: (-30.0, 30.0), _FRICTION: (0.0, 2.0), _STATIC: (0.0, 2.0)}
+_REQUIRED = ("Test", "Data", "Source", "x", _SLOPE, _FRICTION, _PRD)
+
+
+class Data(StrEnum):
+    """Where the slip of a test comes from."""
+
+    MEASURED = "measured"
+    COMPUTED = "computed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableTest:
+    """One run of a shake table.
+
+    Attributes
+    ----------
+    name, source : str
+        As in `NAME`.
+    data : Data
+    scene : Scene
+        Accelerations of the table, slope and friction.
+    prd_m, residual_m : float
+        Largest and final horizontal displacement relative to the table [m], both magnitudes; the
+        second is NaN if it is not given.
+    """
+
+    name: str
+    source: str
+    data: Data
+    scene: Scene
+    prd_m: float
+    residual_m: float
+
+
+def table_tests(folder: Path) -> tuple[TableTest, ...]:
+    """Read the tests of a folder.
+
+    `NAME` has a row of headings and one row for each test, separated by commas: Test; Data
+    (`measured`, or `computed` where nothing was measured); Source; x, y and z, the accelerations of
+    the table as `file` or `file | channel`, x along the slope and positive downslope, z positive
+    up, y and z optional; Slope [deg]; Friction, kinetic; Static friction, optional; PRD [mm] and
+    Residual [mm], or with cm, m or in, the second optional. The records have any format of
+    `solver.formats` and state their units.
+
+    Raises
+    ------
+    InputError
+        With every problem, as ``tests.csv, row 3, column PRD [mm]: found what; what is accepted``.
+    """
+    table = _Table(folder)
+    tests: list[TableTest] = []
+    problems: list[str] = []
+    for row in table.rows:
+        try:
+            tests.append(_test(table, row))
+        except InputError as error:
+            problems += error.problems
+    names = [test.name.casefold() for test in tests]
+    problems += [
+        f"{NAME}: two tests have the name {shown(test.name)}; give each its own"
+        for at, test in enumerate(tests)
+        if test.name.casefold() in names[:at]
+    ]
+    if problems:
+        raise InputError(problems)
+    return tuple(tests)
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """A row by its number in the file, its cells by key, and the headings of the keys."""
+
+    number: int
+    cells: Mapping[str, str]
+    headings: Mapping[str, str]
+
+    def at(self, key: str) -> str:
+        return f"{NAME}, row {self.number}, column {self.headings.get(key, key)}"
+
+
+class _Table:
+    """`NAME` as read: its headings are known, and every row has as many cells."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        lines = _lines(folder / NAME)
+        headings = [" ".join(cell.split()) for cell in lines[0][1]] if lines else []
+        self.lengths = _lengths(headings)
+        keys = [_key(heading) for heading in headings]
+        problems = [*_heading_problems(headings, keys)]
+        if problems:
+            raise InputError(problems)
+        if len(lines) < 2:
+            raise InputError(f"{NAME}: has no tests; give one row for each below the headings")
+        problems = [
+            f"{NAME}, row {number}: has {len(cells)} cells; the headings are {len(keys)}. A text"
+            " with a comma needs quotation marks"
+            for number, cells in lines[1:]
+            if len(cells) != len(keys)
+        ]
+        if problems:
+            raise InputError(problems)
+        names = dict(zip(keys, headings, strict=True))
+        self.rows = [
+            _Row(number, dict(zip(keys, map(str.strip, cells), strict=True)), names)
+            for number, cells in lines[1:]
+        ]
+
+
+def _lines(path: Path) -> list[tuple[int, list[str]]]:
+    """Return the rows of a file that are not blank, with their numbers."""
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise InputError(f"{path}: larger than {MOST_BYTES // 10**6} MB; give fewer tests")
+        text = path.read_text(encoding="utf-8-sig")
+        rows = [
+            (number, cells)
+            for number, cells in enumerate(csv.reader(text.splitlines(), strict=True), start=1)
+            if any(cell.strip() for cell in cells)
+        ]
+    except OSError as error:
+        raise InputError(
+            f"{path}: cannot be read ({error.strerror}); give a folder with {NAME}"
+        ) from error
+    except (ValueError, csv.Error) as error:
+        raise InputError(f"{path}: {error}; save it as CSV UTF-8, separated by commas") from error
+    if len(rows) > MOST_TESTS + 1:
+        raise InputError(f"{path}: has more than {MOST_TESTS} tests")
+    return rows
+
+
+def _key(heading: str) -> str:
+    """Return the heading without the unit of a length; nothing for a length without a unit."""
+    plain = re.sub(r"\s*\[(mm|cm|m|in)\]$", "", heading)
+    known = (*_WORDS, _PRD, _RESIDUAL)
+    if plain in known and (plain != heading) == (plain in (_PRD, _RESIDUAL)):
+        return plain
+    return "" if heading in (_PRD, _RESIDUAL) else heading
+
+
+def _lengths(headings: list[str]) -> Mapping[str, float]:
+    found = ((_key(h), re.search(r"\[(mm|cm|m|in)\]$", h)) for h in headings)
+    return {key: _LENGTHS[unit[1]] for key, unit in found if unit}
+
+
+def _heading_problems(headings: list[str], keys: list[str]) -> Iterator[str]:
+    known = (*_WORDS, _SLOPE, _FRICTION, _STATIC, _PRD, _RESIDUAL)
+    accepted = ", ".join([*known[:-2], f"{_PRD} [mm]", f"{_RESIDUAL} [mm]"])
+    for heading, key in zip(headings, keys, strict=True):
+        if key not in known:
+            yield f"{NAME}, row 1: found the heading {shown(heading)}; accepted are {accepted}"
+        elif keys.count(key) > 1:
+            yield f"{NAME}, row 1: the heading {heading} is there twice"
+    for key in _REQUIRED:
+        if key not in keys:
+            name = f"{_PRD} [mm]" if key == _PRD else key
+            yield f"{NAME}, row 1: has no heading {name}; the headings are {accepted}"
+
+
+def _test(table: _Table, row: _Row) -> TableTest:
+    """Return the test of a row; raise InputError with all its problems."""
+    problems: list[str] = []
+    name, source = (_word(row, key, problems) for key in ("Test", "Source"))
+    data = _data(row, problems)
+    slope_deg, mu, static = (_ranged(row, key, problems) for key in _RANGES)
+    prd_m, residual_m = (_slip(table, row, key, problems) for key in (_PRD, _RESIDUAL))
+    records = dict(_records(table.folder, row, problems))
+    problems += _unlike(row, records)
+    if static < mu:
+        problems.append(f"{row.at(_STATIC)}: found {static:g}, below the kinetic {mu:g}")
+    if problems:
+        raise InputError(problems)
+    x, y, z = (records.get(key) for key in "xyz")
+    assert x is not None  # required
+    try:
+        case = scene(
+            x.a_mps2,
+            x.dt_s,
+            slope_rad=math.radians(slope_deg),
+            mu=replace(coulomb(mu), mu_static=mu if math.isnan(static) else static),
+            ay_mps2=y.a_mps2 if y else None,
+            az_mps2=z.a_mps2 if z else None,
+        )
+    except InputError as error:
+        raise InputError([f"{NAME}, row {row.number}: {text}" for text in error.problems]) from None
+    return TableTest(
+        name=name, source=source, data=data, scene=case, prd_m=prd_m, residual_m=residual_m
+    )
+
+
+def _word(row: _Row, key: str, problems: list[str]) -> str:
+    text = row.cells[key]
+    if not text:
+        problems.append(f"{row.at(key)}: is empty; give {_EMPTY[key]}")
+    elif not text.isprintable() or len(text) > MOST_LETTERS:
+        problems.append(f"{row.at(key)}: give at most {MOST_LETTERS} printable characters")
+    return text
+
+
+_EMPTY = {"Test": "a name", "Source": "laboratory, report and date, or what computed the slip",
+          "x": "the file of the table acceleration along the slope"}  # fmt: skip
+
+
+def _data(row: _Row, problems: list[str]) -> Data:
+    text = row.cells["Data"].casefold()
+    if text not in list(Data):
+        problems.append(
+            f"{row.at('Data')}: found {shown(row.cells['Data'])}; give {' or '.join(Data)}"
+        )
+        return Data.COMPUTED
+    return Data(text)
+
+
+def _ranged(row: _Row, key: str, problems: list[str]) -> float:
+    """Return a number within its range; NaN if it is not given or wrong."""
+    low, high = _RANGES[key]
+    return _number(row, key, low, high, problems, is_required=key in _REQUIRED)
+
+
+def _slip(table: _Table, row: _Row, key: str, problems: list[str]) -> float:
+    """Return a length [m]; NaN if it is not given or wrong."""
+    unit = table.lengths.get(key, 1.0)
+    most = MOST_SLIP_M / unit
+    return unit * _number(row, key, 0.0, most, problems, is_required=key in _REQUIRED)
+
+
+def _number(
+    row: _Row, key: str, low: float, high: float, problems: list[str], *, is_required: bool
+) -> float:
+    text = row.cells.get(key, "")
+    if not text and not is_required:
+        return math.nan
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not low <= value <= high:
+        found = shown(text) if text else "nothing"
+        problems.append(f"{row.at(key)}: found {found}; give a number from {low:g} to {high:g}")
+        return math.nan
+    return value
+
+
+def _records(folder: Path, row: _Row, problems: list[str]) -> Iterator[tuple[str, Record]]:
+    """Yield the components that a row names and that can be read."""
+    for key in "xyz":
+        name = row.cells.get(key, "")
+        if not name and key == "x":
+            _word(row, key, problems)
+        if not name:
+            continue
+        file, _, channel = name.partition(BAR)
+        path = folder / file.strip()
+        try:
+            _check_within(folder, path, file.strip())
+            yield key, read_record(path, channel=channel.strip())
+        except InputError as error:
+            problems += [f"{row.at(key)}: {text}" for text in error.problems]
+
+
+def _check_within(folder: Path, path: Path, name: str) -> None:
+    if not path.resolve().is_relative_to(folder.resolve()):
+        raise InputError(f"{shown(name)} lies outside of the folder; copy the record into it")
+
+
+def _unlike(row: _Row, records: Mapping[str, Record]) -> Iterator[str]:
+    """Yield the components that are not over the same times as x."""
+    x = records.get("x")
+    for key, record in records.items():
+        if x and not math.isclose(record.dt_s, x.dt_s, rel_tol=1e-9):
+            yield f"{row.at(key)}: its time step is {record.dt_s:g} s, that of x {x.dt_s:g} s"
+        elif x and record.a_mps2.size != x.a_mps2.size:
+            yield (
+                f"{row.at(key)}: has {record.a_mps2.size} samples, x {x.a_mps2.size}; trim them to"
+                " the same times"
+            )
