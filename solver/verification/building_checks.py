@@ -19,8 +19,6 @@ from solver.verification.building import FloorRecords
 from solver.verification.checks import ROUNDING, check
 from solver.verification.evidence import CheckRow, RoofComparison
 
-SECTION = "Roof motion computed from ground motion"
-
 STORIES, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
 """The model building."""
 
@@ -111,7 +109,7 @@ def _steps() -> Iterator[CheckRow]:
         wave = math.cos(kappa * w * t) - zeta / kappa * math.sin(kappa * w * t)
         acceleration = absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0]
         yield check(
-            SECTION,
+            "RM-1",
             f"Unit step, T = {period_s:g} s, zeta = {zeta:g}",
             "Oscillator of period T: 1 - exp(-D t) (cos(W t) - D / W sin(W t)) at t = 1.37 s; "
             "D = zeta omega, W = damped frequency",
@@ -132,7 +130,7 @@ def _steady_waves() -> Iterator[CheckRow]:
         roof = roof_motion(wave, dt, building)[: wave.size]
         damped = (2.0 * zeta * ratio) ** 2
         yield check(
-            SECTION,
+            "RM-2",
             f"Harmonic, frequency ratio r = {ratio:g}",
             "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2; one story, "
             "damping ratio 0.1, step 0.001 s",
@@ -149,8 +147,9 @@ def _limits() -> Iterator[CheckRow]:
     first = _BENDING[0][0]
     for n, (gamma, sigma) in enumerate(_BENDING, start=1):
         sign = (-1) ** (n - 1)
-        for name, source, modes, ratio, factor, tolerance in (
+        for id, name, source, modes, ratio, factor, tolerance in (
             (
+                "RM-3",
                 "bending",
                 "Blevins (1979), Table 8-1: ratios of squared gamma, and 4 sigma / gamma",
                 bending,
@@ -159,6 +158,7 @@ def _limits() -> Iterator[CheckRow]:
                 1e-8,
             ),
             (
+                "RM-4",
                 "shear",
                 "Shear beam: 2 n - 1, and 4 / ((2 n - 1) pi) with alternating sign",
                 shear,
@@ -168,7 +168,7 @@ def _limits() -> Iterator[CheckRow]:
             ),
         ):
             problem = f"Cantilever in {name}, mode {n}"
-            yield from _mode(problem, source, modes, n, ratio, factor, tolerance)
+            yield from _mode(id, problem, source, modes, n, ratio, factor, tolerance)
 
 
 def _coupled() -> Iterator[CheckRow]:
@@ -179,10 +179,11 @@ def _coupled() -> Iterator[CheckRow]:
         for n in (1, 2, 3):
             problem = f"Cantilever, stiffness ratio {alpha0:g}, mode {n}"
             ratio, factor = ratios[n - 1], factors[n - 1]
-            yield from _mode(problem, source, modes, n, ratio, factor, 1e-5)
+            yield from _mode("RM-5", problem, source, modes, n, ratio, factor, 1e-5)
 
 
 def _mode(
+    id: str,
     problem: str,
     source: str,
     modes: Modes,
@@ -195,9 +196,9 @@ def _mode(
     if n > 1:
         inverse = float(1.0 / modes.period_ratios[n - 1])
         quantity = "Period ratio T1 / Tn"
-        yield check(SECTION, problem, source, quantity, "1", ratio, inverse, tolerance)
+        yield check(id, problem, source, quantity, "1", ratio, inverse, tolerance)
     computed = float(modes.factors[n - 1, 0])
-    yield check(SECTION, problem, source, "Roof factor", "1", factor, computed, tolerance)
+    yield check(id, problem, source, "Roof factor", "1", factor, computed, tolerance)
 
 
 def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[float]]:
@@ -231,7 +232,7 @@ def _sums() -> Iterator[CheckRow]:
     ):
         sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
         yield check(
-            SECTION,
+            "RM-6",
             f"Cantilever{name}, all modes",
             "1, the limit of a rigid building; mean of the sums of 399 and 400 modes",
             "Sum of roof factors",
@@ -248,7 +249,7 @@ def _stories() -> Iterator[CheckRow]:
         shape = np.sin(angle * np.arange(1, stories + 1))
         modes = story_modes(math.inf, stories)
         yield check(
-            SECTION,
+            "RM-7",
             f"Shear building, stories: {stories}, first mode",
             "Mode shape sin((2 n - 1) pi k / (2 N + 1)) at floor k",
             "Roof factor",
@@ -265,7 +266,7 @@ def _whole_building(made: FloorRecords) -> CheckRow:
     stepped = made.floors_mps2[:, -1]
     off = float(np.abs(roof[: stepped.size] - stepped).max())
     return check(
-        SECTION,
+        "RM-8",
         "Model building, all modes",
         "Direct integration of all floors by one matrix exponential",
         "Largest difference / peak",
@@ -287,5 +288,5 @@ def _identified(comparison: RoofComparison) -> Iterator[CheckRow]:
         ("Unexplained fraction", "1", 0.0, best.unexplained, 0.01),
     ):
         yield check(
-            SECTION, "Model building, fitted", source, quantity, unit, expected, value, tolerance
+            "RM-9", "Model building, fitted", source, quantity, unit, expected, value, tolerance
         )

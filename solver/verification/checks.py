@@ -16,7 +16,7 @@ from solver.records.record import Record
 from solver.sliding.checked import slide, slide_history
 from solver.verification import problems
 from solver.verification.evidence import CheckRow
-from solver.verification.reference import Reference
+from solver.verification.reference import DIGITS, Reference
 from solver.verification.scenes import Case
 from solver.verification.study import run
 
@@ -27,8 +27,21 @@ ROUNDING = 1e-12
 """Tolerance where the expected and computed values differ by rounding error only."""
 
 
+SECTIONS = {
+    "CF": "Closed forms",
+    "PH": "Physical checks of the paper",
+    "DA": f"Decimal arithmetic, {DIGITS} digits",
+    "SY": "Symmetries",
+    "ME": "Methods",
+    "RM": "Roof motion computed from ground motion",
+    "TA": "Two axes and the choice of model",
+    "DV": "Code rules, spectra, filters, uplift and tipping",
+}
+"""Sections of checks by the letters with which their ids begin."""
+
+
 def check(
-    section: str,
+    id: str,
     problem: str,
     source: str,
     quantity: str,
@@ -41,7 +54,8 @@ def check(
     """Return the row; the error is relative to `of`, else to `expected`; absolute if both are 0."""
     error = abs(computed - expected) / (abs(of) or abs(expected) or 1.0)
     return CheckRow(
-        section=section,
+        id=id,
+        section=SECTIONS[id.partition("-")[0]],
         problem=problem,
         source=source,
         quantity=quantity,
@@ -55,7 +69,7 @@ def check(
 
 
 def slip_checks(
-    section: str,
+    id: str,
     problem: str,
     source: str,
     expected: SlideResult | Reference,
@@ -70,9 +84,7 @@ def slip_checks(
         ("PRD", expected.prd_m, result.prd_m),
         ("Residual (error relative to the PRD)", expected.residual_m, result.residual_m),
     ):
-        yield check(
-            section, problem, source, quantity, "m", known, value, tolerance, of=expected.prd_m
-        )
+        yield check(id, problem, source, quantity, "m", known, value, tolerance, of=expected.prd_m)
 
 
 def trapezoid(peak: float, plateau: int, rest: int, ramp: int = 1) -> Floats:
@@ -87,13 +99,13 @@ def closed_forms() -> Iterator[CheckRow]:
     yield from _pulses_on_a_slope()
     yield from _half_sines()
     yield _harmonic()
-    yield _free_slide("Closed forms", 7.0, 0.1, 2.0)
+    yield _free_slide("CF-7", 7.0, 0.1, 2.0)
     yield from _yield_accelerations()
     yield _self_locking()
 
 
 def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
-    section, dt = "Closed forms", 0.01
+    dt = 0.01
     for a, mu, lasts in ((0.4, 0.1, 0.2), (0.5, 0.2, 0.3), (1.0, 0.4, 0.1)):
         name = f"A = {a:g} g for {lasts:g} s, mu = {mu:g}, flat roof"
         plateau = round(lasts / dt)
@@ -101,7 +113,7 @@ def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
         result = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
         source = "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps"
         yield check(
-            section,
+            "CF-1",
             f"Trapezoidal pulse {name}",
             source,
             "PRD",
@@ -118,7 +130,7 @@ def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
         tolerance = 1.5 * mu / a / ramps
         source = "Newmark, Geotechnique 15 (1965); each ramp is 1/3000 of the pulse"
         yield check(
-            section,
+            "CF-2",
             f"Rectangular pulse {name}",
             source,
             "PRD",
@@ -145,7 +157,7 @@ def _pulses_on_a_slope() -> Iterator[CheckRow]:
                 g_mps2=G,
             )
             yield check(
-                "Closed forms",
+                "CF-3",
                 f"Trapezoidal pulse A = {a:g} g, vertical {b:g} g, for {lasts:g} s, mu = {mu:g}, "
                 f"slope {degrees} deg",
                 "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps",
@@ -170,10 +182,10 @@ def _half_sines() -> Iterator[CheckRow]:
         source = "Closed-form integration of the sine; record sampled at 400 points"
         # Straight chords of a sine lose the share (step in radians)^2 / 12 of its area.
         tolerance = 2.0 * a / mu * (math.pi / 400) ** 2 / 12.0
-        yield check("Closed forms", name, source, "PRD", "m", expected, travels_m[-1], tolerance)
+        yield check("CF-4", name, source, "PRD", "m", expected, travels_m[-1], tolerance)
         order = math.log2(abs(travels_m[1] - expected) / abs(travels_m[2] - expected))
         source = "Errors with 200 and 400 samples: linear interpolation is second order"
-        yield check("Closed forms", name, source, "Order of convergence", "1", 2.0, order, 0.025)
+        yield check("CF-5", name, source, "Order of convergence", "1", 2.0, order, 0.025)
 
 
 def _harmonic() -> CheckRow:
@@ -182,7 +194,7 @@ def _harmonic() -> CheckRow:
     history = slide_history(ax, dt, slope_rad=0.0, mu=0.2, g_mps2=G)
     stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
     return check(
-        "Closed forms",
+        "CF-6",
         "Steady-state harmonic A = 0.5 g, 1 Hz, mu = 0.2, flat roof, after 80 cycles",
         "(2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A; sampled at 0.0005 s",
         "Travel per half cycle",
@@ -193,13 +205,13 @@ def _harmonic() -> CheckRow:
     )
 
 
-def _free_slide(section: str, degrees: float, mu: float, time_s: float) -> CheckRow:
+def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> CheckRow:
     slope = math.radians(degrees)
     steps = round(time_s / 0.01)
     result = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
     expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
     return check(
-        section,
+        id,
         f"No shaking, slope {degrees:g} deg, mu = {mu:g}: slides from rest for {time_s:g} s",
         "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2",
         "Downslope slip, horizontal",
@@ -216,7 +228,7 @@ def _yield_accelerations() -> Iterator[CheckRow]:
         limits = problems.yield_accelerations(slope, mu, G)
         for name, limit in zip(("downslope", "upslope"), limits, strict=True):
             yield check(
-                "Closed forms",
+                "CF-8",
                 f"Slope {degrees:g} deg, mu = {mu:g}: onset of {name} slip",
                 "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); computed by bisection",
                 "Yield acceleration",
@@ -241,7 +253,7 @@ def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
 def _self_locking() -> CheckRow:
     ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
     return check(
-        "Closed forms",
+        "CF-9",
         "Self-locking: slope 60 deg, mu = 3, horizontal acceleration 50 m/s2",
         "mu sin(theta) >= cos(theta): no horizontal acceleration causes slip",
         "PRD",
@@ -254,19 +266,19 @@ def _self_locking() -> CheckRow:
 
 def physical_checks(record: Record) -> Iterator[CheckRow]:
     """Run the four physical checks of the paper."""
-    section, slope, dt = "Physical checks of the paper", math.radians(30), 0.01
+    slope, dt = math.radians(30), 0.01
     source = "Paper, Physical Checks (1): slope 30 deg, mu = 1"
     still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
-    yield check(section, "No shaking: no slip", source, "PRD", "m", 0.0, still.prd_m, 0.0)
+    yield check("PH-1", "No shaking: no slip", source, "PRD", "m", 0.0, still.prd_m, 0.0)
     drive, resist = problems.slope_pulse(slope, 1.0, 0.6, 0.0, G)
     expected = problems.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)
     loose = slide(trapezoid(-0.6 * G, 30, 900), dt, slope_rad=slope, mu=1.0, g_mps2=G)
     name = "A pulse of 0.6 g for 0.3 s causes slip"
-    yield check(section, name, source, "PRD", "m", expected, loose.prd_m, ROUNDING)
-    yield _free_slide(section, 7.0, 0.1, 5.0)
+    yield check("PH-1", name, source, "PRD", "m", expected, loose.prd_m, ROUNDING)
+    yield _free_slide("PH-2", 7.0, 0.1, 5.0)
     down, up = (run(record, Case(slope_deg, 0.4, 1.5)) for slope_deg in (4.0, -4.0))
     yield check(
-        section,
+        "PH-3",
         f"Slopes 4 and -4 deg, mu = 0.4, {record.name}, PPA = 1.5 g",
         "Paper, Physical Checks (3): the deflections differ",
         "PRDs differ by more than 1 % (1 = yes)",
@@ -275,10 +287,10 @@ def physical_checks(record: Record) -> Iterator[CheckRow]:
         float(abs(down.prd_m - up.prd_m) > 0.01 * max(down.prd_m, up.prd_m)),
         0.0,
     )
-    yield from _critical_friction(section)
+    yield from _critical_friction()
 
 
-def _critical_friction(section: str) -> Iterator[CheckRow]:
+def _critical_friction() -> Iterator[CheckRow]:
     slope, time_s = math.radians(0.5), 5.0
     source = "Paper, Physical Checks (4): slides at 0.999 tan(theta), no slip at 1.000 tan(theta)"
     for factor in (0.999, 1.0):
@@ -288,7 +300,7 @@ def _critical_friction(section: str) -> Iterator[CheckRow]:
         name = f"No shaking, slope 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
         # sin - mu cos cancels to a thousandth of sin, which costs three digits.
         yield check(
-            section,
+            "PH-4",
             name,
             source,
             "PRD",

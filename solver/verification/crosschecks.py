@@ -54,7 +54,7 @@ def _against_digits(record: Record, case: Case, *, with_vertical: bool) -> Itera
     )
     more = ", with vertical shaking" if with_vertical else ""
     yield from slip_checks(
-        f"Decimal arithmetic, {reference.DIGITS} digits",
+        "DA-1",
         f"{record.name}, {case}{more}",
         "Decimal arithmetic, Eqs. 12-18 of the paper; shares no code with the solver",
         exact,
@@ -74,8 +74,9 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
     finer = slide(fine, dt / 2, slope_rad=slope, mu=mu, scale=scale)
     twice = slide(ax, dt, slope_rad=slope, mu=mu, scale=2 * scale, g_mps2=2 * g)
     slow = slide(ax, 2 * dt, slope_rad=slope, mu=mu, scale=scale)
-    for problem, source, expected, computed, tolerance in (
+    for id, problem, source, expected, computed, tolerance in (
         (
+            "SY-1",
             "Slope and record mirrored",
             "PRD identical to the last bit",
             plain.prd_m,
@@ -83,6 +84,7 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
             0.0,
         ),
         (
+            "SY-1",
             "Slope and record mirrored, residual",
             "Residual of opposite sign, identical to the last bit",
             -plain.residual_m,
@@ -90,6 +92,7 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
             0.0,
         ),
         (
+            "SY-2",
             "Samples added by linear interpolation",
             "The displacement is unchanged",
             plain.prd_m,
@@ -97,6 +100,7 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
             ROUNDING,
         ),
         (
+            "SY-3",
             "Gravity and record doubled",
             "Displacements are doubled",
             2 * plain.prd_m,
@@ -104,6 +108,7 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
             ROUNDING,
         ),
         (
+            "SY-4",
             "Time step doubled",
             "Displacements are multiplied by four",
             4 * plain.prd_m,
@@ -113,7 +118,7 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
     ):
         quantity = "Residual" if "residual" in problem else "PRD"
         name = f"{problem}: {record.name}, {case}"
-        yield check("Symmetries", name, source, quantity, "m", expected, computed, tolerance)
+        yield check(id, name, source, quantity, "m", expected, computed, tolerance)
     yield _energy(record, case)
 
 
@@ -131,7 +136,7 @@ def _energy(record: Record, case: Case) -> CheckRow:
     friction = case.mu * (g * cosine + ax * sine) * np.abs(v)
     drive = (g * sine - ax * cosine) * v
     return check(
-        "Symmetries",
+        "SY-5",
         f"Energy balance: {record.name}, {case}",
         "Work of gravity and shaking less kinetic energy; summed at 32 points per interval",
         "Work of friction per unit mass",
@@ -152,7 +157,7 @@ def rivals() -> Iterator[CheckRow]:
             continue
         result = slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=name, **_fine(method, dt))
         yield check(
-            "Methods",
+            "ME-1",
             f"{method.title}: pulse A = {a:g} g for 0.2 s, mu = {mu:g}, flat roof",
             "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps",
             "PRD",

@@ -34,6 +34,9 @@ class CheckRow:
 
     Attributes
     ----------
+    id : str
+        Of the group of checks to which it belongs, such as ``CF-1``; the manual prints it, and
+        `solver.verification.features` refers to it.
     section, problem, source, quantity, unit : str
     expected, computed : float
     error : float
@@ -43,6 +46,7 @@ class CheckRow:
         Whether error <= tolerance; a NaN does not pass.
     """
 
+    id: str
     section: str
     problem: str
     source: str

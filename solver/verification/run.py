@@ -14,6 +14,7 @@ from solver.verification import (
     building_checks,
     checks,
     crosschecks,
+    design_checks,
     paper_studies,
     peers,
     rung_study,
@@ -147,3 +148,4 @@ def _rows(records: Sequence[Record]) -> Iterator[CheckRow]:
     for record in records:
         yield from crosschecks.symmetries(record)
     yield from crosschecks.rivals()
+    yield from design_checks.design_checks()

@@ -23,8 +23,6 @@ from solver.verification.evidence import CheckRow
 from solver.verification.study import MODEL_CASES, TIGHT, faded, flat_scene, scenes_of
 from solver.verification.triples import Triple, readonly
 
-SECTION = "Two axes and the choice of model"
-
 AGREES = 1e-9
 """Tolerance where two computations agree to rounding error and the tightest tolerance."""
 
@@ -68,7 +66,7 @@ def _one_axis(triple: Triple) -> Iterator[CheckRow]:
         name = f"No cross-slope component: {triple.name}, {case}"
         exact, plane = one_axis.run(scene), two_axes.run(scene, TIGHT)
         source = "Exact method, one axis with vertical"
-        yield from slip_checks(SECTION, name, source, exact, plane, AGREES)
+        yield from slip_checks("TA-1", name, source, exact, plane, AGREES)
 
 
 def _turned(triple: Triple) -> Iterator[CheckRow]:
@@ -81,9 +79,9 @@ def _turned(triple: Triple) -> Iterator[CheckRow]:
         off = math.dist(back.tolist(), (plain.residual_m, plain.residual_across_m))
         name = f"Both components rotated by {degrees:g} degrees: {triple.name}, {case}"
         source = "Flat roof: the displacement rotates with the motion"
-        yield check(SECTION, name, source, "PRD", "m", plain.prd_m, turned.prd_m, AGREES)
+        yield check("TA-2", name, source, "PRD", "m", plain.prd_m, turned.prd_m, AGREES)
         yield check(
-            SECTION,
+            "TA-2",
             name,
             source,
             "Residual, rotated back: difference / PRD",
@@ -99,7 +97,7 @@ def _in_proportion(triple: Triple) -> CheckRow:
     scene = triple.scene(case, coulomb(case.mu), second=False)
     line = two_axes.run(_turned_by(scene, 53.0), TIGHT)
     return check(
-        SECTION,
+        "TA-3",
         f"One component rotated by 53 degrees: {triple.name}, {case}",
         "Proportional components cause slip along one line: exact method, one axis",
         "PRD",
@@ -142,8 +140,8 @@ def _circle() -> Iterator[CheckRow]:
         "Steady state: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples per cycle"
     )
     final = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
-    yield check(SECTION, name, source, "Speed", "m/s", speed, final, AGREES)
-    yield check(SECTION, name, source, "Diameter", "m", 2.0 * speed / omega, across, AGREES)
+    yield check("TA-4", name, source, "Speed", "m/s", speed, final, AGREES)
+    yield check("TA-4", name, source, "Diameter", "m", 2.0 * speed / omega, across, AGREES)
 
 
 def stopped_scene() -> Scene:
@@ -183,7 +181,7 @@ def _stop() -> Iterator[CheckRow]:
             float(history.u_m[-1] - history.u_m[at]),
         ),
     ):
-        yield check(SECTION, name, source, quantity, unit, known, computed, AGREES)
+        yield check("TA-5", name, source, quantity, unit, known, computed, AGREES)
 
 
 def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
@@ -198,7 +196,7 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
         )
         result = two_axes.run(triple.scene(case, law), TIGHT)
         yield check(
-            SECTION,
+            "TA-6",
             f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.name}, {case}",
             "Converges to two axes with one coefficient: within 50 times the difference",
             "PRD",
@@ -216,12 +214,24 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
     alone = triple.scene(case, coulomb(case.mu), second=False)
     for excess in (1e-2, 1e-3, 1e-4):
         law = replace(both.friction, mu_static=(1.0 + excess) * case.mu)
-        for scene, axes, kinetic, method in (
-            (alone, "one axis", one_axis.run(alone).prd_m, "the exact method with vertical"),
-            (both, "two axes", two_axes.run(both, TIGHT).prd_m, "two axes with one coefficient"),
+        for id, scene, axes, kinetic, method in (
+            (
+                "TA-7",
+                alone,
+                "one axis",
+                one_axis.run(alone).prd_m,
+                "the exact method with vertical",
+            ),
+            (
+                "TA-8",
+                both,
+                "two axes",
+                two_axes.run(both, TIGHT).prd_m,
+                "two axes with one coefficient",
+            ),
         ):
             yield check(
-                SECTION,
+                id,
                 f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.name}, "
                 f"{case}",
                 f"Converges to {method}: within 50 times the square of the difference",
@@ -241,7 +251,7 @@ def _one_block(triple: Triple) -> Iterator[CheckRow]:
     for count in (1, 3):
         row = slide_row(scene, BlockRow(mus=(case.mu,) * count, stiffness_per_s2=1e4))
         yield check(
-            SECTION,
+            "TA-9",
             f"Row of identical blocks, {count} in all: {triple.name}, {case}",
             "Exact method, one axis with vertical: the links carry no force",
             "PRD, largest of the blocks",
@@ -265,7 +275,7 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
             over += not change <= said + choice.result.error_m
             count += 1
     return check(
-        SECTION,
+        "TA-10",
         f"Effect of the neglected component: {triple.name}, {count} cases",
         "Two axes with vertical, second component times 0.3, 0.1, 0.03, 0.01 and 0.003",
         "Cases that exceed the stated effect",
@@ -280,7 +290,7 @@ def _random_pairs(*, quick: bool) -> Iterator[CheckRow]:
     """Count the random pairs of every kind that have no result or exceed their bounds."""
     for ratios in bound_ratios(quick=quick):
         yield check(
-            SECTION,
+            "TA-11",
             f"{ratios.n_pairs} random pairs, {ratios.kind}",
             "Both runs of a pair have a result, and they agree within the sum of their error "
             "bounds",
@@ -307,7 +317,7 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
         ("Velocity-dependent friction", replace(full, friction=law), Rung.SPEED_FRICTION),
     ):
         yield check(
-            SECTION,
+            "TA-12",
             f"{what}: {triple.name}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g",
             "Number of the simplest sufficient model (section 12)",
             "Model chosen",
@@ -326,7 +336,7 @@ def _against_scipy(triple: Triple, samples: int) -> Iterator[CheckRow]:
         history = two_axes.run_history(scene, tolerance)
         off = float(np.hypot(history.u_m - x, history.across_m - y).max())
         yield check(
-            SECTION,
+            "TA-13",
             f"Tolerance of 1 / {1.0 / tolerance:,.0f}: {triple.cut(samples).name}, {case}",
             "SciPy DOP853, relative tolerance 10⁻¹², restarted at every sample and event",
             "Position error / PRD",
