@@ -29,6 +29,9 @@ _TOUCHING = re.compile(r"(?<=[\d.])(?=[+-])", re.ASCII)
 # Fortran prints the exponent of a double-precision number after a D.
 _FORTRAN = str.maketrans("dD", "eE")
 
+_COMPARED, _ENOUGH = 50, 5
+"""Last values whose digits are compared, and how many of them show how a file writes numbers."""
+
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 
@@ -127,7 +130,27 @@ def free_values(source: Source, block: Block) -> Floats:
         values = _row_by_row(source, block, rows, _apart)
     if len(values) != block.count:
         raise InputError(_wrong_count(source, block, len(values)))
+    _check_last(source, block, fields)
     return values
+
+
+def _check_last(source: Source, block: Block, fields: Sequence[str]) -> None:
+    """Refuse a last value with fewer digits than all others: a file cut within it, not before."""
+    *others, last = (_digits(field) for field in fields[-_COMPARED:])
+    if len(others) < _ENOUGH or len({*others}) > 1 or not others[0][0]:
+        return
+    if last < others[0]:
+        at = next(k for k in reversed(range(block.first, block.stop)) if source.lines[k].strip())
+        raise InputError(
+            f"{source.at(at)}: found {shown(fields[-1])} at the end, with fewer digits than all "
+            "other values; give the whole file"
+        )
+
+
+def _digits(field: str) -> tuple[int, int]:
+    """Return the number of decimals and of digits in the exponent."""
+    mantissa, _, exponent = field.upper().partition("E")
+    return len(mantissa.partition(".")[2]), len(exponent.lstrip("+-"))
 
 
 def header_values(source: Source, first: int, count: int, layout: Layout) -> list[Stated]:

@@ -125,6 +125,37 @@ def test_a_line_cut_within_a_number_is_refused(altered: Any) -> None:
     )
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_no_cut_within_the_last_value_changes_a_record_without_a_word(
+    tmp_path: Path, name: str
+) -> None:
+    whole, path = (SAMPLES / name).read_bytes(), tmp_path / name
+    intact, missed = read_motion_file(SAMPLES / name), []
+    for lost in range(1, 40):
+        path.write_bytes(whole[:-lost])
+        try:
+            read = read_motion_file(path)
+        except InputError:
+            continue
+        if values_of(read) != values_of(intact) and not {*read.notes} - {*intact.notes}:
+            missed.append(lost)
+    assert missed == []
+
+
+def test_a_last_value_with_fewer_digits_than_all_others_is_refused_with_its_line(
+    altered: Any,
+) -> None:
+    assert problems_of(altered("peer-nga.at2", ("-.3125000E-01", "-.3125"))) == (
+        "peer-nga.at2:6: found '-.3125' at the end, with fewer digits than all other values; give"
+        " the whole file",
+    )
+
+
+def test_values_of_unlike_digits_may_end_with_few(altered: Any) -> None:
+    path = altered("peer-nga.at2", (".2500000E+00", ".25"), ("-.3125000E-01", "-.0625"))
+    assert read_motion_file(path).channels[0].a_mps2.size == 7
+
+
 def test_a_block_of_a_heading_states_its_lines(file: Any) -> None:
     lines = (SAMPLES / "cosmos.v2c").read_bytes().splitlines(keepends=True)
     assert problems_of(file(b"".join([*lines[:30], *lines[31:]]), "roof.v2c")) == (
