@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ from report.cli.terminal import Progress, input_errors, no_collections
 
 if TYPE_CHECKING:
     from solver.verification.evidence import Verification
+    from solver.verification.shake_table import ShakeTable
 
 STEPS = 14
 """Steps that a verification reports."""
@@ -28,16 +29,19 @@ _FOLDER = click.Path(path_type=Path)
 @click.option("--records", type=_FOLDER, help="Folder of recorded motions. Files with three "
               "components are run with every model; roof_575_market (ground and floor records of "
               "575 Market Street) is compared with the building model.")  # fmt: skip
-def verify(out: Path, quick: bool, records: Path | None) -> None:
+@click.option("--table", type=_FOLDER, help="Folder of shake-table tests: tests.csv and the "
+              "table accelerations. Measured slip is compared with the computed one.")  # fmt: skip
+def verify(out: Path, quick: bool, records: Path | None, table: Path | None) -> None:
     """Check the solver and the comparison methods; write verification.pdf, its table and charts.
 
-    The exit code is 1 if a check fails; the outputs are written in any case.
+    The exit code is 1 if a check fails, or if the tests of a shake table are not accepted; the
+    outputs are written in any case.
     """
     from report.results.publish import check_writable, publish
 
-    with input_errors(records or out), Progress(STEPS) as progress, no_collections():
+    with input_errors(table or records or out), Progress(STEPS) as progress, no_collections():
         check_writable(out)
-        verification, files = _verification(quick, records, progress)
+        verification, files = _verification(quick, records, table, progress)
         progress("writing the files")
         publish(files, out)
     failed = [row for row in verification.checks if not row.passed]
@@ -51,20 +55,39 @@ def verify(out: Path, quick: bool, records: Path | None) -> None:
             f"{row.computed:.10g} {row.unit}, error {row.error:.1e} exceeds "
             f"{row.tolerance:.1e}"
         )
+    for tests in verification.tables:
+        for line in _judgment(tests):
+            click.echo(line)
     for name in files:
         click.echo(out / name)
-    if failed or not verification.checks:
+    is_refuted = not all(tests.is_accepted for tests in verification.tables)
+    if failed or is_refuted or not verification.checks:
         sys.exit(1)
 
 
 def _verification(
-    quick: bool, records: Path | None, progress: Callable[[str], None]
+    quick: bool, records: Path | None, table: Path | None, progress: Callable[[str], None]
 ) -> tuple[Verification, Mapping[str, bytes]]:
     """Return the verification, and every output as finished bytes by file name."""
     from report.manual.render import files
-    from solver.verification.run import recorded_buildings, recorded_triples, verify
+    from solver.verification.run import (
+        recorded_buildings,
+        recorded_triples,
+        table_tests,
+        verify,
+    )
 
+    tests = table_tests(table) if table else ()
     buildings = recorded_buildings(records) if records else ()
     motions = recorded_triples(records) if records else ()
-    verification = verify((), quick=quick, progress=progress, buildings=buildings, motions=motions)
+    verification = verify(
+        (), quick=quick, progress=progress, buildings=buildings, motions=motions, tests=tests
+    )
     return verification, files(verification, dt.date.today(), progress)
+
+
+def _judgment(tests: ShakeTable) -> Iterator[str]:
+    """Yield the outcome of the tests of a shake table."""
+    from report.manual.shake_table import result
+
+    yield f"shake table: {len(tests.runs)} tests, median ratio {tests.median:.3f}. {result(tests)}"

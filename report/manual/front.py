@@ -18,8 +18,10 @@ from report.manual.blocks import (
     seconds,
 )
 from report.manual.building import answer
+from report.manual.features import verified
 from report.manual.precision import floor
 from report.manual.rungs import answers
+from report.manual.shake_table import validation
 from report.manual.studies import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT, worst_mm
 from report.pages.parts import Table, TableColumn, TableRow, verdict
 from solver.verification.evidence import (
@@ -107,6 +109,8 @@ def _answers(verification: Verification) -> Iterator[tuple[str, str, str]]:
         yield "Roof motion of a recorded building, computed from its ground motion", result, "11"
     for quantity, result in answers(verification):
         yield quantity, result, "12"
+    yield "Comparison with a shake table", validation(verification), "13"
+    yield "Features verified by checks of this run", verified(verification), "14"
     extent = "quick: fewer records, cases and settings" if verification.quick else "full"
     yield "Extent of this verification", f"{extent}; {verification.seconds:.0f} s in total", "2"
 
@@ -182,9 +186,11 @@ def scope(verification: Verification) -> ManualSection:
                     "in one axis by the method “exact”, in two axes by power series (section 12).",
                     "Where ground motions are given, the program computes the roof motion. "
                     "Section 3 has checks of this step, and section 11 compares whole buildings.",
-                    "This manual does not verify the code rules and their values (each package "
-                    "marks those not compared with the adopted text), the selection of motions "
-                    "and friction coefficients, or whether a rigid block is the appropriate model.",
+                    "Of the code rules, section 3 checks formulas and a published calculation; "
+                    "each package marks the values not compared with the adopted text. This "
+                    "manual does not verify the selection of motions and friction coefficients, "
+                    "or whether a rigid block is the appropriate model. Section 14 lists every "
+                    "feature with its status, and section 15 the errors of released versions.",
                 ),
             ),
             Block(

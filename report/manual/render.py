@@ -15,6 +15,7 @@ from report.manual.blocks import ManualSection, numbered
 from report.manual.front import extent, passed, verdict_line
 from report.manual.machine import Machine, this_machine
 from report.manual.sections import sections
+from report.manual.shake_table import validation
 from report.manual.table import verification_csv
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.verification.evidence import Verification
@@ -65,6 +66,7 @@ def manual_html(
         kind="quick" if verification.quick else "full",
         extent=extent(verification),
         verdict=verdict_line(verification),
+        validation=validation(verification),
         checks=passed(verification.checks),
         machine=machine.line,
         libraries=", ".join(

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from report.manual.blocks import ManualSection
 from report.manual.building import building
+from report.manual.features import features, known_errors
 from report.manual.front import scope, summary
 from report.manual.machine import Machine
 from report.manual.precision import work
 from report.manual.robustness import conditioning, stability
 from report.manual.rungs import rungs
+from report.manual.shake_table import shake_table
 from report.manual.studies import convergence, curves, links
 from report.manual.tables import checks, methods, peers, software
 from solver.verification.evidence import Verification
@@ -29,6 +31,9 @@ def sections(verification: Verification, machine: Machine) -> tuple[ManualSectio
         conditioning(verification),
         building(verification),
         *((rungs(verification),) if verification.rungs else ()),
+        shake_table(verification),
+        features(verification),
+        known_errors(),
         *((peers(verification.peers),) if verification.peers else ()),
         software(verification, machine),
     )

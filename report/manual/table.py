@@ -22,6 +22,7 @@ def verification_csv(verification: Verification) -> bytes:
 
 _COLUMNS = (
     "kind",
+    "id",
     "section",
     "problem",
     "source",
@@ -48,6 +49,7 @@ _COLUMNS = (
 def _check(row: CheckRow) -> dict[str, object]:
     return {
         "kind": "check",
+        "id": row.id,
         "section": row.section,
         "problem": row.problem,
         "source": row.source,

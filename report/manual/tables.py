@@ -46,9 +46,10 @@ def checks(verification: Verification) -> ManualSection:
 
 def _check_table(checks: Sequence[CheckRow]) -> Table:
     rows: list[TableRow] = []
-    for source in dict.fromkeys(row.source for row in checks):
-        rows.append(TableRow(cells=(Wide(f"Source: {lettered(source)}", 7),), kind="total"))
-        rows += [_check_row(row) for row in checks if row.source == source]
+    for id, source in dict.fromkeys((row.id, row.source) for row in checks):
+        words = f"{id}. Source: {lettered(source)}"
+        rows.append(TableRow(cells=(Wide(words, 7),), kind="total"))
+        rows += [_check_row(row) for row in checks if (row.id, row.source) == (id, source)]
     return Table(
         caption="",
         columns=(
@@ -183,6 +184,8 @@ def _command(verification: Verification) -> str:
         evidence.study.n_recorded for evidence in verification.rungs
     ):
         words += " --records followed by the folder of the recorded motions of section 2"
+    if verification.tables:
+        words += " --table followed by the folder of the tests of section 13"
     return words
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from solver.model import Floats, Status
 from solver.studies.curves import least_friction
 from solver.verification.rung_evidence import RungEvidence
+from solver.verification.shake_table import ShakeTable
 
 FLOOR_M = 1e-3
 """Errors in percent are relative to the exact displacement, or to 1 mm if that is larger [m]."""
@@ -379,6 +380,8 @@ class Verification:
         The model building first, then those whose records were given.
     rungs : tuple of RungEvidence
         One.
+    tables : tuple of ShakeTable
+        One if tests of a shake table were given, otherwise empty.
     peers : tuple of PeerPoint
         Empty if none is installed.
     records : tuple of str
@@ -397,6 +400,7 @@ class Verification:
     conditioning: tuple[Conditioning, ...]
     roofs: tuple[RoofComparison, ...]
     rungs: tuple[RungEvidence, ...]
+    tables: tuple[ShakeTable, ...]
     peers: tuple[PeerPoint, ...]
     records: tuple[str, ...]
     quick: bool

@@ -38,6 +38,8 @@ from solver.verification.evidence import (
 )
 from solver.verification.rung_evidence import RungEvidence
 from solver.verification.scenes import own_records
+from solver.verification.shake_table import ShakeTable, compare
+from solver.verification.table_tests import TableTest, table_tests
 from solver.verification.triples import Triple, own_triples, recorded_triples
 
 __all__ = [
@@ -51,12 +53,15 @@ __all__ = [
     "RoofComparison",
     "RoofPrediction",
     "RungEvidence",
+    "ShakeTable",
     "StabilityMap",
+    "TableTest",
     "Triple",
     "Verification",
     "WorkPoint",
     "recorded_buildings",
     "recorded_triples",
+    "table_tests",
     "verify",
 ]
 
@@ -68,6 +73,7 @@ def verify(
     progress: Callable[[str], None],
     buildings: Sequence[FloorRecords] = (),
     motions: Sequence[Triple] = (),
+    tests: Sequence[TableTest] = (),
 ) -> Verification:
     """Check the solver and measure every method on the project's records and on given ones.
 
@@ -84,6 +90,8 @@ def verify(
     motions : sequence of Triple
         Recorded motions of three components, see `recorded_triples`, for the comparison of models;
         the project's motions always run. If quick, only the first is used.
+    tests : sequence of TableTest
+        Tests of a shake table, see `table_tests`; all of them always run.
 
     Returns
     -------
@@ -133,6 +141,7 @@ def verify(
         conditioning=conditioning,
         roofs=roofs,
         rungs=(models,),
+        tables=(compare(tests),) if tests else (),
         peers=judged,
         records=tuple(record.name for record in chosen),
         quick=quick,

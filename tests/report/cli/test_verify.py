@@ -18,16 +18,19 @@ from pypdf import PdfReader
 import report.cli.verify
 import report.manual.render
 import solver.verification.run
+import tables
 from report.cli.main import main
 from report.cli.terminal import Progress
 from report.figures import work
 from report.manual import blocks
+from report.manual.shake_table import NOT_VALIDATED
 from report.typeset.pdf import lay_out
 from report.words.letters import lettered
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import PeerPoint
 from solver.verification.run import verify
+from solver.verification.shake_table import compare
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
@@ -167,7 +170,7 @@ def words_of_broken(failed):
 
 
 def test_the_manual_has_a_cover_contents_and_a_summary_of_one_page(texts, verification):
-    assert 15 <= len(texts) <= 35
+    assert 15 <= len(texts) <= 40
     passed = f"PASS {len(verification.checks)} of {len(verification.checks)} checks passed."
     assert passed in texts[0]
     assert "Verification manual" in texts[0]
@@ -194,7 +197,7 @@ def test_contents_name_the_sheet_of_each_section(texts):
 
 def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(verification, words):
     for row in verification.checks:
-        assert f"Source: {lettered(row.source)}" in words
+        assert f"{row.id}. Source: {lettered(row.source)}" in words
         line = (
             f"{lettered(row.problem)} {row.quantity}"
             + (f" [{lettered(row.unit)}]" if row.unit != "1" else "")
@@ -328,7 +331,7 @@ def test_a_failed_check_is_said_on_cover_summary_and_in_its_table(verification, 
 
 def test_other_programs_have_a_section_where_there_are_any(words_of_broken):
     words = words_of_broken
-    assert "13 Other programs" in words
+    assert "16 Other programs" in words
     assert "Other 1.2: as its example motion-01-x flat 500 ms 1.25 %" in words
     assert "Other 1.2: did not converge motion-01-x flat — failed" in words
 
@@ -355,6 +358,42 @@ def test_a_folder_that_cannot_be_written_exits_2(monkeypatch, tmp_path, verifica
     done = CliRunner().invoke(main, ["verify", "--out", str(tmp_path / "v")])
     assert done.exit_code == 2
     assert "choose another folder" in done.output
+
+
+def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
+    monkeypatch, tmp_path, verification
+):
+    given = []
+
+    def kept(*_, tests, **__):
+        given.append(tests)
+        return replace(verification, tables=(compare(tests),))
+
+    monkeypatch.setattr(solver.verification.run, "verify", kept)
+    monkeypatch.setattr(report.manual.render, "lay_out", str.encode)
+    folder, out = tmp_path / "tests", tmp_path / "v"
+    folder.mkdir()
+    for factor, code in ((1.0, 0), (1.5, 1)):
+        tables.write_folder(folder, [factor] * 5)
+        done = CliRunner().invoke(main, ["verify", "--table", str(folder), "--out", str(out)])
+        assert done.exit_code == code, done.output
+        assert f"shake table: 5 tests, median ratio {factor:.3f}. The acceptance is" in done.stdout
+        assert NOT_VALIDATED in done.stdout
+        words = said((out / "verification.pdf").read_text())
+        assert "13 Comparison with a shake table" in words
+        assert tables.MADE in words
+        assert (out / "charts" / "shake-table.svg").exists()
+    assert [len(tests) for tests in given] == [5, 5]
+
+
+def test_a_fault_in_the_tests_of_a_shake_table_is_an_input_error_before_any_run(
+    monkeypatch, tmp_path
+):
+    monkeypatch.setattr(solver.verification.run, "verify", lambda *_, **__: 1 / 0)
+    (tmp_path / "tests.csv").write_text("Test,Data\n")
+    done = CliRunner().invoke(main, ["verify", "--table", str(tmp_path)])
+    assert done.exit_code == 2
+    assert "tests.csv, row 1: has no heading Source" in done.output
 
 
 @pytest.mark.parametrize(

@@ -64,6 +64,7 @@ def verification(*roofs):
             "links",
             "curves",
             "conditioning",
+            "tables",
             "rungs",
             "peers",
         ),

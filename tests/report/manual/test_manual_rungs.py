@@ -32,7 +32,18 @@ def evidence():
 
 def verification(*evidence):
     nothing = dict.fromkeys(
-        ("checks", "work", "maps", "convergence", "links", "curves", "conditioning", "roofs"), ()
+        (
+            "checks",
+            "work",
+            "maps",
+            "convergence",
+            "links",
+            "curves",
+            "conditioning",
+            "tables",
+            "roofs",
+        ),
+        (),
     )
     return Verification(**nothing, rungs=evidence, peers=(), records=(), quick=True, seconds=1.0)
 

@@ -10,8 +10,9 @@ import pytest
 import oracle
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
-from solver.verification import checks, crosschecks, paper_studies, reference
+from solver.verification import checks, crosschecks, paper_studies, plane_scipy, reference
 from solver.verification.evidence import DesignCurves, percent_off
+from solver.verification.features import FEATURES, statuses
 from solver.verification.run import verify
 from solver.verification.scenes import near_fault_pulse, own_records, scale_to, shortened
 
@@ -71,6 +72,17 @@ def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(veri
     digits = [row for row in rows if row.section == "Decimal arithmetic, 50 digits"]
     assert max(row.error for row in digits) <= 1e-12
     assert len({(row.problem, row.quantity) for row in digits}) == len(digits)
+
+
+def test_every_check_that_a_feature_names_ran_and_passed_and_every_check_belongs_to_one(verified):
+    ran = {row.id for row in verified[0].checks}
+    named = {id for feature in FEATURES for id in feature.checks}
+    extra = {id for feature in FEATURES for id in feature.extra}
+    assert named <= ran
+    assert ran <= named | extra
+    assert extra <= ran or not plane_scipy.is_installed()
+    for status in statuses(verified[0].checks, ()):
+        assert status.is_verified == bool(status.feature.checks), status
 
 
 def test_no_two_rows_are_alike(verified):

@@ -1,0 +1,184 @@
+"""The status of a feature follows from the checks that ran and from the tests of a shake table."""
+
+from dataclasses import replace
+from importlib.metadata import version
+
+import numba
+import pytest
+
+import tables
+from report.figures.base import load_fonts
+from report.manual.features import features, known_errors, spans
+from report.manual.known_errors import KNOWN_ERRORS
+from report.manual.shake_table import NOT_VALIDATED, result, shake_table, validation
+from report.typeset.pdf import TEMPLATES
+from solver.verification.checks import SECTIONS
+from solver.verification.design_checks import design_checks
+from solver.verification.evidence import CheckRow, Verification
+from solver.verification.features import FEATURES, statuses
+from solver.verification.shake_table import compare
+from solver.verification.table_tests import table_tests
+
+compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
+
+
+def row(id, *, passed=True):
+    return CheckRow(id=id, section=SECTIONS[id.partition("-")[0]], problem="p", source="s",
+                    quantity="q", unit="1", expected=1.0, computed=1.0, error=0.0, tolerance=0.0,
+                    passed=passed)  # fmt: skip
+
+
+def verification(checks=(), *found):
+    nothing = dict.fromkeys(
+        ("work", "maps", "convergence", "links", "curves", "conditioning", "roofs", "rungs"), ()
+    )
+    return Verification(**nothing, checks=tuple(checks), tables=found, peers=(), records=(),
+                        quick=True, seconds=1.0)  # fmt: skip
+
+
+def every():
+    return [row(id) for feature in FEATURES for id in feature.checks]
+
+
+def cells(section):
+    rows = [row for block in section.blocks for table in block.tables for row in table.rows]
+    return {str(row.cells[0]): [str(cell) for cell in row.cells[1:]] for row in rows}
+
+
+def words(section):
+    return " ".join(text for block in section.blocks for text in block.texts)
+
+
+@pytest.fixture
+def table(tmp_path):
+    """A function that compares made tests with the ratios given."""
+    load_fonts(TEMPLATES / "fonts")
+
+    def of(ratios, data="computed"):
+        tables.write_folder(tmp_path, ratios, data=data)
+        return compare(table_tests(tmp_path))
+
+    return of
+
+
+def test_a_feature_is_verified_if_all_its_checks_ran_and_passed():
+    found = {status.feature.name: status for status in statuses(every(), ())}
+    for feature in FEATURES:
+        assert found[feature.name].is_verified == bool(feature.checks)
+        assert not found[feature.name].is_validated
+    table = cells(features(verification(every())))
+    assert table["Tipping"] == ["DV-5", "1 of 1", "verified, not validated", ""]
+    assert table["Formats of records"] == ["—", "—", "neither", "Automatic tests only"]
+
+
+def test_a_check_that_did_not_run_leaves_a_feature_unverified_and_is_named():
+    left = [row for row in every() if row.id != "TA-8"]
+    table = cells(features(verification(left)))
+    assert table["Static friction above kinetic"][2] == "neither"
+    assert table["Static friction above kinetic"][3].endswith("Did not run: TA-8")
+
+
+def test_a_check_that_failed_marks_every_feature_that_names_it():
+    checks = [*every(), row("CF-3", passed=False)]
+    failed = [s.feature.name for s in statuses(checks, ()) if s.n_passed < s.n_checks]
+    assert failed == ["Sliding in one axis", "Sliding in one axis with vertical shaking"]
+    table = cells(features(verification(checks)))
+    assert all("FAIL" in table[name][2] for name in failed)
+
+
+def test_checks_that_need_scipy_count_where_they_ran():
+    name = "Sliding in two axes"
+    without, also = (
+        next(s for s in statuses(checks, ()) if s.feature.name == name)
+        for checks in (every(), [*every(), row("TA-13", passed=False)])
+    )
+    assert without.is_verified
+    assert "TA-13" not in without.ids
+    assert not also.is_verified
+
+
+def test_no_two_features_have_one_name_and_no_id_is_there_twice():
+    names = [feature.name for feature in FEATURES]
+    assert len(set(names)) == len(names)
+    for feature in FEATURES:
+        ids = (*feature.checks, *feature.extra)
+        assert len(set(ids)) == len(ids)
+        assert {id.partition("-")[0] for id in ids} <= set(SECTIONS)
+
+
+def test_ids_in_a_row_print_as_a_span():
+    ids = ("CF-1", "CF-2", "CF-3", "DA-1", "SY-1", "SY-2", "TA-5")
+    assert spans(ids) == ["CF-1 to CF-3", "DA-1", "SY-1", "SY-2", "TA-5"]
+
+
+def test_checks_of_rules_spectra_filters_uplift_and_tipping_pass_and_fail_where_wrong(monkeypatch):
+    rows = list(design_checks())
+    assert [row for row in rows if not row.passed] == []
+    assert {row.id for row in rows} == {f"DV-{number}" for number in range(1, 8)}
+    monkeypatch.setattr(
+        "solver.verification.design_checks.required_separation", lambda *_, design_m, **__: design_m
+    )
+    wrong = [row.problem for row in design_checks() if not row.passed]
+    assert len(wrong) == 3
+    assert all("Separation" in problem for problem in wrong)
+
+
+def test_without_tests_the_manual_says_that_nothing_is_validated():
+    section = shake_table(verification())
+    assert NOT_VALIDATED in words(section)
+    assert "option --table" in words(section)
+    assert "the median of the ratios is 0.9 to 1.1" in words(section)
+    assert validation(verification()) == NOT_VALIDATED
+
+
+@compiled
+def test_computed_slip_validates_nothing_however_well_it_agrees(table):
+    made = table((0.99, 1.0, 1.0, 1.0, 1.01))
+    said = words(shake_table(verification(every(), made)))
+    assert "the slip of 0 was measured and that of 5 was computed" in said
+    assert "A slip that was computed validates nothing" in said
+    assert f"The acceptance is satisfied. {NOT_VALIDATED}" in said
+    assert tables.MADE in str(cells(shake_table(verification((), made))))
+    assert not any(status.is_validated for status in statuses(every(), [made]))
+    assert validation(verification((), made)) == NOT_VALIDATED
+
+
+@compiled
+def test_measured_slip_validates_the_models_that_its_tests_use_and_no_other(table):
+    # The words of the file decide; the data are made here as well.
+    stated = table((0.99, 1.0, 1.0, 1.0, 1.01), data="measured")
+    validated = [s.feature.name for s in statuses(every(), [stated]) if s.is_validated]
+    assert validated == ["Sliding in one axis"]
+    listed = cells(features(verification(every(), stated)))
+    assert listed["Sliding in one axis"][2] == "verified, validated by 5 tests"
+    assert listed["Sliding in two axes"][2] == "verified, not validated"
+    assert "as far as the stated source is right" in validation(verification((), stated))
+
+
+@compiled
+def test_what_is_not_accepted_is_said_with_its_numbers(table):
+    made = table((1.5, 1.5, 1.5, 1.0, 1.0), data="measured")
+    said = result(made)
+    assert "median ratio, 1.500 instead of 0.9 to 1.1" in said
+    assert "share of the ratios in 0.75 to 1.33, 40 % instead of 80 % or more" in said
+    assert said.endswith(NOT_VALIDATED)
+    few = result(replace(made, runs=made.runs[3:]))
+    assert few.startswith("The acceptance is not satisfied: number of ratios, 2 instead of 5 or")
+
+
+@compiled
+def test_the_chart_has_a_dot_for_each_test(table):
+    section = shake_table(verification((), table((1.0, 1.1, 1.2))))
+    (chart,) = [chart for block in section.blocks for chart in block.charts]
+    assert chart.picture.svg.count("<use ") >= 3
+    assert "0.75 to 1.33" in chart.picture.caption
+
+
+def test_every_error_of_a_released_version_has_an_effect_and_an_action():
+    table = known_errors().blocks[0].tables[0]
+    printed = [row.cells for row in table.rows if len(row.cells) == 3]
+    assert printed == [(error.what, error.effect, error.action) for error in KNOWN_ERRORS]
+    for error in KNOWN_ERRORS:
+        assert all(text.endswith(".") for text in (error.what, error.effect, error.action))
+    is_released = version("roofslip") in {error.version for error in KNOWN_ERRORS}
+    assert ("is a later state with the same number" in words(known_errors())) == is_released
