@@ -34,7 +34,9 @@ def study(source: Path, out: Path | None, dry_run: bool, scheduler: str, quiet: 
     A study that was killed goes on where it was. `roofslip new DIR --study` writes a blank
     workbook.
     """
+    from report.results.publish import check_apart, check_writable
     from report.study.extra import arrow
+    from report.study.files import TABLE
     from report.study.run import estimate, planned
 
     with input_errors(source):
@@ -44,6 +46,8 @@ def study(source: Path, out: Path | None, dry_run: bool, scheduler: str, quiet: 
             _print_estimate(estimate(plan))
             return
         folder = out or beside / "out" / "study"
+        check_writable(folder)
+        check_apart([TABLE], folder, [source, source / "input.xlsx"])
         with Progress(quiet=quiet) as progress, no_collections():
             results, files = make(plan, folder, scheduler, progress)
     if not quiet:
@@ -56,15 +60,18 @@ def study(source: Path, out: Path | None, dry_run: bool, scheduler: str, quiet: 
 def make(
     plan: StudyPlan, folder: Path, scheduler: str, progress: Callable[[str], None]
 ) -> tuple[StudyResults, Mapping[str, bytes]]:
-    """Run a study and publish its files."""
-    from report.results.publish import publish
+    """Run a study and publish its files; another run to the same folder waits until it ends."""
+    from report.results.publish import locked, publish
     from report.study.files import study_files
-    from report.study.run import run_study
+    from report.study.run import RUNS, run_study
 
-    results = run_study(plan, folder, scheduler=scheduler, progress=progress)
-    progress("writing the report")
-    files = study_files(results)
-    publish(files, folder)
+    runs = folder / RUNS
+    runs.mkdir(parents=True, exist_ok=True)
+    with locked(runs):
+        results = run_study(plan, folder, scheduler=scheduler, progress=progress)
+        progress("writing the report")
+        files = study_files(results)
+        publish(files, folder)
     return results, files
 
 

@@ -50,7 +50,7 @@ def publish(files: Mapping[str, bytes], folder: Path) -> None:
     files = {**files, STAMP: stamp(files)}
     with _errors_of(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        with _locked(folder):
+        with locked(folder):
             finish(folder)
             staging = Path(tempfile.mkdtemp(prefix=_HIDDEN, dir=folder))
             try:
@@ -112,8 +112,14 @@ def _errors_of(folder: Path) -> Iterator[None]:
 
 
 @contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder, which ends with its process."""
+def locked(folder: Path) -> Iterator[None]:
+    """Hold the lock of a folder, which ends with its process.
+
+    Raises
+    ------
+    InputError
+        If another process holds it for a minute.
+    """
     path, started = folder / _LOCK, time.monotonic()
     while (lock := _try_lock(path)) < 0:
         if time.monotonic() - started > _WAIT_S:

@@ -15,6 +15,8 @@ from report.study.results import StudyResults
 from report.study.tables import curves_csv, study_xlsx
 from report.typeset.pdf import TEMPLATES, lay_out
 
+TABLE = "study.xlsx"
+
 
 def study_files(results: StudyResults) -> Mapping[str, bytes]:
     """Return the report, the tables and the exports of a study by file name.
@@ -28,7 +30,7 @@ def study_files(results: StudyResults) -> Mapping[str, bytes]:
     return {
         "study.pdf": lay_out(study_html(results)),
         "curves.csv": curves_csv(results),
-        "study.xlsx": study_xlsx(results),
+        TABLE: study_xlsx(results),
         **export_files(results),
     }
 

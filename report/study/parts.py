@@ -247,8 +247,15 @@ def keep(folder: Path, content: bytes, done: Done, identity: str) -> None:
 
 
 def begin(folder: Path, manifest: Mapping[str, Any]) -> None:
-    """Write the manifest, and remove what is left of other runs: parts written aside."""
+    """Write the manifest, and remove what is left of other runs: parts written aside.
+
+    Raises
+    ------
+    InputError
+        If a file has the name of a part and no study wrote it.
+    """
     folder.mkdir(parents=True, exist_ok=True)
+    _check_own(folder)
     for path in folder.glob(".roofslip-*.part"):
         path.unlink(missing_ok=True)
     journal = folder / JOURNAL
@@ -256,6 +263,21 @@ def begin(folder: Path, manifest: Mapping[str, Any]) -> None:
         with journal.open("ab") as file:
             file.write(b"\n")  # ends a torn line
     write_whole(folder.parent / NAME, json.dumps(manifest, indent=1).encode() + b"\n")
+
+
+def _check_own(folder: Path) -> None:
+    """Refuse files that only have the names of parts: they would be replaced or removed."""
+    listed = {part_name(line["number"]) for line in _journal(folder)}
+    foreign = [
+        path.name
+        for path in sorted(folder.glob("part-?????.parquet"))
+        if path.name not in listed and _IDENTITY not in path.read_bytes()
+    ]
+    if foreign:
+        raise InputError(
+            f"{folder / foreign[0]}: has the name of a part of a study, but no study wrote it; move"
+            " it to another folder, or choose another one with --out"
+        )
 
 
 def run_missing(

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from openpyxl import load_workbook
 
-from report.cli.report import OUTPUTS
+from report.making import OUTPUTS
 from report.results.publish import STAMP, finish
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -36,17 +36,18 @@ def started(project: Path, out: Path) -> subprocess.Popen[bytes]:
     )
 
 
-def renamed(project: Path, folder: Path) -> Path:
-    """Return a copy of a project with another name, so that every output is another."""
+def changed(project: Path, folder: Path) -> Path:
+    """Return a copy of a project with another clearance, so that every output is another."""
     shutil.copytree(project / "records", folder / "records")
     book = load_workbook(project / "input.xlsx")
-    (cell,) = [
-        row[at + 1]
-        for row in book["Project"].iter_rows()
-        for at, cell in enumerate(row)
-        if str(cell.value).startswith("Project name")
-    ]
-    cell.value = "Another one"
+    sheet = book["Clearances"]
+    heading = next(
+        cell
+        for row in sheet.iter_rows()
+        for cell in row
+        if str(cell.value).startswith("Provided clearance [")
+    )
+    sheet.cell(heading.row + 1, heading.column).value += 1
     book.save(folder / "input.xlsx")
     return folder
 
@@ -74,13 +75,13 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as top:
         out, old, new = (Path(top) / name for name in ("out", "old", "new"))
         (Path(top) / "other").mkdir()
-        other = renamed(project, Path(top) / "other")
+        other = changed(project, Path(top) / "other")
         assert started(project, old).wait() == 0
         begun = time.monotonic()
         assert started(other, new).wait() == 0
         lasts = time.monotonic() - begun
         sets = contents(old), contents(new)
-        assert all(sets[0][name] != sets[1][name] for name in (*OUTPUTS, STAMP))
+        assert all(sets[0][name] != sets[1][name] for name in (*OUTPUTS, STAMP)), sets
         for trial in range(count):
             shutil.rmtree(out, ignore_errors=True)
             shutil.copytree(old, out)

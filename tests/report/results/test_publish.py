@@ -225,7 +225,7 @@ def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path, monkeypa
     from report.results import publish as module
 
     monkeypatch.setattr(module, "_WAIT_S", 0.2)
-    with module._locked(tmp_path):
+    with module.locked(tmp_path):
         errors = []
 
         def second():

@@ -20,6 +20,7 @@ from pypdf import PdfReader
 
 from report.cli.main import main
 from report.pages.symbols import with_symbols
+from report.results.publish import locked
 from report.sheet.schema import UnitsFirst
 from report.study.exports import chances_of, export_files, known_states
 from report.study.files import study_files, study_html
@@ -402,3 +403,43 @@ def test_the_workbook_of_a_study_is_the_same_in_si(tmp_path):
     write(tmp_path, small())
     write_study(tmp_path / "input.xlsx", units=UnitsFirst.SI, example=small(units_first="SI"))
     assert read_study(tmp_path).input.study.allowed_m == pytest.approx(0.1)
+
+
+# What a user may do to the folder of a study
+
+
+def run_command(folder, *options):
+    return CliRunner().invoke(main, ["study", str(folder), *map(str, options)])
+
+
+def test_a_study_does_not_replace_its_own_workbook(tmp_path, monkeypatch):
+    monkeypatch.setattr("report.study.run.run_study", lambda *_, **__: 1 / 0)
+    folder = write(tmp_path, small())
+    book = (folder / "input.xlsx").rename(folder / "study.xlsx")
+    content = book.read_bytes()
+    done = run_command(book, "--out", folder)
+    assert done.exit_code == 2, done.output
+    assert "is an input of this run, and would be replaced by its study.xlsx" in done.output
+    assert book.read_bytes() == content
+    assert not (folder / "runs").exists()
+
+
+def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
+    folder = write(tmp_path, small())
+    (tmp_path / "out").write_text("mine")
+    done = run_command(folder)
+    assert done.exit_code == 2
+    assert "is a file, not a folder; choose another folder" in done.output
+
+
+def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monkeypatch):
+    monkeypatch.setattr("report.results.publish._WAIT_S", 0.1)
+    monkeypatch.setattr("report.study.run.run_study", lambda *_, **__: 1 / 0)
+    folder = write(tmp_path, small())
+    runs = folder / "out" / "study" / "runs"
+    runs.mkdir(parents=True)
+    with locked(runs):
+        done = run_command(folder)
+    assert done.exit_code == 2
+    assert "another run has been writing there" in done.output
+    assert list(runs.iterdir()) == []

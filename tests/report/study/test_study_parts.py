@@ -137,6 +137,23 @@ def test_other_inputs_run_everything_again_and_leave_no_old_part(copy):
     assert full["agreement"].startswith("all parts ran on one processor model")
 
 
+def test_a_file_with_the_name_of_a_part_is_neither_replaced_nor_removed(tmp_path):
+    for at, name in enumerate((part_name(0), part_name(99999))):
+        folder = tmp_path / str(at) / "runs"
+        folder.mkdir(parents=True)
+        (folder / name).write_bytes(b"mine")
+        with pytest.raises(InputError, match=f"{name}: has the name of a part of a study"):
+            run(folder, campaign("x", 1))
+        assert (folder / name).read_bytes() == b"mine"
+
+
+def test_a_part_without_its_line_in_the_journal_is_run_again(copy):
+    folder, c, _ = copy
+    journal = folder / JOURNAL
+    journal.write_bytes(b"".join(journal.read_bytes().splitlines(keepends=True)[1:]))
+    assert len(run(folder, c)[1]) == 1
+
+
 def test_a_torn_line_of_the_journal_loses_one_part_only(copy):
     folder, c, _ = copy
     lines = (folder / JOURNAL).read_bytes().splitlines(keepends=True)
