@@ -47,7 +47,7 @@ def changed(project: Path, folder: Path) -> Path:
         for cell in row
         if str(cell.value).startswith("Provided clearance [")
     )
-    sheet.cell(heading.row + 1, heading.column).value += 1
+    sheet.cell(heading.row + 1, heading.column).value -= 1
     book.save(folder / "input.xlsx")
     return folder
 
