@@ -17,7 +17,7 @@ def computed_against_measured(table: ShakeTable) -> str:
     computed = [1e3 * run.prd_m for run in runs]
     low, high = 0.7 * min(measured + computed), 1.4 * max(measured + computed)
     with style():
-        figure, axes = framed(2.75, 2.2, 2.2, 0.1, 0.45)
+        figure, axes = framed(2.25, 2.45, 2.45, 0.1, 0.45)
         least, most = RATIOS
         axes.fill_between([low, high], [least * low, least * high], [most * low, most * high],
                           color=PALE, linewidth=0.0)  # fmt: skip

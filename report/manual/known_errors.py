@@ -38,7 +38,8 @@ KNOWN_ERRORS = (
         what="Rows of a workbook were not read if another program than Excel had written its parts "
         "under other spellings of their names, or in UTF-16.",
         effect="Arrays, objects, clearances, spectrum or links are missing. Not conservative.",
-        action=f"Compare arrays and clearances with the workbook; if one is missing, {_AGAIN}.",
+        action="Compare arrays and clearances with the workbook; if one is missing, compute the "
+        "package again.",
     ),
     KnownError(
         version="0.1.0",
