@@ -78,7 +78,8 @@ function open(next, isRestored) {
   part("problems").hidden = true;
   part("desk").hidden = false;
   part("welcome").hidden = !state.project.is_example;
-  named(state.project.name, `${state.project.file}, SHA-256 ${state.project.sha256}`);
+  const { name, file, sha256 } = state.project;
+  named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
   replace(part("warnings"), warnings(state.warnings));
   takeaway.clear();
   fillSelects();
@@ -86,9 +87,9 @@ function open(next, isRestored) {
   restore();
 }
 
-function named(name, file) {
+function named(name, ...file) {
   part("project-name").textContent = name;
-  part("project-file").textContent = file;
+  replace(part("project-file"), file);
   document.title = `${name} – Roofslip`;
 }
 
@@ -147,7 +148,7 @@ function showPicked() {
 function showMoving(phase, next) {
   views.moving();
   takeaway.outdate();
-  if (phase === "settling") showProvisional(part("verdict"), "The full model is running.", "The values below are provisional.");
+  if (phase === "settling") showProvisional(part("verdict"), "The full model is running.", "The values below are not final.");
   else if (next) showProvisional(part("verdict"), "Values while a slider moves; no verdict.", next.model_text);
 }
 
