@@ -16,9 +16,7 @@ MEASURED = """
 ([slider, values, isLetGo]) => {
   const input = document.querySelector(`#slider-${slider}`);
   const table = document.querySelector("#arrays");
-  // A provisional answer that takes longer than the slider rests is overtaken by the full one.
-  const ends = ["rest", isLetGo ? "rest" : "moving"];
-  const isAnswered = () => ends.includes(document.body.dataset.phase);
+  const isAnswered = () => document.body.dataset.phase === (isLetGo ? "rest" : "moving");
   const once = (value) => new Promise((done) => {
     const observer = new MutationObserver(() => {
       if (!isAnswered()) return;

@@ -14,6 +14,7 @@ export function createSession(assess, show, fail) {
   let version = 0; // of the values
   let timer = 0;
   let isMoving = false; // a slider moved since the full model was last asked
+  let isPaused = false; // and has stayed where it is for a while
 
   // Ask, and show the answer where it still is one: `isCurrent` gets the version that was asked.
   async function ask(moving, phase, isCurrent) {
@@ -25,7 +26,10 @@ export function createSession(assess, show, fail) {
       if (isCurrent(asked)) fail(error, moving);
     }
   }
-  const askMoving = createLane(async () => isMoving && ask(true, "moving", () => isMoving));
+  const askMoving = createLane(async () => {
+    if (isMoving) await ask(true, "moving", () => isMoving);
+    if (isMoving && isPaused) rest();
+  });
   const askFull = createLane(async () => !isMoving && ask(false, "rest", (asked) => asked === version));
 
   function changed(next, moves) {
@@ -33,6 +37,13 @@ export function createSession(assess, show, fail) {
     values = { ...values, ...next };
     version += 1;
     isMoving = moves;
+    isPaused = false;
+  }
+
+  // A provisional answer that is under way is shown before the full model is asked.
+  function pause() {
+    isPaused = true;
+    if (!askMoving.isOpen()) rest();
   }
 
   function rest() {
@@ -49,7 +60,7 @@ export function createSession(assess, show, fail) {
     /** A slider moves: answer in one axis, and in full once it has rested. */
     move(id, value) {
       changed({ [id]: value }, true);
-      timer = setTimeout(rest, REST_MS);
+      timer = setTimeout(pause, REST_MS);
       show({ phase: "moving" });
       askMoving();
     },
@@ -68,7 +79,7 @@ export function createSession(assess, show, fail) {
 export function createLane(task) {
   let isOpen = false;
   let isWaiting = false;
-  return async function run() {
+  async function run() {
     if (isOpen) {
       isWaiting = true;
       return;
@@ -80,5 +91,7 @@ export function createLane(task) {
       isWaiting = false;
       await run();
     }
-  };
+  }
+  run.isOpen = () => isOpen;
+  return run;
 }

@@ -108,6 +108,16 @@ def test_a_slider_that_stays_where_it_is_rests(page):
     assert called(page, "session", body) == [False, "settling"]
 
 
+def test_a_slow_provisional_answer_is_shown_before_the_full_model_is_asked(page):
+    body = f"""{SESSION}
+        session.move("x", 1);
+        await new Promise((done) => setTimeout(done, 400));
+        const before = asked.length;
+        asked[0].done(); await tick();
+        return [before, asked.map(({{ moving }}) => moving), answers()];"""
+    assert called(page, "session", body) == [1, [True, False], [["moving", 1]]]
+
+
 def test_labels_are_placed_near_free_of_one_another_and_inside(page):
     body = """
         const frame = { x: 0, y: 0, wide: 300, tall: 200 };
