@@ -15,9 +15,9 @@ G = 9.80665
 # Files that take more than two seconds; in the whole suite they start first, so that no core idles
 # at its end.
 SLOW = (
-    "test_readme", "test_page", "test_package", "test_projects", "test_answers", "test_verify",
-    "test_two_axes_kernel", "test_campaign", "test_watch", "test_recalculated", "test_cli",
-    "test_drawn_roof", "test_verify_package",
+    "test_readme", "test_page", "test_page_views", "test_package", "test_projects",
+    "test_answers", "test_verify", "test_two_axes_kernel", "test_campaign", "test_watch",
+    "test_recalculated", "test_cli", "test_drawn_roof", "test_verify_package",
     "test_two_axes", "test_two_axes_friction", "test_suite_files", "test_synthesis",
     "test_checked", "test_verification", "test_random_pairs", "test_two_axes_bounds",
     "test_one_axis_kernel", "test_fixed_steps", "test_row_kernel", "test_rivals_kernel",

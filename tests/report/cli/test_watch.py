@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from places import ROOT
+from packages import unlaid
+from places import ROOT, TESTS
 from report.cli import watch
 from report.cli.main import main
 from report.cli.watch import is_input, settle
@@ -75,23 +76,27 @@ def test_once_ends_after_one_round(tmp_path, monkeypatch):
     assert missing.exit_code == 2
     assert "no such file" in missing.stderr
     make(tmp_path)
-    done = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
+    with unlaid():
+        done = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
     assert done.exit_code == 0, done.output
     assert (tmp_path / "out" / "calc-package.pdf").is_file()
     assert "watching" not in done.stdout
 
 
+UNLAID = "from packages import unlaid; from report.cli.main import main\nwith unlaid(): main()"
+
+
 class Watching:
-    """The command in a process of its own."""
+    """The command in a process of its own; its packages are not laid out."""
 
     def __init__(self, folder):
         self.lines = []
         self.process = subprocess.Popen(
-            [sys.executable, "-u", "-m", "report.cli", "watch", str(folder)],
+            [sys.executable, "-u", "-c", UNLAID, "watch", str(folder)],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            env=os.environ | {"PYTHONPATH": str(ROOT)},
+            env=os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"},
         )
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()

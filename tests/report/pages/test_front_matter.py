@@ -132,7 +132,7 @@ def test_the_letter_is_one_page(tmp_path):
     data = stand_in.project(arrays=arrays, objects=[], clearances=[])
     pdf = tmp_path / "calc-package.pdf"
     pdf.write_bytes(stand_in.package(stand_in.book(data, MOTIONS[:1])))
-    texts = [page.extract_text() for page in PdfReader(pdf).pages]
+    texts = [page.extract_text() for page in PdfReader(pdf).pages[:10]]
     (first,) = (k for k, text in enumerate(texts) if text.startswith("Letter of results"))
     assert "License expires" in texts[first]
     assert "1 Summary" in texts[first + 1]
