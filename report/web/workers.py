@@ -67,7 +67,7 @@ class Workers:
     def __init__(self, number: int) -> None:
         self._number = number
         self._waiting: list[_Waiting] = []
-        self._reading = 0
+        self._slow = 0
         self._arrived = asyncio.Condition()
         self._orders = count()
         self._tasks: list[asyncio.Task[None]] = []
@@ -144,8 +144,8 @@ class Workers:
             if not waiting.answer.done():
                 waiting.answer.set_result(found)
         finally:
-            if waiting.rank is Rank.READ:
-                self._reading -= 1
+            if waiting.rank is not Rank.MOVING:
+                self._slow -= 1
                 async with self._arrived:
                     self._arrived.notify_all()
 
@@ -154,13 +154,13 @@ class Workers:
         async with self._arrived:
             while True:
                 self._waiting = [each for each in self._waiting if not each.answer.done()]
-                # One process stays free for the others while workbooks are read.
-                may_read = self._reading < max(self._number - 1, 1)
-                ready = [each for each in self._waiting if may_read or each.rank is not Rank.READ]
+                # One process stays free for sliders that move.
+                has_room = self._slow < max(self._number - 1, 1)
+                ready = [each for each in self._waiting if has_room or each.rank is Rank.MOVING]
                 if ready:
                     chosen = min(ready, key=lambda each: (each.rank, each.order))
                     self._waiting.remove(chosen)
-                    self._reading += chosen.rank is Rank.READ
+                    self._slow += chosen.rank is not Rank.MOVING
                     return chosen
                 await self._arrived.wait()
 

@@ -104,16 +104,14 @@ def test_quick_jobs_go_first_and_equal_ones_in_order():
     assert done(1, script) == [3, 4, 2, 1, 0]
 
 
-def test_one_process_stays_free_while_workbooks_are_read():
+def test_one_process_stays_free_for_sliders_that_move():
     async def script(pool):
-        reads = [ask(pool, "read", Rank.READ, key=str(k), seconds=1.0) for k in range(3)]
-        await asyncio.sleep(0.3)
-        moving = await asyncio.wait_for(ask(pool, "moving", Rank.MOVING), 0.6)
-        for each in reads:
-            each.cancel()
-        return moving["name"]
+        ranks = (Rank.READ, Rank.AT_REST, Rank.VIEW)
+        slow = [ask(pool, "slow", rank, key=rank.name, seconds=20.0) for rank in ranks]
+        moving = await ask(pool, "moving", Rank.MOVING)
+        return moving["name"], [each.done() for each in slow]
 
-    assert done(2, script) == "moving"
+    assert done(2, script) == ("moving", [False, False, False])
 
 
 def test_a_job_whose_process_ends_is_tried_once_more_and_then_lost():
