@@ -9,29 +9,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from report.assessment.certainty import Surface, surface
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import HeadingRun, MotionRun
 from report.figures.levels import LEAST_M, is_decade, levels
 from report.web.answers import finite
+from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
 from report.web.thinning import MOST, Indices, beside, peaks_kept
 from report.words.units import G_MPS2, Quantity, Unit, measured, number, pair
-from solver.forces import Forces, forces
-from solver.model import INCH_M, Event, EventKind, Floats, InputError, Scene, SlideHistory, Status
+from solver.model import INCH_M, Event, Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
 from solver.records.record import Record
-from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
-from solver.sliding.least_model import Rung
 
 Json = dict[str, object]
-Slip = tuple[Event, Event]
 _T = TypeVar("_T")
 
 MOST_ON_TRACK = 1500  # of one direction, beside the events
@@ -67,7 +62,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         chosen = _named("run", motion.runs, run, lambda one: one.heading.name)
     us_first = _us_first(assessment)
     history = least_model.history(chosen.scene, chosen.solution)
-    slips = _slips(history)
+    slips = slips_of(history)
     roof = _roof(chosen.scene)
     return {
         "array": array_id,
@@ -222,92 +217,18 @@ def _series(
     relative = {"downslope": history.u_m}
     if history.across_m.size:
         relative["cross-slope"] = history.across_m
-    normal, demand, used = _forces(run, history, slips)
+    normal, demand, used = run_forces(run, history, slips)
+    i, with_used = with_jumps(run, used, history.events)
     return {
         "acceleration": [_history(record.name, record.a_mps2) for record in roof],
         "velocity": [_history(one.name, velocity_displacement(one)[0]) for one in roof],
         "relative": [_history(name, values) for name, values in relative.items()],
         "normal": [_history("normal force", normal)],
-        "friction": [_used(run, used, history.events), _history("demand", demand)],
+        "friction": [
+            {"name": "used", "i": i.tolist(), "v": _numbers(with_used)},
+            _history("demand", demand),
+        ],
     }
-
-
-def _forces(
-    run: HeadingRun, history: SlideHistory, slips: Sequence[Slip]
-) -> tuple[Floats, Floats, Floats]:
-    """Return N / W, friction demand |G| / N and friction used F / N at the samples, as modeled.
-
-    While the block slips, the friction used is the coefficient at its speed along the surface; at
-    rest it is the demand. NaN where the normal force is zero or negative, and the friction used
-    also where the run gives no displacement.
-    """
-    scene = _modeled(run)
-    of = forces(scene)
-    demand = _demand_at(of, np.arange(of.normal_mps2.size, dtype=np.float64))
-    across = history.across_mps if history.across_mps.size else 0.0
-    speed = np.hypot(history.v_mps / math.cos(scene.slope_rad), across)
-    law = scene.friction
-    drop = law.mu_fast - law.mu_slow
-    sliding = law.mu_fast - drop * np.exp(-law.rate_s_per_m * speed)
-    used = np.where(_during(slips, history.t_s), sliding, demand)
-    used[np.isnan(demand) | np.isnan(history.u_m)] = math.nan
-    return of.normal_mps2 / scene.g_mps2, demand, used
-
-
-def _used(run: HeadingRun, used: Floats, events: Sequence[Event]) -> Json:
-    """Return the friction used, with its jumps where a slip begins and ends, between samples."""
-    law, dt_s = _modeled(run).friction, run.scene.dt_s
-    at = peaks_kept(used, max(MOST - 2 * len(events), MOST // 2))
-    jumps = np.array([event.t_s for event in events]) / dt_s
-    # Where the block turns back at once, the demand is above what friction can give at rest.
-    at_rest = np.minimum(_demand_at(forces(_modeled(run)), jumps), law.mu_static)
-    begins = [event.kind is EventKind.SLIP for event in events]
-    before = np.where(begins, at_rest, law.mu_slow)
-    after = np.where(begins, law.mu_slow, at_rest)
-    i, v = np.concatenate([at, jumps, jumps]), np.concatenate([used[at], before, after])
-    order = np.argsort(i, kind="stable")
-    return {"name": "used", "i": i[order].tolist(), "v": _at(v, order)}
-
-
-def _demand_at(of: Forces, at: Floats) -> Floats:
-    """Return the friction demand between samples, where forces are linear; NaN without contact."""
-    samples = np.arange(of.normal_mps2.size)
-    down, across, normal = (
-        np.interp(at, samples, force) for force in (of.down_mps2, of.across_mps2, of.normal_mps2)
-    )
-    demand = np.full(normal.size, math.nan)
-    np.divide(np.hypot(down, across), normal, out=demand, where=normal > 0.0)
-    return demand
-
-
-def _modeled(run: HeadingRun) -> Scene:
-    """Return the scene of a run without the components that its model neglects."""
-    rung = run.solution.rung
-    scene = least_model.as_run(run.scene, rung)
-    if rung in (Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL):
-        return replace(scene, ay_mps2=NO_RECORD)
-    return scene
-
-
-def _during(slips: Sequence[Slip], t_s: Floats) -> NDArray[np.bool_]:
-    """Return at which times the block slips, ends included."""
-    begun = np.searchsorted([begin.t_s for begin, _ in slips], t_s, side="right")
-    ended = np.searchsorted([end.t_s for _, end in slips], t_s, side="left")
-    return np.asarray(begun > ended)
-
-
-def _slips(history: SlideHistory) -> list[Slip]:
-    """Return each slip with its end; a last one without a stop lasts to the end of the record."""
-    found: list[Slip] = []
-    begun: list[Event] = []
-    for event in history.events:
-        if event.kind is EventKind.SLIP:
-            begun.append(event)
-        else:
-            found.append((begun.pop(), event))
-    across = history.across_m[-1] if history.across_m.size else 0.0
-    last = Event(float(history.t_s[-1]), EventKind.STOP, float(history.u_m[-1]), float(across))
-    return found + [(event, last) for event in begun]
 
 
 def _slip(begin: Event, end: Event, us_first: bool) -> Json:

@@ -10,7 +10,7 @@ import stand_in
 from report.assessment.certainty import certainty
 from report.assessment.runs import RUNGS
 from report.web import views
-from report.web.thinning import beside, peaks_kept
+from report.web.run_forces import during, run_forces, slips_of
 from solver.model import InputError
 from solver.sliding import least_model
 from solver.sliding.least_model import Settings
@@ -101,8 +101,8 @@ def test_the_friction_used_is_what_changes_the_velocity_of_the_solver(usual, arr
     answer = views.slide(usual, array, "M1")
     scene, history = solved(usual, array, "M1", answer["run"])
     run = next(one for one in usual.arrays if one.array.id == array).motions[0].governing
-    slips = views._slips(history)
-    normal, demand, used = views._forces(run, history, slips)
+    slips = slips_of(history)
+    normal, demand, used = run_forces(run, history, slips)
     cs, sn = math.cos(scene.slope_rad), math.sin(scene.slope_rad)
     drive = (scene.g_mps2 + scene.az_mps2) * sn - scene.ax_mps2 * cs, -scene.ay_mps2
     velocity = history.v_mps / cs, history.across_mps
@@ -115,7 +115,7 @@ def test_the_friction_used_is_what_changes_the_velocity_of_the_solver(usual, arr
     off = np.abs(found / between(used) - 1.0)[moves]
     assert off.max() < 0.03
     assert np.median(off) < 5e-4
-    at_rest = ~views._during(slips, history.t_s)
+    at_rest = ~during(slips, history.t_s)
     assert at_rest.sum() > 100
     assert (used[at_rest] == demand[at_rest]).all()
     assert demand[at_rest].max() <= scene.friction.mu_static
@@ -274,21 +274,3 @@ def test_paths_are_those_of_the_governing_runs_and_keep_their_peaks(usual):
 def test_what_the_project_does_not_have_is_named_with_what_it_has(usual, asked, found):
     with pytest.raises(InputError, match=found.replace("+", r"\+")):
         views.slide(usual, *asked)
-
-
-def test_thinning_keeps_the_extremes_of_each_part_and_no_more_than_asked():
-    noise = np.random.default_rng(3).normal(size=10_007)
-    noise[77] = math.nan
-    at = peaks_kept(noise, 1000)
-    assert len(at) <= 1000
-    size = math.ceil(10_007 / 499)
-    for start in range(0, 10_007, size):
-        part = noise[start : start + size]
-        assert {start + np.nanargmin(part), start + np.nanargmax(part)} <= set(at.tolist())
-    assert peaks_kept(noise, 10_007).tolist() == list(range(10_007))
-    assert peaks_kept(np.full(5000, math.nan)).max() < 5000
-
-
-def test_samples_beside_times_lie_within_the_record():
-    assert beside(np.array([0.0, 0.26, 0.9999]), 0.1, 10).tolist() == [0, 1, 2, 3, 9]
-    assert beside(np.array([]), 0.1, 10).tolist() == []
