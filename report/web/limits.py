@@ -6,6 +6,7 @@ Windows has none of these; there only the limit on time holds. Read `limit_memor
 from __future__ import annotations
 
 import importlib
+import os
 
 
 def limit_memory(most_bytes: int) -> None:
@@ -21,6 +22,12 @@ def limit_files(most_bytes: int) -> None:
 def limit_processor(most_s: int) -> None:
     """Limit the processor time of this process."""
     _limit("RLIMIT_CPU", most_s)
+
+
+def give_way(nice: int) -> None:
+    """Let other processes go first, as the command nice does."""
+    if hasattr(os, "nice"):
+        os.nice(nice)
 
 
 def _limit(name: str, value: int) -> None:

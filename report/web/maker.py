@@ -11,11 +11,12 @@ import sys
 import traceback
 from pathlib import Path
 
-from report.web.limits import limit_files, limit_memory, limit_processor
+from report.web.limits import give_way, limit_files, limit_memory, limit_processor
 
 MEMORY_BYTES = 8 << 30
 FILE_BYTES = 1 << 30
 PROCESSOR_S = 900
+NICE = 10
 
 
 def main() -> None:
@@ -23,6 +24,7 @@ def main() -> None:
     limit_memory(MEMORY_BYTES)
     limit_files(FILE_BYTES)
     limit_processor(PROCESSOR_S)
+    give_way(NICE)
     from report.beside import beside
     from report.making import make
     from solver.model import InputError

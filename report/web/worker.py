@@ -1,6 +1,6 @@
 """A warm process that computes for the page: a line of JSON in for each job, a line out.
 
-Started by `report.web.workers` as `python -m report.web.worker`; ends with its input.
+Started by `report.web.workers` as `python -m report.web.worker NICE`; ends with its input.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import sys
 import traceback
 from typing import Any
 
-from report.web.limits import limit_memory
+from report.web.limits import give_way, limit_memory
 
 MEMORY_BYTES = 6 << 30
 _TOO_LARGE = "this needs more memory than a session may use; drop fewer or shorter records"
@@ -24,6 +24,7 @@ def main() -> None:
     out = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what a library prints is no answer
     limit_memory(MEMORY_BYTES)
+    give_way(int(sys.argv[1]))
     from report.web.jobs import perform
 
     for line in sys.stdin:

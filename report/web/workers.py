@@ -21,6 +21,9 @@ from typing import Any
 LONGEST_S = 120.0
 """Longest time of a job [s]; then its process is ended."""
 
+NICE = 5
+"""How far the others give way to the process of quick jobs, as the command nice has it."""
+
 _MOST_LINE = 1 << 27
 _TRIES = 2
 _PAUSE_S = 1.0  # before another try where a process ends at once
@@ -67,7 +70,6 @@ class Workers:
     def __init__(self, number: int) -> None:
         self._number = number
         self._waiting: list[_Waiting] = []
-        self._slow = 0
         self._arrived = asyncio.Condition()
         self._orders = count()
         self._tasks: list[asyncio.Task[None]] = []
@@ -80,7 +82,9 @@ class Workers:
 
     def start(self, warm: Mapping[str, Any]) -> None:
         """Start every process with a first job, whose answer nobody waits for."""
-        self._tasks = [asyncio.create_task(self._work(warm)) for _ in range(self._number)]
+        # The first process is kept free for sliders that move, where there is another one.
+        roles = [self._number > 1, *(False for _ in range(self._number - 1))]
+        self._tasks = [asyncio.create_task(self._work(warm, is_quick)) for is_quick in roles]
 
     async def stop(self) -> None:
         """End every process, in the middle of a job if need be."""
@@ -107,22 +111,22 @@ class Workers:
         answer: asyncio.Future[Mapping[str, Any]] = asyncio.get_running_loop().create_future()
         self._waiting.append(_Waiting(job, rank, place, next(self._orders), answer))
         async with self._arrived:
-            self._arrived.notify()
+            self._arrived.notify_all()
         return await answer
 
-    async def _work(self, warm: Mapping[str, Any]) -> None:
-        """Keep one process, and give it one job after the other."""
+    async def _work(self, warm: Mapping[str, Any], is_quick: bool) -> None:
+        """Keep one process, and give it one job after the other; quick ones alone, or any."""
         process: Process | None = None
         try:
             while True:
                 if process is None or process.returncode is not None:
-                    process = await self._started()
+                    process = await self._started(is_quick)
                     try:
                         await _exchange(process, warm)
                     except LostError:
                         await asyncio.sleep(_PAUSE_S)
                     continue
-                waiting = await self._next()
+                waiting = await self._next(is_quick)
                 await self._answer(process, waiting)
         finally:
             if process is not None:
@@ -138,35 +142,29 @@ class Workers:
             self._processes.discard(process)
             if waiting.tries < _TRIES and not error.args:
                 self._waiting.append(waiting)
+                async with self._arrived:
+                    self._arrived.notify_all()
             elif not waiting.answer.done():
                 waiting.answer.set_exception(error)
         else:
             if not waiting.answer.done():
                 waiting.answer.set_result(found)
-        finally:
-            if waiting.rank is not Rank.MOVING:
-                self._slow -= 1
-                async with self._arrived:
-                    self._arrived.notify_all()
 
-    async def _next(self) -> _Waiting:
+    async def _next(self, is_quick: bool) -> _Waiting:
         """Return the job that goes next, once there is one."""
         async with self._arrived:
             while True:
                 self._waiting = [each for each in self._waiting if not each.answer.done()]
-                # One process stays free for sliders that move.
-                has_room = self._slow < max(self._number - 1, 1)
-                ready = [each for each in self._waiting if has_room or each.rank is Rank.MOVING]
+                ready = [e for e in self._waiting if e.rank is Rank.MOVING or not is_quick]
                 if ready:
                     chosen = min(ready, key=lambda each: (each.rank, each.order))
                     self._waiting.remove(chosen)
-                    self._slow += chosen.rank is not Rank.MOVING
                     return chosen
                 await self._arrived.wait()
 
-    async def _started(self) -> Process:
+    async def _started(self, is_quick: bool) -> Process:
         process = await asyncio.create_subprocess_exec(
-            sys.executable, "-P", "-m", "report.web.worker",
+            sys.executable, "-P", "-m", "report.web.worker", "0" if is_quick else str(NICE),
             stdin=PIPE, stdout=PIPE, limit=_MOST_LINE,
             env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
         )  # fmt: skip

@@ -26,7 +26,7 @@ for line in sys.stdin:
 def echoing(monkeypatch):
     """Processes that load nothing."""
 
-    async def started(self):
+    async def started(self, is_quick):
         process = await asyncio.create_subprocess_exec(
             sys.executable, "-I", "-S", "-c", ECHO, stdin=PIPE, stdout=PIPE
         )
