@@ -38,6 +38,7 @@ REPORT = ["report", "projects/example"]
 ELSEWHERE = (
     REPORT,  # run by `reported`
     ["test"],  # runs this test
+    ["serve"],  # until Ctrl+C: run by tests/report/web/test_page.py
     ["verify", "--quick"],  # run by tests/report/cli/test_verify.py
     # A certificate is needed: run by tests/report/proof/test_sign.py.
     ["sign", "projects/yours/out/calc-package.pdf", "--p12", "yours.p12"],
