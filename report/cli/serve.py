@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     import uvicorn
 
 LOOPBACK, PORT = "127.0.0.1", 8765
+HTTP_PORT = 80
 SHORTEST_TOKEN = 20
 
 _TOKEN = re.compile(r"[A-Za-z0-9_~.-]+")
@@ -97,14 +98,16 @@ def _check_packages() -> None:
 
 def _names(host: str | None, port: int) -> tuple[str, Sequence[str]]:
     """Return the name in the address, and the values of Host that are answered; none for any."""
+    # A browser leaves out the port of HTTP.
+    end = "" if port == HTTP_PORT else f":{port}"
     if host is None:
-        return LOOPBACK, [f"{name}:{port}" for name in (LOOPBACK, "localhost")]
+        return LOOPBACK, [f"{name}{end}" for name in (LOOPBACK, "localhost")]
     with suppress(ValueError):
         address = ipaddress.ip_address(host)
         if address.is_unspecified:
             return socket.gethostname(), ()
         host = f"[{host}]" if address.version == 6 else host
-    return host, [f"{host}:{port}"]
+    return host, [f"{host}{end}"]
 
 
 def _token(file: Path) -> str:

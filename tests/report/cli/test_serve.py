@@ -15,6 +15,7 @@ from click.testing import CliRunner
 
 from places import ROOT
 from report.cli.main import main
+from report.cli.serve import _names
 
 WAIT_S = 120.0
 TOKEN = "a-token-of-twenty-letters"
@@ -45,6 +46,21 @@ def test_a_port_that_is_taken_is_named():
         done = served("--no-browser", "--port", str(port))
     assert done.exit_code == 2
     assert f"127.0.0.1, port {port}: cannot listen there" in done.output
+
+
+@pytest.mark.parametrize(
+    ("host", "port", "name", "hosts"),
+    [
+        (None, 8765, "127.0.0.1", ["127.0.0.1:8765", "localhost:8765"]),
+        ("calc.example", 80, "calc.example", ["calc.example"]),
+        ("10.0.0.5", 8080, "10.0.0.5", ["10.0.0.5:8080"]),
+        ("::1", 8080, "[::1]", ["[::1]:8080"]),
+        ("0.0.0.0", 8080, socket.gethostname(), []),
+    ],
+)
+def test_the_server_answers_to_the_names_of_its_address(host, port, name, hosts):
+    found = _names(host, port)
+    assert (found[0], list(found[1])) == (name, hosts)
 
 
 def test_a_missing_package_is_named(monkeypatch):
