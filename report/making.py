@@ -26,10 +26,12 @@ def make(
     since: Path | None,
     progress: Callable[[str], None],
     second: Executor,
+    told: Callable[[Assessment], None] = lambda _: None,
 ) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
     """Read a workbook, run its motions, and write the package and the tables.
 
-    A second process (`report.beside`) draws and writes what it can meanwhile.
+    A second process (`report.beside`) draws and writes what it can meanwhile. `told` is given the
+    assessment before the package is made, which takes longer.
     """
     second.submit(load)
     from report.assessment.changes import NO_FORMER
@@ -66,6 +68,7 @@ def make(
     begun = begin(assessment, changed, second)
     shown = plotted(assessment)
     begun = begun.plot(shown)
+    told(assessment)
     evidence = support(assessment, shown)
     progress("writing the pages")
     html = pages(assessment, evidence, changed, begun)

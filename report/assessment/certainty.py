@@ -27,6 +27,7 @@ from report.assessment.trials import (
     reach,
     with_mu,
 )
+from report.kept import kept
 from report.sheet.schema import Array
 from solver.model import Floats, Heading, Motion, Scene, SlideResult, Status
 from solver.sliding import one_axis, two_axes
@@ -204,6 +205,7 @@ def _cell(array: ArrayAssessment, cell: tuple[float, float]) -> list[SlideResult
     return [_slid(replace(scene, slope_rad=slope, friction=friction)) for scene in scenes]
 
 
+@kept
 def _slid(scene: Scene) -> SlideResult:
     """Slide with every component of the scene, to the tolerance of the grid."""
     if scene.friction.is_constant and not scene.ay_mps2.any():

@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from report.kept import kept
 from report.sheet.schema import Array, Direction, Model
 from solver.model import Heading, Motion, Scene, SlideHistory, SlideResult, Status
 from solver.rivals.methods import NO_RECORD
@@ -89,7 +90,7 @@ class MotionRun:
 
     def history(self) -> SlideHistory:
         """Rerun the governing run for its values at the samples, for plotting only."""
-        return least_model.history(self.governing.scene, self.governing.solution)
+        return _followed(self.governing.scene, self.governing.solution)
 
 
 def run_motion(array: Array, motion: Motion, model: Model | None = None) -> MotionRun:
@@ -133,7 +134,17 @@ def run_heading(
     """Run one array under one motion at one heading; `model` as in `run_motion`."""
     settings = Settings(forced=RUNGS.get(array.model if model is None else model))
     scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
-    return HeadingRun(heading=heading, scene=scene, solution=least_model.solve(scene, settings))
+    return HeadingRun(heading=heading, scene=scene, solution=_solved(scene, settings))
+
+
+@kept
+def _solved(scene: Scene, settings: Settings) -> Solution:
+    return least_model.solve(scene, settings)
+
+
+@kept
+def _followed(scene: Scene, solution: Solution) -> SlideHistory:
+    return least_model.history(scene, solution)
 
 
 def nan_is_worst(value: float) -> float:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.assessment.project import Assessment
+from report.kept import kept
 from report.motions.targets import TargetSpectrum
 from report.sheet.schema import RecordedAt
 from report.words.units import G_MPS2
@@ -163,7 +164,7 @@ def _scaled(motion: Motion, a_mps2: Floats) -> Record:
 def _spectra(
     title: str, target: TargetSpectrum, records: Sequence[Record], *, is_ground: bool
 ) -> Spectra:
-    ordinates = [response_spectrum(record.a_mps2, record.dt_s, PERIODS_S) for record in records]
+    ordinates = [_ordinates(record.a_mps2, record.dt_s) for record in records]
     return Spectra(
         ids=tuple(record.name for record in records),
         periods_s=PERIODS_S,
@@ -172,3 +173,8 @@ def _spectra(
         title=title,
         is_ground=is_ground,
     )
+
+
+@kept
+def _ordinates(a_mps2: Floats, dt_s: float) -> Floats:
+    return response_spectrum(a_mps2, dt_s, PERIODS_S)

@@ -6,6 +6,7 @@ Owns what counts as a save, and how long to wait for one that is not finished. R
 
 from __future__ import annotations
 
+import gc
 import sys
 import time
 import zipfile
@@ -17,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import INPUT_ERROR, no_collections
+from report.cli.terminal import INPUT_ERROR, input_errors, no_collections
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
@@ -44,23 +45,37 @@ def watch(source: Path, out: Path | None, once: bool) -> None:
     moment is read again.
     """
     from report.beside import beside
+    from report.kept import forget
 
+    if not source.is_dir():
+        with input_errors(source):
+            settle(source)
     workbook = source / "input.xlsx" if source.is_dir() else source
     folder = out or workbook.parent / "out"
     with beside() as second:
         round_ = Round(workbook, folder, second)
-        is_done = round_.run()
-        if once:
-            sys.exit(0 if is_done else INPUT_ERROR)
-        click.echo(f"watching {workbook.parent}; end with Ctrl+C")
-        for names in saves(workbook, folder):
-            click.echo("")
-            click.echo(f"saved: {', '.join(names)}")
+        try:
+            if once:
+                sys.exit(0 if round_.run() else INPUT_ERROR)
+            found = saves(workbook, folder)
+            next(found)  # from here on no save is missed, whatever else is done meanwhile
             round_.run()
+            click.echo(f"watching {workbook.parent}; end with Ctrl+C")
+            round_.sweep()
+            for names in filter(None, found):
+                click.echo("")
+                click.echo(f"saved: {', '.join(names)}")
+                round_.run()
+                round_.sweep()
+        finally:
+            forget()
 
 
 class Round:
-    """Checks and reports, and remembers the results to compare the next ones with."""
+    """Checks and reports, and remembers the results to compare the next ones with.
+
+    What it computes is kept in both processes, so that the next round repeats only what changed.
+    """
 
     def __init__(self, workbook: Path, folder: Path, second: Executor) -> None:
         self._workbook, self._folder, self._second = workbook, folder, second
@@ -68,40 +83,49 @@ class Round:
 
     def run(self) -> bool:
         """Check and report once; return whether a package was written."""
+        from report.results.since import former_from
         from solver.model import InputError
 
         started = time.monotonic()
         try:
-            assessment, files = self._made()
+            files = self._made()
         except InputError as error:
             click.echo(f"{self._workbook}: {len(error.problems)} problem(s) found.", err=True)
             for problem in error.problems:
                 click.echo(f"  {problem}", err=True)
             return False
-        self._print(assessment, files)
+        self._before = former_from(files["results.json"], self._folder / "results.json")
         click.echo(f"{self._folder}: written in {time.monotonic() - started:.1f} s")
         return True
 
-    def _made(self) -> tuple[Assessment, Mapping[str, bytes]]:
-        """Make the package, once the workbook can be read.
+    def _made(self) -> Mapping[str, bytes]:
+        """Make the package, once the workbook can be read; print the verdict before it.
 
         Raises
         ------
         InputError
         """
+        from report.kept import begin_round
         from report.making import make
 
         settle(self._workbook)
+        begin_round()
+        self._second.submit(begin_round)
         with no_collections():
-            assessment, _, files, _ = make(
-                self._workbook, self._folder, None, lambda _: None, self._second
+            _, _, files, _ = make(
+                self._workbook, self._folder, None, lambda _: None, self._second, self._print
             )
-        return assessment, files
+        return files
 
-    def _print(self, assessment: Assessment, files: Mapping[str, bytes]) -> None:
+    def sweep(self) -> None:
+        """Free what a round has left, while nothing waits for the next one."""
+        self._second.submit(gc.collect)
+        gc.unfreeze()  # what `no_collections` has exempted
+        gc.collect()
+
+    def _print(self, assessment: Assessment) -> None:
         from report.pages.summary import summary
         from report.results.compare import changes
-        from report.results.since import former_from
 
         for line in summary(assessment):
             click.echo(line)
@@ -114,7 +138,6 @@ class Round:
                 click.echo("changed: nothing that the package shows")
             elif len(items) > _MOST_CHANGES:
                 click.echo(f"changed: {len(items) - _MOST_CHANGES} more")
-        self._before = former_from(files["results.json"], self._folder / "results.json")
 
 
 def settle(workbook: Path) -> None:
@@ -145,7 +168,10 @@ def _is_whole(workbook: Path) -> bool:
 
 
 def saves(workbook: Path, folder: Path) -> Iterator[list[str]]:
-    """Yield the names of the files of each save beside a workbook, except in the output folder."""
+    """Yield the names of the files of each save beside a workbook, except in the output folder.
+
+    None at once, when the watch has begun, and again whenever there was no save for a moment.
+    """
     from watchfiles import watch as changed_files
 
     top, written = workbook.parent.resolve(), folder.resolve()
@@ -156,7 +182,13 @@ def saves(workbook: Path, folder: Path) -> Iterator[list[str]]:
 
     # Shares over a network tell no program of a change: the folder is polled.
     for found in changed_files(
-        top, watch_filter=counts, force_polling=True, poll_delay_ms=_POLL_MS, raise_interrupt=False
+        top,
+        watch_filter=counts,
+        force_polling=True,
+        poll_delay_ms=_POLL_MS,
+        rust_timeout=_POLL_MS,
+        yield_on_timeout=True,
+        raise_interrupt=False,
     ):
         yield sorted({str(Path(name).relative_to(top)) for _, name in found})
 

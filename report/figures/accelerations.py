@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from report.figures.base import GREY, INK, WIDTH_IN, Broken, style, svg_text, tick_text
 from report.figures.history import envelope
+from report.kept import kept
 from report.words.units import G_MPS2
 from solver.model import Floats, Motion
 
@@ -23,6 +24,7 @@ _LABELS = 0.14  # width of the labels of the rows, in columns
 _COLUMNS = ("Record", "Transverse", "Vertical")
 
 
+@kept
 def accelerations(motions: Sequence[Motion]) -> str:
     """Return the scaled accelerations of the motions over time, all at one scale.
 

@@ -16,10 +16,10 @@ from solver.model import INCH_M
 from solver.rules.provisions import Neighbor
 
 STATUS = "status"
-"""Name of the first column of every table: how many cells a row lacks."""
+"""Name of the first column of every table: how many cells a row lacks; negative if one is wrong."""
 
 STATUS_HEADING = "Status"
-STATUS_FORMAT = '[=0]"✓";0" missing"'
+STATUS_FORMAT = '[=0]"✓";[<0]"wrong";0" missing"'
 
 IN_DISPLACEMENT, IN_SEPARATION = "in the displacement", "in the separation"
 """Where a rule set applies the importance factor, as written on the sheet Provisions."""
@@ -186,7 +186,7 @@ def _of_clearances(is_us: bool) -> tuple[Answer, ...]:
             heading="Neighbor",
             note="as the rule set counts it",
             write=_neighbor,
-            width=20,
+            width=29,
         ),
         Answer(
             name="importance",

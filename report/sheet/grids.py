@@ -6,6 +6,7 @@ Independent of what the sections mean. Read `write_block` and `write_table`; `te
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
@@ -249,7 +250,8 @@ def _write_hints(sheet: Worksheet, top: int, columns: Sequence[Column], units: U
             for number, column in enumerate(columns[1:], start=2)
             if not column.is_folded
         ]
-        sheet.row_dimensions[row].height = 5 + 12.5 * _lines(said, widths)
+        lines = max(map(_wrapped, said, widths))
+        sheet.row_dimensions[row].height = 5 + 12.5 * lines
 
 
 def _hints(column: Column, units: UnitsFirst) -> tuple[str, str, str]:
@@ -361,7 +363,8 @@ def _example(entry: Entry, unit: Unit | None) -> str:
     if unit is not None and entry.quantity is not None and isinstance(value, float):
         # 42000 lb keeps all digits; 186.825 kN becomes 187.
         digits = 5 if unit == entry.quantity.us else 3
-        return f"{value * entry.quantity.us.si / unit.si:.{digits}g}"
+        rounded = f"{value * entry.quantity.us.si / unit.si:.{digits}g}"
+        return f"{float(rounded):g}"  # 1020, not 1.02e+03
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
@@ -374,6 +377,11 @@ def _width(entry: Entry) -> int:
     if entry.kind is str and entry.max_length > 40:
         return TEXT_WIDTH
     return max(CODE_WIDTH if entry.kind is date else NUMBER_WIDTH, longest)
+
+
+def _wrapped(text: str, width: float) -> int:
+    """Return the number of lines of a hint, broken between words, in a type wider than Calibri."""
+    return max(1, len(textwrap.wrap(text, max(int(width) - 1, 1))))
 
 
 def _lines(texts: Sequence[str], widths: Sequence[float]) -> int:

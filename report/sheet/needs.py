@@ -23,6 +23,9 @@ CONDITIONS: Mapping[tuple[str, str], str] = {
     ("objects", "height_m"): '{kind}="edge with parapet"',
     ("arrays", "mu_fast"): 'TRIM({mu_rate_s_per_m})<>""',
     ("arrays", "mu_rate_s_per_m"): 'TRIM({mu_fast})<>""',
+    # A pasted column does not state them.
+    ("motions", "units"): 'ISNUMBER(FIND("!",{record}))',
+    ("motions", "dt_s"): 'ISNUMBER(FIND("!",{record}))',
     ("motions", "scale_value"): 'OR({scaling}="factor",{scaling}="PPA")',
     ("building", "period_s"): 'AND(live_ground_motions>0,TRIM({structure})="")',
     **{
@@ -53,7 +56,10 @@ def _names(text: str) -> set[str]:
 
 
 def row_status(place: TablePlace) -> str:
-    """Return the number of cells that a begun row lacks; an empty text for a row not begun."""
+    """Return the number of cells that a begun row lacks; an empty text for a row not begun.
+
+    Negative where a choice among them is none of its list: it is counted as if it were missing.
+    """
     fields = entries(place.section.model)
     lacking = [_count(place, run, '=""') for run in _runs(place, _required(fields))]
     for entry in fields:
@@ -61,7 +67,18 @@ def row_status(place: TablePlace) -> str:
         if needed:
             lacking.append(f'IF(AND({needed},TRIM({place.this(entry.name)})=""),1,0)')
     begun = "+".join(_count(place, run, '<>""') for run in _runs(place, [e.name for e in fields]))
-    return f'IF({begun}=0,"",{"+".join(lacking)})'
+    missing = "+".join(lacking)
+    wrong = "+".join(
+        f"IF({is_unknown(place.this(entry.name), entry)},1,0)" for entry in fields if entry.choices
+    )
+    count = f"IF({wrong}=0,{missing},-({missing}+{wrong}))" if wrong else missing
+    return f'IF({begun}=0,"",{count})'
+
+
+def is_unknown(cell: str, entry: Entry) -> str:
+    """Return whether a filled cell has a text that is none of its choices."""
+    known = f"|{'|'.join(entry.choices)}|".casefold()
+    return f'AND(TRIM({cell})<>"",ISERROR(FIND("|"&LOWER(TRIM({cell}))&"|","{known}")))'
 
 
 def _required(fields: Sequence[Entry]) -> list[str]:
@@ -93,6 +110,13 @@ def block_lacks(place: BlockPlace) -> str:
         elif needed:
             parts.append(f"IF(AND({needed},{blank}),1,0)")
     return "+".join(parts)
+
+
+def block_wrong(place: BlockPlace) -> str:
+    """Return the number of cells of a block with a text that is none of their choices."""
+    name = place.section.cell_name
+    chosen = [entry for entry in entries(place.section.model) if entry.choices]
+    return "+".join(f"IF({is_unknown(name(entry.name), entry)},1,0)" for entry in chosen)
 
 
 def block_begun(place: BlockPlace) -> str:

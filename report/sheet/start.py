@@ -42,18 +42,22 @@ _NOTES = (
     "A roof that is drawn is read by roofslip plan read ROOF.DXF FOLDER; the sheet Layers says what"
     " is drawn on each layer of the drawing.",
     "The blue cells compute prescriptive values only; the package alone has the displacement from"
-    " analysis. They are not read as input. If one is typed over, roofslip check lists it, and"
-    " roofslip check --repair restores its formula. Formulas in yellow cells are accepted. Macros"
-    " are not: .xlsm files are rejected.",
+    " analysis. They are not read as input. If one is typed over, it turns violet, roofslip check"
+    " lists it, and roofslip check --repair restores its formula. Formulas in yellow cells are"
+    " accepted. Macros are not: .xlsm files are rejected.",
 )
+_AMBER_FILL = PatternFill("solid", start_color=marks.AMBER)
+_RED_FILL = PatternFill("solid", start_color=marks.RED)
+_VIOLET_FILL = PatternFill("solid", start_color=marks.VIOLET)
 _SAMPLES = (
     ("input", "000000", style.INPUT_FILL, "Input cell."),
     ("heading", style.WHITE, style.REQUIRED_FILL, "Required column; other required cells have *."),
     ("heading", style.WHITE, style.OPTIONAL_FILL, "Optional column."),
     ("1.566", style.INK, style.ANSWER_FILL, "Computed cell: a formula, not read as input."),
     ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
-    ("", "000000", PatternFill("solid", start_color=marks.RED), "Required, and still blank."),
-    ("1.2", "000000", PatternFill("solid", start_color=marks.AMBER), "Outside the usual range."),
+    ("", "000000", _RED_FILL, "Required and still blank, or not in the list of choices."),
+    ("1.2", "000000", _AMBER_FILL, "Outside the usual range; a name unknown or given twice."),
+    ("1.5", style.INK, _VIOLET_FILL, "Computed cell that has lost its formula."),
     ("✓", marks.GREEN, style.ANSWER_FILL, "The row is complete."),
 )
 
@@ -65,7 +69,7 @@ def write_start(book: Workbook, *, is_us: bool) -> int:
         sheet.column_dimensions[column].width = width
     style.put_title(sheet, "Roofslip input workbook", _HINT)
     picture = _write_steps(sheet, 4)
-    counts = _put_heading(sheet, picture, "What is missing", COUNTS_COLUMN)
+    counts = _put_heading(sheet, picture, "Missing or wrong", COUNTS_COLUMN)
     titles = {section.sheet for section in SECTIONS}
     row = max(_put_picture(sheet, picture), counts + len(titles) + 1)
     row = _write_colors(sheet, row)
@@ -93,7 +97,7 @@ def _put_picture(sheet: Worksheet, row: int) -> int:
     picture = Image(io.BytesIO(sketch_png()))
     picture.width, picture.height = (round(side * 96) for side in SIZE_IN)
     sheet.add_image(picture, f"B{row}")
-    return row + int(SIZE_IN[1] * 72 / 15) + 2
+    return row + int(SIZE_IN[1] * 72 / 15) + 1
 
 
 def _write_colors(sheet: Worksheet, row: int) -> int:
@@ -102,7 +106,7 @@ def _write_colors(sheet: Worksheet, row: int) -> int:
         cell = style.put(sheet, row, 2, sample, color=color)
         cell.font = Font(name="Calibri", size=10, color=color, bold=color != "000000")
         cell.fill, cell.border = fill, style.BOX
-        style.put(sheet, row, 3, meaning, color=style.GRAY, wrap=False)
+        style.put(sheet, row, 3, meaning, color=style.GRAY)
         sheet.row_dimensions[row].height = 18
         row += 1
     return row + 1

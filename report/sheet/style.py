@@ -197,17 +197,34 @@ def _number_rule(entry: Entry, si: float) -> DataValidation:
     return rule
 
 
+_WIDEST = 200
+"""Characters of a sheet that one page still shows in readable size."""
+
+
 def finish(sheet: Worksheet, is_us: bool) -> None:
-    """Set up view and printing: landscape, one page wide."""
+    """Set up view and printing: landscape, one page wide, or two with their first columns alike."""
     sheet.sheet_view.showGridLines = False
     sheet.sheet_view.zoomScale = 100
     page = sheet.page_setup
     page.orientation, page.fitToWidth, page.fitToHeight = "landscape", 1, 0
     page.paperSize = 1 if is_us else 9
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
+    if _width(sheet) > _WIDEST and sheet.tables:
+        page.fitToWidth = 2
+        sheet.print_title_cols = "A:B"
     margins = sheet.page_margins
     margins.left = margins.right = margins.top = 0.4
     margins.bottom, margins.footer = 0.6, 0.3
     footer = ("left", "Roofslip input"), ("center", "&A"), ("right", "&P of &N")
     for side, text in footer:
         getattr(sheet.oddFooter, side).text = text
+
+
+def _width(sheet: Worksheet) -> float:
+    """Return the width of the columns that are not folded [characters]."""
+    return sum(column.width for column in sheet.column_dimensions.values() if not column.hidden)
+
+
+def fit_on_one_page(sheet: Worksheet) -> None:
+    """Print a sheet on one page, however long it is."""
+    sheet.page_setup.fitToHeight = 1

@@ -19,7 +19,7 @@ from report.sheet.fields import Frozen, Section
 from report.sheet.grids import write_answers, write_block, write_table
 from report.sheet.layout import Layout
 from report.sheet.lookups import write_lookups
-from report.sheet.marks import mark_block, mark_ratio, mark_table
+from report.sheet.marks import mark_block, mark_lost, mark_ratio, mark_table
 from report.sheet.results_panel import write_panel
 from report.sheet.rules import write_rules
 from report.sheet.schema import SECTIONS, ProjectInput, UnitsFirst
@@ -57,8 +57,10 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
     ratio = clearances.cell("demand_capacity")
     mark_ratio(book["Clearances"], clearances.cells("demand_capacity"), ratio)
     write_counts(book, layout, write_start(book, is_us=is_us))
+    mark_lost(book, layout)
     for sheet in book.worksheets:
         style.finish(sheet, is_us)
+    style.fit_on_one_page(book[START])
     book.calculation.fullCalcOnLoad = True
     buffer = io.BytesIO()
     book.save(buffer)

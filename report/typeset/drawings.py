@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from report.kept import kept
 from report.typeset.renderer import load
 from solver.model import DefectError
 
@@ -70,8 +71,7 @@ def convert(sources: Iterable[str], css: Path) -> dict[str, Converted | None]:
         Styles with the fonts (`@font-face`), the same as those of the pages.
     """
     load()
-    fonts = _fonts(css)
-    return {source: _converted(source, fonts) for source in dict.fromkeys(sources)}
+    return {source: _converted(source, css) for source in dict.fromkeys(sources)}
 
 
 @cache
@@ -98,13 +98,14 @@ def discard(fonts: Any) -> None:
     fonts._folder = None
 
 
-def _converted(source: str, fonts: Any) -> Converted | None:
+@kept
+def _converted(source: str, css: Path) -> Converted | None:
     svg = _svg(source)
     width, height = _size_px(svg)
     stream = _recorder()(
         {}, (0.0, 0.0, width, height), _no_resources(), {}, None, {}, None, compress=False
     )
-    _draw(svg, source, fonts, stream, width, height)
+    _draw(svg, source, _fonts(css), stream, width, height)
     drawing = _recorded(stream, ())
     if drawing is None:
         return None

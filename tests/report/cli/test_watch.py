@@ -16,11 +16,15 @@ from click.testing import CliRunner
 
 from packages import unlaid
 from places import ROOT, TESTS
+from report.beside import beside
 from report.cli import watch
 from report.cli.main import main
-from report.cli.watch import is_input, settle
+from report.cli.watch import Round, is_input, settle
+from report.kept import forget
+from report.making import OUTPUTS
 from sheets import edit, make
 from solver.model import InputError
+from solver.sliding import least_model
 
 WAIT_S = 240.0
 
@@ -152,3 +156,54 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
     finally:
         watching.end()
     assert watching.process.poll() is not None
+
+
+def fresh(path, folder):
+    """Report in a process of its own; return its files."""
+    subprocess.run(
+        [sys.executable, "-m", "report.cli", "report", str(path), "--out", str(folder), "--quiet"],
+        check=True,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        timeout=WAIT_S,
+    )
+    return {name: (folder / name).read_bytes() for name in OUTPUTS}
+
+
+@pytest.mark.slow
+def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
+    tmp_path, monkeypatch, capsys
+):
+    runs = []
+    solve = least_model.solve
+    monkeypatch.setattr(least_model, "solve", lambda *call: runs.append(call) or solve(*call))
+    path, out = make(tmp_path), tmp_path / "out"
+
+    def counted(round_):
+        runs.clear()
+        assert round_.run()
+        return len(runs), {name: (out / name).read_bytes() for name in OUTPUTS}
+
+    try:
+        with beside() as second:
+            round_ = Round(path, out, second)
+            all_runs, _ = counted(round_)
+            edit(path, lambda book: book["Clearances"].__setitem__("E8", 31.0))
+            none, clearance = counted(round_)
+            assert clearance == fresh(path, tmp_path / "clearance")
+            edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.5))
+            some, friction = counted(round_)
+            assert friction == fresh(path, tmp_path / "friction")
+            vertical = tmp_path / "records" / "z.csv"
+            vertical.write_text("0.001\n" + vertical.read_text().partition("\n")[2])
+            others, record = counted(round_)
+            assert record == fresh(path, tmp_path / "record")
+            round_.sweep()
+    finally:
+        forget()
+    assert none == 0
+    assert 0 < some < all_runs
+    assert 0 < others < all_runs
+    assert len({name["calc-package.pdf"] for name in (clearance, friction, record)}) == 3
+    # The verdict is printed before the package is made.
+    told = capsys.readouterr().out.splitlines()
+    assert told.index("verdict: NG") < next(i for i, s in enumerate(told) if ": written in" in s)

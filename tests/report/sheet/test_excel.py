@@ -10,18 +10,20 @@ from pypdf import PdfReader
 from recalculated import converted, recalculated
 
 from report.sheet.fields import Place
+from report.sheet.marks import AMBER, VIOLET
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template
 from sheets import edit, make, project, same
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
-# Of Excel 2007 and later; IFERROR is the newest.
+# Of Excel 2007 and later, and ISFORMULA of 2013, which is written with this prefix.
+PREFIXED = {"_xlfn.ISFORMULA"}
 FUNCTIONS = {
     "ABS", "AND", "ATAN", "CHAR", "CODE", "COUNT", "COUNTA", "COUNTIF", "DEGREES", "FALSE", "FIND",
-    "IF", "IFERROR", "INDEX", "ISERROR", "ISNUMBER", "LEFT", "LOWER", "MATCH", "MAX", "MID", "MIN",
-    "MOD", "N", "NA", "OFFSET", "OR", "RADIANS", "ROUNDUP", "ROW", "ROWS", "SUBSTITUTE", "SUM",
-    "SUMPRODUCT", "TRIM", "UPPER",
+    "IF", "IFERROR", "INDEX", "ISERROR", "ISFORMULA", "ISNUMBER", "LEFT", "LOWER", "MATCH", "MAX",
+    "MID", "MIN", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "RADIANS", "ROUNDUP", "ROW", "ROWS",
+    "SUBSTITUTE", "SUM", "SUMIF", "SUMPRODUCT", "TRIM", "UPPER",
 }  # fmt: skip
 
 
@@ -60,7 +62,9 @@ def test_every_function_was_in_excel_before_2016(parts):
         name for text in formulas(parts) for name in re.findall(r"([A-Z]+)\(", outside_quotes(text))
     }
     assert used <= FUNCTIONS
-    assert not any("_xlfn" in text for text in formulas(parts))
+    prefixed = {name for text in formulas(parts) for name in re.findall(r"_xlfn\.\w+", text)}
+    assert prefixed <= PREFIXED
+    assert not any(re.search(r"(?<!_xlfn\.)ISFORMULA", text) for text in formulas(parts))
 
 
 def test_no_sheet_is_protected_and_nothing_refers_to_another_file(parts):
@@ -127,6 +131,120 @@ def test_a_half_filled_sheet_counts_what_is_missing(tmp_path):
     assert said["Motions"] == "1 cell missing"  # the PPA
     assert said["Options"] == "3 cells missing"  # of the peer review
     assert said["Clearances"] == said["Links"] == "No cells missing"
+
+
+def test_a_choice_that_is_none_of_the_list_is_no_complete_row(tmp_path):
+    def mistype(book):
+        objects, site = book["Objects"], book["Site"]
+        for row, kind in ((8, "chimney"), (9, "Fixed object "), (10, "edge with parapet")):
+            objects[f"B{row}"], objects[f"C{row}"] = f"O{row}", kind
+        site["B5"], site["B6"] = "ASCE 7-10", "II"
+
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    (book,) = recalculated([edit(path, mistype)], tmp_path)
+    status = [book["Objects"][f"A{row}"].value for row in (8, 9, 10)]
+    assert status == [-1, 0, 1]  # one wrong; capitals and blanks do not matter; no height
+    assert book["Objects"]["A3"].value == "2 cells missing or wrong"
+    assert book["Site"]["A3"].value == "7 cells missing or wrong"
+    assert book["Project"]["A3"].value == "5 cells missing"
+
+
+def test_an_inserted_row_without_formulas_counts_as_wrong(tmp_path):
+    def insert(book):
+        for row, name in ((8, "A"), (9, "B")):
+            for letter, value in zip("BCD", (name, "fixed object", 40), strict=True):
+                book["Objects"][f"{letter}{row}"] = value
+        book["Objects"]["A9"] = None
+
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    (book,) = recalculated([edit(path, insert)], tmp_path)
+    assert book["Objects"]["A3"].value == "1 cell missing or wrong"
+
+
+def test_a_pasted_column_needs_its_units_and_time_step(tmp_path):
+    def paste(book):
+        book["Motions"]["B8"], book["Motions"]["C8"] = "M1", "Records!East"
+        book["Motions"]["B9"], book["Motions"]["C9"] = "M2", "records/m2.csv"
+
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    (book,) = recalculated([edit(path, paste)], tmp_path)
+    assert [book["Motions"][f"A{row}"].value for row in (8, 9)] == [2, 0]
+
+
+def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(tmp_path):
+    """The rules are computed in cells of their own."""
+
+    def mistype(book):
+        arrays, clearances = book["Arrays"], book["Clearances"]
+        for row, name in ((8, "A1"), (9, "A2"), (10, "A1 ")):
+            arrays[f"B{row}"] = name
+            twice = rule_of(arrays, "B8", AMBER)
+            arrays[f"AZ{row}"] = "=" + re.sub(r"\$B8\b", f"$B{row}", twice)
+        for row, (array, other) in enumerate((("A2", "A1"), ("A2", "RTU1"), ("A9", "A1")), start=8):
+            clearances[f"B{row}"], clearances[f"C{row}"] = array, other
+            for cell, of in (("AY", "B"), ("AZ", "C")):
+                unknown = rule_of(clearances, f"{of}8", AMBER)
+                clearances[f"{cell}{row}"] = "=" + unknown.replace("8", str(row))
+
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    (book,) = recalculated([edit(path, mistype)], tmp_path)
+    found = [bool(book["Arrays"][f"AZ{row}"].value) for row in (8, 9, 10)]
+    assert found == [True, False, True]
+    found = [[bool(book["Clearances"][f"{c}{r}"].value) for c in ("AY", "AZ")] for r in (8, 9, 10)]
+    assert found == [[False, False], [False, True], [True, False]]
+
+
+def rule_of(sheet, cell, color):
+    """Return the formula of the conditional format whose range starts at a cell, by its fill."""
+    return next(
+        rule.formula[0]
+        for area in sheet.conditional_formatting
+        if str(area.sqref).split(":")[0] == cell
+        for rule in area.rules
+        if rule.dxf.fill and rule.dxf.fill.start_color.rgb == f"00{color}"
+    )
+
+
+def test_a_computed_cell_that_was_typed_over_turns_violet(tmp_path):
+    """The rules of three cells are computed in cells of their own."""
+
+    def spoil(book):
+        arrays, site = book["Arrays"], book["Site"]
+        typed = rule_of(arrays, "R8", VIOLET)
+        for row, name in ((8, "A1"), (9, "A2"), (10, "A3")):
+            arrays[f"B{row}"] = name
+            arrays[f"AZ{row}"] = "=" + typed.replace("8", str(row))
+        arrays["R8"], arrays["R9"] = 3.5, None
+        site["D13"] = 1.5
+        for cell, of in (("H13", "D13"), ("H14", "D14")):
+            site[cell] = "=" + rule_of(site, of, VIOLET)
+
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    (book,) = recalculated([edit(path, spoil)], tmp_path)
+    found = [bool(book["Arrays"][f"AZ{row}"].value) for row in (8, 9, 10)]
+    assert found == [True, True, False]  # typed over, blank, as it should be
+    assert [bool(book["Site"][cell].value) for cell in ("H13", "H14")] == [True, False]
+
+
+def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path):
+    path = tmp_path / "input.xlsx"
+    write_template(path, units=UnitsFirst.US)
+    book = load_workbook(path)
+    assert [s.title for s in book if s.page_setup.fitToWidth == 2] == ["Arrays"]
+    assert book["Arrays"].print_title_cols == "$A:$B"
+    (printed,) = converted([path], tmp_path, "pdf")
+    pages = [page.extract_text() for page in PdfReader(printed).pages]
+    start = [text for text in pages if "Roofslip input workbook" in text]
+    assert len(start) == 1
+    assert "Macros are not" in start[0]  # the last note
+    arrays = [text for text in pages if "One row for each array that" in text]
+    assert len(arrays) == 2
+    assert all("Status" in text and "ID" in text for text in arrays)
 
 
 def test_the_count_of_missing_cells_fits_its_column_in_print(tmp_path):
