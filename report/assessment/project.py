@@ -211,8 +211,22 @@ def reassess(given: Assessment, project: ProjectInput) -> Assessment:
 
 
 def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
-    """Assess another input in one axis, for provisional values (`runs.run_along`)."""
-    return _again(given, project, run_along)
+    """Assess another input in one axis, for provisional values (`runs.run_along`).
+
+    Each motion runs in the heading that governs in the given assessment, where it still has it.
+    """
+    governing = {
+        (array.id, run.motion.id): run.governing.heading
+        for array in given.arrays
+        for run in array.motions
+    }
+
+    def along(array: Array, motion: Motion) -> MotionRun:
+        heading = governing.get((array.id, motion.id))
+        headings = [heading] if heading in motion.headings else motion.headings
+        return run_along(array, motion, headings)
+
+    return _again(given, project, along)
 
 
 def _again(given: Assessment, project: ProjectInput, run: RunMotion) -> Assessment:

@@ -104,13 +104,13 @@ def run_motion(array: Array, motion: Motion, model: Model | None = None) -> Moti
     return motion_run(motion, [run_heading(array, motion, h, model) for h in motion.headings])
 
 
-def run_along(array: Array, motion: Motion) -> MotionRun:
-    """Run one array under one motion in one axis, in all of its runs: quick, and not for design.
+def run_along(array: Array, motion: Motion, headings: Sequence[Heading]) -> MotionRun:
+    """Run one array under one motion in one axis, in some of its runs: quick, and not for design.
 
-    Each component acts along the slope together with the vertical one; what acts cross-slope is
+    A component acts along the slope together with the vertical one; what acts cross-slope is
     neglected, and no model is compared.
     """
-    return motion_run(motion, [_heading_along(array, motion, h) for h in motion.headings])
+    return motion_run(motion, [_heading_along(array, motion, h) for h in headings])
 
 
 def _heading_along(array: Array, motion: Motion, heading: Heading) -> HeadingRun:

@@ -22,8 +22,9 @@ from report.words.units import Quantity, Show, compared, measured, pair, ratio
 ONE_AXIS, FULL = "one axis", "full"
 
 _PROVISIONAL = (
-    "Provisional: each run in one axis with vertical, cross-slope motion neglected. The full model "
-    "follows when the slider rests."
+    "Provisional: each motion in one axis with vertical, in the orientation that governs at the "
+    "values of the workbook; cross-slope motion neglected. The full model follows when the slider "
+    "rests."
 )
 
 

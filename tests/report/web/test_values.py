@@ -2,12 +2,13 @@
 
 import json
 import shutil
+from dataclasses import replace
 from functools import cache
 
 import pytest
 
 from places import ROOT
-from report.assessment.project import assess
+from report.assessment.project import anticipate, assess
 from report.sheet.parts import changed
 from report.sheet.retyped import cells, retyped
 from report.sheet.schema import Scaling
@@ -17,6 +18,7 @@ from report.web.controls import controls, shown
 from report.web.opened import opened, with_values
 from report.web.values import typed
 from sheets import make
+from solver.sliding.least_model import Rung, Settings, solve
 
 PROJECTS = ROOT / "projects"
 
@@ -132,3 +134,29 @@ def test_values_as_typed_change_no_cell():
     same |= {item["id"]: item["typed"] for item in controls(given)["choices"]}
     assert typed(given.sheet, given.scales, same) == {}
     assert with_values(given, same) is given
+
+
+def test_provisional_values_are_of_the_heading_that_governs_in_one_axis():
+    given = start("school")
+    whole = assess(given.sheet, given.shaking)
+    quick = anticipate(whole, given.sheet.project)
+    for array, provisional in zip(whole.arrays, quick.arrays, strict=True):
+        for run, (along,) in zip(array.motions, (m.runs for m in provisional.motions), strict=True):
+            assert along.heading == run.governing.heading
+            assert not along.scene.ay_mps2.any()
+            alone = solve(along.scene, Settings(forced=Rung.ONE_AXIS_VERTICAL))
+            assert along.prd_m == alone.result.prd_m
+
+
+def test_a_polarity_without_the_governing_heading_runs_all_that_it_has():
+    given = start("school")
+    whole = assess(given.sheet, given.shaking)
+    turned = with_values(given, {"polarity": "reversed"})
+    quick = anticipate(replace(whole, shaking=turned.shaking), turned.sheet.project)
+    for array, provisional in zip(whole.arrays, quick.arrays, strict=True):
+        for run, along in zip(array.motions, provisional.motions, strict=True):
+            headings = [one.heading for one in along.runs]
+            governs = run.governing.heading
+            known = along.motion.headings
+            assert headings == ([governs] if governs in known else list(known))
+            assert {heading.sign for heading in headings} == {-1}
