@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
@@ -72,13 +73,19 @@ def serve_scripts(page):
 
 @contextmanager
 def served():
-    """Yield the address of a server of the page, with its token; the server ends with the test."""
+    """Yield a server's address with its token, and its process, which ends with the test."""
     command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as server:
         try:
-            yield server.stdout.readline().strip()
+            yield server.stdout.readline().strip(), server.pid
         finally:
             server.terminate()
+
+
+def processes_of(pid):
+    """The processes that a server has started to compute."""
+    ids = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    return [one for one in ids if "report.web.worker" in Path(f"/proc/{one}/cmdline").read_text()]
 
 
 def opened(page, address):

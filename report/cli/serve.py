@@ -92,7 +92,7 @@ def serve(
 def _check_packages() -> None:
     missing = [name for module, name in _NEEDED.items() if find_spec(module) is None]
     if missing:
-        click.echo(f"The page needs {', '.join(missing)}: install roofslip[serve].", err=True)
+        click.echo(f"The page needs {', '.join(missing)}: install roofslip[web].", err=True)
         sys.exit(INPUT_ERROR)
 
 

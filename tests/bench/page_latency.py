@@ -37,7 +37,7 @@ MEASURED = """
 def main(moves: int) -> None:
     """Measure moves of three sliders of the example."""
     spans = {"friction": (0.8, 1.0), "slope": (-0.4, 2.0), "intensity": (0.8, 1.2)}
-    with chromium() as browser, served() as address, quiet_page(browser) as page:
+    with chromium() as browser, served() as (address, _), quiet_page(browser) as page:
         opened(page, address)
         for name, is_let_go in (("one axis", False), ("two axes", True)):
             times = []

@@ -67,7 +67,7 @@ def test_a_missing_package_is_named(monkeypatch):
     monkeypatch.setattr("report.cli.serve.find_spec", lambda name: None)
     done = served("--no-browser")
     assert done.exit_code == 2
-    assert "install roofslip[serve]" in done.output
+    assert "install roofslip[web]" in done.output
 
 
 def test_the_server_answers_and_leaves_nothing_behind(tmp_path):

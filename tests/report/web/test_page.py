@@ -4,15 +4,17 @@ import base64
 import io
 import json
 import math
+import os
 import re
 import shutil
+import signal
 from urllib.parse import urlsplit
 
 import openpyxl
 import pytest
 from pypdf import PdfReader
 
-from browsing import TABLET, at_rest, moved, opened, quiet_page, served
+from browsing import TABLET, at_rest, moved, opened, processes_of, quiet_page, served
 from places import ROOT
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -20,9 +22,14 @@ INCH_M = 0.0254
 
 
 @pytest.fixture(scope="module")
-def address():
-    with served() as address:
-        yield address
+def server():
+    with served() as server:
+        yield server
+
+
+@pytest.fixture(scope="module")
+def address(server):
+    return server[0]
 
 
 @pytest.fixture
@@ -284,6 +291,31 @@ def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back
         page.click("text=Try again")
         at_rest(page)
         page.wait_for_selector("#error", state="hidden")
+
+
+def test_two_visitors_see_nothing_of_each_other(browser, address, tmp_path):
+    project = tmp_path / "yours"
+    shutil.copytree(ROOT / "projects" / "conditions", project, ignore=shutil.ignore_patterns("out"))
+    with quiet_page(browser) as one, quiet_page(browser) as two:
+        for page in (one, two):
+            opened(page, address)
+        one.set_input_files("#folder", project)
+        one.wait_for_selector("h1:has-text('Small Warehouse')")
+        at_rest(one)
+        two.reload()
+        at_rest(two)
+        assert "Distribution Warehouse" in two.inner_text("h1")
+        assert verdicts(one)[0] == "NG"
+        assert verdicts(two)[0] == "OK"
+
+
+def test_when_every_process_is_killed_the_page_goes_on(page, server):
+    before = verdicts(page)
+    for pid in processes_of(server[1]):
+        os.kill(int(pid), signal.SIGKILL)
+    moved(page, "friction", 0.8)
+    page.wait_for_selector("body[data-phase=rest]", timeout=60_000)
+    assert verdicts(page)[0] == "NG" != before[0]
 
 
 def test_a_screen_reader_gets_names_for_all_and_the_verdict_at_rest(page):
