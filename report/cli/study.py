@@ -6,12 +6,14 @@ Read `make` first: one line for each step from workbook to files.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from report.cli.terminal import QUIET, Progress, input_errors, no_collections, plain
+from solver.model import InputError
 
 if TYPE_CHECKING:
     from report.study.plan import StudyPlan
@@ -66,12 +68,20 @@ def make(
     from report.study.run import RUNS, run_study
 
     runs = folder / RUNS
+    added = [path for path in (runs, *runs.parents) if not path.exists()]
     runs.mkdir(parents=True, exist_ok=True)
-    with locked(runs):
-        results = run_study(plan, folder, scheduler=scheduler, progress=progress)
-        progress("writing the report")
-        files = study_files(results)
-        publish(files, folder)
+    try:
+        with locked(runs):
+            results = run_study(plan, folder, scheduler=scheduler, progress=progress)
+            progress("writing the report")
+            files = study_files(results)
+            publish(files, folder)
+    except InputError:
+        # Such as a cluster that does not answer: nothing ran, and nothing new stays.
+        with suppress(OSError):
+            for path in added:
+                path.rmdir()
+        raise
     return results, files
 
 
