@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import click
 
 from report.cli.terminal import QUIET, Progress, input_errors, no_collections, plain
-from solver.model import InputError
 
 if TYPE_CHECKING:
     from report.study.plan import StudyPlan
@@ -66,6 +65,7 @@ def make(
     from report.results.publish import locked, publish
     from report.study.files import study_files
     from report.study.run import RUNS, run_study
+    from solver.model import InputError
 
     runs = folder / RUNS
     added = [path for path in (runs, *runs.parents) if not path.exists()]

@@ -7,12 +7,14 @@ Owns what counts as a save, and how long to wait for one that is not finished. R
 from __future__ import annotations
 
 import gc
+import signal
 import sys
 import time
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -120,8 +122,9 @@ class Round:
     def sweep(self) -> None:
         """Free what a round has left, while nothing waits for the next one."""
         self._second.submit(gc.collect)
-        gc.unfreeze()  # what `no_collections` has exempted
-        gc.collect()
+        with _interrupted_after():
+            gc.unfreeze()  # what `no_collections` has exempted
+            gc.collect()
 
     def _print(self, assessment: Assessment) -> None:
         from report.pages.summary import summary
@@ -138,6 +141,19 @@ class Round:
                 click.echo("changed: nothing that the package shows")
             elif len(items) > _MOST_CHANGES:
                 click.echo(f"changed: {len(items) - _MOST_CHANGES} more")
+
+
+@contextmanager
+def _interrupted_after() -> Iterator[None]:
+    """Let Ctrl+C wait until the block ends: a collection loses it where a finalizer runs."""
+    interrupts: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if interrupts:
+        raise KeyboardInterrupt
 
 
 def settle(workbook: Path) -> None:
