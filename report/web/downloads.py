@@ -6,6 +6,7 @@ Read `workbook`, then `package_routes`.
 from __future__ import annotations
 
 import secrets
+import shutil
 from typing import Any
 
 from starlette.concurrency import run_in_threadpool
@@ -19,6 +20,7 @@ from report.web.desk import desk_of, session_of
 from report.web.packages import Package, State, copied
 from report.web.receiving import receive_json
 from report.web.workers import Rank
+from solver.model import InputError
 
 _TYPES = {
     ".pdf": "application/pdf",
@@ -52,12 +54,17 @@ async def _begin(request: Request) -> Response:
     session, desk = session_of(request), desk_of(request)
     values = (await receive_json(request))["values"]
     desk.packages.check_free(session)
-    folder = session.folder / f"package-{secrets.token_hex(8)}"
-    await run_in_threadpool(copied, session.workbook, folder)
-    path = folder / session.workbook.name
+    opened = session.workbook
+    path = session.folder / f"package-{secrets.token_hex(8)}" / opened.name
+    try:
+        await run_in_threadpool(copied, opened, path.parent)
+    except (OSError, shutil.Error):
+        if session.workbook == opened:
+            raise
+    if session.workbook != opened:
+        raise InputError("Another workbook was opened meanwhile; make the package again.")
     await desk.ask(session, _writing(values, str(path)), Rank.AT_REST)
-    package = desk.packages.begin(session, folder)
-    return JSONResponse({"ticket": package.ticket})
+    return JSONResponse({"ticket": desk.packages.begin(session, path).ticket})
 
 
 def _writing(values: Any, to: str) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """Makes one package for the page, in a process with limits, and says how far it is.
 
-Started by `report.web.packages` as `python -m report.web.maker FOLDER`: a line of JSON out for
-each step. The process that draws beside it gets the same limits.
+Started by `report.web.packages` as `python -m report.web.maker WORKBOOK DIR`: a line of JSON
+out for each step. The process that draws beside it gets the same limits.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ NICE = 10
 
 
 def main() -> None:
-    """Make the package of the workbook in a folder."""
+    """Make the package of a workbook."""
     limit_memory(MEMORY_BYTES)
     limit_files(FILE_BYTES)
     limit_processor(PROCESSOR_S)
@@ -29,11 +29,10 @@ def main() -> None:
     from report.making import make
     from solver.model import InputError
 
-    folder = Path(sys.argv[1])
-    workbook = next(folder.glob("*.xlsx"))
+    workbook, out = (Path(each) for each in sys.argv[1:])
     try:
         with beside() as second:
-            make(workbook, folder / "out", None, lambda stage: _say(stage=stage), second)
+            make(workbook, out, None, lambda stage: _say(stage=stage), second)
     except InputError as error:
         _say(stage="failed", message=error.problems[0])
     except MemoryError:

@@ -49,11 +49,11 @@ class State(StrEnum):
 
 @dataclass(slots=True, eq=False)
 class Package:
-    """A package of a session: its folder holds the workbook as written, and out/ with the files."""
+    """A package of a session: the workbook as written, beside it its records and out/."""
 
     ticket: str
     owner: str
-    folder: Path
+    workbook: Path
     state: State = State.QUEUED
     stage: str = "waiting"
     step: int = 0
@@ -63,7 +63,7 @@ class Package:
     @property
     def out(self) -> Path:
         """Where its files are."""
-        return self.folder / "out"
+        return self.workbook.parent / "out"
 
 
 class Packages:
@@ -74,8 +74,8 @@ class Packages:
         self._tasks: set[asyncio.Task[None]] = set()
         self._turn = asyncio.Lock()
 
-    def begin(self, session: Session, folder: Path) -> Package:
-        """Queue the package of a project that was written to a folder.
+    def begin(self, session: Session, workbook: Path) -> Package:
+        """Queue the package of a workbook that has a folder of its own, with its records.
 
         Raises
         ------
@@ -86,8 +86,8 @@ class Packages:
         own = [each for each in self._all.values() if each.owner == session.id]
         for old in own[: len(own) - KEPT + 1]:
             del self._all[old.ticket]
-            shutil.rmtree(old.folder, ignore_errors=True)
-        package = Package(ticket=secrets.token_hex(12), owner=session.id, folder=folder)
+            shutil.rmtree(old.workbook.parent, ignore_errors=True)
+        package = Package(ticket=secrets.token_hex(12), owner=session.id, workbook=workbook)
         self._all[package.ticket] = package
         task = asyncio.create_task(self._make(package))
         self._tasks.add(task)
@@ -146,7 +146,8 @@ class Packages:
     async def _run(self, package: Package) -> None:
         """Have a process make a package, and follow it."""
         package.process = process = await asyncio.create_subprocess_exec(
-            sys.executable, "-P", "-m", "report.web.maker", str(package.folder),
+            sys.executable, "-P", "-m", "report.web.maker", str(package.workbook),
+            str(package.out),
             stdin=DEVNULL, stdout=PIPE, start_new_session=True,
             env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
         )  # fmt: skip
@@ -191,9 +192,10 @@ def copied(workbook: Path, folder: Path) -> None:
         except OSError:
             shutil.copyfile(source, target)
 
+    here = workbook.parent
     shutil.copytree(
-        workbook.parent,
+        here,
         folder,
         copy_function=link,
-        ignore=lambda top, names: [n for n in names if n in ("out", "pages", workbook.name)],
+        ignore=lambda top, names: ["out", "pages", workbook.name] if Path(top) == here else [],
     )

@@ -151,6 +151,40 @@ def test_a_package_is_queued_and_cancelled(client):
     assert client.get(f"/api/package/{ticket}").status_code == 404
 
 
+def over(client, ticket):
+    for _ in range(300):
+        about = client.get(f"/api/package/{ticket}").json()
+        if about["state"] not in ("queued", "running"):
+            return about
+        time.sleep(0.1)
+    raise AssertionError(about)
+
+
+def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, sessions):
+    files = dict(folder_of(EXAMPLE))
+    content = files.pop("example/input.xlsx")
+    others = [(f"example/{name}.xlsx", b"not a workbook") for name in ("a", "input 2", "z")]
+    sent(client, [*others, ("example/Input.XLSX", content), *files.items()])
+    folder = sessions.find(client.cookies["roofslip-8765"]).workbook.parent
+    # Without one of its records the package fails early, in words that name its workbook.
+    next((folder / "records").iterdir()).unlink()
+    ticket = client.post("/api/package", json={"values": {}}).json()["ticket"]
+    about = over(client, ticket)
+    assert about["state"] == "failed"
+    assert about["message"].startswith("Motions!")
+
+
+def test_a_package_of_a_workbook_that_is_no_longer_open_is_not_begun(client, monkeypatch):
+    def meanwhile(workbook, folder):
+        client.post("/api/example")
+
+    sent(client, folder_of(EXAMPLE))
+    monkeypatch.setattr("report.web.downloads.copied", meanwhile)
+    answer = client.post("/api/package", json={"values": {}})
+    assert answer.status_code == 422
+    assert answer.json()["error"].startswith("Another workbook was opened meanwhile")
+
+
 def test_a_process_that_is_killed_is_replaced(client, served):
     import os
     import signal
