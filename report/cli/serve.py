@@ -59,6 +59,7 @@ def serve(
 
     Prints the address with its token, and serves until Ctrl+C. Without --host, only this machine
     can reach it. Every visitor has a session, whose files are removed after an hour without use.
+    A reverse proxy must ask for the page under the host and port of the printed address.
     """
     _check_packages()
     if host is not None and token_file is None:

@@ -6,6 +6,7 @@ Computes nothing (`workers`) and admits nobody (`access`). Read `made`.
 from __future__ import annotations
 
 import asyncio
+import errno
 import mimetypes
 import os
 from collections.abc import AsyncIterator, Mapping, Sequence
@@ -89,6 +90,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             StaleError: _stale,
             LostError: _lost,
             HTTPException: _failed,
+            OSError: _not_written,
         },
         lifespan=lifespan,
     )
@@ -163,6 +165,13 @@ async def _stale(_: Request, __: Exception) -> Response:
 
 async def _lost(_: Request, error: Exception) -> Response:
     return _error(str(error) or "The process that computes has ended. Try it again.", 503)
+
+
+async def _not_written(_: Request, error: Exception) -> Response:
+    assert isinstance(error, OSError)
+    if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+        raise error
+    return _error("The disk of the server is full. Make room there, then try it again.", 507)
 
 
 async def _failed(_: Request, error: Exception) -> Response:

@@ -44,9 +44,8 @@ class Desk:
 
     async def clean(self) -> None:
         """End the sessions that are not used, with their packages."""
-        before = {session.id for session in self.sessions.alive}
         self.sessions.end_unused()
-        for name in before - {session.id for session in self.sessions.alive}:
+        for name in self.packages.owners - {session.id for session in self.sessions.alive}:
             await self.packages.forget(name)
 
     async def ask(

@@ -74,6 +74,11 @@ class Packages:
         self._tasks: set[asyncio.Task[None]] = set()
         self._turn = asyncio.Lock()
 
+    @property
+    def owners(self) -> set[str]:
+        """The sessions that have a package."""
+        return {each.owner for each in self._all.values()}
+
     def begin(self, session: Session, workbook: Path) -> Package:
         """Queue the package of a workbook that has a folder of its own, with its records.
 

@@ -1,5 +1,6 @@
 """The routes of the page, without a socket."""
 
+import errno
 import io
 import time
 import zipfile
@@ -102,6 +103,17 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
     assert not first["project"]["is_example"]
     assert first["answer"]["verdict"] == "OK"
     assert client.post("/api/example").json()["project"]["is_example"]
+
+
+def test_a_full_disk_is_said(client, monkeypatch):
+    def full(files, folder):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("report.web.receiving.store", full)
+    answer = sent(client, folder_of(EXAMPLE))
+    assert answer.status_code == 507
+    assert answer.json()["error"].startswith("The disk of the server is full")
+    assert client.get("/api/state").json()["project"]
 
 
 def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_path):
