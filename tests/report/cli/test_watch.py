@@ -3,6 +3,7 @@
 Every process and thread that a test starts is ended by it.
 """
 
+import gc
 import os
 import signal
 import subprocess
@@ -130,6 +131,31 @@ class Watching:
                 self.process.wait(20)
             self.reader.join(5)
             self.process.stdout.close()
+
+
+class Interrupting:
+    """A cycle whose collection has Ctrl+C come within a finalizer, where Python drops it."""
+
+    def __init__(self):
+        self.itself = self
+
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+
+
+class Idle:
+    def submit(self, call):
+        pass
+
+
+def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path):
+    gc.disable()
+    try:
+        Interrupting()
+        with pytest.raises(KeyboardInterrupt):
+            Round(tmp_path, tmp_path, Idle()).sweep()
+    finally:
+        gc.enable()
 
 
 @pytest.mark.slow
