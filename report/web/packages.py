@@ -157,7 +157,8 @@ class Packages:
             env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
         )  # fmt: skip
         try:
-            await asyncio.wait_for(_follow(package, process), LONGEST_S)
+            async with asyncio.timeout(LONGEST_S):
+                await _follow(package, process)
         except TimeoutError:
             package.message = f"It took longer than {LONGEST_S / 60:.0f} minutes and was stopped."
         await _end(process)

@@ -179,7 +179,9 @@ async def _exchange(process: Process, job: Mapping[str, Any]) -> Mapping[str, An
     try:
         process.stdin.write(json.dumps(job).encode() + b"\n")
         await process.stdin.drain()
-        line = await asyncio.wait_for(process.stdout.readline(), LONGEST_S)
+        # Not `wait_for`: it drops a cancellation that comes with the answer.
+        async with asyncio.timeout(LONGEST_S):
+            line = await process.stdout.readline()
     except TimeoutError as error:
         await _ended(process)
         raise LostError(f"This took longer than {LONGEST_S:.0f} s and was stopped.") from error

@@ -51,6 +51,45 @@ def done(number, script):
     return asyncio.run(run())
 
 
+class Answering:
+    """A process without a system, whose answer arrives when a test says."""
+
+    pid, returncode = 1, None
+
+    def __init__(self):
+        self.stdin, self.stdout = self, asyncio.StreamReader()
+
+    def write(self, line):
+        pass
+
+    async def drain(self):
+        pass
+
+    def kill(self):
+        self.returncode = -9
+
+    async def wait(self):
+        pass
+
+
+def test_an_answer_that_comes_with_the_end_does_not_keep_the_processes(monkeypatch):
+    async def run():
+        process, pool = Answering(), Workers(1)
+
+        async def started(self, is_quick):
+            return process
+
+        monkeypatch.setattr(Workers, "_started", started)
+        pool.start({})
+        await asyncio.sleep(0.1)
+        process.stdout.feed_data(b"{}\n")
+        async with asyncio.timeout(5.0):
+            await pool.stop()
+        return process.returncode
+
+    assert asyncio.run(run()) == -9
+
+
 def ask(pool, name, rank=Rank.AT_REST, key="p", number=1, **job):
     place = Place((key, "assess"), number)
     return asyncio.create_task(pool.ask({"name": name, **job}, rank, place))
