@@ -18,6 +18,8 @@ FIELD = "Seal and signature of the engineer"
 """Name of the signature field."""
 
 _PT_PER_PX = 0.75
+_LEVEL = 3
+"""Of compression: level 6 takes three times as long for a file that is 7 % smaller."""
 
 # Readers of PDF/A accept properties beyond their own only with this description (ISO 19005-3,
 # 6.6.2.3.3); PDF/UA-1 (ISO 14289-1, 5) asks for the property.
@@ -106,7 +108,7 @@ def _compress(pdf: Any) -> None:
 
     for item in pdf.objects:
         if isinstance(item, Stream) and item.compress:
-            item.stream = [zlib.compress(b"\n".join(map(_to_bytes, item.stream)))]
+            item.stream = [zlib.compress(b"\n".join(map(_to_bytes, item.stream)), _LEVEL)]
             item.extra["Filter"] = "/FlateDecode"
             item.compress = False
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -92,15 +91,6 @@ class TwoAxesOutcome:
     step_tolerance: float
 
 
-class TwoAxesEvent(NamedTuple):
-    """Slip begins or ends: time [s], kind, displacement in plan [m]."""
-
-    t_s: float
-    kind: EventKind
-    x_m: float
-    y_m: float
-
-
 def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
     """Slide a checked scene in two axes, to a tolerance relative to the PRD."""
     n_min_g, t_uplift = least_normal(prepared(scene))
@@ -141,8 +131,7 @@ def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHist
         motion = follow(_with_second_axis(scene), tolerance)
         result = _result(motion, n_min_g)
         if motion.status is Status.OK:
-            samples, plane_events = follow_history(_with_second_axis(scene), motion)
-            events = tuple(Event(t, kind, x, y) for t, kind, x, y in plane_events)
+            samples, events = follow_history(_with_second_axis(scene), motion)
     return SlideHistory(
         t_s=sample_times(scene),
         u_m=samples[0],
@@ -182,9 +171,7 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
     return replace(finer, error_m=2.0 * float(np.abs(changes).max()))
 
 
-def follow_history(
-    scene: Scene, outcome: TwoAxesOutcome
-) -> tuple[Floats, tuple[TwoAxesEvent, ...]]:
+def follow_history(scene: Scene, outcome: TwoAxesOutcome) -> tuple[Floats, tuple[Event, ...]]:
     """Return x, y and their rates at the samples, shape (4, n) [m], [m/s], and the events.
 
     Parameters
@@ -196,15 +183,8 @@ def follow_history(
     _run(scene, outcome.step_tolerance, events, samples)
     cs = math.cos(scene.slope_rad)
     samples[0::2] *= cs
-    return samples, tuple(
-        TwoAxesEvent(
-            t_s=t,
-            kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP,
-            x_m=cs * sx,
-            y_m=sy,
-        )
-        for t, kind, sx, sy in events.tolist()
-    )
+    kinds = {kernel.SLIP: EventKind.SLIP, kernel.STOP: EventKind.STOP}
+    return samples, tuple(Event(t, kinds[kind], cs * sx, sy) for t, kind, sx, sy in events.tolist())
 
 
 def _bounded(scene: Scene, tolerance: float) -> TwoAxesOutcome:

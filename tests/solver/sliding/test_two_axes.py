@@ -153,7 +153,9 @@ def test_under_a_constant_drive_across_it_stops_as_the_closed_form_says():
     cosine, sine = vy / w, vx / w
     ahead = w * w * (drive * (1.0 + cosine**2) + 2.0 * c * cosine) / (4.0 * (c * c - drive**2))
     aside = w * w * sine * (2.0 * c + drive * cosine) / (4.0 * c * c - drive**2)
-    assert (stop.x_m, stop.y_m) == pytest.approx((x + aside, y + ahead), abs=1e-10 * outcome.prd_m)
+    assert (stop.u_m, stop.across_m) == pytest.approx(
+        (x + aside, y + ahead), abs=1e-10 * outcome.prd_m
+    )
 
 
 def test_without_friction_it_is_the_record_summed_twice():
