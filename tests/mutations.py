@@ -16,7 +16,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from openpyxl.utils import coordinate_to_tuple
 
 from places import DATA
 from report.cli.check import checked
@@ -206,6 +205,8 @@ def _inputs():
     folder = Path(_folder().name) / "book"
     path = make(folder)
     cells = [address.rpartition("!") for address in read(path).addresses.values()]
+    from openpyxl.utils import coordinate_to_tuple  # `report` is loaded before it
+
     at = [(sheet, *coordinate_to_tuple(cell)) for sheet, _, cell in cells]
     return path, path.read_bytes(), tuple(CellPosition(*place) for place in at)
 

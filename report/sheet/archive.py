@@ -227,7 +227,7 @@ def _tree(archive: zipfile.ZipFile, name: str) -> Any:
 
 def _load(data: bytes) -> Workbook:
     if LXML or not DEFUSEDXML:
-        raise DefectError("openpyxl does not read through defusedxml")
+        raise DefectError("openpyxl was loaded before report, and reads through lxml")
     try:
         with warnings.catch_warnings():
             # It warns about features that it drops, none of which is an input.
