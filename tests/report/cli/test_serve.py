@@ -15,7 +15,7 @@ from click.testing import CliRunner
 
 from places import ROOT
 from report.cli.main import main
-from report.cli.serve import _names
+from report.cli.serve import _listening, _names
 
 WAIT_S = 120.0
 TOKEN = "a-token-of-twenty-letters"
@@ -104,3 +104,13 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path):
     )
     assert server.returncode == 0
     assert not list(tmp_path.glob("roofslip-serve-*"))
+
+
+def test_a_short_answer_is_sent_at_once():
+    """Otherwise its body waits 40 ms for the acknowledgment of its head."""
+    with (
+        _listening("127.0.0.1", 0) as listening,
+        socket.create_connection(listening.getsockname()),
+        listening.accept()[0] as accepted,
+    ):
+        assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
