@@ -74,6 +74,7 @@ class Workers:
         self._orders = count()
         self._tasks: list[asyncio.Task[None]] = []
         self._processes: set[Process] = set()
+        self._warmed = asyncio.Event()
 
     @property
     def pids(self) -> list[int]:
@@ -118,6 +119,10 @@ class Workers:
         """Keep one process, and give it one job after the other; quick ones alone, or any."""
         process: Process | None = None
         try:
+            if is_quick:
+                await (
+                    self._warmed.wait()
+                )  # the first answer comes sooner from one that starts alone
             while True:
                 if process is None or process.returncode is not None:
                     process = await self._started(is_quick)
@@ -125,6 +130,7 @@ class Workers:
                         await _exchange(process, warm)
                     except LostError:
                         await asyncio.sleep(_PAUSE_S)
+                    self._warmed.set()
                     continue
                 waiting = await self._next(is_quick)
                 await self._answer(process, waiting)

@@ -143,6 +143,22 @@ def test_quick_jobs_go_first_and_equal_ones_in_order():
     assert done(1, script) == [3, 4, 2, 1, 0]
 
 
+def test_the_process_kept_free_starts_once_another_has_its_first_answer():
+    async def run():
+        pool = Workers(2)
+        pool.start({"seconds": 0.5})
+        try:
+            await asyncio.sleep(0.2)
+            alone = len(pool.pids)
+            await ask(pool, "after it")
+            await asyncio.sleep(0.1)
+            return alone, len(pool.pids)
+        finally:
+            await pool.stop()
+
+    assert asyncio.run(run()) == (1, 2)
+
+
 def test_one_process_stays_free_for_sliders_that_move():
     async def script(pool):
         ranks = (Rank.READ, Rank.AT_REST, Rank.VIEW)
