@@ -15,7 +15,8 @@ import { mountUpload } from "./upload.js";
 import { createViews } from "./views.js";
 
 const ENDED = 401; // the session
-const CORRECT = "Correct these cells in the workbook, save it, and open it again with its records.";
+const CORRECT =
+  "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
 
 const part = (id) => document.getElementById(id);
 const announce = (sentence) => {
