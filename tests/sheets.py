@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -12,8 +12,11 @@ from tempfile import TemporaryDirectory
 
 import pytest
 from openpyxl import Workbook, load_workbook
+from openpyxl.utils import coordinate_to_tuple
 
 from report.motions.prepare import Shaking, prepare
+from report.sheet.locate import CellPosition
+from report.sheet.parts import changed
 from report.sheet.read import Sheet, read
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.template import write_template
@@ -158,18 +161,15 @@ def make(folder: Path, units: UnitsFirst = UnitsFirst.US, **changes: object) -> 
         text = "".join(f"{sample:.6f}\n" for sample in samples)
         (records / f"{name}.csv").write_text(text)
     path = folder / "input.xlsx"
-    if changes:
-        write_template(path, units=units, example=project(**changes))
-    else:
-        path.write_bytes(_sample(units))
+    path.write_bytes(_book(units, project(**changes)))
     return path
 
 
 @cache
-def _sample(units: UnitsFirst) -> bytes:
+def _book(units: UnitsFirst, example: ProjectInput) -> bytes:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "input.xlsx"
-        write_template(path, units=units, example=project())
+        write_template(path, units=units, example=example)
         return path.read_bytes()
 
 
@@ -179,6 +179,36 @@ def edit(path: Path, change: Callable[[Workbook], object]) -> Path:
     change(book)
     book.save(path)
     return path
+
+
+def type_into(path: Path, cells: Mapping[str, object]) -> Path:
+    """Type values into cells, given as `Sheet!A1`, in place.
+
+    Plain values change in the parts of the file, which takes a tenth of a load and save.
+    """
+    if not all(map(_is_plain, cells.values())):
+        return edit(path, lambda book: _type(book, cells))
+    changes = {_position(address): value for address, value in cells.items()}
+    path.write_bytes(changed(path.read_bytes(), changes))  # type: ignore[arg-type]
+    return path
+
+
+def _position(address: str) -> CellPosition:
+    sheet, cell = address.split("!")
+    return CellPosition(sheet, *coordinate_to_tuple(cell))
+
+
+def _type(book: Workbook, cells: Mapping[str, object]) -> None:
+    for address, value in cells.items():
+        sheet, cell = address.split("!")
+        book[sheet][cell] = value
+
+
+def _is_plain(value: object) -> bool:
+    """Whether a value is a blank, a number or a text that Excel stores as it is typed."""
+    if isinstance(value, str):
+        return not value.startswith(("=", "#"))
+    return value is None or type(value) in (int, float)
 
 
 def problems(path: Path) -> tuple[str, ...]:

@@ -3,9 +3,8 @@
 import datetime as dt
 
 import pytest
-from openpyxl import Workbook
 
-from sheets import edit, make, problems, read_workbook
+from sheets import edit, make, problems, read_workbook, type_into
 
 # Sheet, cell, its content, and the resulting line.
 SINGLE_CELLS = [
@@ -134,7 +133,7 @@ SINGLE_CELLS = [
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(
     tmp_path, sheet, cell, value, line
 ):
-    path = edit(make(tmp_path), lambda book: book[sheet].__setitem__(cell, value))
+    path = type_into(make(tmp_path), {f"{sheet}!{cell}": value})
     assert f"{sheet}!{cell}: {line.replace('A{40}', 'A' * 41)}" in problems(path)
 
 
@@ -383,20 +382,11 @@ CONTRADICTIONS = [
 
 @pytest.mark.parametrize(("changes", "lines"), CONTRADICTIONS)
 def test_inconsistencies_are_reported_at_the_cell_to_change(tmp_path, changes, lines):
-    assert list(problems(edit(make(tmp_path), typed(changes)))) == lines
-
-
-def typed(changes):
-    def change(book: Workbook) -> None:
-        for address, value in changes.items():
-            sheet, cell = address.split("!")
-            book[sheet][cell] = value
-
-    return change
+    assert list(problems(type_into(make(tmp_path), changes))) == lines
 
 
 def test_an_unknown_provision_is_reported_with_the_valid_ones(tmp_path):
-    path = edit(make(tmp_path), typed({"Options!B35": "parapet"}))
+    path = type_into(make(tmp_path), {"Options!B35": "parapet"})
     (line,) = problems(path)
     assert line.startswith("Options!B35: provision is 'parapet'; choose one of prescriptive_fac")
 
@@ -411,7 +401,7 @@ def test_all_errors_are_reported_together_in_the_order_of_the_sheets(tmp_path):
         "Clearances!E10": 61,
         "Objects!D8": "tall",
     }
-    addresses = [line.split(": ")[0] for line in problems(edit(make(tmp_path), typed(changes)))]
+    addresses = [line.split(": ")[0] for line in problems(type_into(make(tmp_path), changes))]
     assert addresses == [
         "Project!B5",
         "Site!B14",
@@ -443,12 +433,12 @@ def test_at_least_one_row_is_required(tmp_path, key, noun):
 
 
 def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent(tmp_path):
-    changes = typed({"Clearances!E10": 60.49, "Clearances!E8": 121.19, "Clearances!E11": 4000})
-    assert read_workbook(edit(make(tmp_path), changes)).input.clearances
+    changes = {"Clearances!E10": 60.49, "Clearances!E8": 121.19, "Clearances!E11": 4000}
+    assert read_workbook(type_into(make(tmp_path), changes)).input.clearances
 
 
 def test_a_clearance_to_an_array_with_an_unreadable_plan_is_not_checked(tmp_path):
-    assert problems(edit(make(tmp_path), typed({"Arrays!L9": "abc"}))) == (
+    assert problems(type_into(make(tmp_path), {"Arrays!L9": "abc"})) == (
         "Arrays!L9: x to is 'abc'; give a number [ft]",
     )
 
@@ -473,7 +463,7 @@ def test_a_missing_single_field_is_reported_by_name_and_label(tmp_path):
 
 
 def test_a_missing_heading_is_reported(tmp_path):
-    path = edit(make(tmp_path), typed({"Arrays!E7": "Grip"}))
+    path = type_into(make(tmp_path), {"Arrays!E7": "Grip"})
     assert problems(path) == (
         "Arrays!E7: heading 'Friction coefficient' is missing, 'Grip' found; write it here in its"
         " own column, or copy it from a fresh workbook (roofslip new)",
@@ -495,7 +485,7 @@ def test_an_optional_column_may_be_deleted(tmp_path):
 
 
 def test_a_renamed_optional_column_is_reported_not_ignored(tmp_path):
-    path = edit(make(tmp_path), typed({"Motions!E7": "Vertical file"}))
+    path = type_into(make(tmp_path), {"Motions!E7": "Vertical file"})
     assert problems(path) == (
         "Motions!E7: heading 'Vertical record' is missing, 'Vertical file' found; write it here in"
         " its own column, or copy it from a fresh workbook (roofslip new)",
@@ -503,7 +493,7 @@ def test_a_renamed_optional_column_is_reported_not_ignored(tmp_path):
 
 
 def test_a_duplicate_heading_is_reported(tmp_path):
-    path = edit(make(tmp_path), typed({"Arrays!T7": "Slope"}))
+    path = type_into(make(tmp_path), {"Arrays!T7": "Slope"})
     assert problems(path) == ("Arrays!T7: heading 'Slope' appears twice; keep one",)
 
 
@@ -518,12 +508,12 @@ def test_a_duplicate_heading_is_reported(tmp_path):
     ],
 )
 def test_a_heading_must_have_a_valid_unit(tmp_path, cell, heading, line):
-    (problem,) = problems(edit(make(tmp_path), typed({f"Arrays!{cell}": heading})))
+    (problem,) = problems(type_into(make(tmp_path), {f"Arrays!{cell}": heading}))
     assert problem.startswith(f"Arrays!{cell}: {line}")
 
 
 def test_the_unit_of_a_single_field_must_be_valid(tmp_path):
-    assert problems(edit(make(tmp_path), typed({"Site!C16": "yd", "Site!C17": None}))) == (
+    assert problems(type_into(make(tmp_path), {"Site!C16": "yd", "Site!C17": None})) == (
         "Site!C16: unit of structure height h is 'yd'; write one of in, ft, mm, cm, m",
         "Site!C17: unit of height of the array z is missing; write one of in, ft, mm, cm, m",
     )

@@ -7,7 +7,7 @@ from openpyxl import load_workbook
 
 from report.sheet.grids import BLOCK_WIDTHS
 from report.sheet.schema import FrictionTests, UnitsFirst
-from sheets import INCH, edit, make, problems, project, read_workbook
+from sheets import INCH, edit, make, problems, project, read_workbook, type_into
 
 SHEET = "Friction tests"
 REPORT = {
@@ -88,7 +88,7 @@ CELLS = [
 
 @pytest.mark.parametrize(("cell", "value", "line"), CELLS)
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
-    reported = problems(edit(path, lambda book: book[SHEET].__setitem__(cell, value)))
+    reported = problems(type_into(path, {f"{SHEET}!{cell}": value}))
     assert any(problem.startswith(f"{SHEET}!{cell}: {line}") for problem in reported), reported
     assert len(reported) == 1
 
@@ -100,7 +100,7 @@ def test_a_coefficient_above_the_smaller_mean_is_reported_with_both_cells(tmp_pa
         f" {SHEET}!D{TOP + 3}); give 0.46 or less"
     )
     assert problems(path) == (line,)
-    assert read_workbook(edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.46))).input
+    assert read_workbook(type_into(path, {"Arrays!E8": 0.46})).input
 
 
 @pytest.mark.parametrize(("mu", "is_accepted"), [(0.4649, True), (0.4651, False)])
@@ -153,5 +153,5 @@ def test_static_friction_above_the_tested_mean_is_reported(tmp_path):
 
 def test_coefficients_are_not_compared_while_a_run_cannot_be_read(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.50), friction_runs=runs())
-    (line,) = problems(edit(path, lambda book: book[SHEET].__setitem__(f"D{TOP}", "x")))
+    (line,) = problems(type_into(path, {f"{SHEET}!D{TOP}": "x"}))
     assert line.startswith(f"{SHEET}!D{TOP}: kinetic coefficient is 'x'")

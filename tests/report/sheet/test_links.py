@@ -7,7 +7,7 @@ from openpyxl import load_workbook
 from pydantic import ValidationError
 
 from report.sheet.schema import Links, UnitsFirst, coefficients
-from sheets import INCH, LB, edit, make, problems, project, read_workbook
+from sheets import INCH, LB, edit, make, problems, project, read_workbook, type_into
 from solver.sliding.row import MOST_STEPS, least_steps
 
 G = 9.80665
@@ -75,7 +75,7 @@ NO_LISTS = [
 def test_text_that_is_not_a_list_of_coefficients_is_reported(tmp_path, text):
     assert coefficients(text) == ()
     path = make(tmp_path, links=[links(), links("A2")])
-    edit(path, lambda book: book["Links"].__setitem__("C9", text))
+    type_into(path, {"Links!C9": text})
     assert problems(path) == (f"Links!C9: block friction is '{text}'; {WANTED}",)
     with pytest.raises(ValidationError, match="2 to 20 blocks"):
         Links(**links(friction=text))
@@ -114,16 +114,13 @@ CELLS = [
 
 @pytest.mark.parametrize(("cell", "value", "line"), CELLS)
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
-    reported = problems(edit(path, lambda book: book["Links"].__setitem__(cell, value)))
+    reported = problems(type_into(path, {f"Links!{cell}": value}))
     assert any(problem.startswith(f"Links!{cell}: {line}") for problem in reported), reported
 
 
 def test_all_errors_are_reported_together(path):
-    def change(book):
-        for cell, value in (("B8", "A7"), ("C8", "0.4"), ("E9", 2)):
-            book["Links"][cell] = value
-
-    assert [line.split(":")[0] for line in problems(edit(path, change))] == [
+    wrong = {"Links!B8": "A7", "Links!C8": "0.4", "Links!E9": 2}
+    assert [line.split(":")[0] for line in problems(type_into(path, wrong))] == [
         "Links!B8", "Links!C8", "Links!E9",
     ]  # fmt: skip
 
@@ -154,7 +151,7 @@ def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted
     assert second.startswith("Links!D9: link stiffness is 4e+12 lb/in")
     for cell, line in (("D8", first), ("D9", second)):
         most = float(line.split("give ")[1].split(" lb/in")[0])
-        edit(path, lambda book, cell=cell, most=most: book["Links"].__setitem__(cell, most))
+        type_into(path, {f"Links!{cell}": most})
     book = read_workbook(path)
     seconds = sum(len(m.headings) * m.dt_s * len(m.ax_mps2) for m in book.motions)
     for row in book.input.links:

@@ -6,7 +6,7 @@ from openpyxl import load_workbook
 from report.sheet.read import read
 from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
 from report.sheet.template import write_template
-from sheets import FT, edit, make, problems, project, read_workbook, same
+from sheets import FT, edit, make, problems, project, read_workbook, same, type_into
 
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))
 ROOF_FT = ((0, -1), (300, -1), (300, 121), (150, 121), (150, 140), (0, 140))
@@ -61,18 +61,14 @@ def test_the_blank_sheet_asks_for_sides_or_an_outline(tmp_path):
     assert "required, or an outline" in hints
 
 
-def changed(tmp_path, change, **more):
-    """The problems of a workbook with an outline of A1 in B7:D13, after a change to the sheet."""
-    path = make(tmp_path, **outlined(**more))
-    return problems(edit(path, lambda book: change(book["Outlines"])))
+def changed(tmp_path, cells):
+    """The problems of a workbook with an outline of A1 in B7:D13, after cells of it are typed."""
+    path = make(tmp_path, **outlined())
+    return problems(type_into(path, {f"Outlines!{cell}": value for cell, value in cells.items()}))
 
 
 def test_an_unknown_name_is_told_by_its_cell(tmp_path):
-    def change(sheet):
-        for row in range(8, 14):
-            sheet[f"B{row}"] = "A11"
-
-    found = changed(tmp_path, change)
+    found = changed(tmp_path, {f"B{row}": "A11" for row in range(8, 14)})
     assert found[-1] == (
         "Outlines!B8: outline of 'A11', which is not in Arrays or Objects; did you mean 'A1'?"
     )
@@ -83,45 +79,29 @@ def test_an_unknown_name_is_told_by_its_cell(tmp_path):
 
 
 def test_two_vertices_are_no_outline(tmp_path):
-    path = make(tmp_path, **outlined())
-
-    def change(book):
-        for row in range(10, 14):
-            for column in "BCD":
-                book["Outlines"][f"{column}{row}"] = None
-
-    assert problems(edit(path, change)) == (
+    blank = {f"{column}{row}": None for column in "BCD" for row in range(10, 14)}
+    assert changed(tmp_path, blank) == (
         "Outlines!B8: A1 has 2 vertices; give at least 3, one to a row",
     )
 
 
 def test_an_outline_that_crosses_itself_is_told_with_the_point(tmp_path):
-    def change(sheet):
-        sheet["C9"], sheet["D9"] = 30, 90  # across the upper side
-
-    (found,) = changed(tmp_path, change)
+    (found,) = changed(tmp_path, {"C9": 30, "D9": 90})  # across the upper side
     assert found.startswith("Outlines!B8: outline of A1 touches or crosses itself near x ")
     assert found.endswith("; give its vertices in order, none of them twice")
 
 
 @pytest.mark.parametrize("typed", ["abc", "inf", "nan", None])
 def test_a_coordinate_that_is_no_number_is_told_by_its_cell(tmp_path, typed):
-    def change(sheet):
-        sheet["D9"] = typed
-
-    (found,) = changed(tmp_path, change)
+    (found,) = changed(tmp_path, {"D9": typed})
     assert found.startswith("Outlines!D9: y is ")
     assert found.endswith("; give a number [ft]")
 
 
 def test_an_outline_in_two_places_is_refused(tmp_path):
-    def change(sheet):
-        sheet["B11"] = "A2"
-
-    found = changed(tmp_path, change)
     assert (
         "Outlines!B12: outline of 'A1' goes on here after Outlines!B10; put all of its rows"
-        " together" in found
+        " together" in changed(tmp_path, {"B11": "A2"})
     )
 
 
