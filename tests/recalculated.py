@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import re
 import shutil
 import subprocess
+from functools import cache
 from pathlib import Path
+from tempfile import mkdtemp
 
 import pytest
 from openpyxl import Workbook, load_workbook
@@ -52,17 +55,25 @@ def _convert(paths: list[Path], folder: Path, kind: str) -> Path:
     if soffice is None:
         pytest.skip("LibreOffice is not installed: sudo apt-get install libreoffice-calc")
     out = folder / "recalculated"
-    # A profile of its own: two runs with one profile wait for each other.
-    profile = f"-env:UserInstallation=file://{folder / 'profile'}"
+    home = _home()
+    profile = f"-env:UserInstallation=file://{home / 'profile'}"
     done = subprocess.run(
         [soffice, profile, "--headless", "--convert-to", kind, "--outdir", out, *paths],
         capture_output=True,
         timeout=SECONDS,
         check=False,
-        env=os.environ | {"HOME": str(folder)},
+        env=os.environ | {"HOME": str(home)},
     )
     assert out.is_dir(), done.stderr.decode()
     return out
+
+
+@cache
+def _home() -> Path:
+    """Return the folder of LibreOffice's profile; of this process: two starts with one wait."""
+    folder = mkdtemp()
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder)
 
 
 def _rows(text: str) -> list[list[Cell]]:

@@ -14,7 +14,7 @@ from report.sheet.marks import AMBER, VIOLET
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template
-from sheets import edit, make, project, same
+from sheets import edit, make, project, same, type_into
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 # Of Excel 2007 and later, and ISFORMULA of 2013, which is written with this prefix.
@@ -117,85 +117,50 @@ def half_filled(book):
     book["Options"]["B6"] = "Yes"
 
 
-def test_a_half_filled_sheet_counts_what_is_missing(tmp_path):
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    (book,) = recalculated([edit(path, half_filled)], tmp_path)
-    said = {sheet.title: sheet["A3"].value for sheet in book.worksheets[1:-2]}
-    assert said["Project"] == "4 cells missing"  # number, prepared by, date, revision
-    assert said["Arrays"] == "8 cells missing"  # weight, CG, spacing, four sides, downslope
-    assert book["Arrays"]["A8"].value == 8
-    assert book["Arrays"]["A9"].value is None
-    assert [book["Objects"][f"A{row}"].value for row in (8, 9)] == [1, 3]  # height; three sides
-    assert said["Objects"] == "4 cells missing"
-    assert said["Motions"] == "1 cell missing"  # the PPA
-    assert said["Options"] == "3 cells missing"  # of the peer review
-    assert said["Clearances"] == said["Links"] == "No cells missing"
+def other_choices(book):
+    objects, site = book["Objects"], book["Site"]
+    for row, kind in ((8, "chimney"), (9, "Fixed object "), (10, "edge with parapet")):
+        objects[f"B{row}"], objects[f"C{row}"] = f"O{row}", kind
+    site["B5"], site["B6"] = "ASCE 7-10", "II"
 
 
-def test_a_choice_that_is_none_of_the_list_is_no_complete_row(tmp_path):
-    def mistype(book):
-        objects, site = book["Objects"], book["Site"]
-        for row, kind in ((8, "chimney"), (9, "Fixed object "), (10, "edge with parapet")):
-            objects[f"B{row}"], objects[f"C{row}"] = f"O{row}", kind
-        site["B5"], site["B6"] = "ASCE 7-10", "II"
-
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    (book,) = recalculated([edit(path, mistype)], tmp_path)
-    status = [book["Objects"][f"A{row}"].value for row in (8, 9, 10)]
-    assert status == [-1, 0, 1]  # one wrong; capitals and blanks do not matter; no height
-    assert book["Objects"]["A3"].value == "2 cells missing or wrong"
-    assert book["Site"]["A3"].value == "7 cells missing or wrong"
-    assert book["Project"]["A3"].value == "5 cells missing"
+def inserted_row(book):
+    for row, name in ((8, "A"), (9, "B")):
+        for letter, value in zip("BCD", (name, "fixed object", 40), strict=True):
+            book["Objects"][f"{letter}{row}"] = value
+    book["Objects"]["A9"] = None
 
 
-def test_an_inserted_row_without_formulas_counts_as_wrong(tmp_path):
-    def insert(book):
-        for row, name in ((8, "A"), (9, "B")):
-            for letter, value in zip("BCD", (name, "fixed object", 40), strict=True):
-                book["Objects"][f"{letter}{row}"] = value
-        book["Objects"]["A9"] = None
-
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    (book,) = recalculated([edit(path, insert)], tmp_path)
-    assert book["Objects"]["A3"].value == "1 cell missing or wrong"
+def pasted_column(book):
+    book["Motions"]["B8"], book["Motions"]["C8"] = "M1", "Records!East"
+    book["Motions"]["B9"], book["Motions"]["C9"] = "M2", "records/m2.csv"
 
 
-def test_a_pasted_column_needs_its_units_and_time_step(tmp_path):
-    def paste(book):
-        book["Motions"]["B8"], book["Motions"]["C8"] = "M1", "Records!East"
-        book["Motions"]["B9"], book["Motions"]["C9"] = "M2", "records/m2.csv"
-
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    (book,) = recalculated([edit(path, paste)], tmp_path)
-    assert [book["Motions"][f"A{row}"].value for row in (8, 9)] == [2, 0]
-
-
-def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(tmp_path):
+def mistyped_names(book):
     """The rules are computed in cells of their own."""
+    arrays, clearances = book["Arrays"], book["Clearances"]
+    for row, name in ((8, "A1"), (9, "A2"), (10, "A1 ")):
+        arrays[f"B{row}"] = name
+        twice = rule_of(arrays, "B8", AMBER)
+        arrays[f"AZ{row}"] = "=" + re.sub(r"\$B8\b", f"$B{row}", twice)
+    for row, (array, other) in enumerate((("A2", "A1"), ("A2", "RTU1"), ("A9", "A1")), start=8):
+        clearances[f"B{row}"], clearances[f"C{row}"] = array, other
+        for cell, of in (("AY", "B"), ("AZ", "C")):
+            unknown = rule_of(clearances, f"{of}8", AMBER)
+            clearances[f"{cell}{row}"] = "=" + unknown.replace("8", str(row))
 
-    def mistype(book):
-        arrays, clearances = book["Arrays"], book["Clearances"]
-        for row, name in ((8, "A1"), (9, "A2"), (10, "A1 ")):
-            arrays[f"B{row}"] = name
-            twice = rule_of(arrays, "B8", AMBER)
-            arrays[f"AZ{row}"] = "=" + re.sub(r"\$B8\b", f"$B{row}", twice)
-        for row, (array, other) in enumerate((("A2", "A1"), ("A2", "RTU1"), ("A9", "A1")), start=8):
-            clearances[f"B{row}"], clearances[f"C{row}"] = array, other
-            for cell, of in (("AY", "B"), ("AZ", "C")):
-                unknown = rule_of(clearances, f"{of}8", AMBER)
-                clearances[f"{cell}{row}"] = "=" + unknown.replace("8", str(row))
 
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    (book,) = recalculated([edit(path, mistype)], tmp_path)
-    found = [bool(book["Arrays"][f"AZ{row}"].value) for row in (8, 9, 10)]
-    assert found == [True, False, True]
-    found = [[bool(book["Clearances"][f"{c}{r}"].value) for c in ("AY", "AZ")] for r in (8, 9, 10)]
-    assert found == [[False, False], [False, True], [True, False]]
+def typed_over(book):
+    """The rules of three cells are computed in cells of their own."""
+    arrays, site = book["Arrays"], book["Site"]
+    typed = rule_of(arrays, "R8", VIOLET)
+    for row, name in ((8, "A1"), (9, "A2"), (10, "A3")):
+        arrays[f"B{row}"] = name
+        arrays[f"AZ{row}"] = "=" + typed.replace("8", str(row))
+    arrays["R8"], arrays["R9"] = 3.5, None
+    site["D13"] = 1.5
+    for cell, of in (("H13", "D13"), ("H14", "D14")):
+        site[cell] = "=" + rule_of(site, of, VIOLET)
 
 
 def rule_of(sheet, cell, color):
@@ -209,36 +174,100 @@ def rule_of(sheet, cell, color):
     )
 
 
-def test_a_computed_cell_that_was_typed_over_turns_violet(tmp_path):
-    """The rules of three cells are computed in cells of their own."""
+CHANGES = (
+    half_filled, other_choices, inserted_row, pasted_column, mistyped_names, typed_over,
+)  # fmt: skip
 
-    def spoil(book):
-        arrays, site = book["Arrays"], book["Site"]
-        typed = rule_of(arrays, "R8", VIOLET)
-        for row, name in ((8, "A1"), (9, "A2"), (10, "A3")):
-            arrays[f"B{row}"] = name
-            arrays[f"AZ{row}"] = "=" + typed.replace("8", str(row))
-        arrays["R8"], arrays["R9"] = 3.5, None
-        site["D13"] = 1.5
-        for cell, of in (("H13", "D13"), ("H14", "D14")):
-            site[cell] = "=" + rule_of(site, of, VIOLET)
 
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    (book,) = recalculated([edit(path, spoil)], tmp_path)
+@pytest.fixture(scope="module")
+def computed(tmp_path_factory):
+    """Blank workbooks after each change, and one without, as LibreOffice computes them at once."""
+    folder = tmp_path_factory.mktemp("computed")
+    blank = folder / "blank.xlsx"
+    write_template(blank, units=UnitsFirst.US)
+    paths = [folder / f"{change.__name__}.xlsx" for change in CHANGES]
+    for path, change in zip(paths, CHANGES, strict=True):
+        path.write_bytes(blank.read_bytes())
+        edit(path, change)
+    metric = folder / "metric.xlsx"
+    write_template(metric, units=UnitsFirst.SI)
+    books = recalculated([*paths, metric], folder)
+    return dict(zip([*CHANGES, None], books, strict=True))
+
+
+def test_a_half_filled_sheet_counts_what_is_missing(computed):
+    book = computed[half_filled]
+    said = {sheet.title: sheet["A3"].value for sheet in book.worksheets[1:-2]}
+    assert said["Project"] == "4 cells missing"  # number, prepared by, date, revision
+    assert said["Arrays"] == "8 cells missing"  # weight, CG, spacing, four sides, downslope
+    assert book["Arrays"]["A8"].value == 8
+    assert book["Arrays"]["A9"].value is None
+    assert [book["Objects"][f"A{row}"].value for row in (8, 9)] == [1, 3]  # height; three sides
+    assert said["Objects"] == "4 cells missing"
+    assert said["Motions"] == "1 cell missing"  # the PPA
+    assert said["Options"] == "3 cells missing"  # of the peer review
+    assert said["Clearances"] == said["Links"] == "No cells missing"
+
+
+def test_a_choice_that_is_none_of_the_list_is_no_complete_row(computed):
+    book = computed[other_choices]
+    status = [book["Objects"][f"A{row}"].value for row in (8, 9, 10)]
+    assert status == [-1, 0, 1]  # one wrong; capitals and blanks do not matter; no height
+    assert book["Objects"]["A3"].value == "2 cells missing or wrong"
+    assert book["Site"]["A3"].value == "7 cells missing or wrong"
+    assert book["Project"]["A3"].value == "5 cells missing"
+
+
+def test_an_inserted_row_without_formulas_counts_as_wrong(computed):
+    assert computed[inserted_row]["Objects"]["A3"].value == "1 cell missing or wrong"
+
+
+def test_a_pasted_column_needs_its_units_and_time_step(computed):
+    motions = computed[pasted_column]["Motions"]
+    assert [motions[f"A{row}"].value for row in (8, 9)] == [2, 0]
+
+
+def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(computed):
+    book = computed[mistyped_names]
+    found = [bool(book["Arrays"][f"AZ{row}"].value) for row in (8, 9, 10)]
+    assert found == [True, False, True]
+    found = [[bool(book["Clearances"][f"{c}{r}"].value) for c in ("AY", "AZ")] for r in (8, 9, 10)]
+    assert found == [[False, False], [False, True], [True, False]]
+
+
+def test_a_computed_cell_that_was_typed_over_turns_violet(computed):
+    book = computed[typed_over]
     found = [bool(book["Arrays"][f"AZ{row}"].value) for row in (8, 9, 10)]
     assert found == [True, True, False]  # typed over, blank, as it should be
     assert [bool(book["Site"][cell].value) for cell in ("H13", "H14")] == [True, False]
 
 
-def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path):
+def test_a_blank_sheet_asks_for_arrays_and_motions(computed):
+    book = computed[None]
+    for title in ("Arrays", "Motions"):
+        assert book[title]["A3"].value == "Fill in at least one row"
+    assert book["Site"]["A3"].value == "8 cells missing"  # seven, and a value for S_DS
+
+
+@pytest.fixture(scope="module")
+def printed(tmp_path_factory):
+    """The text of each page of a blank workbook and of one with an array, printed at once."""
+    folder = tmp_path_factory.mktemp("printed")
+    blank, many_missing = folder / "blank.xlsx", folder / "many missing.xlsx"
+    write_template(blank, units=UnitsFirst.US)
+    many_missing.write_bytes(blank.read_bytes())
+    type_into(many_missing, {"Arrays!B8": "A1"})
+    files = converted([blank, many_missing], folder, "pdf")
+    return {path.stem: [page.extract_text() for page in PdfReader(path).pages] for path in files}
+
+
+def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path, printed):
     path = tmp_path / "input.xlsx"
     write_template(path, units=UnitsFirst.US)
     book = load_workbook(path)
     assert [s.title for s in book if s.page_setup.fitToWidth == 2] == ["Arrays"]
     assert book["Arrays"].print_title_cols == "$A:$B"
-    (printed,) = converted([path], tmp_path, "pdf")
-    pages = [page.extract_text() for page in PdfReader(printed).pages]
+    pages = printed["blank"]
     start = [text for text in pages if "Roofslip input workbook" in text]
     assert len(start) == 1
     assert "Macros are not" in start[0]  # the last note
@@ -247,37 +276,20 @@ def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path):
     assert all("Status" in text and "ID" in text for text in arrays)
 
 
-def test_the_count_of_missing_cells_fits_its_column_in_print(tmp_path):
-    def many_missing(book):
-        book["Arrays"]["B8"] = "A1"
-
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    (printed,) = converted([edit(path, many_missing)], tmp_path, "pdf")
-    text = "".join(page.extract_text() for page in PdfReader(printed).pages)
+def test_the_count_of_missing_cells_fits_its_column_in_print(printed):
+    text = "".join(printed["many missing"])
     assert "12 missing" in text
     assert "###" not in text
 
 
-def test_a_blank_sheet_asks_for_arrays_and_motions(tmp_path):
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.SI)
-    (book,) = recalculated([path], tmp_path)
-    for title in ("Arrays", "Motions"):
-        assert book[title]["A3"].value == "Fill in at least one row"
-    assert book["Site"]["A3"].value == "8 cells missing"  # seven, and a value for S_DS
-
-
 def test_nothing_is_read_from_the_answers(tmp_path):
-    def overwrite(book):
-        site, arrays, clearances = book["Site"], book["Arrays"], book["Clearances"]
-        site["D13"] = 99.0
-        arrays["A8"], arrays["R8"], arrays["S9"] = 7, "oops", -1
-        clearances["F8"], clearances["I9"] = "like array", 0.01
-
+    answers = {
+        "Site!D13": 99.0, "Arrays!A8": 7, "Arrays!R8": "oops", "Arrays!S9": -1,
+        "Clearances!F8": "like array", "Clearances!I9": 0.01,
+    }  # fmt: skip
     path = make(tmp_path)
     before = read(path)
-    after = read(edit(path, overwrite))
+    after = read(type_into(path, answers))
     assert same(after.project, before.project)
     assert after.echo == before.echo
 

@@ -16,7 +16,7 @@ from places import DATA
 from report.sheet import schema
 from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template
-from sheets import FT, edit, make, problems, project, read_workbook, same
+from sheets import FT, edit, make, problems, project, read_workbook, same, type_into
 
 DATA = DATA
 
@@ -173,16 +173,6 @@ CHANGES = {
     "names forgotten": forget_names,
     "blank rows between": leave_blank_rows,
     "rows typed below the table": type_below_the_table,
-    "heading in capitals": lambda book: book["Arrays"].__setitem__(
-        "E7", " FRICTION\ncoefficient *"
-    ),
-    "choices in capitals": lambda book: book["Arrays"].__setitem__("D8", " Degrees "),
-    "numbers as text": lambda book: book["Arrays"].__setitem__("E8", " 0.45 "),
-    "a date as text": lambda book: book["Project"].__setitem__("B11", "2026-03-05"),
-    "a number as a text": lambda book: book["Project"].__setitem__("B12", 1),
-    "a logical value for a yes": lambda book: book["Options"].__setitem__("B6", True),
-    "notes beside the table": lambda book: book["Arrays"].__setitem__("Z9", "ask the client"),
-    "notes far to the right": lambda book: book["Arrays"].__setitem__("GR9", "ask the client"),
     "a name in other capitals": lambda book: setattr(
         book["Arrays"].tables["arrays_table"], "displayName", "ARRAYS_TABLE"
     ),
@@ -194,13 +184,29 @@ def test_arrangement_does_not_matter(tmp_path, change):
     assert same(read_workbook(edit(make(tmp_path), change)).input, project())
 
 
-def test_units_of_headings_and_cells_are_followed(tmp_path):
-    def change(book):
-        book["Arrays"]["I7"], book["Arrays"]["I8"], book["Arrays"]["I9"] = "CG height [mm]", 250, 1
-        book["Arrays"]["H7"], book["Arrays"]["H8"] = "Weight [kg]", 1000
-        book["Site"]["C16"], book["Site"]["B16"] = "m", 12
+SPELLINGS = {
+    "heading in capitals": ("Arrays!E7", " FRICTION\ncoefficient *"),
+    "choices in capitals": ("Arrays!D8", " Degrees "),
+    "numbers as text": ("Arrays!E8", " 0.45 "),
+    "a date as text": ("Project!B11", "2026-03-05"),
+    "a number as a text": ("Project!B12", 1),
+    "a logical value for a yes": ("Options!B6", True),
+    "notes beside the table": ("Arrays!Z9", "ask the client"),
+    "notes far to the right": ("Arrays!GR9", "ask the client"),
+}
 
-    data = read_workbook(edit(make(tmp_path), change)).input
+
+@pytest.mark.parametrize(("cell", "value"), SPELLINGS.values(), ids=SPELLINGS)
+def test_spelling_and_notes_do_not_matter(tmp_path, cell, value):
+    assert same(read_workbook(type_into(make(tmp_path), {cell: value})).input, project())
+
+
+def test_units_of_headings_and_cells_are_followed(tmp_path):
+    cells = {
+        "Arrays!I7": "CG height [mm]", "Arrays!I8": 250, "Arrays!I9": 1,
+        "Arrays!H7": "Weight [kg]", "Arrays!H8": 1000, "Site!C16": "m", "Site!B16": 12,
+    }  # fmt: skip
+    data = read_workbook(type_into(make(tmp_path), cells)).input
     assert data.arrays[0].cg_height_m == pytest.approx(0.25)
     assert data.arrays[0].weight_n == pytest.approx(9806.65)
     assert data.site.structure_height_m == pytest.approx(12)
@@ -208,10 +214,8 @@ def test_units_of_headings_and_cells_are_followed(tmp_path):
 
 
 def test_a_blank_choice_takes_its_default(tmp_path):
-    def change(book):
-        book["Options"]["B5"] = book["Options"]["B6"] = book["Motions"]["L9"] = None
-
-    book = read_workbook(edit(make(tmp_path), change))
+    blank = dict.fromkeys(("Options!B5", "Options!B6", "Motions!L9"))
+    book = read_workbook(type_into(make(tmp_path), blank))
     assert book.input.options == schema.Options()
     assert book.input.motions[1].polarity is schema.Polarity.BOTH
     assert ("B5", "", "rule set (default)") in [
@@ -220,10 +224,8 @@ def test_a_blank_choice_takes_its_default(tmp_path):
 
 
 def test_an_unknown_heading_is_listed_in_the_echo(tmp_path):
-    def change(book):
-        book["Arrays"]["AA7"], book["Arrays"]["AA8"] = "Color", "black"
-
-    book = read_workbook(edit(make(tmp_path), change))
+    noted = {"Arrays!AA7": "Color", "Arrays!AA8": "black"}
+    book = read_workbook(type_into(make(tmp_path), noted))
     (row,) = [row for row in book.echo if row.value.startswith("not an input")]
     assert (row.sheet, row.cell, row.label) == ("Arrays", "AA7", "column 'Color'")
 
@@ -321,7 +323,7 @@ def test_records_are_listed_with_their_hashes(tmp_path):
 
 
 def test_names_of_records_may_have_the_slashes_of_windows(tmp_path):
-    path = edit(make(tmp_path), lambda b: b["Motions"].__setitem__("C8", "records\\x.csv"))
+    path = type_into(make(tmp_path), {"Motions!C8": "records\\x.csv"})
     assert len(read_workbook(path).motions) == 3
 
 
@@ -440,7 +442,7 @@ WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
 )
 def test_a_record_must_be_a_file_within_the_folder(tmp_path, name, line):
     folder = tmp_path / "job"
-    path = edit(make(folder), lambda book: book["Motions"].__setitem__("C9", name))
+    path = type_into(make(folder), {"Motions!C9": name})
     (tmp_path / "outside.csv").write_text("0.1\n0.2\n")
     (folder / "link.csv").symlink_to(tmp_path / "outside.csv")
     (folder / "loop.csv").symlink_to(folder / "loop.csv")
@@ -463,13 +465,12 @@ def test_an_invalid_line_of_a_record_is_reported_with_its_file_and_number(tmp_pa
 
 
 def test_components_of_different_step_are_rejected(tmp_path):
-    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("G8", None))
+    path = make(tmp_path)
     for name, step, count in (("x", 0.01, 50), ("z", 0.02, 40)):
         text = "".join(f"{i * step:.2f},0.1\n" for i in range(count))
         (path.parent / "records" / f"{name}.csv").write_text(text)
-    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}9", None) for c in "BCDEFGHIJL"])
-    edit(path, lambda b: [b["Motions"].__setitem__(f"{c}10", None) for c in "BCDEFGHIJL"])
-    assert problems(path) == (
+    others = [f"Motions!{column}{row}" for column in "BCDEFGHIJL" for row in (9, 10)]
+    assert problems(type_into(path, dict.fromkeys(["Motions!G8", *others]))) == (
         "Motions!E8: vertical record has a time step of 0.02 s, but the horizontal record has 0.01"
         " s; make them equal",
     )
@@ -491,7 +492,7 @@ def test_nothing_is_trimmed_up_to_a_common_end_time(tmp_path):
     path = make(tmp_path)
     for name, count in (("x", 200), ("z", 196)):
         (path.parent / "records" / f"{name}.csv").write_text("0.1\n-0.2\n" * (count // 2))
-    book = read_workbook(edit(path, lambda b: b["Motions"].__setitem__("N8", 1.5)))
+    book = read_workbook(type_into(path, {"Motions!N8": 1.5}))
     assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 151
     assert [record.npts_trimmed for record in book.records if record.motion_id == "M1"] == [0, 0]
 
@@ -506,13 +507,9 @@ def test_channels_of_one_file_are_components(tmp_path, names):
     path = make(tmp_path)
     (path.parent / "records" / "all.csv").write_text(CHANNELS)
 
-    def change(book):
-        sheet = book["Motions"]
-        for column, name in zip("CDE", names, strict=True):
-            sheet[f"{column}8"] = f"records/all.csv | {name}"
-        sheet["F8"] = sheet["G8"] = None  # the file says its units and times
-
-    book = read_workbook(edit(path, change))
+    cells = {f"Motions!{c}8": f"records/all.csv | {n}" for c, n in zip("CDE", names, strict=True)}
+    of_file = {"Motions!F8": None, "Motions!G8": None}  # the file says its units and times
+    book = read_workbook(type_into(path, cells | of_file))
     first = book.motions[0]
     for a, slope in zip(
         (first.ax_mps2, first.ay_mps2, first.az_mps2), (0.1, 0.2, 0.3), strict=True
@@ -526,20 +523,17 @@ def test_an_unnamed_or_missing_channel_is_reported_with_the_names(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "all.csv").write_text(CHANNELS)
 
-    def change(book):
-        sheet = book["Motions"]
-        sheet["C8"], sheet["E8"] = "records/all.csv", "records/all.csv | Down"
-        sheet["F8"] = sheet["G8"] = None
-
+    cells = {"Motions!C8": "records/all.csv", "Motions!E8": "records/all.csv | Down"}
+    cells |= {"Motions!F8": None, "Motions!G8": None}
     names = "give one by name or number: 1 East; 2 North; 3 Up"
-    assert problems(edit(path, change)) == (
+    assert problems(type_into(path, cells)) == (
         f"Motions!C8: horizontal record: all.csv: found several channels; {names}",
         f"Motions!E8: vertical record: all.csv: found no channel 'Down'; {names}",
     )
 
 
 def test_units_that_neither_file_nor_sheet_states_are_requested(tmp_path):
-    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("F8", "from file"))
+    path = type_into(make(tmp_path), {"Motions!F8": "from file"})
     reported = problems(path)
     assert [line.split(": ")[0] for line in reported] == ["Motions!C8", "Motions!E8"]
     assert all("give units, one of" in line for line in reported)
@@ -548,13 +542,8 @@ def test_units_that_neither_file_nor_sheet_states_are_requested(tmp_path):
 def test_units_that_differ_between_file_and_sheet_are_reported(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "all.csv").write_text(CHANNELS)
-
-    def change(book):
-        sheet = book["Motions"]
-        sheet["C8"], sheet["E8"] = "records/all.csv | 1", None
-        sheet["F8"] = "cm/s2"
-
-    (line,) = problems(edit(path, change))
+    cells = {"Motions!C8": "records/all.csv | 1", "Motions!E8": None, "Motions!F8": "cm/s2"}
+    (line,) = problems(type_into(path, cells))
     assert line.startswith("Motions!C8: horizontal record: all.csv:1: the file is in g but units")
 
 
@@ -568,12 +557,9 @@ def test_gals_of_a_pasted_column_are_cm_s2(tmp_path):
 
 
 def test_records_are_processed_as_their_row_requests(tmp_path):
-    def change(book):
-        sheet = book["Motions"]
-        for cell, value in {"M8": 0.5, "N8": 1.5, "O8": "mean", "S8": 0.005, "T8": 1}.items():
-            sheet[cell] = value
-
-    book = read_workbook(edit(make(tmp_path), change))
+    row = {"M": 0.5, "N": 1.5, "O": "mean", "S": 0.005, "T": 1}
+    cells = {f"Motions!{column}8": value for column, value in row.items()}
+    book = read_workbook(type_into(make(tmp_path), cells))
     first = book.motions[0]
     x = np.loadtxt(book.path.parent / "records" / "x.csv")[50:151] * 9.80665
     level = x - x.mean()
@@ -586,7 +572,7 @@ def test_records_are_processed_as_their_row_requests(tmp_path):
 
 
 def test_the_motion_without_its_high_pass_is_preserved_for_comparison(tmp_path):
-    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("P8", 2.0))
+    path = type_into(make(tmp_path), {"Motions!P8": 2.0})
     book = read_workbook(path)
     (bare,) = book.prepared[0].unfiltered
     assert bare.ax_mps2 == pytest.approx(np.loadtxt(path.parent / "records/x.csv") * 9.80665)
@@ -594,16 +580,14 @@ def test_the_motion_without_its_high_pass_is_preserved_for_comparison(tmp_path):
 
 
 def test_processing_that_does_not_suit_a_record_is_reported(tmp_path):
-    path = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("Q8", 60))
+    path = type_into(make(tmp_path), {"Motions!Q8": 60})
     (line,) = problems(path)
     assert line.startswith("Motions!C8: horizontal record: x.csv: low-pass corner is 60 Hz; give")
 
 
 def test_a_ground_motion_is_carried_to_the_roof(tmp_path):
-    def change(book):
-        book["Motions"]["K8"], book["Building"]["B6"] = "ground", 0.5
-
-    book = read_workbook(edit(make(tmp_path), change))
+    cells = {"Motions!K8": "ground", "Building!B6": 0.5}
+    book = read_workbook(type_into(make(tmp_path), cells))
     at_roof, prepared = book.motions[0], book.prepared[0]
     assert prepared.roof["horizontal"].building.periods_s[0] == 0.5
     assert np.array_equal(at_roof.ax_mps2, prepared.roof["horizontal"].a_mps2)
@@ -638,12 +622,9 @@ def test_a_record_of_zeros_cannot_be_scaled_to_a_peak(tmp_path):
 def test_a_part_of_zeros_cannot_be_scaled_either(tmp_path, scaling, goal):
     path = make(tmp_path)
     (path.parent / "records" / "x.csv").write_text("0.1\n" * 100 + "0\n" * 100)
-
-    def change(book):
-        sheet = book["Motions"]
-        sheet["H8"], sheet["I8"], sheet["M8"] = scaling, 1 if scaling == "PPA" else None, 1.5
-
-    assert problems(edit(path, change)) == (
+    scale = 1 if scaling == "PPA" else None
+    cells = {"Motions!H8": scaling, "Motions!I8": scale, "Motions!M8": 1.5}
+    assert problems(type_into(path, cells)) == (
         f"Motions!C8: horizontal record is all zeros and cannot be scaled to {goal}; change the"
         " record or scaling",
     )
@@ -667,30 +648,22 @@ def test_a_record_without_shaking_is_refused(tmp_path, text, words):
     # A verdict of OK followed from any of these.
     path = make(tmp_path)
     (path.parent / "records" / "still.csv").write_text(text)
-    changed = edit(path, lambda book: book["Motions"].__setitem__("C9", "records/still.csv"))
+    changed = type_into(path, {"Motions!C9": "records/still.csv"})
     assert problems(changed) == (f"Motions!C9: {words}",)
 
 
 def test_one_horizontal_record_of_zeros_is_read_if_the_other_shakes(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "still.csv").write_text("0\n" * 200)
-
-    def change(book):
-        sheet = book["Motions"]
-        sheet["C9"], sheet["D9"] = "records/still.csv", "records/x.csv"
-
-    motion = read_workbook(edit(path, change)).motions[1]
+    cells = {"Motions!C9": "records/still.csv", "Motions!D9": "records/x.csv"}
+    motion = read_workbook(type_into(path, cells)).motions[1]
     assert not motion.ax_mps2.any()
     assert motion.ay_mps2.any()
 
 
 def test_records_are_checked_even_if_their_row_has_other_errors(tmp_path):
-    def change(book):
-        book["Motions"]["B9"] = None
-        book["Motions"]["F9"] = "furlongs"
-        book["Motions"]["C9"] = "records/none.csv"
-
-    assert [line.split(":")[0] for line in problems(edit(make(tmp_path), change))] == [
+    cells = {"Motions!B9": None, "Motions!F9": "furlongs", "Motions!C9": "records/none.csv"}
+    assert [line.split(":")[0] for line in problems(type_into(make(tmp_path), cells))] == [
         "Motions!B9",
         "Motions!C9",
         "Motions!F9",
