@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 from openpyxl import load_workbook
 from openpyxl.utils import coordinate_to_tuple
-from recalculated import converted
 
 from report.sheet import style
 from report.sheet.locate import CellPosition
 from report.sheet.parts import changed, write_cells
-from report.sheet.read import read
-from sheets import edit, make
+from sheets import make
 from solver.model import InputError
 
 DRAWING = (
@@ -150,24 +148,3 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path, monkeypatch):
         write_cells(path, {at("Arrays", "I8"): 1.0})
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir() if p.name.startswith(".")] == []
-
-
-def test_a_workbook_saved_by_libreoffice_is_changed_and_read(tmp_path):
-    path = make(tmp_path)
-
-    def compute(book):
-        book["Arrays"]["H8"] = "=20000*2"
-
-    edit(path, compute)
-    (saved,) = converted([path], tmp_path)
-    before = read(saved).project
-    sheet = load_workbook(saved)["Arrays"]
-    heading = next(c for row in sheet.iter_rows() for c in row if c.value == "x to [ft]")
-    write_cells(saved, {CellPosition("Arrays", 8, heading.column): 99.0})
-    (saved.parent / "records").symlink_to(tmp_path / "records")
-    after = read(saved)
-    assert after.problems == ()
-    first = after.project.arrays[0]
-    assert first.x_to_m == pytest.approx(99 * 0.3048)
-    assert first.weight_n == before.arrays[0].weight_n == pytest.approx(40000 * 4.4482216152605)
-    assert after.project.arrays[1] == before.arrays[1]

@@ -1,0 +1,66 @@
+"""A workbook that LibreOffice saved is read, changed and repaired like any other."""
+
+import pytest
+from openpyxl import load_workbook
+from recalculated import converted
+from test_live import OVER, check, formulas, lost, typed_over
+
+from report.sheet.locate import CellPosition
+from report.sheet.parts import write_cells
+from report.sheet.read import read
+from report.sheet.schema import UnitsFirst
+from report.sheet.template import write_template
+from sheets import edit, make, project, same, type_into
+
+pytestmark = pytest.mark.slow
+
+METRIC = project(
+    arrays=[row.model_dump() | {"i_p": 1.5} for row in project().arrays],
+    objects=[row.model_dump() | {"i_p": 1.25} for row in project().objects],
+    site=project().site.model_dump() | {"i_e": 1.25, "risk_category": "III"},
+)
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory):
+    """Workbooks by name, beside their records, as LibreOffice saves them in one start."""
+    folder = tmp_path_factory.mktemp("saved")
+    filled = make(folder).rename(folder / "filled.xlsx")
+    computed = type_into(make(folder), {"Arrays!H8": "=20000*2"}).rename(folder / "computed.xlsx")
+    blank, metric = folder / "blank.xlsx", folder / "metric.xlsx"
+    write_template(blank, units=UnitsFirst.SI)
+    write_template(metric, units=UnitsFirst.SI, example=METRIC)
+    paths = converted([filled, computed, blank, metric], folder)
+    (paths[0].parent / "records").symlink_to(folder / "records")
+    return {path.stem: path for path in paths}
+
+
+def test_what_libreoffice_saved_is_read_the_same(saved):
+    """With formulas as LibreOffice writes them."""
+    assert same(read(saved["filled"]).project, project())
+    assert same(read(saved["metric"]).project, METRIC)
+
+
+def test_cells_of_a_saved_book_are_changed_and_read(saved):
+    book = saved["computed"]
+    before = read(book).project
+    sheet = load_workbook(book)["Arrays"]
+    heading = next(c for row in sheet.iter_rows() for c in row if c.value == "x to [ft]")
+    write_cells(book, {CellPosition("Arrays", 8, heading.column): 99.0})
+    after = read(book)
+    assert after.problems == ()
+    first = after.project.arrays[0]
+    assert first.x_to_m == pytest.approx(99 * 0.3048)
+    assert first.weight_n == before.arrays[0].weight_n == pytest.approx(40000 * 4.4482216152605)
+    assert after.project.arrays[1] == before.arrays[1]
+
+
+def test_a_saved_book_gives_no_warning_and_is_repaired(saved, tmp_path):
+    book = saved["filled"]
+    assert formulas(book) != formulas(make(tmp_path))  # it spells some of them in another way
+    assert lost(saved["blank"]) == lost(book) == []
+    spoiled = book.with_name("spoiled.xlsx")
+    spoiled.write_bytes(book.read_bytes())
+    assert lost(edit(spoiled, typed_over)) == OVER
+    assert check("--repair", spoiled).output.startswith(f"{len(OVER)} formulas restored")
+    assert lost(spoiled) == []
