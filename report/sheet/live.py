@@ -92,7 +92,7 @@ def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
 def _differs(found: Found, formula: str) -> bool:
     if _BROKEN in formula:
         return _BROKEN in found.formula
-    return canonical(found.formula) != canonical(formula)
+    return found.formula != formula and canonical(found.formula) != canonical(formula)
 
 
 def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
