@@ -19,6 +19,7 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import MotionRun, nan_is_worst, run_heading, run_motion
 from report.assessment.trials import (
+    Runs,
     Trials,
     alone,
     below,
@@ -226,7 +227,8 @@ def _is_like(one: Array, other: Array) -> bool:
 
 
 def _margins(given: Assessment, pool: Executor) -> Iterator[Margin]:
-    trials = {array.id: Trials(given, array, pool) for array in given.arrays}
+    runs: Runs = {}
+    trials = {array.id: Trials(given, array, pool, runs) for array in given.arrays}
     for number, gap in enumerate(given.clearances, start=1):
         for array in involved(given, gap.clearance):
             yield _margin(trials[array.id], number, gap)

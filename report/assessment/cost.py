@@ -5,6 +5,7 @@ Runs nothing. `tests/bench/report_cost.py` measures what the estimate is made of
 
 from __future__ import annotations
 
+from report.assessment.runs import scene_key
 from report.motions.prepare import Shaking
 from report.sheet.schema import ProjectInput
 
@@ -13,19 +14,20 @@ LONG_S = 60.0
 
 # Processor time [s] measured on one machine; every measured report is within 7 % of the sum.
 _CONSTANT_S, _ARRAY_S, _MOTION_S = 6.4, 0.45, 0.33
-# Per million samples of the motions: spectra and figures, then the runs of each array.
+# Per million samples of the motions: spectra and figures, then the runs of arrays that differ.
 _SAMPLES_S, _RUNS_S = 61.0, 7.3
 
 
 def expected_s(project: ProjectInput, shaking: Shaking) -> float:
     """Return the processor time [s] that a report will take."""
     arrays, motions = len(project.arrays), len(shaking.motions)
+    different = len({scene_key(array) for array in project.arrays})
     millions = _samples(shaking) / 1e6
     return (
         _CONSTANT_S
         + _ARRAY_S * arrays
         + _MOTION_S * motions
-        + millions * (_SAMPLES_S + _RUNS_S * arrays)
+        + millions * (_SAMPLES_S + _RUNS_S * different)
     )
 
 

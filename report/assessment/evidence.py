@@ -5,8 +5,10 @@ Draws nothing. Read `support`; `report.pages` prints it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Certainty, certainty
 from report.assessment.cumulative import Cumulative, cumulative
 from report.assessment.highpass import Beyond, beyond_corners
@@ -61,11 +63,16 @@ def plotted(assessment: Assessment) -> Plotted:
     """Compute what most figures show, so that they can be drawn while the rest is computed."""
     return Plotted(
         spectra=spectra(assessment),
-        histories=tuple(
-            tuple(run.history() for run in array.motions) for array in assessment.arrays
-        ),
+        histories=_histories(assessment.arrays),
         accuracy=accuracy(assessment),
     )
+
+
+def _histories(arrays: Sequence[ArrayAssessment]) -> tuple[tuple[SlideHistory, ...], ...]:
+    """Return the governing runs of each array; arrays that share a run share its history."""
+    runs = {id(run): run for array in arrays for run in array.motions}
+    found = {key: run.history() for key, run in runs.items()}
+    return tuple(tuple(found[id(run)] for run in array.motions) for array in arrays)
 
 
 def support(assessment: Assessment, shown: Plotted | None = None) -> Evidence:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -29,7 +29,7 @@ from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_rows import friction_rows
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
-from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion
+from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
 from report.assessment.verdict import Row, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
@@ -226,13 +226,19 @@ def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
         headings = [heading] if heading in motion.headings else motion.headings
         return run_along(array, motion, headings)
 
-    return _again(given, project, along)
+    # Arrays that are alike now may have had other headings that govern.
+    return _again(given, project, along, lambda array: array.id)
 
 
-def _again(given: Assessment, project: ProjectInput, run: RunMotion) -> Assessment:
+def _again(
+    given: Assessment,
+    project: ProjectInput,
+    run: RunMotion,
+    key: Callable[[Array], Hashable] = scene_key,
+) -> Assessment:
     motions = given.shaking.motions
     with ThreadPoolExecutor(THREADS) as pool:
-        begun = _begin(pool, run, project, motions, check_models=False)
+        begun = _begin(pool, run, project, motions, check_models=False, key=key)
         return _assess(given.sheet, given.shaking, project, acceptance=given.acceptance,
                        pool=pool, begun=begun)  # fmt: skip
 
@@ -250,8 +256,12 @@ def _begin(
     motions: Sequence[Motion],
     *,
     check_models: bool,
+    key: Callable[[Array], Hashable] = scene_key,
 ) -> _Begun:
-    """Begin the runs of an input; `check_models` compares requested models with adequate ones."""
+    """Begin the runs of an input; `check_models` compares requested models with adequate ones.
+
+    Arrays with one key share their runs.
+    """
 
     def begun(array: Array) -> tuple[Sequence[Future[MotionRun]], Sequence[Future[MotionRun]]]:
         # Runs in two axes and of rows release the GIL: two proceed in parallel.
@@ -261,7 +271,9 @@ def _begin(
         chosen = partial(run_motion, array, model=Model.CHOOSE)
         return runs, [pool.submit(chosen, motion) for motion in motions]
 
-    return [begun(array) for array in data.arrays]
+    by_key = {key(array): array for array in data.arrays}
+    runs = {each: begun(array) for each, array in by_key.items()}
+    return [runs[key(array)] for array in data.arrays]
 
 
 def _assess(

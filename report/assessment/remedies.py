@@ -17,6 +17,7 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import THREADS, Assessment
 from report.assessment.trials import (
     HUNDREDTH,
+    Runs,
     Trials,
     above,
     alone,
@@ -96,7 +97,8 @@ def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
 
 
 def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
-    trials = {array.id: Trials(given, array, pool) for array in given.arrays}
+    runs: Runs = {}
+    trials = {array.id: Trials(given, array, pool, runs) for array in given.arrays}
     for number, gap in enumerate(given.clearances, start=1):
         if gap.ok:
             continue

@@ -7,7 +7,7 @@ Integrates nothing itself (`solver.sliding.least_model` does) and knows no code 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from report.kept import kept
@@ -91,6 +91,11 @@ class MotionRun:
     def history(self) -> SlideHistory:
         """Rerun the governing run for its values at the samples, for plotting only."""
         return _followed(self.governing.scene, self.governing.solution)
+
+
+def scene_key(array: Array) -> Hashable:
+    """Return what the runs of an array under a motion follow from: equal ones have equal runs."""
+    return array.slope_rad, array.friction, array.model
 
 
 def run_motion(array: Array, motion: Motion, model: Model | None = None) -> MotionRun:

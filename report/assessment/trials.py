@@ -7,7 +7,7 @@ it. Read `Trials`, then `reach`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
@@ -16,7 +16,7 @@ from report.assessment.arrays import ArrayAssessment, Route, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import array_with_friction
 from report.assessment.project import Assessment
-from report.assessment.runs import MotionRun, motion_run, run_heading
+from report.assessment.runs import MotionRun, motion_run, run_heading, scene_key
 from report.sheet.schema import Array, Clearance, ProjectInput
 from solver.model import Status
 
@@ -25,6 +25,8 @@ HUNDREDTH = 0.01
 
 STRIDES = (5, 1)
 """Hundredths between the values of each pass of a search."""
+
+Runs = dict[Hashable, tuple[MotionRun, ...]]
 
 
 def hundredths(value: float) -> int:
@@ -82,12 +84,20 @@ class Trials:
     Friction and S_DS are in hundredths. Friction that varies with velocity is scaled as a whole;
     its low-velocity coefficient names it. Results are kept: several clearances of an array ask for
     the same ones.
+
+    Parameters
+    ----------
+    runs : dict
+        Where the runs are kept: arrays with one slope, friction and model share them.
     """
 
-    def __init__(self, given: Assessment, array: ArrayAssessment, pool: Executor) -> None:
+    def __init__(
+        self, given: Assessment, array: ArrayAssessment, pool: Executor, runs: Runs
+    ) -> None:
         self.given = given
         self.array = array
         self._pool = pool
+        self._runs = runs
         self._was_permitted = _is_permitted(given, array)
         self._governing: dict[tuple[int, int], ArrayAssessment] = {}
         self._all: dict[tuple[int, int], ArrayAssessment] = {}
@@ -116,20 +126,29 @@ class Trials:
     def governing(self, mu: int, s_ds: int) -> ArrayAssessment:
         """Return the array with the governing heading of each motion only."""
         if (mu, s_ds) not in self._governing:
-            changed, share = self._changed(mu), self._share(s_ds)
-            runs = self._pool.map(partial(_first_run, changed, share), self.array.motions)
-            self._governing[mu, s_ds] = self._assessed(changed, s_ds, tuple(runs))
+            changed = self._changed(mu)
+            first = partial(_first_run, changed, self._share(s_ds))
+            runs = self._shared(("governing", mu, s_ds), first, self.array.motions)
+            self._governing[mu, s_ds] = self._assessed(changed, s_ds, runs)
         return self._governing[mu, s_ds]
 
     def complete(self, mu: int, s_ds: int) -> ArrayAssessment:
         """Return the array with all runs."""
         if (mu, s_ds) not in self._all:
             first = self.governing(mu, s_ds)
-            runs = self._pool.map(
-                partial(_other_runs, first.array), self.array.motions, first.motions
-            )
-            self._all[mu, s_ds] = self._assessed(first.array, s_ds, tuple(runs))
+            others = partial(_other_runs, first.array)
+            runs = self._shared(("all", mu, s_ds), others, self.array.motions, first.motions)
+            self._all[mu, s_ds] = self._assessed(first.array, s_ds, runs)
         return self._all[mu, s_ds]
+
+    def _shared(
+        self, which: Hashable, run: Callable[..., MotionRun], *of: Sequence[MotionRun]
+    ) -> tuple[MotionRun, ...]:
+        """Return runs of all motions, which an array with the same runs as given may have had."""
+        key = which, scene_key(self.array.array)
+        if key not in self._runs:
+            self._runs[key] = tuple(self._pool.map(run, *of))
+        return self._runs[key]
 
     def _passes(self, trial: ArrayAssessment, row: Clearance | None, s_ds: int) -> bool:
         if not is_final(trial) or (self._was_permitted and not _is_permitted(self.given, trial)):

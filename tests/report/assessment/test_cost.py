@@ -45,11 +45,17 @@ def test_a_long_report_says_what_makes_it_long(book):
     )
 
 
-def test_twice_the_arrays_cost_twice_the_runs(book):
+def test_arrays_cost_runs_where_their_slope_or_friction_differs(book):
     shaking = lasting(book, 100_000)
-    twice = book.input.model_copy(update={"arrays": book.input.arrays * 2})
-    more_s = expected_s(twice, shaking) - expected_s(book.input, shaking)
-    assert more_s == pytest.approx(2 * (0.45 + 0.3 * 7.3))
+    given = list(book.input.arrays)
+
+    def more_s(*added):
+        more = book.input.model_copy(update={"arrays": [*given, *added]})
+        return expected_s(more, shaking) - expected_s(book.input, shaking)
+
+    steeper = given[0].model_copy(update={"slope_value": 1.5})
+    assert more_s(*given) == pytest.approx(2 * 0.45)
+    assert more_s(steeper) == pytest.approx(0.45 + 0.3 * 7.3)
 
 
 @pytest.mark.slow

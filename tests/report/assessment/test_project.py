@@ -9,10 +9,12 @@ import pytest
 
 import stand_in
 from report.assessment.arrays import DesignBasis
+from report.assessment.evidence import support
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction
 from solver.model import Status
 from solver.rules.provisions import Basis
+from solver.sliding import least_model
 from solver.sliding.checked import slide
 from solver.sliding.least_model import Rung
 
@@ -251,3 +253,32 @@ def test_an_override_changes_the_result_and_is_kept_with_its_reason():
     done = assessed(overrides=[change])
     assert done.clearances[1].factor == 1.5
     assert done.rules.values["separation_fixed"].reason == "plan check comment 4"
+
+
+def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
+    scenes = []
+    solve = least_model.solve
+    monkeypatch.setattr(least_model, "solve", lambda *call: scenes.append(call) or solve(*call))
+    motions = stand_in.motions(3, seconds=8.0)
+
+    def found(*rows):
+        scenes.clear()
+        gaps = [stand_in.clearance(row["id"], "RTU-1", 7 * stand_in.FOOT) for row in rows]
+        return assessed(
+            motions, arrays=list(rows), clearances=gaps, options={"peer_reviewed": True}
+        )
+
+    def runs_of(assessment):
+        support(assessment)
+        return len(scenes)
+
+    one, other = stand_in.array("A1", 1.0, x=0), stand_in.array("A2", 1.0, x=120)
+    turned = other | {"downslope_deg": 90.0, "weight_n": 1e4}
+    both = found(one, turned)
+    first, second = both.arrays
+    assert first.motions == second.motions
+    assert runs_of(both) == runs_of(found(one))
+    for changes in ({"mu": 0.44}, {"slope_value": 3.9}, {"model": "one axis"}, {"mu_fast": 0.5}):
+        apart, (single,) = found(one, other | changes), found(other | changes).arrays
+        assert apart.arrays[1].motions[0] is not apart.arrays[0].motions[0]
+        assert apart.arrays[1].design_m == single.design_m
