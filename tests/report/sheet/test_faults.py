@@ -1,10 +1,30 @@
 """Input errors are reported by cell: what was found, and what to give."""
 
 import datetime as dt
+import re
 
 import pytest
 
 from sheets import edit, make, problems, read_workbook, type_into
+
+
+def together(folder, cases, touched):
+    """Return what is reported for each case, in a workbook that it shares with others.
+
+    Cases, cells with their contents, share one if they touch nothing in common.
+    """
+    books, taken, numbers = [], [], []
+    for cells, places in zip(cases, touched, strict=True):
+        number = next((k for k, other in enumerate(taken) if not other & places), len(books))
+        if number == len(books):
+            books.append({})
+            taken.append(set())
+        books[number] |= cells
+        taken[number] |= places
+        numbers.append(number)
+    reported = [problems(type_into(make(folder / str(k)), book)) for k, book in enumerate(books)]
+    return [reported[number] for number in numbers]
+
 
 # Sheet, cell, its content, and the resulting line.
 SINGLE_CELLS = [
@@ -129,12 +149,19 @@ SINGLE_CELLS = [
 ]
 
 
-@pytest.mark.parametrize(("sheet", "cell", "value", "line"), SINGLE_CELLS)
-def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(
-    tmp_path, sheet, cell, value, line
-):
-    path = type_into(make(tmp_path), {f"{sheet}!{cell}": value})
-    assert f"{sheet}!{cell}: {line.replace('A{40}', 'A' * 41)}" in problems(path)
+@pytest.fixture(scope="module")
+def of_cells(tmp_path_factory):
+    cases = [{f"{sheet}!{cell}": value} for sheet, cell, value, _ in SINGLE_CELLS]
+    reported = together(tmp_path_factory.mktemp("cells"), cases, map(set, cases))
+    return dict(zip(SINGLE_CELLS, reported, strict=True))
+
+
+@pytest.mark.parametrize(
+    "case", SINGLE_CELLS, ids=[f"{s}!{c} {str(v)[:20]!r}" for s, c, v, _ in SINGLE_CELLS]
+)
+def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(of_cells, case):
+    sheet, cell, _, line = case
+    assert f"{sheet}!{cell}: {line.replace('A{40}', 'A' * 41)}" in of_cells[case]
 
 
 # Cells that are changed together, and all resulting lines.
@@ -273,10 +300,6 @@ CONTRADICTIONS = [
         {"Objects!H8": 70},
         ["Objects!H8: y to is 70.00 ft (21.34 m); give more than y from, 80.00 ft (24.38 m)"],
     ),
-    (
-        {"Project!B13": "SI", "Arrays!N8": 10},
-        ["Arrays!N8: y to is 3.05 m (10.00 ft); give more than y from, 4.57 m (15.00 ft)"],
-    ),
     ({"Motions!I9": None}, ["Motions!I9: factor or PPA is missing; give the factor"]),
     ({"Motions!I10": None}, ["Motions!I10: factor or PPA is missing; give the PPA in g"]),
     (
@@ -380,9 +403,37 @@ CONTRADICTIONS = [
 ]
 
 
-@pytest.mark.parametrize(("changes", "lines"), CONTRADICTIONS)
-def test_inconsistencies_are_reported_at_the_cell_to_change(tmp_path, changes, lines):
-    assert list(problems(type_into(make(tmp_path), changes))) == lines
+def sheets_of(case):
+    """The sheets that a case changes, or names in its lines."""
+    cells, lines = case
+    return {name for text in (*cells, *lines) for name in re.findall(r"\b([A-Z][a-z]+)!", text)}
+
+
+@pytest.fixture(scope="module")
+def of_contradictions(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("contradictions")
+    return together(folder, [cells for cells, _ in CONTRADICTIONS], map(sheets_of, CONTRADICTIONS))
+
+
+@pytest.mark.parametrize(
+    "number", range(len(CONTRADICTIONS)), ids=[" ".join(cells) for cells, _ in CONTRADICTIONS]
+)
+def test_inconsistencies_are_reported_at_the_cell_to_change(of_contradictions, number):
+    """And nothing else is, on the sheets of the case."""
+    case, reported = CONTRADICTIONS[number], of_contradictions[number]
+    own = sheets_of(case)
+    assert [line for line in reported if line.partition("!")[0] in own] == case[1]
+
+
+def test_nothing_else_is_reported_beside_inconsistencies(of_contradictions):
+    known = {line for _, lines in CONTRADICTIONS for line in lines}
+    assert {line for reported in of_contradictions for line in reported} == known
+
+
+def test_lengths_are_given_in_the_units_of_the_project_first(tmp_path):
+    assert problems(type_into(make(tmp_path), {"Project!B13": "SI", "Arrays!N8": 10})) == (
+        "Arrays!N8: y to is 3.05 m (10.00 ft); give more than y from, 4.57 m (15.00 ft)",
+    )
 
 
 def test_an_unknown_provision_is_reported_with_the_valid_ones(tmp_path):
