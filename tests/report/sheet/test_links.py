@@ -72,13 +72,24 @@ NO_LISTS = [
 
 
 @pytest.mark.parametrize("text", NO_LISTS)
-def test_text_that_is_not_a_list_of_coefficients_is_reported(tmp_path, text):
+def test_text_that_is_not_a_list_of_coefficients_is_refused(text):
     assert coefficients(text) == ()
-    path = make(tmp_path, links=[links(), links("A2")])
-    type_into(path, {"Links!C9": text})
-    assert problems(path) == (f"Links!C9: block friction is '{text}'; {WANTED}",)
     with pytest.raises(ValidationError, match="2 to 20 blocks"):
         Links(**links(friction=text))
+
+
+def test_text_that_is_not_a_list_of_coefficients_is_reported(tmp_path):
+    first = project().arrays[0].model_dump()
+    ids = [f"A{number}" for number, _ in enumerate(NO_LISTS)]
+    changes = {
+        "arrays": [first | {"id": name} for name in ids],
+        "links": [links(name) for name in ids],
+        "clearances": [],
+    }
+    cells = {f"Links!C{row}": text for row, text in enumerate(NO_LISTS, start=8)}
+    assert problems(type_into(make(tmp_path, **changes), cells)) == tuple(
+        f"{cell}: block friction is '{text}'; {WANTED}" for cell, text in cells.items()
+    )
 
 
 CELLS = [
