@@ -165,8 +165,14 @@ def make(folder: Path, units: UnitsFirst = UnitsFirst.US, **changes: object) -> 
     return path
 
 
+def blank(path: Path, units: UnitsFirst = UnitsFirst.US) -> Path:
+    """Write a workbook without inputs; return it."""
+    path.write_bytes(_book(units, None))
+    return path
+
+
 @cache
-def _book(units: UnitsFirst, example: ProjectInput) -> bytes:
+def _book(units: UnitsFirst, example: ProjectInput | None) -> bytes:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "input.xlsx"
         write_template(path, units=units, example=example)

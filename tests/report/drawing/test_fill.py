@@ -11,8 +11,7 @@ from report.sheet.archive import open_book
 from report.sheet.live import overwritten
 from report.sheet.read import read
 from report.sheet.schema import Polygon, UnitsFirst
-from report.sheet.template import write_template
-from sheets import FT, edit, make, project
+from sheets import FT, blank, edit, make, project
 from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
 
 
@@ -29,19 +28,19 @@ def drawing(tmp_path, version="R2018"):
     return sketch.saved(tmp_path)
 
 
-@pytest.fixture(params=list(UnitsFirst))
-def blank(request, tmp_path):
-    path = tmp_path / "new" / "input.xlsx"
-    path.parent.mkdir()
-    write_template(path, units=request.param)
-    return path
+def new(tmp_path, units=UnitsFirst.US):
+    folder = tmp_path / "new"
+    folder.mkdir()
+    return blank(folder / "input.xlsx", units)
 
 
-def test_a_blank_workbook_is_filled(tmp_path, blank):
-    done = run(drawing(tmp_path), blank)
+@pytest.mark.parametrize("units", UnitsFirst)
+def test_a_blank_workbook_is_filled(tmp_path, units):
+    path = new(tmp_path, units)
+    done = run(drawing(tmp_path), path)
     assert done.exit_code == 0, done.output
     assert "A1: array, 6 vertices" in done.output
-    draft = read(blank).draft
+    draft = read(path).draft
     assert [row["id"] for row in draft["arrays"]] == ["A1", "A2"]
     assert draft["arrays"][0]["x_from_m"] is None
     assert draft["arrays"][1]["x_to_m"] == pytest.approx(200 * FT, abs=1e-6)
@@ -51,7 +50,7 @@ def test_a_blank_workbook_is_filled(tmp_path, blank):
     ids = [row["id"] for row in draft["objects"]]
     assert ids == ["N", "EDGE-1", "EDGE-2", "EDGE-3"]
     assert draft["objects"][0]["height_m"] == pytest.approx(36 * 0.0254)
-    assert not [p for p in read(blank).problems if p[0].section in ("roof", "objects", "outlines")]
+    assert not [p for p in read(path).problems if p[0].section in ("roof", "objects", "outlines")]
 
 
 def test_places_that_are_filled_stay_unless_they_may_be_replaced(tmp_path):
@@ -109,25 +108,27 @@ def test_formulas_and_all_other_parts_stay(tmp_path):
     assert load_workbook(path)["Arrays"]["H8"].value == "=40000+2000"
 
 
-def test_rows_that_a_table_grows_by_have_their_formulas(tmp_path, blank):
+@pytest.mark.parametrize("units", UnitsFirst)
+def test_rows_that_a_table_grows_by_have_their_formulas(tmp_path, units):
+    path = new(tmp_path, units)
     sketch = Sketch("R2018")
     for number in range(30):
         box = ((x + 20 * number, y) for x, y in ((0, 0), (10, 0), (10, 10), (0, 10)))
         sketch.ring("ARRAY", tuple(box), f"A{number}")
-    assert run(sketch.saved(tmp_path), blank).exit_code == 0
-    assert len(read(blank).draft["arrays"]) == 30
-    book = open_book(blank)
+    assert run(sketch.saved(tmp_path), path).exit_code == 0
+    assert len(read(path).draft["arrays"]) == 30
+    book = open_book(path)
     assert book.formula("Arrays", "A37").startswith("=IF(SUMPRODUCT(")
     assert overwritten(book) == ()
 
 
-def test_a_row_of_totals_with_no_blank_row_above_it_is_told(tmp_path, blank):
+def test_a_row_of_totals_with_no_blank_row_above_it_is_told(tmp_path):
     def close(book):
         book["Outlines"].tables["outlines_table"].totalsRowCount = 1
         for row in range(8, 27):
             book["Outlines"][f"B{row}"] = "A9"
 
-    done = run(drawing(tmp_path), edit(blank, close))
+    done = run(drawing(tmp_path), edit(new(tmp_path), close))
     assert done.exit_code == 2
     assert "Outlines!27: the table has a row of totals, and no blank row above it" in done.output
 
@@ -141,18 +142,18 @@ def test_layers_of_the_workbook_name_what_is_drawn(tmp_path):
     assert [row.get("id") for row in read(path).draft["arrays"]] == ["A1", "A2", "A9"]
 
 
-def test_a_drawing_without_a_unit_asks_for_it(tmp_path, blank):
-    path = drawing(tmp_path, "R12")
-    done = run(path, blank)
+def test_a_drawing_without_a_unit_asks_for_it(tmp_path):
+    path, book = drawing(tmp_path, "R12"), new(tmp_path)
+    done = run(path, book)
     assert done.exit_code == 2
     assert "states no unit; add --units with one of in, ft, mm, cm, m" in done.output
-    assert run(path, blank, "--units", "ft").exit_code == 0
+    assert run(path, book, "--units", "ft").exit_code == 0
 
 
-def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path, blank):
+def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
     sketch = Sketch()
     ring = sketch.ring("MODULES", BOX_FT)
-    done = run(sketch.saved(tmp_path), blank)
+    done = run(sketch.saved(tmp_path), new(tmp_path))
     assert done.exit_code == 2
     assert "nothing to fill in: give the layers on the sheet Layers" in done.output
     listed = f"layer MODULES, a closed line on a layer that is not in Layers: {ring.dxf.handle}"
@@ -169,7 +170,7 @@ def test_polygons_need_the_sheet_outlines(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["none.dxf", "."])
-def test_a_drawing_that_is_not_there_is_told(tmp_path, blank, name):
-    done = run(tmp_path / name, blank)
+def test_a_drawing_that_is_not_there_is_told(tmp_path, name):
+    done = run(tmp_path / name, new(tmp_path))
     assert done.exit_code == 2
     assert "cannot be read" in done.output

@@ -13,8 +13,7 @@ from report.sheet.fields import Place
 from report.sheet.marks import AMBER, VIOLET
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
-from report.sheet.template import write_template
-from sheets import edit, make, project, same, type_into
+from sheets import blank, edit, make, project, same, type_into
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 # Of Excel 2007 and later, and ISFORMULA of 2013, which is written with this prefix.
@@ -29,9 +28,8 @@ FUNCTIONS = {
 
 @pytest.fixture(scope="module", params=["blank", "filled"])
 def parts(request, tmp_path_factory):
-    path = tmp_path_factory.mktemp("parts") / "input.xlsx"
-    example = project() if request.param == "filled" else None
-    write_template(path, units=UnitsFirst.US, example=example)
+    folder = tmp_path_factory.mktemp("parts")
+    path = make(folder) if request.param == "filled" else blank(folder / "input.xlsx")
     with ZipFile(path) as archive:
         return {name: archive.read(name) for name in archive.namelist()}
 
@@ -183,14 +181,8 @@ CHANGES = (
 def computed(tmp_path_factory):
     """Blank workbooks after each change, and one without, as LibreOffice computes them at once."""
     folder = tmp_path_factory.mktemp("computed")
-    blank = folder / "blank.xlsx"
-    write_template(blank, units=UnitsFirst.US)
-    paths = [folder / f"{change.__name__}.xlsx" for change in CHANGES]
-    for path, change in zip(paths, CHANGES, strict=True):
-        path.write_bytes(blank.read_bytes())
-        edit(path, change)
-    metric = folder / "metric.xlsx"
-    write_template(metric, units=UnitsFirst.SI)
+    paths = [edit(blank(folder / f"{change.__name__}.xlsx"), change) for change in CHANGES]
+    metric = blank(folder / "metric.xlsx", UnitsFirst.SI)
     books = recalculated([*paths, metric], folder)
     return dict(zip([*CHANGES, None], books, strict=True))
 
@@ -253,18 +245,13 @@ def test_a_blank_sheet_asks_for_arrays_and_motions(computed):
 def printed(tmp_path_factory):
     """The text of each page of a blank workbook and of one with an array, printed at once."""
     folder = tmp_path_factory.mktemp("printed")
-    blank, many_missing = folder / "blank.xlsx", folder / "many missing.xlsx"
-    write_template(blank, units=UnitsFirst.US)
-    many_missing.write_bytes(blank.read_bytes())
-    type_into(many_missing, {"Arrays!B8": "A1"})
-    files = converted([blank, many_missing], folder, "pdf")
+    many_missing = type_into(blank(folder / "many missing.xlsx"), {"Arrays!B8": "A1"})
+    files = converted([blank(folder / "blank.xlsx"), many_missing], folder, "pdf")
     return {path.stem: [page.extract_text() for page in PdfReader(path).pages] for path in files}
 
 
 def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path, printed):
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    book = load_workbook(path)
+    book = load_workbook(blank(tmp_path / "input.xlsx"))
     assert [s.title for s in book if s.page_setup.fitToWidth == 2] == ["Arrays"]
     assert book["Arrays"].print_title_cols == "$A:$B"
     pages = printed["blank"]
@@ -313,9 +300,7 @@ def test_a_second_reading_and_writing_keeps_formulas_marks_and_names(tmp_path):
 
 
 def test_rare_columns_are_folded_until_one_is_filled(tmp_path):
-    blank = tmp_path / "blank.xlsx"
-    write_template(blank, units=UnitsFirst.US)
-    sheet = load_workbook(blank)["Arrays"]
+    sheet = load_workbook(blank(tmp_path / "blank.xlsx"))["Arrays"]
     letters = {c.value: c.column_letter for c in sheet[7]}
     rare = sheet.column_dimensions[letters["High-velocity friction"]]
     assert (rare.outlineLevel, rare.hidden) == (1, True)

@@ -10,7 +10,7 @@ from report.sheet.parts import write_cells
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template
-from sheets import edit, make, project, same, type_into
+from sheets import blank, edit, make, project, same, type_into
 
 pytestmark = pytest.mark.slow
 
@@ -27,10 +27,10 @@ def saved(tmp_path_factory):
     folder = tmp_path_factory.mktemp("saved")
     filled = make(folder).rename(folder / "filled.xlsx")
     computed = type_into(make(folder), {"Arrays!H8": "=20000*2"}).rename(folder / "computed.xlsx")
-    blank, metric = folder / "blank.xlsx", folder / "metric.xlsx"
-    write_template(blank, units=UnitsFirst.SI)
+    metric = folder / "metric.xlsx"
     write_template(metric, units=UnitsFirst.SI, example=METRIC)
-    paths = converted([filled, computed, blank, metric], folder)
+    empty = blank(folder / "blank.xlsx", UnitsFirst.SI)
+    paths = converted([filled, computed, empty, metric], folder)
     (paths[0].parent / "records").symlink_to(folder / "records")
     return {path.stem: path for path in paths}
 

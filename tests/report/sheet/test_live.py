@@ -12,8 +12,7 @@ from report.sheet.archive import open_book
 from report.sheet.live import findings, live_formulas, overwritten
 from report.sheet.schema import UnitsFirst
 from report.sheet.spelling import canonical, moved
-from report.sheet.template import write_template
-from sheets import edit, make, project, type_into
+from sheets import blank, edit, make, type_into
 
 
 def lost(path):
@@ -39,8 +38,7 @@ def formulas(path):
 @pytest.mark.parametrize("units", list(UnitsFirst))
 @pytest.mark.parametrize("is_filled", [False, True])
 def test_every_formula_of_a_new_workbook_is_watched_and_as_it_should_be(tmp_path, units, is_filled):
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=units, example=project() if is_filled else None)
+    path = make(tmp_path, units) if is_filled else blank(tmp_path / "input.xlsx", units)
     watched = {at.address: text for at, text in live_formulas(open_book(path)).items()}
     assert watched == formulas(path)
     assert lost(path) == []

@@ -5,8 +5,7 @@ from openpyxl import load_workbook
 
 from report.sheet.read import read
 from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
-from report.sheet.template import write_template
-from sheets import FT, edit, make, problems, project, read_workbook, same, type_into
+from sheets import FT, blank, edit, make, problems, project, read_workbook, same, type_into
 
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))
 ROOF_FT = ((0, -1), (300, -1), (300, 121), (150, 121), (150, 140), (0, 140))
@@ -54,9 +53,7 @@ def test_a_workbook_without_the_sheet_is_read(tmp_path):
 
 
 def test_the_blank_sheet_asks_for_sides_or_an_outline(tmp_path):
-    path = tmp_path / "input.xlsx"
-    write_template(path, units=UnitsFirst.US)
-    sheet = load_workbook(path)["Arrays"]
+    sheet = load_workbook(blank(tmp_path / "input.xlsx"))["Arrays"]
     hints = {cell.value for row in sheet.iter_rows() for cell in row}
     assert "required, or an outline" in hints
 
@@ -79,8 +76,8 @@ def test_an_unknown_name_is_told_by_its_cell(tmp_path):
 
 
 def test_two_vertices_are_no_outline(tmp_path):
-    blank = {f"{column}{row}": None for column in "BCD" for row in range(10, 14)}
-    assert changed(tmp_path, blank) == (
+    cleared = {f"{column}{row}": None for column in "BCD" for row in range(10, 14)}
+    assert changed(tmp_path, cleared) == (
         "Outlines!B8: A1 has 2 vertices; give at least 3, one to a row",
     )
 
