@@ -1,7 +1,7 @@
 """Every command and every line of Python in the README runs, in a separate folder.
 
 The report of the example runs as by a script, the other commands in this process. What the reader
-is to fill in is here a small project.
+is to fill in is here a small project; the study has fewer motions and slopes.
 """
 
 import json
@@ -17,10 +17,12 @@ from click.testing import CliRunner
 import packages
 import report.typeset.pdf
 from places import ROOT
+from report.beside import SameProcess
+from report.cli import batch
 from report.cli.main import main
 from report.results.publish import STAMP
 from report.typeset.pdf import lay_out
-from sheets import make
+from sheets import edit, make
 from solver.model import Friction
 from solver.sliding.checked import scene, slide
 from solver.sliding.two_axes import run as run_in_two_axes
@@ -64,8 +66,12 @@ def reported(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def commanded(folder):
-    """The folder after the other commands; pages that are already laid out are not again."""
-    laid_out = {}
+    """The folder after the other commands, and what each printed.
+
+    Pages that are already laid out are not again, and `batch` starts no processes: it does in
+    tests/report/cli/test_batch.py.
+    """
+    laid_out, printed = {}, {}
 
     def kept(html, drawn=None, attached=tuple):
         files = tuple(attached())
@@ -76,26 +82,40 @@ def commanded(folder):
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         patch.setattr(report.typeset.pdf, "lay_out", kept)
+        patch.setattr(batch, "ProcessPoolExecutor", lambda *_, **__: SameProcess())
         for command in COMMANDS:
             words = shlex.split(command)[1:]
             if words in ELSEWHERE:
                 continue
             done = CliRunner().invoke(main, words)
             assert done.exit_code == 0, command + done.output
+            printed[shlex.join(words)] = done.output
             if words == ["new", "projects/yours"]:
                 assert (folder / "projects" / "yours" / "input.xlsx").is_file()
                 make(folder / "projects" / "yours")
-    return folder
+            elif words == ["study", "projects/study", "--dry-run"]:
+                edit(folder / "projects" / "study" / "input.xlsx", few_slopes)
+    return folder, printed
+
+
+def few_slopes(book):
+    assert book["Study"]["B9"].value == "0 to 7 by 1"
+    book["Study"]["B9"] = "0, 2, 4"
 
 
 def test_every_command_of_the_readme_runs(commanded):
+    folder, printed = commanded
     assert {command.split()[1] for command in COMMANDS} >= {"report", "test", "new", "check"}
-    assert (commanded / "projects" / "yours" / "out" / "calc-package.pdf").is_file()
+    assert len(printed) + len(ELSEWHERE) == len({tuple(shlex.split(line)) for line in COMMANDS})
+    assert (folder / "projects" / "yours" / "out" / "calc-package.pdf").is_file()
 
 
 def test_the_study_of_the_readme_has_its_curves(commanded):
-    out = commanded / "projects" / "study" / "out" / "study"
-    assert len((out / "curves.csv").read_text().splitlines()) == 1 + 3 * 8 * 20
+    folder, printed = commanded
+    # Three mats on eight slopes at twenty intensities, and the cases of the array.
+    assert printed["study projects/study --dry-run"].startswith("557 cases, ")
+    out = folder / "projects" / "study" / "out" / "study"
+    assert len((out / "curves.csv").read_text().splitlines()) == 1 + 3 * 3 * 20
     assert (out / "study.pdf").stat().st_size > 10_000
 
 
@@ -104,7 +124,7 @@ def test_two_processes_and_one_write_the_same_bytes(reported, commanded):
     names = {path.name for path in reported.out.iterdir()}
     assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}
     for name in names:
-        of_batch = commanded / "projects" / "example" / "out" / name
+        of_batch = commanded[0] / "projects" / "example" / "out" / name
         assert (reported.out / name).read_bytes() == of_batch.read_bytes(), name
 
 
