@@ -5,6 +5,7 @@ Every process and thread that a test starts is ended by it.
 
 import gc
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -15,6 +16,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+import report.typeset.pdf
 from packages import unlaid
 from places import ROOT, TESTS
 from report.beside import beside
@@ -184,14 +186,32 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
     assert watching.process.poll() is not None
 
 
-def fresh(path, folder):
-    """Report in a process of its own; return its files."""
+REPORTS = """
+import sys
+from contextlib import nullcontext
+import report.typeset.pdf
+from packages import unlaid
+from report.cli.main import main
+
+*before, last = sys.argv[1:]
+for folder in (*before, last):
+    with nullcontext() if folder == last else unlaid():
+        main(["report", folder, "--quiet"], standalone_mode=False)
+"""
+
+
+def fresh(folders):
+    """Report each folder in a process that keeps nothing, the last one laid out."""
     subprocess.run(
-        [sys.executable, "-m", "report.cli", "report", str(path), "--out", str(folder), "--quiet"],
+        [sys.executable, "-c", REPORTS, *map(str, folders)],
         check=True,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        env=os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"},
         timeout=WAIT_S,
     )
+    return [outputs(folder / "out") for folder in folders]
+
+
+def outputs(folder):
     return {name: (folder / name).read_bytes() for name in OUTPUTS}
 
 
@@ -199,37 +219,43 @@ def fresh(path, folder):
 def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
     tmp_path, monkeypatch, capsys
 ):
-    runs = []
+    """The package of the last round is laid out, with pictures that the first has converted."""
+    runs, copies, warm = [], [], []
     solve = least_model.solve
     monkeypatch.setattr(least_model, "solve", lambda *call: runs.append(call) or solve(*call))
-    path, out = make(tmp_path), tmp_path / "out"
+    folder = tmp_path / "warm"
+    path, vertical = make(folder), folder / "records" / "z.csv"
 
-    def counted(round_):
+    def counted(round_, name):
         runs.clear()
+        copies.append(tmp_path / name)
+        shutil.copytree(folder, copies[-1], ignore=shutil.ignore_patterns("out"))
         assert round_.run()
-        return len(runs), {name: (out / name).read_bytes() for name in OUTPUTS}
+        warm.append(outputs(folder / "out"))
+        return len(runs)
 
     try:
         with beside() as second:
-            round_ = Round(path, out, second)
-            all_runs, _ = counted(round_)
-            edit(path, lambda book: book["Clearances"].__setitem__("E8", 31.0))
-            none, clearance = counted(round_)
-            assert clearance == fresh(path, tmp_path / "clearance")
-            edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.5))
-            some, friction = counted(round_)
-            assert friction == fresh(path, tmp_path / "friction")
-            vertical = tmp_path / "records" / "z.csv"
+            round_ = Round(path, folder / "out", second)
+            with monkeypatch.context() as patch:
+                patch.setattr(report.typeset.pdf, "lay_out", lambda html, *_: html.encode())
+                assert round_.run()
+                all_runs = len(runs)
+                edit(path, lambda book: book["Clearances"].__setitem__("E8", 31.0))
+                none = counted(round_, "clearance")
+                edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.5))
+                some = counted(round_, "friction")
             vertical.write_text("0.001\n" + vertical.read_text().partition("\n")[2])
-            others, record = counted(round_)
-            assert record == fresh(path, tmp_path / "record")
+            others = counted(round_, "record")
             round_.sweep()
     finally:
         forget()
+    assert warm == fresh(copies)
+    assert warm[-1]["calc-package.pdf"].startswith(b"%PDF")
     assert none == 0
     assert 0 < some < all_runs
     assert 0 < others < all_runs
-    assert len({name["calc-package.pdf"] for name in (clearance, friction, record)}) == 3
+    assert len({files["calc-package.pdf"] for files in warm}) == 3
     # The verdict is printed before the package is made.
     told = capsys.readouterr().out.splitlines()
     assert told.index("verdict: NG") < next(i for i, s in enumerate(told) if ": written in" in s)
