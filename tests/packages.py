@@ -19,8 +19,10 @@ import pytest
 from click.testing import CliRunner
 
 import report.typeset.pdf
+import stand_in
 from places import ROOT
 from report.cli.main import main
+from report.typeset.finish import Attached
 
 
 def once(factory: pytest.TempPathFactory, name: str, fill: Callable[[Path], object]) -> Path:
@@ -84,6 +86,29 @@ def _script(top: Path, project: str) -> tuple[str, str]:
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout, done.stderr
+
+
+FILES = (
+    Attached(name="input.xlsx", content=b"workbook", mime="application/vnd.ms-excel",
+             relationship="Source", description="Input workbook"),
+    Attached(name="records/a/x.csv", content=b"1\n2\n", mime="text/csv", relationship="Data",
+             description="Record"),
+    Attached(name="records/b/x.csv", content=b"3\n4\n", mime="text/csv", relationship="Data",
+             description="Record"),
+)  # fmt: skip
+
+
+def of_one_motion(factory: pytest.TempPathFactory) -> tuple[str, bytes]:
+    """Return a package with `FILES` attached, before and after its layout."""
+    folder = once(factory, "one-motion", _one_motion)
+    html = (folder / "package.html").read_text(encoding="utf-8")
+    return html, (folder / "package.pdf").read_bytes()
+
+
+def _one_motion(folder: Path) -> None:
+    html = stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0)))
+    (folder / "package.html").write_text(html, encoding="utf-8", newline="")
+    (folder / "package.pdf").write_bytes(report.typeset.pdf.lay_out(html, attached=lambda: FILES))
 
 
 @contextmanager

@@ -8,28 +8,20 @@ import io
 import pikepdf
 import pytest
 
-import stand_in
-from report.typeset.finish import FIELD, Attached
+import packages
+from packages import FILES
+from report.typeset.finish import FIELD
 from report.typeset.pdf import lay_out
 
-FILES = (
-    Attached(name="input.xlsx", content=b"workbook", mime="application/vnd.ms-excel",
-             relationship="Source", description="Input workbook"),
-    Attached(name="records/a/x.csv", content=b"1\n2\n", mime="text/csv", relationship="Data",
-             description="Record"),
-    Attached(name="records/b/x.csv", content=b"3\n4\n", mime="text/csv", relationship="Data",
-             description="Record"),
-)  # fmt: skip
+
+@pytest.fixture(scope="module")
+def html(tmp_path_factory):
+    return packages.of_one_motion(tmp_path_factory)[0]
 
 
 @pytest.fixture(scope="module")
-def html():
-    return stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0)))
-
-
-@pytest.fixture(scope="module")
-def data(html):
-    return lay_out(html, attached=lambda: FILES)
+def data(tmp_path_factory):
+    return packages.of_one_motion(tmp_path_factory)[1]
 
 
 @pytest.fixture(scope="module")

@@ -22,13 +22,12 @@ from pyhanko.pdf_utils.reader import PdfFileReader
 from pyhanko.sign.validation import validate_pdf_signature
 from pyhanko_certvalidator import ValidationContext
 
-import stand_in
+import packages
 import tampering
 from report.cli.main import main
 from report.proof.package import Package
 from report.proof.updates import appended
 from report.typeset.finish import FIELD
-from report.typeset.pdf import lay_out
 
 PASSWORD = "pass word"
 CONFIG = """
@@ -125,8 +124,8 @@ def clock(authority):
 
 
 @pytest.fixture(scope="module")
-def data():
-    return lay_out(stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0))))
+def data(tmp_path_factory):
+    return packages.of_one_motion(tmp_path_factory)[1]
 
 
 @pytest.fixture

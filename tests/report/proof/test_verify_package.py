@@ -3,6 +3,7 @@
 import json
 import random
 import shutil
+from functools import cache
 
 import pikepdf
 import pytest
@@ -11,9 +12,9 @@ from click.testing import CliRunner
 import packages
 import tampering
 from report.cli.main import main
+from report.proof import verdict
 from report.proof.package import open_package, take_out
 from report.proof.updates import appended
-from report.proof.verdict import compared
 from solver.model import InputError
 
 
@@ -27,15 +28,22 @@ def data(job):
     return (job / "out" / "calc-package.pdf").read_bytes()
 
 
+@pytest.fixture(scope="module")
+def written():
+    """A function that parses what was written from an input, once for all comparisons with it."""
+    return cache(verdict._Written)
+
+
 @pytest.fixture
-def proof(tmp_path, data):
+def proof(tmp_path, data, written, monkeypatch):
     """A function that compares the bytes of a package with what was written from its input."""
+    monkeypatch.setattr(verdict, "_Written", written)
 
     def of(given):
         path = tmp_path / "given.pdf"
         path.write_bytes(given)
         package = open_package(path)
-        return compared(package, data, appended(package))
+        return verdict.compared(package, data, appended(package))
 
     return of
 
