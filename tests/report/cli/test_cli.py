@@ -15,6 +15,7 @@ import packages
 import report.package.html
 from places import ROOT
 from report.cli.main import main
+from report.cli.terminal import Progress
 from sheets import make, project
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -64,9 +65,18 @@ def test_new_does_not_write_through_a_dangling_link(tmp_path):
     assert not (tmp_path / "elsewhere.xlsx").exists()
 
 
-def test_new_example_writes_the_example_of_the_projects(tmp_path):
+def test_new_example_writes_the_example_of_the_projects(tmp_path, monkeypatch):
+    bars = []
+
+    class Kept(Progress):
+        def __exit__(self, *about):
+            bars.append((self._done, self._steps))
+            super().__exit__(*about)
+
+    monkeypatch.setattr("report.cli.report.Progress", Kept)
     done = run("new", "--example", tmp_path / "job")
     assert done.exit_code == 0, done.output
+    assert bars == [(7, 7)]
     made, committed = tmp_path / "job", ROOT / "projects" / "example"
     names = {path.relative_to(made) for path in made.rglob("*.*")}
     assert len(names) == 22

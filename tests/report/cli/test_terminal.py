@@ -46,11 +46,11 @@ def test_without_a_number_of_steps_there_is_no_bar(monkeypatch, capsys):
     ("command", "module", "steps"),
     [
         (["check", "{0}"], "check", 3),
-        (["new", "--example", "{1}"], "report", 7),
         (["motion", "suite", "{1}", "--sds=1", "--zh=1", "--code=pv1", "--count=2"], "motion", 4),
     ],
 )
 def test_the_bar_of_a_command_is_full_when_it_ends(monkeypatch, tmp_path, command, module, steps):
+    """That of `new --example` is tested in test_cli.py."""
     bars = []
 
     class Kept(Progress):

@@ -32,7 +32,7 @@ class Drawn:
     def take(self, figure):
         figure.set_dpi(DPI)
         canvas = FigureCanvasAgg(figure)
-        canvas.draw()
+        figure.draw_without_rendering()
         renderer = canvas.get_renderer()
         inches = figure.dpi_scale_trans.inverted()
         hidden = set(out_of_sight(figure))
