@@ -47,7 +47,8 @@ class SameProcess(Executor):
 class SecondProcess(Executor):
     """Runs functions in a process of its own, in order.
 
-    Functions are named by their module; arguments, results and exceptions are pickled. An
+    Functions are named by their module; arguments, results and exceptions are pickled. Arguments
+    are pickled beside what the command does next: they must not change, nor cache anything. An
     exception is raised where the result is asked for.
 
     Raises

@@ -28,8 +28,8 @@ SLOW = (
     "test_study", "test_study_cluster", "test_plane_scipy", "test_neighbors", "test_roof",
     "test_plan", "test_check_cli", "test_foresight", "test_links", "test_friction_sheet",
     "test_live", "test_clearances", "test_outlines", "test_tagged", "test_archive",
-    "test_front_matter", "test_libreoffice", "test_page_scripts", "test_fill", "test_labels_fit", "test_json",
-    "test_excel", "test_parts", "test_app", "test_values", "test_workers",
+    "test_front_matter", "test_libreoffice", "test_page_scripts", "test_fill", "test_labels_fit",
+    "test_json", "test_excel", "test_parts", "test_app", "test_values", "test_workers",
 )  # fmt: skip
 
 

@@ -7,10 +7,9 @@ Computes no physics (`report.assessment.runs`) and reads no code rule itself
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cached_property
 
 from report.assessment.runs import RUNGS, MotionRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
@@ -38,7 +37,7 @@ class Route(StrEnum):
     PRESCRIPTIVE = "prescriptive"
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ArrayAssessment:
     """One array: its runs, the value from analysis, the prescriptive value, the design value.
 
@@ -60,6 +59,8 @@ class ArrayAssessment:
         The same with the adequate models; differs from it where a model is requested.
     needed : tuple of MotionRun
         The runs for `chosen`, in the order of `motions`.
+    tipping, uplift : Tipping, Uplift
+        For the run nearest to tipping, and for the run with the smallest normal force.
     checks : tuple of Check
         Limits that apply to both routes.
     analysis_checks, prescriptive_checks : tuple of Check
@@ -79,6 +80,8 @@ class ArrayAssessment:
     route: Route
     design_m: float
     by_direction: bool
+    tipping: Tipping
+    uplift: Uplift
     checks: tuple[Check, ...]
     analysis_checks: tuple[Check, ...]
     prescriptive_checks: tuple[Check, ...]
@@ -88,22 +91,6 @@ class ArrayAssessment:
     def id(self) -> str:
         """Name of the array in the workbook."""
         return self.array.id
-
-    @cached_property
-    def tipping(self) -> Tipping:
-        """For the run nearest to tipping; computed when asked, as trials ask for none."""
-        supports = Supports(height_m=self.array.cg_height_m, spacing_m=self.array.support_spacing_m)
-        checks = (tipping(scene, supports) for scene in self._scenes)
-        return max(checks, key=lambda check: (check.ratio, check.demand))
-
-    @cached_property
-    def uplift(self) -> Uplift:
-        """For the run with the smallest normal force."""
-        return min(map(uplift, self._scenes), key=lambda found: found.n_min_g)
-
-    @property
-    def _scenes(self) -> Iterator[Scene]:
-        return (run.scene for motion in self.motions for run in motion.runs)
 
     @property
     def governs(self) -> DesignBasis:
@@ -279,6 +266,7 @@ def assess_array(
     floor_m = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
+    scenes = [run.scene for motion in runs for run in motion.runs]
     return ArrayAssessment(
         array=array,
         motions=runs,
@@ -291,6 +279,8 @@ def assess_array(
         route=limits.route,
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
+        tipping=_nearest_to_tipping(array, scenes),
+        uplift=min(map(uplift, scenes), key=lambda u: u.n_min_g),
         checks=limits.both,
         analysis_checks=limits.analysis,
         prescriptive_checks=limits.prescriptive,
@@ -299,6 +289,12 @@ def assess_array(
             rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
         ),
     )
+
+
+def _nearest_to_tipping(array: Array, scenes: Sequence[Scene]) -> Tipping:
+    supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
+    checks = (tipping(scene, supports) for scene in scenes)
+    return max(checks, key=lambda check: (check.ratio, check.demand))
 
 
 def _route(has_value: bool, analysis: Sequence[Check], prescriptive: Sequence[Check]) -> Route:

@@ -5,10 +5,14 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import is_dataclass
+from importlib import import_module
 from operator import truediv
+from pkgutil import iter_modules
 
 import pytest
 
+import report.assessment
 import report.beside
 from places import ROOT
 from report.beside import SameProcess, SecondProcess, beside
@@ -115,3 +119,20 @@ def test_what_it_leaves_in_its_temporary_folder_goes_with_it():
         name = process.submit(left_file).result()
         assert os.path.exists(name)
     assert not os.path.exists(os.path.dirname(name))
+
+
+def test_no_part_of_an_assessment_can_change_while_it_is_sent():
+    modules = [
+        import_module(f"report.assessment.{each.name}")
+        for each in iter_modules(report.assessment.__path__)
+    ]
+    found = {
+        each
+        for module in modules
+        for each in vars(module).values()
+        if isinstance(each, type) and is_dataclass(each) and each.__module__ == module.__name__
+    }
+    assert len(found) > 20
+    for each in found:
+        assert each.__dataclass_params__.frozen, each
+        assert "__slots__" in vars(each), each
