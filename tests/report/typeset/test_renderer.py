@@ -30,9 +30,9 @@ def test_streams_of_a_document_are_compressed_once(monkeypatch):
     once: list[bytes] = []
     compress = zlib.compress
 
-    def counted(data: bytes) -> bytes:
+    def counted(data: bytes, level: int) -> bytes:
         once.append(data)
-        return compress(data)
+        return compress(data, level)
 
     monkeypatch.setattr(zlib, "compress", counted)
     twice: list[int] = []
