@@ -227,7 +227,7 @@ def _tree(archive: zipfile.ZipFile, name: str) -> Any:
 
 def _load(data: bytes) -> Workbook:
     if LXML or not DEFUSEDXML:
-        raise DefectError("openpyxl was loaded before report, and reads through lxml")
+        raise DefectError("openpyxl does not read through defusedxml; import report before it")
     try:
         with warnings.catch_warnings():
             # It warns about features that it drops, none of which is an input.

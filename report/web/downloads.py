@@ -6,7 +6,6 @@ Read `workbook`, then `package_routes`.
 from __future__ import annotations
 
 import secrets
-import shutil
 from typing import Any
 
 from starlette.concurrency import run_in_threadpool
@@ -58,7 +57,7 @@ async def _begin(request: Request) -> Response:
     path = session.folder / f"package-{secrets.token_hex(8)}" / opened.name
     try:
         await run_in_threadpool(copied, opened, path.parent)
-    except (OSError, shutil.Error):
+    except OSError:
         if session.workbook == opened:
             raise
     if session.workbook != opened:

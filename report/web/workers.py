@@ -120,9 +120,8 @@ class Workers:
         process: Process | None = None
         try:
             if is_quick:
-                await (
-                    self._warmed.wait()
-                )  # the first answer comes sooner from one that starts alone
+                # The first answer comes sooner from a process that starts alone.
+                await self._warmed.wait()
             while True:
                 if process is None or process.returncode is not None:
                     process = await self._started(is_quick)
