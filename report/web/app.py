@@ -6,7 +6,6 @@ Computes nothing (`workers`) and admits nobody (`access`). Read `made`.
 from __future__ import annotations
 
 import asyncio
-import errno
 import mimetypes
 import os
 from collections.abc import AsyncIterator, Mapping, Sequence
@@ -26,6 +25,7 @@ from starlette.staticfiles import StaticFiles
 from report.web.access import Access, Gate
 from report.web.desk import Desk, RefusedError, desk_of, session_of
 from report.web.downloads import package_routes, workbook
+from report.web.limits import is_full
 from report.web.receiving import receive_json, received
 from report.web.sessions import EXAMPLE, Sessions
 from report.web.workers import LostError, Rank, StaleError
@@ -169,7 +169,7 @@ async def _lost(_: Request, error: Exception) -> Response:
 
 async def _not_written(_: Request, error: Exception) -> Response:
     assert isinstance(error, OSError)
-    if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+    if not is_full(error):
         raise error
     return _error("The disk of the server is full. Make room there, then try it again.", 507)
 

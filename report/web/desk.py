@@ -5,6 +5,7 @@ Read `Desk.ask`.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -65,6 +66,8 @@ class Desk:
         Raises
         ------
         RefusedError, StaleError, LostError
+        OSError
+            If the disk is full.
         """
         self._asked += 1
         page, number = (asked["page"], asked["n"]) if asked else (str(self._asked), 0)
@@ -73,6 +76,8 @@ class Desk:
         if "answer" in found:
             answer: Mapping[str, Any] = found["answer"]
             return answer
+        if "errno" in found:
+            raise OSError(found["errno"], os.strerror(found["errno"]))
         if "internal" in found:
             raise RefusedError(INTERNAL, [])
         first = found["refused"] if "refused" in found else found["problems"][0]["text"]

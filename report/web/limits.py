@@ -5,6 +5,7 @@ Windows has none of these; there only the limit on time holds. Read `limit_memor
 
 from __future__ import annotations
 
+import errno
 import importlib
 import os
 
@@ -28,6 +29,11 @@ def give_way(nice: int) -> None:
     """Let other processes go first, as the command nice does."""
     if hasattr(os, "nice"):
         os.nice(nice)
+
+
+def is_full(error: OSError) -> bool:
+    """Whether there is no room for what was to be written."""
+    return error.errno in (errno.ENOSPC, errno.EDQUOT)
 
 
 def _limit(name: str, value: int) -> None:

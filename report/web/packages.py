@@ -192,16 +192,20 @@ async def _end(process: Process) -> None:
 def copied(workbook: Path, folder: Path) -> None:
     """Give a folder the files beside a workbook, without another copy where the system links."""
 
-    def link(source: str, target: str) -> None:
-        try:
-            os.link(source, target)
-        except OSError:
-            shutil.copyfile(source, target)
-
     here = workbook.parent
-    shutil.copytree(
-        here,
-        folder,
-        copy_function=link,
-        ignore=lambda top, names: ["out", "pages", workbook.name] if Path(top) == here else [],
-    )
+    not_copied = {here / name for name in ("out", "pages", workbook.name)}
+    folder.mkdir()
+    # Not `shutil.copytree`: its error no longer says that the disk is full.
+    for source in sorted(here.rglob("*")):
+        if not_copied.isdisjoint((source, *source.parents)):
+            _link(source, folder / source.relative_to(here))
+
+
+def _link(source: Path, target: Path) -> None:
+    if source.is_dir():
+        target.mkdir()
+        return
+    try:
+        os.link(source, target)
+    except OSError:
+        shutil.copyfile(source, target)

@@ -12,7 +12,7 @@ import sys
 import traceback
 from typing import Any
 
-from report.web.limits import give_way, limit_memory
+from report.web.limits import give_way, is_full, limit_memory
 
 MEMORY_BYTES = 6 << 30
 _TOO_LARGE = "this needs more memory than a session may use; drop fewer or shorter records"
@@ -37,9 +37,17 @@ def _answered(perform: Any, line: str) -> str:
         return json.dumps(perform(json.loads(line)), allow_nan=False)
     except MemoryError:
         return json.dumps({"problems": [], "refused": _TOO_LARGE})
+    except OSError as error:
+        if is_full(error):
+            return json.dumps({"errno": error.errno})
+        return _internal()
     except Exception:
-        traceback.print_exc()
-        return json.dumps({"problems": [], "internal": traceback.format_exc(limit=-1)})
+        return _internal()
+
+
+def _internal() -> str:
+    traceback.print_exc()
+    return json.dumps({"problems": [], "internal": traceback.format_exc(limit=-1)})
 
 
 if __name__ == "__main__":

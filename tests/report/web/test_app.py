@@ -2,6 +2,7 @@
 
 import errno
 import io
+import json
 import time
 import zipfile
 
@@ -9,6 +10,7 @@ import pytest
 
 from places import ROOT
 from report.sheet.read import read
+from report.web.worker import _answered
 from sheets import edit
 
 TOKEN = "a-token-of-this-server"
@@ -105,15 +107,37 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
     assert client.post("/api/example").json()["project"]["is_example"]
 
 
-def test_a_full_disk_is_said(client, monkeypatch):
-    def full(files, folder):
-        raise OSError(errno.ENOSPC, "No space left on device")
+def full(*_, **__):
+    raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("report.web.receiving.store", full)
-    answer = sent(client, folder_of(EXAMPLE))
+
+@pytest.mark.parametrize(
+    ("fails", "address"),
+    [
+        (["report.web.receiving.store"], "/api/upload"),
+        (["os.link", "shutil.copyfile"], "/api/package"),
+    ],
+)
+def test_a_full_disk_is_said(client, monkeypatch, fails, address):
+    with monkeypatch.context() as patch:
+        for name in fails:
+            patch.setattr(name, full)
+        files = [("files", file) for file in folder_of(EXAMPLE)]
+        send = {"files": files} if address == "/api/upload" else {"json": {"values": {}}}
+        answer = client.post(address, **send)
     assert answer.status_code == 507
     assert answer.json()["error"].startswith("The disk of the server is full")
     assert client.get("/api/state").json()["project"]
+
+
+def test_a_full_disk_is_said_where_another_process_writes(client, monkeypatch):
+    async def ask(*_):
+        return json.loads(_answered(full, "{}"))
+
+    monkeypatch.setattr("report.web.workers.Workers.ask", ask)
+    answer = client.post("/api/workbook", json={"values": {}})
+    assert answer.status_code == 507
+    assert answer.json()["error"].startswith("The disk of the server is full")
 
 
 def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_path):
