@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import defusedxml.ElementTree
-from openpyxl import DEFUSEDXML, LXML, Workbook, load_workbook
+from openpyxl import LXML, Workbook, load_workbook
 
 from report.sheet.scan import REOPEN, Extent, Scan, scan_parts
 from solver.model import DefectError, InputError
@@ -226,8 +226,8 @@ def _tree(archive: zipfile.ZipFile, name: str) -> Any:
 
 
 def _load(data: bytes) -> Workbook:
-    if LXML or not DEFUSEDXML:
-        raise DefectError("openpyxl does not read through defusedxml; import report before it")
+    if LXML:
+        raise DefectError("openpyxl reads through lxml; import report before it")
     try:
         with warnings.catch_warnings():
             # It warns about features that it drops, none of which is an input.

@@ -676,11 +676,3 @@ def test_the_workbook_on_disk_is_never_changed(tmp_path):
     read_workbook(path)
     assert path.read_bytes() == before
     assert load_workbook(path)
-
-
-def test_workbooks_are_never_read_through_lxml():
-    """It would resolve what defusedxml refuses, on machines where another package brought it."""
-    import openpyxl.xml
-
-    assert openpyxl.xml.DEFUSEDXML
-    assert not openpyxl.xml.LXML
