@@ -43,11 +43,29 @@ class Face:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawing:
-    """Operators in order, with groups of their own between them, and the opacities they name."""
+    """Operators in order, with groups and hatches between them, and the opacities they name."""
 
-    parts: tuple[bytes | Drawing, ...]
+    parts: tuple[bytes | Drawing | Hatch, ...]
     opacities: Mapping[str, Mapping[str, float]]
     box: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hatch:
+    """A tile that fills, or strokes, what is drawn next.
+
+    Attributes
+    ----------
+    step : tuple of float
+        From tile to tile, across and down.
+    matrix : tuple of float
+        From the tile to the picture, its first two columns by rows.
+    """
+
+    tile: Drawing
+    step: tuple[float, float]
+    matrix: tuple[float, ...]
+    strokes: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,15 +78,18 @@ class Converted:
     faces: tuple[Face, ...]
 
 
-def convert(sources: Iterable[str], css: Path) -> dict[str, Converted | None]:
+def convert(sources: Iterable[str], css: Path) -> dict[str, Converted]:
     """Return pictures as PDF operators, by their `data:` address.
-
-    None for a picture with patterns, shadings or images: the page that shows it has to draw it.
 
     Parameters
     ----------
     css : Path
         Styles with the fonts (`@font-face`), the same as those of the pages.
+
+    Raises
+    ------
+    DefectError
+        If a picture has shadings, masks or images.
     """
     load()
     return {source: _converted(source, css) for source in dict.fromkeys(sources)}
@@ -99,16 +120,13 @@ def discard(fonts: Any) -> None:
 
 
 @kept
-def _converted(source: str, css: Path) -> Converted | None:
+def _converted(source: str, css: Path) -> Converted:
     svg = _svg(source)
     width, height = _size_px(svg)
     stream = _recorder()(
         {}, (0.0, 0.0, width, height), _no_resources(), {}, None, {}, None, compress=False
     )
     _draw(svg, source, _fonts(css), stream, width, height)
-    drawing = _recorded(stream, ())
-    if drawing is None:
-        return None
     faces = tuple(
         Face(
             hash=font.hash,
@@ -120,7 +138,7 @@ def _converted(source: str, css: Path) -> Converted | None:
         )
         for font in stream._fonts.values()
     )
-    return Converted(width=width, height=height, drawing=drawing, faces=faces)
+    return Converted(width=width, height=height, drawing=_recorded(stream, ()), faces=faces)
 
 
 def _svg(source: str) -> bytes:
@@ -159,7 +177,7 @@ def _recorder() -> Any:
     from weasyprint.pdf.stream import Stream
 
     class Recorder(Stream):  # type: ignore[misc]
-        """Keeps a group itself in place of the operator that draws it by its number on a page."""
+        """Keeps groups and hatches themselves in place of operators that name them on a page."""
 
         def clone(self, **changes: Any) -> Recorder:
             """Return an empty stream for a group."""
@@ -179,37 +197,53 @@ def _recorder() -> Any:
             """Draw a group."""
             self.stream.append(self._resources["XObject"][reference])
 
+        def set_color_special(self, name: str | None, stroke: bool = False, *given: Any) -> None:
+            """Fill or stroke with a hatch, or with a color of another space."""
+            if name is None:
+                super().set_color_special(name, stroke, *given)
+            else:
+                self.stream.append((self._resources["Pattern"][name], stroke))
+
     return Recorder
 
 
-def _recorded(stream: Any, box: tuple[float, ...]) -> Drawing | None:
-    """Return what was drawn on a recorder; None if it needs more than operators and groups."""
+def _recorded(stream: Any, box: tuple[float, ...]) -> Drawing:
+    """Return what was drawn on a recorder."""
     resources = stream._resources
     states = {name: dict(state) for name, state in resources["ExtGState"].items()}
-    if stream._images or resources["Pattern"] or resources["Shading"]:
-        return None
-    if any(state.keys() - _SIMPLE for state in states.values()):
-        return None
-    parts: list[bytes | Drawing] = []
+    others = {key for state in states.values() for key in state.keys() - _SIMPLE}
+    if stream._images or resources["Shading"] or others:
+        raise DefectError("a picture with shadings, masks or images cannot be kept as operators")
+    parts: list[bytes | Drawing | Hatch] = []
     operators: list[bytes] = []
     for item in stream.stream:
         if isinstance(item, bytes | str):
             operators.append(item.encode() if isinstance(item, str) else item)
             continue
-        below = _recorded(item, tuple(item.extra["BBox"]))
-        if below is None:
-            return None
+        below = _hatch(*item) if isinstance(item, tuple) else _recorded(item, _box(item))
         parts += [b"\n".join(operators), below]
         operators = []
     return Drawing(parts=(*parts, b"\n".join(operators)), opacities=states, box=box)
 
 
+def _box(stream: Any) -> tuple[float, ...]:
+    return tuple(stream.extra["BBox"])
+
+
+def _hatch(pattern: Any, strokes: bool) -> Hatch:
+    about = pattern.extra
+    return Hatch(
+        tile=_recorded(pattern, _box(pattern)),
+        step=(about["XStep"], about["YStep"]),
+        matrix=tuple(about["Matrix"]),
+        strokes=strokes,
+    )
+
+
 class Shown:
     """A picture for the renderer: its size at once, its operators when the page is painted."""
 
-    def __init__(
-        self, source: str, converted: Future[dict[str, Converted | None]], fonts: Any
-    ) -> None:
+    def __init__(self, source: str, converted: Future[dict[str, Converted]], fonts: Any) -> None:
         self._source = source
         self._converted = converted
         self._fonts = fonts
@@ -226,9 +260,6 @@ class Shown:
     def draw(self, stream: Any, width: float, height: float, *_: Any) -> None:
         """Paint the picture, at the place and scale of the stream."""
         picture = self._converted.result()[self._source]
-        if picture is None:
-            _draw(_svg(self._source), self._source, self._fonts, stream, width, height)
-            return
         for face in picture.faces:
             _use(stream, face, self._fonts)
         stream.push_state()
@@ -249,6 +280,14 @@ def _replay(stream: Any, drawing: Drawing) -> None:
             group.extra["BBox"][:] = part.box
             _replay(group, part)
             stream.draw_x_object(group.id)
+        elif isinstance(part, Hatch):
+            from weasyprint.matrix import Matrix
+
+            matrix = Matrix(*part.matrix) @ stream.ctm
+            pattern = stream.add_pattern(0, 0, 0, 0, *part.step, matrix)
+            pattern.extra["BBox"][:] = part.tile.box
+            _replay(pattern, part.tile)
+            stream.set_color_special(pattern.id, part.strokes)
         elif part:
             stream.stream.append(part)
 

@@ -300,7 +300,7 @@ def test_a_line_in_the_renderers_log_is_a_defect():
 )
 def test_nothing_is_fetched_but_what_is_shipped(address):
     with pytest.raises(DefectError):
-        lay_out(f"<html lang='en-US'><title>A picture</title><img alt='x' src='{address}'></html>")
+        lay_out(f"<html lang='en-US'><title>A picture</title><img alt='x' src='{address}'/></html>")
 
 
 def ground(name="G1", **changes):

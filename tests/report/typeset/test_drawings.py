@@ -49,8 +49,15 @@ HATCHED = svg(
 )
 
 
+GRADED = svg(
+    '<defs><linearGradient id="g"><stop offset="0" stop-color="#fff"/>'
+    '<stop offset="1" stop-color="#000"/></linearGradient></defs>'
+    '<rect x="1" y="1" width="90" height="50" fill="url(#g)"/>'
+)
+
+
 def page(*pictures, text=""):
-    images = "".join(f'<img src="{source}" alt="A picture">' for source in pictures)
+    images = "".join(f'<img src="{source}" alt="A picture"/>' for source in pictures)
     return (
         f"<html lang='en-US'><head><title>Pictures</title><style>{FACES}</style></head>"
         f"<body>{images}{text}</body></html>"
@@ -71,21 +78,29 @@ def tree(stream):
     """Return everything that a stream draws, groups included."""
     resources = stream._resources
     groups = {name: tree(group) for name, group in resources["XObject"].items()}
+    hatches = {name: (placed(tile), tree(tile)) for name, tile in resources["Pattern"].items()}
     states = {name: dict(state) for name, state in resources["ExtGState"].items()}
     glyphs = {font.hash: (font.to_unicode, font.widths) for font in stream._fonts.values()}
-    return b"\n".join(stream.stream), list(stream.extra.get("BBox", ())), groups, states, glyphs
+    box = list(stream.extra.get("BBox", ()))
+    return b"\n".join(stream.stream), box, groups, hatches, states, glyphs
+
+
+def placed(tile):
+    """Return the steps of a hatch, and where it begins."""
+    return tile.extra["XStep"], tile.extra["YStep"], list(tile.extra["Matrix"])
 
 
 @pytest.mark.parametrize(
     "source",
     [
         pytest.param(CHART, id="a chart"),
+        pytest.param(HATCHED, id="a hatch"),
         pytest.param(svg(WORDS.format("font-weight: 700")), id="bold words"),
         pytest.param(svg(WORDS.format("font-style: italic")), id="italic words"),
         pytest.param(data_uri(formula(r"\Delta=\frac{1}{n}\mu").svg), id="a formula"),
     ],
 )
-def test_operators_groups_opacities_and_glyphs_are_those_of_the_renderer(source):
+def test_operators_groups_hatches_and_glyphs_are_those_of_the_renderer(source):
     from weasyprint.pdf.stream import Stream
 
     fonts = drawings._fonts(CSS)
@@ -122,13 +137,20 @@ def test_a_picture_is_scaled_to_its_place():
     assert b"\n0.520833 0 0 0.520833 0 0 cm" in content  # 100 px / 192 px
 
 
-def test_a_picture_with_a_pattern_is_left_to_the_page_that_shows_it():
-    html = page(HATCHED, CHART)
-    drawn = ahead(html)
-    assert drawn.result()[HATCHED] is None
-    assert drawn.result()[CHART] is not None
-    resources = PdfReader(io.BytesIO(lay_out(html, drawn))).pages[0]["/Resources"]
-    assert len(resources["/Pattern"]) == 1
+def test_hatches_lie_where_the_renderer_places_them():
+    html = page(CHART, HATCHED, HATCHED).replace("<img ", "<img width='99' ")
+    ours, direct = (
+        PdfReader(io.BytesIO(data)).pages[0]["/Resources"]["/Pattern"].values()
+        for data in (lay_out(html, ahead(html)), lay_out(html))
+    )
+    places = [[list(tile.get_object()["/Matrix"]) for tile in tiles] for tiles in (ours, direct)]
+    assert places[0] == places[1]
+    assert len(places[0]) == 2
+
+
+def test_a_picture_with_a_gradient_is_an_internal_error():
+    with pytest.raises(DefectError, match="shadings"):
+        draw_ahead([GRADED])
 
 
 def test_a_glyph_that_no_font_has_is_an_internal_error_where_it_is_converted():

@@ -7,6 +7,7 @@ import zlib
 import pytest
 
 from report.typeset.pdf import lay_out
+from report.typeset.renderer import LEVEL
 
 PROGRAM = """
 import subprocess
@@ -46,4 +47,5 @@ def test_streams_of_a_document_are_compressed_once(monkeypatch):
     html = '<html lang="en-US"><title>T</title><p>One page of text.</p></html>'
     assert b"One page of text" not in lay_out(html)
     assert len(set(once)) == len(once) >= 3  # the page, its color profile and a font
-    assert len(twice) == 3  # the list of objects for the identifier and in the file; their places
+    # The list of objects for the identifier and in the file; their places.
+    assert twice == [LEVEL] * 3
