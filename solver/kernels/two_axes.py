@@ -721,8 +721,6 @@ def _hides(sx, sy, vx, vy, gx, gy, cs, reach, top):
 @jit()
 def _sample(ax, ay, az, i, p, q):
     """G and c at sample i."""
-    if az is None:
-        return p[0] - p[2] * ax[i], p[3] * ay[i], q[0] + q[2] * ax[i]
     return p[0] + p[1] * az[i] - p[2] * ax[i], p[3] * ay[i], q[0] + q[1] * az[i] + q[2] * ax[i]
 
 
@@ -733,7 +731,7 @@ def _terms(x, y, z, p, q, most):
     Rounding error is relative to this sum.
     """
     along, across = max(-x[0, -1], x[1, -1]), max(-y[0, -1], y[1, -1])
-    up = 0.0 if z is None else max(-z[0, -1], z[1, -1])
+    up = max(-z[0, -1], z[1, -1])
     drive = abs(p[0]) + abs(p[1]) * up + abs(p[2]) * along + abs(p[3]) * across
     return drive + most * (abs(q[0]) + abs(q[1]) * up + abs(q[2]) * along)
 
@@ -745,12 +743,9 @@ def _is_quiet(x, y, z, block, p, q, hold):
     Rounding is monotone: what is computed from bounds bounds what is computed from samples.
     """
     first, other = p[2] * x[0, block], p[2] * x[1, block]
-    low, high = p[0], p[0]
-    least = q[0]
-    if z is not None:
-        up, down = p[1] * z[0, block], p[1] * z[1, block]
-        low, high = low + min(up, down), high + max(up, down)
-        least += min(q[1] * z[0, block], q[1] * z[1, block])
+    up, down = p[1] * z[0, block], p[1] * z[1, block]
+    low, high = p[0] + min(up, down), p[0] + max(up, down)
+    least = q[0] + min(q[1] * z[0, block], q[1] * z[1, block])
     ahead = max(abs(low - max(first, other)), abs(high - min(first, other)))
     aside = p[3] * max(abs(y[0, block]), abs(y[1, block]))
     least = hold * (least + min(q[2] * x[0, block], q[2] * x[1, block]))
@@ -851,10 +846,10 @@ def slide_plane(
 
     Parameters
     ----------
-    az : array, shape (n,), or None
-        None for no vertical shaking; another version is compiled for it.
+    ax, ay, az : array, shape (n,)
+        Zeros for no shaking in that direction: another version would take 20 s to compile.
     x, y, z : array
-        `one_axis.bounds` of ax, ay and az (z None if az is None).
+        `one_axis.bounds` of ax, ay and az.
     mu : float
         Friction coefficient; 1 with a law.
     tolerance : float

@@ -1,7 +1,7 @@
 """Compiles the kernels that a report runs, so that the first report does not wait for them.
 
 Set-up runs both parts, each in a process of its own: `python -m solver.sliding.compiled PART`. What
-other motions need (no vertical component) is compiled when they first occur. Read `PARTS`.
+one axis needs without a vertical component is compiled when it first occurs. Read `PARTS`.
 """
 
 from __future__ import annotations

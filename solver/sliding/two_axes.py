@@ -96,7 +96,7 @@ def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
     n_min_g, t_uplift = least_normal(prepared(scene))
     if n_min_g < 0.0:
         return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
-    return _result(follow(_with_second_axis(scene), tolerance), n_min_g)
+    return _result(follow(scene, tolerance), n_min_g)
 
 
 def _result(outcome: TwoAxesOutcome, n_min_g: float) -> SlideResult:
@@ -128,10 +128,10 @@ def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHist
     if n_min_g < 0.0:
         result = without_displacement(Status.UPLIFT, n_min_g, t_uplift)
     else:
-        motion = follow(_with_second_axis(scene), tolerance)
+        motion = follow(scene, tolerance)
         result = _result(motion, n_min_g)
         if motion.status is Status.OK:
-            samples, events = follow_history(_with_second_axis(scene), motion)
+            samples, events = follow_history(scene, motion)
     return SlideHistory(
         t_s=sample_times(scene),
         u_m=samples[0],
@@ -141,15 +141,6 @@ def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHist
         events=events,
         result=result,
     )
-
-
-def _with_second_axis(scene: Scene) -> Scene:
-    """Return the scene with a second horizontal component, zero if it has none."""
-    if scene.ay_mps2.size:
-        return scene
-    zero = np.zeros_like(scene.ax_mps2)
-    zero.setflags(write=False)
-    return replace(scene, ay_mps2=zero)
 
 
 def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome:
@@ -201,6 +192,14 @@ def _bounded(scene: Scene, tolerance: float) -> TwoAxesOutcome:
     return replace(outcome, n_steps=steps)
 
 
+def _components(scene: Scene) -> tuple[Floats, Floats, Floats]:
+    """Return the record along, across and up [m/s2]; zeros for what it does not have."""
+    still = np.zeros_like(scene.ax_mps2)
+    still.setflags(write=False)
+    across, up = (each if each.size else still for each in (scene.ay_mps2, scene.az_mps2))
+    return scene.ax_mps2, across, up
+
+
 def _places(outcome: TwoAxesOutcome) -> tuple[float, ...]:
     sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
     return outcome.prd_m, *sides, *outcome.end_m
@@ -212,15 +211,15 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesO
     if not friction.is_constant:
         drop = friction.mu_fast - friction.mu_slow
         law = (friction.mu_fast, drop, friction.rate_s_per_m, friction.mu_static)
-    vertical = scene.az_mps2 if len(scene.az_mps2) else None
+    ax, ay, az = _components(scene)
     top, end = np.empty(6), np.empty(4)
     outcome, error, n_stops, n_events, n_steps = kernel.slide_plane(
-        scene.ax_mps2,
-        scene.ay_mps2,
-        vertical,
-        one_axis.bounds(scene.ax_mps2),
-        one_axis.bounds(scene.ay_mps2),
-        None if vertical is None else one_axis.bounds(vertical),
+        ax,
+        ay,
+        az,
+        one_axis.bounds(ax),
+        one_axis.bounds(ay),
+        one_axis.bounds(az),
         scene.dt_s,
         math.sin(scene.slope_rad),
         cs,

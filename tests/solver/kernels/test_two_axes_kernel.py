@@ -60,8 +60,8 @@ def run_all():
     numbers = []
     for along, across, vertical, sn, mu, law in SCENES:
         ax, ay = readonly(along), readonly(across)
-        az = readonly(vertical) if len(vertical) else None
-        bounds = [None if a is None else one_axis.bounds(a) for a in (ax, ay, az)]
+        az = readonly(vertical if len(vertical) else np.zeros(ax.size))
+        bounds = [one_axis.bounds(a) for a in (ax, ay, az)]
         for step, most in ((1e-6, 12), (1e-13, 20)):
             top, end = np.empty(6), np.empty(4)
             settings = (0.05, sn, math.sqrt(1.0 - sn * sn), mu, G, 1.0, step, most, 2000, law)
@@ -89,12 +89,13 @@ def test_compiled_and_plain_kernels_give_the_same_bits(tmp_path):
 def given_up(ax, most_steps, dt=0.05):
     """Return how a run ends that has no answer."""
     ax = readonly(ax)
-    x = one_axis.bounds(ax)
+    level = readonly(np.zeros(ax.size))
+    x, z = one_axis.bounds(ax), one_axis.bounds(level)
     settings = (dt, 0.0, 1.0, 0.2, G, 1.0, 1e-6, 12, most_steps, None)
     nothing = np.empty((0, 4)), np.empty((4, 0))
     with np.errstate(all="ignore"):
         return two_axes.slide_plane(
-            ax, ax, None, x, x, None, *settings, *nothing, np.empty(6), np.empty(4)
+            ax, ax, level, x, x, z, *settings, *nothing, np.empty(6), np.empty(4)
         )
 
 
@@ -110,8 +111,8 @@ def test_the_blocks_passed_over_are_those_of_the_bounds():
 
 
 def test_blocks_passed_over_change_nothing():
-    ax, ay = readonly(QUIET), readonly(-QUIET[::-1])
-    x, y = one_axis.bounds(ax), one_axis.bounds(ay)
+    ax, ay, az = readonly(QUIET), readonly(-QUIET[::-1]), readonly(0.0 * QUIET)
+    x, y, z = (one_axis.bounds(a) for a in (ax, ay, az))
     # All of a record but its peak, which rounding is told from.
     least_and_greatest = np.array([[-99.0], [99.0]])
     wide = [least_and_greatest * np.ones_like(bounds) for bounds in (x, y)]
@@ -121,7 +122,7 @@ def test_blocks_passed_over_change_nothing():
     for bounds in ((x, y), wide):
         top, end = np.empty(6), np.empty(4)
         run = two_axes.slide_plane(
-            ax, ay, None, *bounds, None, 0.05, 0.1, 0.99, 0.3, G, 1.0, 1e-9, 16, 2000, None,
+            ax, ay, az, *bounds, z, 0.05, 0.1, 0.99, 0.3, G, 1.0, 1e-9, 16, 2000, None,
             np.empty((0, 4)), np.empty((4, 0)), top, end,
         )  # fmt: skip
         runs.append([*run, *top, *end])
