@@ -73,18 +73,25 @@ def check_letters(sheet: Sheet) -> None:
     Raises
     ------
     InputError
-        With the cell of every text that has such letters.
+        With the cell of every text that has such letters, and for the name of the workbook.
     """
     problems = []
+    if missing := undrawable(sheet.path.name):
+        problems.append(
+            f"the file name: no font of this machine has {_named(missing)}; rename the workbook"
+        )
     for row in sheet.echo:
         is_in_figures = row.label == _ID
         if missing := undrawable(row.typed, is_in_figures=is_in_figures):
-            named = ", ".join(f"{letter} (U+{ord(letter):04X})" for letter in missing[:_LISTED])
             where, remedy = (
                 ("the font of the figures does not have", "write it in other letters")
                 if is_in_figures
                 else ("no font of this machine has", "install one that does, or use other letters")
             )
-            problems.append(f"{row.sheet}!{row.cell}: {where} {named}; {remedy}")
+            problems.append(f"{row.sheet}!{row.cell}: {where} {_named(missing)}; {remedy}")
     if problems:
         raise InputError(problems)
+
+
+def _named(letters: str) -> str:
+    return ", ".join(f"{letter} (U+{ord(letter):04X})" for letter in letters[:_LISTED])

@@ -1,6 +1,8 @@
 """Letters that no font has are named by cell before anything is run."""
 
+import os
 import subprocess
+import sys
 
 import pytest
 from click.testing import CliRunner
@@ -63,3 +65,14 @@ def test_a_cell_with_letters_without_a_font_is_named(tmp_path, monkeypatch, comm
         in done.output
     )
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
+@pytest.mark.parametrize("name", [b"a\x01.xlsx", b"a\xff.xlsx", "a\ufffe.xlsx".encode()])
+@pytest.mark.parametrize("command", ["check", "report"])
+def test_a_file_name_that_cannot_be_printed_is_refused_before_the_runs(tmp_path, command, name):
+    book = make(tmp_path).rename(tmp_path / os.fsdecode(name))
+    done = CliRunner().invoke(main, [command, str(book)])
+    assert done.exit_code == 2, done.output
+    assert "the file name: no font of this machine has" in done.output
+    assert "rename the workbook" in done.output
