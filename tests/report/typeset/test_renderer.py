@@ -1,4 +1,4 @@
-"""The renderer is loaded without processes, and writes each stream once."""
+"""The renderer is loaded without processes, sets each line and writes each stream once."""
 
 import subprocess
 import sys
@@ -49,3 +49,27 @@ def test_streams_of_a_document_are_compressed_once(monkeypatch):
     assert len(set(once)) == len(once) >= 3  # the page, its color profile and a font
     # The list of objects for the identifier and in the file; their places.
     assert twice == [LEVEL] * 3
+
+
+WORDS = """<html lang="en-US"><head><title>T</title><style>
+@font-face { font-family: "Source Sans 3"; src: url("shipped:/fonts/SourceSans3-Regular.ttf"); }
+p { font-family: "Source Sans 3"; {} }
+</style></head><body><p>{}</p></body></html>"""
+
+
+@pytest.mark.parametrize("style", ["", "text-align: justify", "letter-spacing: 2pt"])
+def test_lines_that_are_kept_are_painted_as_if_they_were_set_again(monkeypatch, style):
+    from weasyprint.text.line_break import Layout
+
+    html = WORDS.replace("{}", style, 1).replace("{}", "Ballast moves, and comes to rest. " * 20)
+    set_lines, setup = [], Layout.setup
+    monkeypatch.setattr(Layout, "setup", lambda *about: set_lines.append(1) or setup(*about))
+    kept, n_kept = lay_out(html), len(set_lines)
+
+    def reactivate(self, style):
+        self.setup(style)
+        self.set_text(self.text, justify=True)
+
+    monkeypatch.setattr(Layout, "reactivate", reactivate)
+    assert lay_out(html) == kept
+    assert len(set_lines) > 2 * n_kept
