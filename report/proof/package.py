@@ -70,6 +70,8 @@ class Package:
     manifest : Manifest
     files : mapping of str to bytes
         Attachments of the first revision by name.
+    pdf : PdfReader
+        The first revision, to read further.
     """
 
     path: Path
@@ -77,6 +79,7 @@ class Package:
     first: bytes
     manifest: Manifest
     files: Mapping[str, bytes]
+    pdf: PdfReader
 
     @property
     def results(self) -> bytes:
@@ -97,15 +100,15 @@ def open_package(path: Path) -> Package:
     if not data.startswith(b"%PDF-") or end is None:
         raise InputError("is no PDF, or is cut off; get the file again from where it was issued")
     first = data[: end.end()]
-    files = guarded(lambda: _attachments(reader(first)))
+    pdf = guarded(lambda: reader(first))
+    files = guarded(lambda: _attachments(pdf))
     if MANIFEST not in files:
         raise InputError(
             f"holds no {MANIFEST}: it is no package of `roofslip report`, or was written by version"
             " 0.1, which did not attach the input"
         )
-    return Package(
-        path=path, data=data, first=first, manifest=_manifest(files[MANIFEST]), files=files
-    )
+    manifest = _manifest(files[MANIFEST])
+    return Package(path=path, data=data, first=first, manifest=manifest, files=files, pdf=pdf)
 
 
 def reader(data: bytes) -> PdfReader:

@@ -42,7 +42,7 @@ def appended(package: Package) -> Appended:
     """
     if len(package.data) == len(package.first):
         return Appended(signed=(), others=())
-    first, last = reader(package.first), guarded(lambda: reader(package.data))
+    first, last = package.pdf, guarded(lambda: reader(package.data))
     signatures = guarded(lambda: dict(_signatures(last)))
     others = guarded(lambda: [f"appended: {place}" for place in _changes(first, last)])
     if not _is_covered(package, signatures):

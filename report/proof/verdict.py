@@ -119,7 +119,7 @@ def _results(package: Package, ours: _Written, tolerance: float) -> list[str]:
 
 def _sheets(package: Package, ours: _Written, *, is_twin: bool) -> Iterator[str]:
     """Yield where sheets differ: in words; in annotations; and if versions agree, in anything."""
-    theirs = reader(package.first)
+    theirs = package.pdf
     names = {
         package.manifest.hash: ours.manifest.hash,
         package.manifest.sbom_sha256: ours.manifest.sbom_sha256,

@@ -87,7 +87,7 @@ def school(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def conditions(tmp_path_factory):
-    return made(packages.reported(tmp_path_factory, "conditions"))
+    return made(packages.reported(tmp_path_factory, "conditions", by_script=True))
 
 
 @pytest.fixture(scope="module")

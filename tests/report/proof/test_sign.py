@@ -3,6 +3,7 @@
 import datetime as dt
 import io
 import threading
+from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import pytest
@@ -25,8 +26,8 @@ from pyhanko_certvalidator import ValidationContext
 import packages
 import tampering
 from report.cli.main import main
-from report.proof.package import Package
-from report.proof.updates import appended
+from report.proof.package import Package, reader
+from report.proof.updates import Appended, appended
 from report.typeset.finish import FIELD
 
 PASSWORD = "pass word"
@@ -128,23 +129,31 @@ def data(tmp_path_factory):
     return packages.of_one_motion(tmp_path_factory)[1]
 
 
-@pytest.fixture
-def sign(data, p12, tmp_path):
+@pytest.fixture(scope="module")
+def sign(data, p12, tmp_path_factory):
     """A function that signs with the command; returns the outcome and the signed bytes."""
 
     def run(*options, content=data, password=PASSWORD):
-        path = tmp_path / "calc-package.pdf"
+        path = tmp_path_factory.mktemp("signed") / "calc-package.pdf"
         path.write_bytes(content)
         words = ["sign", str(path), "--p12", str(p12), "--password", password, *options]
         done = CliRunner().invoke(main, words)
-        made = tmp_path / "calc-package-signed.pdf"
+        made = path.with_name("calc-package-signed.pdf")
         return done, made.read_bytes() if made.exists() else b""
 
     return run
 
 
-def package_of(whole, first):
-    return Package(path=None, data=whole, first=first, manifest=None, files={})
+@pytest.fixture(scope="module")
+def signed(sign):
+    return sign()
+
+
+@pytest.fixture(scope="module")
+def found(data):
+    """A function that returns what was appended to the package, which is parsed once."""
+    package = Package(path=None, data=data, first=data, manifest=None, files={}, pdf=reader(data))
+    return lambda whole: appended(replace(package, data=whole))
 
 
 def checked(content, authority):
@@ -156,8 +165,8 @@ def checked(content, authority):
     return signature, validate_pdf_signature(signature, context, context)
 
 
-def test_a_signature_is_pades_b_b_without_a_network(sign, authority, data):
-    done, content = sign()
+def test_a_signature_is_pades_b_b_without_a_network(signed, authority, data, found):
+    done, content = signed
     assert done.exit_code == 0, done.output
     assert content.startswith(data)
     signature, status = checked(content, authority)
@@ -165,27 +174,25 @@ def test_a_signature_is_pades_b_b_without_a_network(sign, authority, data):
     assert signature.sig_object["/SubFilter"] == "/ETSI.CAdES.detached"
     assert status.bottom_line
     assert status.timestamp_validity is None
-    assert appended(package_of(content, data)).signed == (FIELD,)
-    assert appended(package_of(content, data)).others == ()
+    assert found(content) == Appended(signed=(FIELD,), others=())
 
 
-def test_a_time_stamp_makes_it_b_t(sign, authority, clock, data):
+def test_a_time_stamp_makes_it_b_t(sign, authority, clock, found):
     done, content = sign("--time-stamp", clock)
     assert done.exit_code == 0, done.output
     _, status = checked(content, authority)
     assert status.bottom_line
     assert status.timestamp_validity.valid
-    assert appended(package_of(content, data)).others == ()
+    assert found(content).others == ()
 
 
-def test_what_is_appended_after_the_signature_is_found(sign, data):
-    _, content = sign()
+def test_what_is_appended_after_the_signature_is_found(signed, found):
+    _, content = signed
     for more in (b"\n", b"% more\n", b"1 0 obj\n<<>>\nendobj\n"):
-        found = appended(package_of(content + more, data))
-        assert "appended: bytes that no signature covers" in found.others
+        assert "appended: bytes that no signature covers" in found(content + more).others
 
 
-def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, data, tmp_path):
+def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, data, found):
     import pikepdf
     from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
 
@@ -202,14 +209,13 @@ def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, data,
         assert b"2 0 0 2 0 0 Tm" in pdf.pages[3].Contents.read_bytes()
     done, content = sign(content=out.getvalue())
     assert done.exit_code == 0, done.output
-    found = appended(package_of(content, data))
-    assert found.signed == (FIELD,)
-    assert "appended: sheet 4 /Contents" in found.others
+    later = found(content)
+    assert later.signed == (FIELD,)
+    assert "appended: sheet 4 /Contents" in later.others
 
 
-def test_a_second_signature_has_no_field(sign, data):
-    _, content = sign()
-    done, _ = sign(content=content)
+def test_a_second_signature_has_no_field(sign, signed):
+    done, _ = sign(content=signed[1])
     assert done.exit_code == 2
     assert "cannot be signed" in done.output
 
