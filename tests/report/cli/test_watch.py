@@ -90,11 +90,18 @@ def test_once_ends_after_one_round(tmp_path, monkeypatch):
     assert "watching" not in done.stdout
 
 
-UNLAID = "from packages import unlaid; from report.cli.main import main\nwith unlaid(): main()"
+UNLAID = """
+import report.beside
+from packages import unlaid
+from report.cli.main import main
+
+report.beside.SecondProcess = report.beside.SameProcess
+with unlaid(): main()
+"""
 
 
 class Watching:
-    """The command in a process of its own; its packages are not laid out."""
+    """The command in one process of its own; its packages are not laid out."""
 
     def __init__(self, folder):
         self.lines = []
@@ -189,10 +196,11 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
 REPORTS = """
 import sys
 from contextlib import nullcontext
-import report.typeset.pdf
+import report.beside
 from packages import unlaid
 from report.cli.main import main
 
+report.beside.SecondProcess = report.beside.SameProcess
 *before, last = sys.argv[1:]
 for folder in (*before, last):
     with nullcontext() if folder == last else unlaid():
@@ -201,7 +209,7 @@ for folder in (*before, last):
 
 
 def fresh(folders):
-    """Report each folder in a process that keeps nothing, the last one laid out."""
+    """Report each folder in one process that keeps nothing, the last one laid out."""
     subprocess.run(
         [sys.executable, "-c", REPORTS, *map(str, folders)],
         check=True,
