@@ -17,12 +17,14 @@ from pypdf import PdfReader
 
 import report.cli.verify
 import report.manual.render
+import report.manual.sections
 import solver.verification.run
 import tables
 from report.cli.main import main
 from report.cli.terminal import Progress
 from report.figures import work
 from report.manual import blocks
+from report.manual.sections import sections
 from report.manual.shake_table import NOT_VALIDATED
 from report.typeset.pdf import lay_out
 from report.words.letters import lettered
@@ -48,22 +50,29 @@ class Counting(Progress):
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory):
-    """What `roofslip verify --quick` computes and lays out, how the command ends, and its folder.
+    """What `roofslip verify --quick` computes and lays out, how the command ends, its folder, and
+    its sections by name.
 
     Other programs, where some are installed, are tested apart.
     """
-    computed, laid_out = [], []
+    computed, laid_out, parts = [], [], {}
     with pytest.MonkeyPatch.context() as patch:
 
         def kept(*arguments, **options):
             computed.append(replace(verify(*arguments, **options), peers=()))
             return computed[0]
 
+        def kept_sections(*about):
+            found = sections(*about)
+            parts.update((part.id, part) for part in found)
+            return found
+
         def kept_html(html):
             laid_out.append(html)
             return lay_out(html)
 
         patch.setattr(solver.verification.run, "verify", kept)
+        patch.setattr(report.manual.render, "sections", kept_sections)
         patch.setattr(report.manual.render, "lay_out", kept_html)
         today = SimpleNamespace(date=SimpleNamespace(today=lambda: DATE))
         patch.setattr(report.cli.verify, "dt", today)
@@ -71,7 +80,7 @@ def quick(tmp_path_factory):
         out = tmp_path_factory.mktemp("quick") / "v"
         done = CliRunner().invoke(main, ["verify", "--quick", "--out", str(out)])
     assert done.exit_code == 0, done.output
-    return computed[0], laid_out[0], done, out
+    return computed[0], laid_out[0], done, out, parts
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +97,7 @@ def made(quick):
 
 
 def test_the_quick_command_of_the_readme_passes_and_writes_everything(quick, made):
-    verification, _, done, out = quick
+    verification, _, done, out, _ = quick
     count = len(verification.checks)
     assert done.stdout.startswith(f"PASS: {count} of {count} checks passed\n")
     assert made["verification.pdf"].startswith(b"%PDF")
@@ -361,9 +370,12 @@ def test_a_folder_that_cannot_be_written_exits_2(monkeypatch, tmp_path, verifica
 
 
 def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
-    monkeypatch, tmp_path, verification
+    monkeypatch, tmp_path, quick, verification
 ):
-    given = []
+    """The charts of the other sections are not drawn again."""
+    given, drawn = [], quick[4]
+    for name in ("work", "stability", "convergence", "links", "curves", "conditioning", "rungs"):
+        monkeypatch.setattr(report.manual.sections, name, lambda _, part=drawn[name]: part)
 
     def kept(*_, tests, **__):
         given.append(tests)
