@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from pypdf import PdfReader
 
+import packages
 import stand_in
 from places import GOLDEN as GOLDEN_TEXTS
 from report.motions.components import Components
@@ -49,9 +50,8 @@ def said():
 
     def words(data=None, shaking=None):
         html = stand_in.html(stand_in.book(data, shaking))
-        body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
         running = " ".join(re.findall(r'data-(?:head|foot)="([^"]*)"', html))
-        return flat(unescape(f"{running} {body}"))
+        return f"{flat(unescape(running))} {packages.words(html)}"
 
     return words
 
@@ -263,9 +263,9 @@ def test_clearances_take_the_full_displacement(whole):
     assert "It is taken in full in every direction." in whole
 
 
-def test_thirty_motions_of_one_array_without_clearances_have_room():
+def test_thirty_motions_of_one_array_without_clearances_are_listed(said):
     data = stand_in.project(arrays=[stand_in.array("A1", 2.0)], objects=[], clearances=[])
-    whole = flat(" ".join(pages(made(data, few(30, seconds=3.0)))))
+    whole = said(data, few(30, seconds=3.0))
     assert all(f"M{k} " in whole for k in range(1, 31))
     assert "The workbook lists no clearances" in whole
 

@@ -11,22 +11,11 @@ import pytest
 import packages
 from packages import FILES
 from report.typeset.finish import FIELD
-from report.typeset.pdf import lay_out
 
 
 @pytest.fixture(scope="module")
-def html(tmp_path_factory):
-    return packages.of_one_motion(tmp_path_factory)[0]
-
-
-@pytest.fixture(scope="module")
-def data(tmp_path_factory):
-    return packages.of_one_motion(tmp_path_factory)[1]
-
-
-@pytest.fixture(scope="module")
-def pdf(data):
-    with pikepdf.open(io.BytesIO(data)) as opened:
+def pdf(tmp_path_factory):
+    with pikepdf.open(io.BytesIO(packages.of_one_motion(tmp_path_factory))) as opened:
         yield opened
 
 
@@ -46,10 +35,6 @@ def elements(pdf):
 
 def of_kind(elements, kind):
     return [element for element in elements if kind == element.S]
-
-
-def test_two_layouts_with_attachments_give_the_same_bytes(html, data):
-    assert lay_out(html, attached=lambda: FILES) == data
 
 
 def test_attachments_keep_their_paths_types_and_relationships(pdf):

@@ -126,7 +126,7 @@ def clock(authority):
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory):
-    return packages.of_one_motion(tmp_path_factory)[1]
+    return packages.of_one_motion(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

@@ -18,10 +18,12 @@ from dlml._tabular import load_tabular
 from openpyxl import load_workbook
 from pypdf import PdfReader
 
+import packages
 from report.cli.main import main
 from report.pages.symbols import with_symbols
 from report.results.publish import locked
 from report.sheet.schema import UnitsFirst
+from report.study import files
 from report.study.exports import chances_of, export_files, known_states
 from report.study.files import study_files, study_html
 from report.study.prescribed import compare
@@ -30,6 +32,7 @@ from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.template import write_study
 from report.study.words import headline
+from report.typeset.pdf import lay_out
 from solver import solve
 from solver.model import coulomb
 from solver.studies.curves import least_friction
@@ -57,11 +60,25 @@ def small(**changes):
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory):
+def laid_out():
+    """The HTML of the study that is laid out."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory, laid_out):
     folder = write(tmp_path_factory.mktemp("study"), small(), motions=6)
-    done = CliRunner().invoke(main, ["study", str(folder)])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(files, "lay_out", lambda html: laid_out.append(html) or lay_out(html))
+        done = CliRunner().invoke(main, ["study", str(folder)])
     assert done.exit_code == 0, done.output
     return folder, done.output
+
+
+@pytest.fixture
+def unlaid(monkeypatch):
+    """Have reports written as HTML."""
+    monkeypatch.setattr(files, "lay_out", str.encode)
 
 
 @pytest.fixture(scope="module")
@@ -173,9 +190,12 @@ def test_the_command_writes_every_file_and_prints_the_results(made, results):
     assert len(rows) == manifest["rows"]
 
 
-def test_a_second_run_runs_nothing_and_writes_the_same_bytes(made, results):
+def test_a_second_run_runs_nothing_and_writes_the_same_bytes(made, results, laid_out, unlaid):
+    """Layout is tested for it in tests/report/proof/test_verify_package.py."""
     out = made[0] / "out" / "study"
-    for name, content in study_files(results).items():
+    written = study_files(results)
+    assert [written.pop("study.pdf").decode()] == laid_out
+    for name, content in written.items():
         assert (out / name).read_bytes() == content, name
 
 
@@ -258,7 +278,9 @@ def test_the_pages_state_what_was_found(made, results):
     assert f"{state.fitted.theta:.3g}" in text
 
 
-def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(other, results):
+def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(
+    other, results, unlaid
+):
     assert compare(results, 0) == ()
     found = other(intensity=Intensity.S_DS, s_ds_g=1.0, intensities="0.2 to 2 by 0.2")
     one = compare(found, 0)[0]
@@ -268,17 +290,17 @@ def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(o
     assert one.value_m[6] == pytest.approx(wanted)
     ratio = 1.1 * found.curves.mean_m[at] / wanted
     assert one.ratio[1, 1, 6] == pytest.approx(ratio, nan_ok=True)
-    files = study_files(found)
-    text = text_of(io.BytesIO(files["study.pdf"]))
+    written = study_files(found)
+    prose = written["study.pdf"].decode()
+    text = packages.words(prose)
     assert "Beside the prescriptive displacement" in text
     safe = int((one.ratio <= 1.0).sum())
     assert f"in {safe:,} of {one.ratio.size:,} cases" in text
     # Set as a symbol on the pages; the charts write it as the sheet does.
-    prose = study_html(found)
     assert str(with_symbols("S_DS")) in prose
     assert not re.search(r"<(p|li|figcaption)>[^<]*S_DS", prose)
     # pelicun and OpenQuake have no measure S_DS.
-    assert set(files) == {"study.pdf", "curves.csv", "study.xlsx"}
+    assert set(written) == {"study.pdf", "curves.csv", "study.xlsx"}
 
 
 def test_a_family_of_buildings_has_curves_each(other):
@@ -292,7 +314,7 @@ def test_a_family_of_buildings_has_curves_each(other):
     for b in (0, 1):
         prd = [peak(found.plan, k, b, 3.0, 0.4, 0.8) for k in range(6)]
         assert found.curves.mean_m[b, 1, 0, 1] == pytest.approx(np.mean(prd), nan_ok=True)
-    text = text_of(io.BytesIO(study_files(found)["study.pdf"]))
+    text = packages.words(study_html(found))
     assert "building T1" in text
     assert "building T2" in text
 
@@ -303,8 +325,7 @@ def test_one_case_makes_a_report(other):
         site_intensity=None, intensity_beta=0.0, allowed_m=None,
     )  # fmt: skip
     assert isinstance(found.fits[0], str)
-    text = text_of(io.BytesIO(study_files(found)["study.pdf"]))
-    assert "None is given" in text
+    assert "None is given" in packages.words(study_html(found))
 
 
 # The exports
