@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence, Plotted
@@ -22,6 +23,9 @@ from report.pages.pictures import Pictures, draw_assessment, draw_certainty, dra
 from report.pages.registry import package_data, pages_of, parts
 from report.typeset.equations import Formula, formulas
 from report.typeset.pdf import TEMPLATES
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,13 +109,18 @@ def _lines(content: Any) -> Iterator[Line]:
 
 
 def _html(context: Mapping[str, Any]) -> str:
+    return _environment().get_template("package.html").render(context)
+
+
+@cache
+def _environment() -> Environment:
+    """Return the templates, which are compiled once in a process."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    environment = Environment(
+    return Environment(
         loader=FileSystemLoader(TEMPLATES),
         undefined=StrictUndefined,
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template("package.html").render(context)
