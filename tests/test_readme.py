@@ -1,7 +1,7 @@
 """Every command and every line of Python in the README runs, in a separate folder.
 
 The report of the example runs as by a script, the other commands in this process. What the reader
-is to fill in is here a small project; the study has fewer motions and slopes.
+is to fill in is here a small project; the study has fewer motions, slopes and intensities.
 """
 
 import json
@@ -100,14 +100,16 @@ def commanded(folder):
                 assert (folder / "projects" / "yours" / "input.xlsx").is_file()
                 make(folder / "projects" / "yours")
             elif words == ["study", "projects/study", "--dry-run"]:
-                edit(folder / "projects" / "study" / "input.xlsx", few_slopes)
+                edit(folder / "projects" / "study" / "input.xlsx", few_cases)
     forget()
     return folder, printed
 
 
-def few_slopes(book):
+def few_cases(book):
     assert book["Study"]["B9"].value == "0 to 7 by 1"
+    assert book["Study"]["B12"].value == "0.1 to 2 by 0.1"
     book["Study"]["B9"] = "0, 2, 4"
+    book["Study"]["B12"] = "0.2 to 2 by 0.2"
 
 
 def test_every_command_of_the_readme_runs(commanded):
@@ -122,7 +124,7 @@ def test_the_study_of_the_readme_has_its_curves(commanded):
     # Three mats on eight slopes at twenty intensities, and the cases of the array.
     assert printed["study projects/study --dry-run"].startswith("557 cases, ")
     out = folder / "projects" / "study" / "out" / "study"
-    assert len((out / "curves.csv").read_text().splitlines()) == 1 + 3 * 3 * 20
+    assert len((out / "curves.csv").read_text().splitlines()) == 1 + 3 * 3 * 10
     assert (out / "study.pdf").stat().st_size > 10_000
 
 

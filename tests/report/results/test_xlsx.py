@@ -24,6 +24,10 @@ def opened(content):
     return [openpyxl.load_workbook(io.BytesIO(content), data_only=flag) for flag in (False, True)]
 
 
+def short():
+    return stand_in.motions(seconds=10.0)
+
+
 def made(book):
     return opened(xlsx(stand_in.assessed(book)))
 
@@ -153,7 +157,7 @@ CASES = {
 
 @pytest.mark.parametrize("case", CASES)
 def test_every_formula_gives_the_value_written_with_it(case):
-    formulas, values = made(stand_in.book(stand_in.project(**CASES[case])))
+    formulas, values = made(stand_in.book(stand_in.project(**CASES[case]), short()))
     checked, known = 0, {}
     for sheet in formulas:
         for row in sheet.iter_rows():
@@ -170,7 +174,7 @@ def test_every_formula_gives_the_value_written_with_it(case):
 
 def test_the_effect_of_links_follows_from_their_runs():
     data = stand_in.project(**CASES["a row of linked blocks"])
-    assessment = stand_in.assessed(stand_in.book(data))
+    assessment = stand_in.assessed(stand_in.book(data, short()))
     formulas, values = opened(xlsx(assessment))
     first, second = assessment.linked
     rows = list(values["LinkRuns"].iter_rows(min_row=2, values_only=True))
@@ -259,7 +263,7 @@ def test_without_a_value_the_workbook_states_no_value_and_ng():
 
 def test_text_that_looks_like_a_formula_stays_text():
     data = stand_in.project(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
-    formulas, _ = made(stand_in.book(data))
+    formulas, _ = made(stand_in.book(data, short()))
     for sheet, cell in (("Design", "A5"), ("Runs", "A2")):
         assert (formulas[sheet][cell].value, formulas[sheet][cell].data_type) == ("=1+1", "s")
 
