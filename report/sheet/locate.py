@@ -466,8 +466,10 @@ def table_area(book: OpenBook, section: Section) -> TableArea | None:
 def area_named(book: Workbook, name: str) -> tuple[str, tuple[int, int, int, int]] | None:
     """Return the sheet of a named range, and its left, top, right, bottom; None without one."""
     for defined in book.defined_names.values():
+        if str(defined.name).casefold() != name:
+            continue
         match = _AREA.fullmatch(str(defined.attr_text))
-        if str(defined.name).casefold() != name or not match:
+        if not match:
             continue
         bounds = _bounds(match[3])
         title = match[2] or match[1].replace("''", "'")
