@@ -161,21 +161,30 @@ def hide_headings(book):
     book["Arrays"].tables["arrays_table"].headerRowCount = 0
 
 
+def name_in_capitals(book):
+    book["Arrays"].tables["arrays_table"].displayName = "ARRAYS_TABLE"
+
+
+# Together where each can be told apart: no two move the same table or forget what finds it.
 CHANGES = {
     "a table without heading row": hide_headings,
-    "rows inserted above": lambda book: [shift(book, s, 3) for s in ("Site", "Arrays", "Project")],
-    "sheets renamed": lambda book: [rename(book, s, f"My {s}") for s in ("Site", "Arrays")],
-    "sheets reordered": lambda book: book.move_sheet("Motions", -5),
-    "sheets hidden": lambda book: setattr(book["Arrays"], "sheet_state", "hidden"),
-    "columns reordered": lambda book: swap(book, "Arrays", "C", "H", range(7, 11)),
+    "rows inserted above, sheets renamed": lambda book: [
+        *(shift(book, s, 3) for s in ("Site", "Arrays", "Project")),
+        *(rename(book, s, f"My {s}") for s in ("Site", "Arrays")),
+    ],
+    "sheets reordered and hidden, a name in other capitals": lambda book: [
+        book.move_sheet("Motions", -5),
+        setattr(book["Arrays"], "sheet_state", "hidden"),
+        name_in_capitals(book),
+    ],
+    "columns reordered, blank rows between": lambda book: [
+        swap(book, "Arrays", "C", "H", range(7, 11)),
+        leave_blank_rows(book),
+    ],
     "table moved": lambda book: move_table(book, "Arrays", 4, 10),
     "tables forgotten": forget_tables,
     "names forgotten": forget_names,
-    "blank rows between": leave_blank_rows,
     "rows typed below the table": type_below_the_table,
-    "a name in other capitals": lambda book: setattr(
-        book["Arrays"].tables["arrays_table"], "displayName", "ARRAYS_TABLE"
-    ),
 }
 
 
@@ -196,9 +205,10 @@ SPELLINGS = {
 }
 
 
-@pytest.mark.parametrize(("cell", "value"), SPELLINGS.values(), ids=SPELLINGS)
-def test_spelling_and_notes_do_not_matter(tmp_path, cell, value):
-    assert same(read_workbook(type_into(make(tmp_path), {cell: value})).input, project())
+def test_spelling_and_notes_do_not_matter(tmp_path):
+    """All in one workbook: each is in a cell that no other depends on."""
+    path = type_into(make(tmp_path), dict(SPELLINGS.values()))
+    assert same(read_workbook(path).input, project())
 
 
 def test_units_of_headings_and_cells_are_followed(tmp_path):
@@ -328,23 +338,37 @@ def test_names_of_records_may_have_the_slashes_of_windows(tmp_path):
 
 
 def pasted(values, header="North", name="Pasted!North"):
-    """Return an edit that pastes a column and lets M2 use it."""
+    """Return the cells of a pasted column that M2 uses."""
+    below = {f"Pasted!B{row}": value for row, value in enumerate(values, start=4)}
+    return {"Pasted!B3": header, "Motions!C9": name} | below
+
+
+@pytest.fixture(scope="module")
+def with_sheet(tmp_path_factory):
+    """The bytes of the usual workbook with a sheet Pasted."""
 
     def change(book):
-        sheet = book.create_sheet("Pasted")
-        sheet["B1"] = "from the laboratory"
-        sheet["B3"] = header
-        for row, value in enumerate(values, start=4):
-            sheet.cell(row, 2).value = value
-        book["Motions"]["C9"] = name
+        book.create_sheet("Pasted")["B1"] = "from the laboratory"
 
-    return change
+    return edit(make(tmp_path_factory.mktemp("pasted")), change).read_bytes()
+
+
+@pytest.fixture
+def paste(tmp_path, with_sheet):
+    """A function that types cells into such a workbook beside its records, and returns its path."""
+
+    def type_cells(cells):
+        path = make(tmp_path)
+        path.write_bytes(with_sheet)
+        return type_into(path, cells)
+
+    return type_cells
 
 
 @pytest.mark.parametrize("name", ["Pasted!North", "pasted!north", "'Pasted'!North"])
-def test_a_pasted_column_is_a_record(tmp_path, name):
+def test_a_pasted_column_is_a_record(paste, name):
     cells = [0.1, "0.2", -0.3, 0] * 26
-    book = read_workbook(edit(make(tmp_path), pasted(cells, name=name)))
+    book = read_workbook(paste(pasted(cells, name=name)))
     expected = np.array([0.1, 0.2, -0.3, 0] * 26) * 9.80665
     assert book.motions[1].ax_mps2 == pytest.approx(expected)
     assert book.records[2].name == name
@@ -355,7 +379,7 @@ PASTED = "Motions!C9: horizontal record:"
 
 
 @pytest.mark.parametrize(
-    ("change", "lines"),
+    ("cells", "lines"),
     [
         (pasted([0.1, "abc", 0.2]), [f"{PASTED} Pasted!B5 is 'abc'; give a number"]),
         (pasted([0.1, "nan", 0.2]), [f"{PASTED} Pasted!B5 is 'nan'; give a number"]),
@@ -390,24 +414,15 @@ PASTED = "Motions!C9: horizontal record:"
             ],
         ),
         (
-            lambda book: (
-                pasted([0.1, 0.2])(book),
-                book["Motions"].__setitem__("G9", None),
-            ),
+            pasted([0.1, 0.2]) | {"Motions!G9": None},
             [f"{PASTED} 'Pasted!North' is a pasted column; give its time step"],
         ),
         (
-            lambda book: (
-                pasted([0.1, 0.2])(book),
-                book["Pasted"].__setitem__("D2", "North"),
-            ),
+            pasted([0.1, 0.2]) | {"Pasted!D2": "North"},
             [f"{PASTED} heading 'North' appears at Pasted!D2 and Pasted!B3; rename one"],
         ),
         (
-            lambda book: (
-                pasted([0.1, 0.2])(book),
-                book["Pasted"].__setitem__("B300000", 1),
-            ),
+            pasted([0.1, 0.2]) | {"Pasted!B300000": 1},
             [
                 f"{PASTED} Pasted!B300000 contains data more than 200,000 rows below the heading;"
                 " clear it, or give the record as a file"
@@ -415,41 +430,45 @@ PASTED = "Motions!C9: horizontal record:"
         ),
     ],
 )
-def test_a_pasted_column_is_refused_by_its_cell(tmp_path, change, lines):
-    assert list(problems(edit(make(tmp_path), change))) == lines
+def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
+    assert list(problems(paste(cells))) == lines
 
 
 WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
 
 
-@pytest.mark.parametrize(
-    ("name", "line"),
-    [
-        ("records/none.csv", f"'records/none.csv' does not exist; {WITHIN}"),
-        ("records", f"'records' is not a file; {WITHIN}"),
-        ("/etc/hostname", f"'/etc/hostname' is outside the workbook's folder; {WITHIN}"),
-        ("../x.csv", f"'../x.csv' is outside the workbook's folder; {WITHIN}"),
-        ("..\\x.csv", f"'../x.csv' is outside the workbook's folder; {WITHIN}"),
-        ("C:\\x.csv", f"'C:/x.csv' is outside the workbook's folder; {WITHIN}"),
-        ("\\\\host\\x", f"'//host/x' is outside the workbook's folder; {WITHIN}"),
-        ("link.csv", f"'link.csv' is a link to a file outside the workbook's folder; {WITHIN}"),
-        ("loop.csv", f"'loop.csv' cannot be found; {WITHIN}"),
-        ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
-        ("pipe.csv", f"'pipe.csv' is not a file; {WITHIN}"),
-        ("big.csv", "'big.csv' has 65 MB; give at most 64 MB"),
-        ("input.xlsx", "input.xlsx: not a text file; give the text of a record"),
-    ],
-)
-def test_a_record_must_be_a_file_within_the_folder(tmp_path, name, line):
+REFUSED = [
+    ("records/none.csv", f"'records/none.csv' does not exist; {WITHIN}"),
+    ("records", f"'records' is not a file; {WITHIN}"),
+    ("/etc/hostname", f"'/etc/hostname' is outside the workbook's folder; {WITHIN}"),
+    ("../x.csv", f"'../x.csv' is outside the workbook's folder; {WITHIN}"),
+    ("..\\x.csv", f"'../x.csv' is outside the workbook's folder; {WITHIN}"),
+    ("C:\\x.csv", f"'C:/x.csv' is outside the workbook's folder; {WITHIN}"),
+    ("\\\\host\\x", f"'//host/x' is outside the workbook's folder; {WITHIN}"),
+    ("link.csv", f"'link.csv' is a link to a file outside the workbook's folder; {WITHIN}"),
+    ("loop.csv", f"'loop.csv' cannot be found; {WITHIN}"),
+    ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
+    ("pipe.csv", f"'pipe.csv' is not a file; {WITHIN}"),
+    ("big.csv", "'big.csv' has 65 MB; give at most 64 MB"),
+    ("input.xlsx", "input.xlsx: not a text file; give the text of a record"),
+]
+
+
+@pytest.mark.parametrize("at", range(0, len(REFUSED), 3))
+def test_a_record_must_be_a_file_within_the_folder(tmp_path, at):
+    """Three at a time: the workbook has three motions."""
     folder = tmp_path / "job"
-    path = type_into(make(folder), {"Motions!C9": name})
+    refused = {f"Motions!C{row}": case for row, case in enumerate(REFUSED[at : at + 3], start=8)}
+    path = type_into(make(folder), {cell: name for cell, (name, _) in refused.items()})
     (tmp_path / "outside.csv").write_text("0.1\n0.2\n")
     (folder / "link.csv").symlink_to(tmp_path / "outside.csv")
     (folder / "loop.csv").symlink_to(folder / "loop.csv")
     os_pipe(folder / "pipe.csv")
     with (folder / "big.csv").open("wb") as file:
         file.truncate(65_000_000)
-    assert problems(path) == (f"Motions!C9: horizontal record: {line}",)
+    assert problems(path) == tuple(
+        f"{cell}: horizontal record: {line}" for cell, (_, line) in refused.items()
+    )
 
 
 def os_pipe(path):
@@ -547,12 +566,9 @@ def test_units_that_differ_between_file_and_sheet_are_reported(tmp_path):
     assert line.startswith("Motions!C8: horizontal record: all.csv:1: the file is in g but units")
 
 
-def test_gals_of_a_pasted_column_are_cm_s2(tmp_path):
-    def change(book):
-        pasted([100.0, -200.0] * 51)(book)
-        book["Motions"]["F9"] = "gal"
-
-    motion = read_workbook(edit(make(tmp_path), change)).motions[1]
+def test_gals_of_a_pasted_column_are_cm_s2(paste):
+    cells = pasted([100.0, -200.0] * 51) | {"Motions!F9": "gal"}
+    motion = read_workbook(paste(cells)).motions[1]
     assert motion.ax_mps2.tolist() == [1.0, -2.0] * 51
 
 
