@@ -81,6 +81,8 @@ def test_new_example_writes_the_example_of_the_projects(tmp_path, monkeypatch):
     names = {path.relative_to(made) for path in made.rglob("*.*")}
     assert len(names) == 22
     for name in names - {Path("input.xlsx")}:
+        if (made / name).read_bytes() == (committed / name).read_bytes():
+            continue
         one, other = (np.loadtxt(f / name, delimiter=",", skiprows=2) for f in (made, committed))
         assert np.abs(one - other).max() <= 3e-5  # sines may differ in the last digit
     with ZipFile(made / "input.xlsx") as one, ZipFile(committed / "input.xlsx") as other:
