@@ -7,7 +7,6 @@ from click.testing import CliRunner
 from openpyxl import load_workbook
 
 from report.cli.main import main
-from report.sheet.archive import open_book
 from report.sheet.live import overwritten
 from report.sheet.read import read
 from report.sheet.schema import Polygon, UnitsFirst
@@ -40,7 +39,8 @@ def test_a_blank_workbook_is_filled(tmp_path, units):
     done = run(drawing(tmp_path), path)
     assert done.exit_code == 0, done.output
     assert "A1: array, 6 vertices" in done.output
-    draft = read(path).draft
+    sheet = read(path)
+    draft = sheet.draft
     assert [row["id"] for row in draft["arrays"]] == ["A1", "A2"]
     assert draft["arrays"][0]["x_from_m"] is None
     assert draft["arrays"][1]["x_to_m"] == pytest.approx(200 * FT, abs=1e-6)
@@ -50,7 +50,7 @@ def test_a_blank_workbook_is_filled(tmp_path, units):
     ids = [row["id"] for row in draft["objects"]]
     assert ids == ["N", "EDGE-1", "EDGE-2", "EDGE-3"]
     assert draft["objects"][0]["height_m"] == pytest.approx(36 * 0.0254)
-    assert not [p for p in read(path).problems if p[0].section in ("roof", "objects", "outlines")]
+    assert not [p for p in sheet.problems if p[0].section in ("roof", "objects", "outlines")]
 
 
 def test_places_that_are_filled_stay_unless_they_may_be_replaced(tmp_path):
@@ -116,8 +116,9 @@ def test_rows_that_a_table_grows_by_have_their_formulas(tmp_path, units):
         box = ((x + 20 * number, y) for x, y in ((0, 0), (10, 0), (10, 10), (0, 10)))
         sketch.ring("ARRAY", tuple(box), f"A{number}")
     assert run(sketch.saved(tmp_path), path).exit_code == 0
-    assert len(read(path).draft["arrays"]) == 30
-    book = open_book(path)
+    sheet = read(path)
+    assert len(sheet.draft["arrays"]) == 30
+    book = sheet.book
     assert book.formula("Arrays", "A37").startswith("=IF(SUMPRODUCT(")
     assert overwritten(book) == ()
 

@@ -31,7 +31,10 @@ def check(*arguments):
 
 def formulas(path):
     """Every formula of a workbook by cell."""
-    book = open_book(path)
+    return formulas_of(open_book(path))
+
+
+def formulas_of(book):
     return {f"{t}!{c}": book.formula(t, c) for t, scan in book.scans.items() for c in scan.formulas}
 
 
@@ -39,9 +42,10 @@ def formulas(path):
 @pytest.mark.parametrize("is_filled", [False, True])
 def test_every_formula_of_a_new_workbook_is_watched_and_as_it_should_be(tmp_path, units, is_filled):
     path = make(tmp_path, units) if is_filled else blank(tmp_path / "input.xlsx", units)
-    watched = {at.address: text for at, text in live_formulas(open_book(path)).items()}
-    assert watched == formulas(path)
-    assert lost(path) == []
+    book = open_book(path)
+    watched = {at.address: text for at, text in live_formulas(book).items()}
+    assert watched == formulas_of(book)
+    assert overwritten(book) == ()
 
 
 def typed_over(book):
@@ -64,9 +68,9 @@ OVER = [
 
 
 def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
-    path = edit(make(tmp_path), typed_over)
-    assert lost(path) == OVER
-    texts = said(path)
+    found = overwritten(open_book(edit(make(tmp_path), typed_over)))
+    assert [item.position.address for item in found] == OVER
+    texts = {item.cell: item.text for item in findings(found)}
     assert texts["Site!D13"].startswith("S_DS, computed, is 1.2, typed over its formula =IF(ISNUM")
     assert "is blank, and its formula is gone: =IF(SUMPRODUCT" in texts["Arrays!A8"]
     assert texts["Clearances!F9"].startswith("Neighbor is =B9&C9, and its formula is =IFERROR(IF")
@@ -129,9 +133,9 @@ def test_a_renamed_sheet_other_units_and_new_rows_give_no_warning(tmp_path):
                     text = str(cell.value).replace("Weight '[lb']", "Weight '[kip']")
                     cell.value = text.replace("'Arrays'!", "'Our arrays'!")
 
-    path = edit(make(tmp_path), change)
-    assert lost(path) == []
-    assert len(live_formulas(open_book(path))) == len(formulas(path))
+    book = open_book(edit(make(tmp_path), change))
+    assert overwritten(book) == ()
+    assert len(live_formulas(book)) == len(formulas_of(book))
 
 
 def test_a_formula_that_is_moved_refers_to_the_rows_where_it_is():
