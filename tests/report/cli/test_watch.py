@@ -93,9 +93,11 @@ def test_once_ends_after_one_round(tmp_path, monkeypatch):
 UNLAID = """
 import report.beside
 from packages import unlaid
+from report.cli import watch
 from report.cli.main import main
 
 report.beside.SecondProcess = report.beside.SameProcess
+watch.SETTLE_S = 1.0
 with unlaid(): main()
 """
 
