@@ -121,8 +121,8 @@ class Round:
 
     def sweep(self) -> None:
         """Free what a round has left, while nothing waits for the next one."""
-        self._second.submit(gc.collect)
         with _interrupted_after():
+            self._second.submit(gc.collect)  # which may be this process
             gc.unfreeze()  # what `no_collections` has exempted
             gc.collect()
 

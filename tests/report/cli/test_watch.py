@@ -19,7 +19,7 @@ from click.testing import CliRunner
 import report.typeset.pdf
 from packages import unlaid
 from places import ROOT, TESTS
-from report.beside import beside
+from report.beside import SameProcess, beside
 from report.cli import watch
 from report.cli.main import main
 from report.cli.watch import Round, is_input, settle
@@ -159,12 +159,13 @@ class Idle:
         pass
 
 
-def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path):
+@pytest.mark.parametrize("second", [Idle, SameProcess], ids=lambda kind: kind.__name__)
+def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, second):
     gc.disable()
     try:
         Interrupting()
         with pytest.raises(KeyboardInterrupt):
-            Round(tmp_path, tmp_path, Idle()).sweep()
+            Round(tmp_path, tmp_path, second()).sweep()
     finally:
         gc.enable()
 
