@@ -194,7 +194,8 @@ def saves(workbook: Path, folder: Path) -> Iterator[list[str]]:
 
     def counts(_: object, name: str) -> bool:
         path = Path(name)
-        return is_input(path) and not path.is_relative_to(written)
+        # A folder changes with every file that is written into it, the package among them.
+        return is_input(path) and not path.is_relative_to(written) and not path.is_dir()
 
     # Shares over a network tell no program of a change: the folder is polled.
     for found in changed_files(

@@ -22,7 +22,7 @@ from places import ROOT, TESTS
 from report.beside import SameProcess, beside
 from report.cli import watch
 from report.cli.main import main
-from report.cli.watch import Round, is_input, settle
+from report.cli.watch import Round, is_input, saves, settle
 from report.kept import forget
 from report.making import OUTPUTS
 from sheets import edit, make
@@ -46,6 +46,19 @@ WAIT_S = 240.0
 )
 def test_locks_and_temporary_files_are_no_save(name, counts):
     assert is_input(Path(name)) is counts
+
+
+def test_a_folder_that_only_received_the_package_is_no_save(tmp_path):
+    path, folder = tmp_path / "input.xlsx", tmp_path / "out"
+    path.write_bytes(b"before")
+    found = saves(path, folder)
+    next(found)
+    (tmp_path / "records").mkdir()
+    folder.mkdir()
+    (folder / "calc-package.pdf").write_bytes(b"%PDF")
+    assert [next(found) for _ in range(4)] == [[]] * 4
+    path.write_bytes(b"after it")
+    assert next(filter(None, found)) == ["input.xlsx"]
 
 
 def later(seconds, action):
