@@ -8,6 +8,7 @@ import json
 import re
 import shlex
 import shutil
+from contextlib import ExitStack
 from dataclasses import replace
 
 import numpy as np
@@ -84,7 +85,8 @@ def commanded(folder):
             laid_out[html, files] = lay_out(html, drawn, lambda: files)
         return laid_out[html, files]
 
-    with pytest.MonkeyPatch.context() as patch:
+    with pytest.MonkeyPatch.context() as patch, ExitStack() as after:
+        after.callback(forget)
         patch.chdir(folder)
         patch.setattr(report.typeset.pdf, "lay_out", kept)
         patch.setattr(batch, "ProcessPoolExecutor", lambda *_, **__: SameProcess())
@@ -101,7 +103,6 @@ def commanded(folder):
                 make(folder / "projects" / "yours")
             elif words == ["study", "projects/study", "--dry-run"]:
                 edit(folder / "projects" / "study" / "input.xlsx", few_cases)
-    forget()
     return folder, printed
 
 

@@ -159,7 +159,7 @@ def _whole(text: str | None, default: int) -> int:
 
 
 def scan_parts(parts: Mapping[str, bytes]) -> dict[str, Scan]:
-    """Scan every part that can be read as XML, whatever its name and encoding.
+    """Scan every part that a parser may read as XML, whatever its name and encoding.
 
     What passes is safe for any parser: it declares no entities.
 
@@ -168,40 +168,37 @@ def scan_parts(parts: Mapping[str, bytes]) -> dict[str, Scan]:
     InputError
         If a part is damaged, declares entities, or would cost more than an input can.
     """
-    markup = {name for name, data in parts.items() if _is_xml(name, data)}
-    tags = sum(parts[name].count(b"<") for name in markup)
+    markup = {name: data for name, data in parts.items() if _is_xml(name, data)}
+    tags = sum(data.count(b"<") for data in markup.values())
     if tags > MAX_TAGS:
         raise InputError(
             f"has {tags:,} XML tags, more than {MAX_TAGS:,}; keep records in files beside it"
         )
     budget = Budget()
     scans = {}
-    for name, data in parts.items():
+    for name, data in markup.items():
         # Shapes are drawn by nobody here: their elements are free.
-        scan = Scan(Budget() if name.startswith(_SHAPES) else budget)
-        if _walk(name, data, scan):
-            scans[name] = scan
-        elif name in markup:
-            raise InputError(f"damaged at {name}; {REOPEN}")
+        scans[name] = Scan(Budget() if name.startswith(_SHAPES) else budget)
+        _walk(name, data, scans[name])
     return scans
 
 
 def _is_xml(name: str, data: bytes) -> bool:
-    """Whether it says that it is XML: by its name, or by a first `<`."""
+    """Whether a parser may read it as XML: by its name, or by a first `<`.
+
+    Python's parser knows UTF-16, and encodings that write `<` as ASCII does.
+    """
     if name.lower().endswith((".xml", ".rels")):
         return True
-    start = data[:200].lstrip(b"\xef\xbb\xbf\xff\xfe\x00 \t\r\n")
-    return start.startswith(b"<")
+    return data.lstrip(b"\xef\xbb\xbf\xff\xfe\x00 \t\r\n").startswith(b"<")
 
 
-def _walk(name: str, data: bytes, scan: Scan) -> bool:
-    """Scan a part; return whether it is whole and XML."""
+def _walk(name: str, data: bytes, scan: Scan) -> None:
     try:
         defusedxml.sax.parseString(data, scan, forbid_dtd=True)
     except DefusedXmlException as error:
         raise InputError(f"contains XML entity declarations at {name}; {REOPEN}") from error
     except InputError as error:
         raise InputError(f"{name}: {error.problems[0]}") from error
-    except (SAXException, ValueError, LookupError):  # LookupError: unknown encodings
-        return False
-    return True
+    except (SAXException, ValueError, LookupError) as error:  # LookupError: unknown encodings
+        raise InputError(f"damaged at {name}; {REOPEN}") from error
