@@ -64,6 +64,14 @@ class Spectra:
         """Whether a period lies in the matching band and has a target ordinate."""
         return np.isin(self.periods_s, 1.0 / BAND_HZ) & np.isfinite(self.target_g)
 
+    @property
+    def lowest(self) -> tuple[float, str, float]:
+        """Smallest ratio of a motion to the target, its id and period [s]; inf without a target."""
+        ratio = self.sa_g / self.target_g
+        ratio = np.where(np.isnan(ratio), np.inf, ratio)
+        motion, at = np.unravel_index(ratio.argmin(), ratio.shape)
+        return float(ratio[motion, at]), self.ids[motion], float(self.periods_s[at])
+
 
 MOST_EXCESS = 1.30
 """Mean of the motions / target above which the motions are said to exceed it: in no code."""

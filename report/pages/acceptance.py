@@ -5,10 +5,12 @@ Formats finished results: `solver.records.acceptance` has the limits. Read `acce
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from markupsafe import Markup
 
+from report.assessment.spectra import Spectra
 from report.pages.parts import OK, Table, TableColumn, TableRow
 from report.sheet.schema import MotionInput
 from report.typeset.equations import symbol
@@ -21,8 +23,14 @@ _PAIRS = ("x-y", "x-z", "y-z")
 _PLACES = {"count": 0, "s": 1, "": 2}
 
 
-def acceptance_table(acceptance: Acceptance) -> Table:
-    """Return every limit on the motions: found, limit, where, OK or what follows."""
+def acceptance_table(acceptance: Acceptance, spectra: Sequence[Spectra] = ()) -> Table:
+    """Return every limit on the motions: found, limit, where, OK or what follows.
+
+    Parameters
+    ----------
+    spectra : sequence of Spectra
+        Those that the package shows: at more periods than the limits are checked at.
+    """
     return Table(
         caption="Limits on the motions for analysis, at the roof as run",
         columns=(
@@ -33,7 +41,7 @@ def acceptance_table(acceptance: Acceptance) -> Table:
             TableColumn(head="Result", align="left", share=1.05),
         ),
         rows=tuple(_acceptance_row(row) for row in acceptance.rows),
-        notes=tuple(_notes(acceptance)),
+        notes=tuple(_notes(acceptance, spectra)),
         kind="compact",
     )
 
@@ -64,7 +72,7 @@ def _result(row: AcceptanceRow) -> Markup:
     return Markup('<b class="ng">{}</b>').format(row.consequence.value)
 
 
-def _notes(acceptance: Acceptance) -> Sequence[str]:
+def _notes(acceptance: Acceptance, spectra: Sequence[Spectra]) -> Sequence[str]:
     rows, notes = acceptance.rows, []
     if any(row.is_ours for row in rows):
         notes.append(
@@ -72,7 +80,10 @@ def _notes(acceptance: Acceptance) -> Sequence[str]:
             "which the acceptance of AC156 from 1.3 Hz does not cover."
         )
     if any("target" in row.title for row in rows):
-        notes.append("Spectra, 5 % damping, are compared at points less than 1/6 octave apart.")
+        notes.append(
+            "Spectra, 5 % damping, are compared at points less than 1/6 octave apart."
+            + _between(acceptance, spectra)
+        )
     else:
         notes.append("Spectra are not compared: no target is given.")
     if any(row.consequence is Consequence.CONDITION for row in rows):
@@ -82,6 +93,19 @@ def _notes(acceptance: Acceptance) -> Sequence[str]:
             "has no limit."
         )
     return notes
+
+
+def _between(acceptance: Acceptance, spectra: Sequence[Spectra]) -> str:
+    """Say how low the spectra shown fall, where that is lower than at the points of the limits."""
+    at_points = [row.found for row in acceptance.rows if row.title.startswith("Spectrum / target")]
+    shown = [(*part.lowest, part.title) for part in spectra if not part.is_ground]
+    ratio, motion, period_s, component = min(shown, default=(math.inf, "", 0.0, ""))
+    if not ratio < min([*at_points, 0.995]):
+        return ""
+    return (
+        f" Between them a spectrum may be lower: the smallest ratio of those shown below is "
+        f"{number(ratio, 2)} ({motion}, {component.lower()}, at {period_s:.3g} s)."
+    )
 
 
 def strength_table(motions: Sequence[MotionStrength]) -> Table:

@@ -217,6 +217,6 @@ def _fit(one: Series, fit: FittedLaw) -> str:
     return (
         f"{place}: least squares gives {number(law.mu_slow, 3)} at low velocity,"
         f" {number(law.mu_fast, 3)} at high velocity and a rate of {number(law.rate_s_per_m, 1)}"
-        f" s/m. Root mean square residual {number(fit.rms, 4)}; {number(scatter, 4)} about one"
-        " coefficient."
+        f" s/m. Root mean square residual {number(fit.rms, 4)}, with one coefficient instead"
+        f" {number(scatter, 4)}."
     )

@@ -356,6 +356,6 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "achieved": achieved_table(spectra),
         "spectra": spectrum_table(spectra),
         "events": event_table(package.data.motions),
-        "acceptance": acceptance_table(package.assessment.acceptance),
+        "acceptance": acceptance_table(package.assessment.acceptance, spectra),
         "strength": strength_table(package.assessment.acceptance.motions),
     }

@@ -9,9 +9,10 @@ from openpyxl import Workbook
 
 import stand_in
 from report.assessment.acceptance import shaking_acceptance
+from report.assessment.spectra import Spectra
 from report.motions.components import read_components
 from report.motions.prepare import Shaking
-from report.motions.targets import targets
+from report.motions.targets import TargetSpectrum, targets
 from report.pages.acceptance import acceptance_table, event_table, strength_table
 from report.sheet.archive import open_book
 from report.sheet.schema import MotionInput, RecordedAt
@@ -104,6 +105,25 @@ def test_only_limits_of_this_program_are_marked_as_such():
     assert all("0.1 to 1.3 Hz" in title for title in marked)
     assert "in no code" in acceptance_table(shown).notes[0]
     assert {row.consequence for row in shown.rows} == {Consequence.NG, Consequence.CONDITION}
+
+
+def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
+    acceptance = Acceptance(
+        rows=(AcceptanceRow(title="Spectrum / target, 1.3 to 33.3 Hz, each component", found=1.0,
+                            limit=0.9, is_at_least=True, worst="M1 x"),),
+        motions=(),
+    )  # fmt: skip
+    flat = TargetSpectrum(name="AC156", at=np.ones_like, from_s=0.01, to_s=10.0)
+    part = Spectra(ids=("M1", "M2"), periods_s=np.array([0.1, 0.5, 7.35]), target=flat,
+                   sa_g=np.array([[1.1, 1.2, 1.0], [1.0, 1.1, 0.906]]), title="Horizontal",
+                   is_ground=False)  # fmt: skip
+    (said,) = acceptance_table(acceptance, [part]).notes
+    assert said.endswith(
+        "the smallest ratio of those shown below is 0.91 (M2, horizontal, at 7.35 s)."
+    )
+    (of_ground,) = acceptance_table(acceptance, [replace(part, is_ground=True)]).notes
+    (higher,) = acceptance_table(acceptance, [replace(part, sa_g=part.sa_g + 0.1)]).notes
+    assert of_ground == higher == said[: len(higher)]
 
 
 def test_strong_motion_and_correlations_are_those_of_the_arrays():
