@@ -179,10 +179,10 @@ def _named(book: OpenBook, name: str) -> CellPosition | None:
 _LAST_COLUMN, _LAST_ROW = 16_384, 1_048_576
 
 
-def _bounds(reference: str) -> tuple[int, int, int, int] | None:
+def _bounds(reference: str | None) -> tuple[int, int, int, int] | None:
     """Return left, top, right, bottom of a range; None unless it states all four."""
     try:
-        left, top, right, bottom = range_boundaries(reference.replace("$", ""))
+        left, top, right, bottom = range_boundaries((reference or "").replace("$", ""))
     except (ValueError, TypeError):
         return None
     # A:C has no rows, and a damaged file may say A0.

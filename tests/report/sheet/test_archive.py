@@ -12,7 +12,7 @@ from openpyxl import DEFUSEDXML, LXML, load_workbook
 
 from report.sheet import archive, scan
 from report.sheet.archive import open_book
-from sheets import edit, make, problems, read_workbook
+from sheets import edit, make, problems, project, read_workbook, same
 from solver.model import InputError
 
 SAVE_AS = "save it as .xlsx (Excel Workbook)"
@@ -200,6 +200,15 @@ def test_xml_entities_are_rejected(tmp_path, declaration, encoding, before, part
 def test_parts_that_are_no_xml_are_left_alone(tmp_path):
     path = rewritten(make(tmp_path), "xl/media/image9.png", lambda old: b"\x89PNG\r\n\x1a\n<")
     open_book(path)
+
+
+def test_a_table_that_does_not_say_where_it_is_is_found_by_its_headings(tmp_path):
+    path = make(tmp_path)
+    with zipfile.ZipFile(path) as file:
+        tables = [name for name in file.namelist() if "/tables/" in name]
+    for name in tables:
+        rewritten(path, name, lambda part: re.sub(rb'(<table [^>]*?) ref="[^"]*"', rb"\1", part))
+    assert same(read_workbook(path).input, project())
 
 
 def test_damaged_xml_is_reported_by_its_part(tmp_path):
