@@ -29,7 +29,7 @@ _TOUCHING = re.compile(r"(?<=[\d.])(?=[+-])", re.ASCII)
 # Fortran prints the exponent of a double-precision number after a D.
 _FORTRAN = str.maketrans("dD", "eE")
 
-_COMPARED, _ENOUGH = 50, 5
+COMPARED, _ENOUGH = 50, 5
 """Last values whose digits are compared, and how many of them show how a file writes numbers."""
 
 _Item = TypeVar("_Item")
@@ -136,15 +136,25 @@ def free_values(source: Source, block: Block) -> Floats:
 
 def _check_last(source: Source, block: Block, fields: Sequence[str]) -> None:
     """Refuse a last value with fewer digits than all others: a file cut within it, not before."""
-    *others, last = (_digits(field) for field in fields[-_COMPARED:])
-    if len(others) < _ENOUGH or len({*others}) > 1 or not others[0][0]:
-        return
-    if last < others[0]:
+    if is_cut_short(fields[-COMPARED:]):
         at = next(k for k in reversed(range(block.first, block.stop)) if source.lines[k].strip())
         raise InputError(
             f"{source.at(at)}: found {shown(fields[-1])} at the end, with fewer digits than all "
             "other values; give the whole file"
         )
+
+
+def is_cut_short(fields: Sequence[str]) -> bool:
+    """Whether the last of some numbers has fewer digits than all others, which have equally many.
+
+    Parameters
+    ----------
+    fields : sequence of str
+        The last ones of a file, at most `COMPARED`.
+    """
+    *others, last = map(_digits, fields)
+    is_even = len(others) >= _ENOUGH and len({*others}) == 1 and others[0][0] > 0
+    return is_even and last < others[0]
 
 
 def _digits(field: str) -> tuple[int, int]:

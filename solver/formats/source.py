@@ -49,12 +49,15 @@ class Source:
         One of `UNIT_CHOICES`, or "" if the caller gives none.
     dt_s : float
         Sampling interval [s], or NaN if the caller gives none.
+    is_ended : bool
+        Whether the last line ends with a line end, which a file that was cut rarely does.
     """
 
     name: str
     lines: list[str]
     units: str
     dt_s: float
+    is_ended: bool = True
 
     def at(self, index: int) -> str:
         """File name and number of the line at an index, with which messages begin."""
@@ -124,7 +127,14 @@ def open_source(path: Path, *, units: str, dt_s: float) -> Source:
     if not unknown and not (is_finite_number(dt_s) and dt_s > 0.0):
         problems.append(f"{name}: time step dt is {shown(dt_s)}; give a number of seconds above 0")
     raise_any(problems)
-    return Source(name=name, lines=_lines(name, _bytes(path)), units=units, dt_s=float(dt_s))
+    data = _bytes(path)
+    return Source(
+        name=name,
+        lines=_lines(name, data),
+        units=units,
+        dt_s=float(dt_s),
+        is_ended=data.rstrip(b"\x00\x1a ").endswith((b"\n", b"\r")),
+    )
 
 
 def _name(path: Path) -> str:

@@ -21,7 +21,7 @@ from solver.formats import headings
 from solver.formats.channels import Channel, motion_file
 from solver.formats.headings import Heading, Kind
 from solver.formats.motionfile import MotionFile
-from solver.formats.numbers import field_problem, printed
+from solver.formats.numbers import COMPARED, field_problem, is_cut_short, printed
 from solver.formats.source import Source, Stated
 from solver.formats.times import Sampled, is_even, sampled
 from solver.model import Floats, InputError
@@ -71,6 +71,7 @@ def read(source: Source) -> MotionFile:
     """Read a text of one or more columns."""
     table = _table(source)
     _check_count(source, table)
+    _check_last(source, table)
     timed = _has_times(source, table)
     columns = range(int(timed), table.values.shape[1])
     taken = [i for i in columns if not _is_other(table, i)]
@@ -91,6 +92,11 @@ def read(source: Source) -> MotionFile:
         for i, values in zip(taken, even.columns, strict=True)
     ]
     notes = [f"column {shown(text)} is ignored: it is not an acceleration" for text in left]
+    if not source.is_ended:
+        notes.append(
+            "the last line has no line end: if the file was cut there, its last value or further"
+            " samples are missing"
+        )
     file = motion_file(source, "text", channels, [*even.notes, *notes])
     return replace(file, hold_s=_hold_s(table))
 
@@ -105,6 +111,20 @@ def _check_count(source: Source, table: _Table) -> None:
             raise InputError(
                 f"{source.at(index)}: states {stated} samples, found {found}; {remedy}"
             )
+
+
+def _check_last(source: Source, table: _Table) -> None:
+    """Refuse a file without a line end whose last value has fewer digits than those before it."""
+    if source.is_ended:
+        return
+    rows = list(_rows(source.lines, max(table.start, len(source.lines) - COMPARED)))
+    fields = [content.split(_separator(content))[-1].strip() for _, content in rows]
+    if is_cut_short(fields):
+        raise InputError(
+            f"{source.at(rows[-1][0])}: found {shown(fields[-1])} at the end, with fewer digits"
+            " than the values before it and without a line end; give the whole file, or end its"
+            " last line"
+        )
 
 
 def _hold_s(table: _Table) -> float:

@@ -156,6 +156,38 @@ def test_values_of_unlike_digits_may_end_with_few(altered: Any) -> None:
     assert read_motion_file(path).channels[0].a_mps2.size == 7
 
 
+TEXTS = sorted(SILENT - {"README.md"})
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_a_text_that_is_cut_within_a_line_says_so(tmp_path: Path, name: str) -> None:
+    whole, path = (SAMPLES / name).read_bytes(), tmp_path / name
+    how: dict[str, Any] = {"units": "g", "dt_s": 0.01} if name == "one.txt" else {}
+    intact, tried = read_motion_file(SAMPLES / name, **how), 0
+    for lost in range(2, 40):
+        left = whole[:-lost]
+        path.write_bytes(left)
+        try:
+            read = read_motion_file(path, **how)
+        except InputError:
+            continue
+        tried += 1
+        is_told = bool({*read.notes} - {*intact.notes})
+        assert is_told == (not left.rstrip(b" ").endswith(b"\n"))
+    assert tried > 0
+
+
+def test_a_text_whose_last_value_is_cut_short_is_refused(file: Any) -> None:
+    text = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.125:.4f}\n" for i in range(20))
+    assert read_motion_file(file(text), units="g").notes == ()
+    assert problems_of(file(text[:-3]), units="g") == (
+        "roof.csv:20: found '-0.12' at the end, with fewer digits than the values before it and"
+        " without a line end; give the whole file, or end its last line",
+    )
+    # With a line end somebody typed it.
+    assert read_motion_file(file(text[:-3] + "\n"), units="g").notes == ()
+
+
 def test_a_block_of_a_heading_states_its_lines(file: Any) -> None:
     lines = (SAMPLES / "cosmos.v2c").read_bytes().splitlines(keepends=True)
     assert problems_of(file(b"".join([*lines[:30], *lines[31:]]), "roof.v2c")) == (
