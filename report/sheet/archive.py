@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
+from xml.etree.ElementTree import ParseError
 
 import defusedxml.ElementTree
 from openpyxl import LXML, Workbook, load_workbook
@@ -222,7 +223,10 @@ def _part(target: str) -> str:
 
 
 def _tree(archive: zipfile.ZipFile, name: str) -> Any:
-    return defusedxml.ElementTree.fromstring(_content(archive, name), forbid_dtd=True)
+    try:
+        return defusedxml.ElementTree.fromstring(_content(archive, name), forbid_dtd=True)
+    except ParseError as error:  # of names: the scan knows no namespaces
+        raise InputError(f"damaged at {name}; {REOPEN}") from error
 
 
 def _load(data: bytes) -> Workbook:

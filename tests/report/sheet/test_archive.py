@@ -216,6 +216,13 @@ def test_damaged_xml_is_reported_by_its_part(tmp_path):
     assert problems(path) == (f"damaged at xl/styles.xml; {REOPEN}",)
 
 
+@pytest.mark.parametrize("part", ["xl/workbook.xml", "xl/_rels/workbook.xml.rels"])
+def test_a_prefix_without_a_namespace_is_reported_by_its_part(tmp_path, part):
+    path = rewritten(make(tmp_path), part, lambda data: data.replace(b"<sheet ", b"<x:sheet ", 1)
+                     .replace(b"<Relationship ", b"<x:Relationship ", 1))  # fmt: skip
+    assert problems(path) == (f"damaged at {part}; {REOPEN}",)
+
+
 def test_an_unknown_encoding_is_reported_by_its_part(tmp_path):
     path = rewritten(
         make(tmp_path), "xl/styles.xml", lambda old: b'<?xml version="1.0" encoding="none"?><a/>'
