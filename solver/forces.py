@@ -39,17 +39,30 @@ class Forces:
         """
         if np.min(self.normal_mps2) <= 0.0:
             return math.inf
-        return float(np.max(np.hypot(self.down_mps2, self.across_mps2) / self.normal_mps2))
+        # Accelerations are bounded, so that no square overflows; `hypot` takes four times as long.
+        pull = np.sqrt(np.square(self.down_mps2) + np.square(self.across_mps2))
+        return float(np.max(pull / self.normal_mps2))
 
 
 def forces(scene: Scene) -> Forces:
     """Return the forces on a block (Eqs. 6-9 of the paper, with vertical acceleration added)."""
     sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
-    ax = scene.scale * scene.ax_mps2
-    gravity = scene.g_mps2 + (scene.scale * scene.az_mps2 if scene.az_mps2.size else 0.0 * ax)
+    ax, gravity = _accelerations(scene)
     across = -scene.scale * scene.ay_mps2 if scene.ay_mps2.size else 0.0 * ax
     return Forces(
         down_mps2=gravity * sn - ax * cs,
         across_mps2=across,
         normal_mps2=gravity * cs + ax * sn,
     )
+
+
+def normal_mps2(scene: Scene) -> Floats:
+    """Return N / m alone, as `forces` has it [m/s2], shape (n,)."""
+    ax, gravity = _accelerations(scene)
+    return gravity * math.cos(scene.slope_rad) + ax * math.sin(scene.slope_rad)
+
+
+def _accelerations(scene: Scene) -> tuple[Floats, Floats]:
+    """Return horizontal acceleration along the slope, and gravity with the vertical [m/s2]."""
+    ax = scene.scale * scene.ax_mps2
+    return ax, scene.g_mps2 + (scene.scale * scene.az_mps2 if scene.az_mps2.size else 0.0 * ax)

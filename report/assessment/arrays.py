@@ -11,14 +11,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from report.assessment.runs import RUNGS, MotionRun, nan_is_worst
+from report.assessment.runs import RUNGS, HeadingRun, MotionRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
-from solver.model import Scene
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, Basis, Check, Prescriptive, RuleSet
 from solver.sliding import least_model
 from solver.sliding.tipping import Supports, Tipping, tipping
-from solver.sliding.uplift import Uplift, uplift
+from solver.sliding.uplift import Uplift, least_normal_mps2, uplift
 
 
 class DesignBasis(StrEnum):
@@ -266,7 +265,7 @@ def assess_array(
     floor_m = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
-    scenes = [run.scene for motion in runs for run in motion.runs]
+    each = [run for motion in runs for run in motion.runs]
     return ArrayAssessment(
         array=array,
         motions=runs,
@@ -279,8 +278,8 @@ def assess_array(
         route=limits.route,
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
-        tipping=_nearest_to_tipping(array, scenes),
-        uplift=min(map(uplift, scenes), key=lambda u: u.n_min_g),
+        tipping=_nearest_to_tipping(array, each),
+        uplift=uplift(min((run.scene for run in each), key=least_normal_mps2)),
         checks=limits.both,
         analysis_checks=limits.analysis,
         prescriptive_checks=limits.prescriptive,
@@ -291,10 +290,11 @@ def assess_array(
     )
 
 
-def _nearest_to_tipping(array: Array, scenes: Sequence[Scene]) -> Tipping:
+def _nearest_to_tipping(array: Array, runs: Sequence[HeadingRun]) -> Tipping:
+    """Return the check of the run that demands most friction: both of its ratios rise with it."""
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
-    checks = (tipping(scene, supports) for scene in scenes)
-    return max(checks, key=lambda check: (check.ratio, check.demand))
+    worst = max(runs, key=lambda run: run.solution.friction_demand)
+    return tipping(worst.scene, supports)
 
 
 def _route(has_value: bool, analysis: Sequence[Check], prescriptive: Sequence[Check]) -> Route:

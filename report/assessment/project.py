@@ -195,12 +195,12 @@ def assess(sheet: Sheet, shaking: Shaking, accepted: Acceptance | None = None) -
         For an override of a provision that the rule set does not have.
     """
     data = sheet.project
-    acceptance = accepted or shaking_acceptance(shaking, targets(data))
     with ThreadPoolExecutor(THREADS) as pool:
         begun = _begin(pool, run_motion, data, shaking.motions, check_models=True)
-        # The runs with less friction follow without a pause, while the arrays are checked.
+        # The runs with less friction follow without a pause, while motions and arrays are checked.
         softer = with_friction(data, 1.0 - SHIFT)
         begun_less = _begin(pool, run_motion, softer, shaking.motions, check_models=False)
+        acceptance = accepted or shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
         return whole(data, begun=begun, less=lambda: whole(softer, begun=begun_less))
 

@@ -120,23 +120,34 @@ def _open(workbook: Path) -> Opened:
 
 
 def _at(workbook: Path, values: Values) -> Opened:
-    given = _open(workbook)
-    check(given, values)
-    return with_values(given, values)
+    return _given(workbook, _key(workbook, values))
 
 
 def _at_rest(workbook: Path, values: Values) -> Assessment:
-    """Return the complete assessment at values; those as typed are the same as none."""
-    known = controls(_open(workbook))
+    """Return the complete assessment at values."""
+    return _assessment(workbook, _key(workbook, values))
+
+
+def _key(workbook: Path, values: Values) -> str:
+    """Return checked values as JSON; those as typed are the same as none."""
+    given = _open(workbook)
+    check(given, values)
+    known = controls(given)
     typed_ = {item["id"]: item["typed"] for item in (*known["sliders"], *known["choices"])}
     other = {name: value for name, value in values.items() if value != typed_.get(name)}
-    return _assessment(workbook, json.dumps(other, sort_keys=True))
+    return json.dumps(other, sort_keys=True)
+
+
+@lru_cache(KEPT_ANSWERS)
+def _given(workbook: Path, key: str) -> Opened:
+    """Return a project at values, given as JSON."""
+    return with_values(_open(workbook), json.loads(key))
 
 
 @lru_cache(KEPT_ANSWERS)
 def _assessment(workbook: Path, key: str) -> Assessment:
     """Return the complete assessment at values, given as JSON."""
-    given, start = _at(workbook, json.loads(key)), _open(workbook)
+    given, start = _given(workbook, key), _open(workbook)
     # Friction, slope and clearance change no motion.
     known = given is not start and given.shaking is start.shaking
     accepted = _at_rest(workbook, {}).acceptance if known else None

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.forces import forces
+from solver.forces import normal_mps2
 from solver.model import Floats, Scene
 
 
@@ -47,7 +47,7 @@ class Uplift:
 
 def uplift(scene: Scene) -> Uplift:
     """Return when and how far N falls below zero, exactly for N linear between samples."""
-    normal, dt = forces(scene).normal_mps2, scene.dt_s
+    normal, dt = normal_mps2(scene), scene.dt_s
     least = int(np.argmin(normal))
     below, starts = _below(normal), _starts(normal)
     return Uplift(
@@ -57,6 +57,11 @@ def uplift(scene: Scene) -> Uplift:
         duration_s=float(below.sum()) * dt,
         times=starts.size,
     )
+
+
+def least_normal_mps2(scene: Scene) -> float:
+    """Return the minimum of N / m [m/s2], by which the scene nearest to uplift is found."""
+    return float(normal_mps2(scene).min())
 
 
 def _below(normal: Floats) -> Floats:
