@@ -181,13 +181,14 @@ def _trouble(results: Sequence[SlideResult]) -> str:
     return f"{status.sentence} (at {fastest:.3f} m/s)"
 
 
-def assess(sheet: Sheet, shaking: Shaking, accepted: Acceptance | None = None) -> Assessment:
+def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> Assessment:
     """Run every array under every motion and check every limit and clearance.
 
     Parameters
     ----------
-    accepted : Acceptance, optional
-        Limits on the motions, where they are known for the same motions and targets.
+    former : Assessment, optional
+        Of the same motions and targets: the limits on them are taken from it, and the runs of
+        arrays with the same slope, friction and model.
 
     Raises
     ------
@@ -196,11 +197,13 @@ def assess(sheet: Sheet, shaking: Shaking, accepted: Acceptance | None = None) -
     """
     data = sheet.project
     with ThreadPoolExecutor(THREADS) as pool:
-        begun = _begin(pool, run_motion, data, shaking.motions, check_models=True)
+        begun = _begin(pool, run_motion, data, shaking.motions, check_models=True, former=former)
         # The runs with less friction follow without a pause, while motions and arrays are checked.
-        softer = with_friction(data, 1.0 - SHIFT)
-        begun_less = _begin(pool, run_motion, softer, shaking.motions, check_models=False)
-        acceptance = accepted or shaking_acceptance(shaking, targets(data))
+        softer, less = with_friction(data, 1.0 - SHIFT), former and former.less
+        begun_less = _begin(
+            pool, run_motion, softer, shaking.motions, check_models=False, former=less
+        )
+        acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
         return whole(data, begun=begun, less=lambda: whole(softer, begun=begun_less))
 
@@ -245,8 +248,11 @@ def _again(
 
 RunMotion = Callable[[Array, Motion], MotionRun]
 
-_Begun = Sequence[tuple[Sequence[Future[MotionRun]], Sequence[Future[MotionRun]]]]
-"""Runs of each array, and those with the adequate models, while they are computed."""
+_Runs = tuple[tuple[MotionRun, ...], tuple[MotionRun, ...]]
+"""Runs of an array, and those with the adequate models; one object twice if they are the same."""
+
+_Begun = Sequence[Callable[[], _Runs]]
+"""Wait for the runs of each array."""
 
 
 def _begin(
@@ -257,19 +263,25 @@ def _begin(
     *,
     check_models: bool,
     key: Callable[[Array], Hashable] = scene_key,
+    former: Assessment | None = None,
 ) -> _Begun:
     """Begin the runs of an input; `check_models` compares requested models with adequate ones.
 
-    Arrays with one key share their runs.
+    Arrays with one key share their runs, those of a former assessment among them.
     """
+    known = {
+        key(item.array): (item.motions, item.needed) for item in (former.arrays if former else ())
+    }
 
-    def begun(array: Array) -> tuple[Sequence[Future[MotionRun]], Sequence[Future[MotionRun]]]:
+    def begun(array: Array) -> Callable[[], _Runs]:
+        if (runs_of := known.get(key(array))) is not None:
+            return lambda: runs_of
         # Runs in two axes and of rows release the GIL: two proceed in parallel.
         runs = [pool.submit(run, array, motion) for motion in motions]
         if array.model is Model.CHOOSE or not check_models:
-            return runs, runs
+            return partial(_done, runs, runs)
         chosen = partial(run_motion, array, model=Model.CHOOSE)
-        return runs, [pool.submit(chosen, motion) for motion in motions]
+        return partial(_done, runs, [pool.submit(chosen, motion) for motion in motions])
 
     by_key = {key(array): array for array in data.arrays}
     runs = {each: begun(array) for each, array in by_key.items()}
@@ -297,7 +309,7 @@ def _assess(
     site = data.site
     rules = ruled(data)
     started = time.perf_counter()
-    runs = [_done(*pair) for pair in begun]
+    runs = [wait() for wait in begun]
     seconds = time.perf_counter() - started
     arrays = tuple(
         assess_array(data, rules, array, *pair, motions_qualify=acceptance.qualifies)
@@ -350,9 +362,6 @@ def _verdict(is_ok: bool) -> Verdict:
     return Verdict.OK if is_ok else Verdict.NG
 
 
-def _done(
-    runs: Sequence[Future[MotionRun]], needed: Sequence[Future[MotionRun]]
-) -> tuple[tuple[MotionRun, ...], tuple[MotionRun, ...]]:
-    """Return the runs of an array; one object twice where no model is requested."""
+def _done(runs: Sequence[Future[MotionRun]], needed: Sequence[Future[MotionRun]]) -> _Runs:
     done = tuple(run.result() for run in runs)
     return done, done if needed is runs else tuple(run.result() for run in needed)

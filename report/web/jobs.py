@@ -26,6 +26,8 @@ from solver.model import InputError, Motion
 KEPT_PROJECTS, KEPT_ANSWERS = 16, 8
 """Projects and assessments that a process keeps."""
 
+_CLEARANCE = "clearance"  # the slider that changes no run
+
 Json = Mapping[str, Any]
 
 
@@ -141,17 +143,26 @@ def _key(workbook: Path, values: Values) -> str:
 @lru_cache(KEPT_ANSWERS)
 def _given(workbook: Path, key: str) -> Opened:
     """Return a project at values, given as JSON."""
-    return with_values(_open(workbook), json.loads(key))
+    values = json.loads(key)
+    if _CLEARANCE not in values:
+        return with_values(_open(workbook), values)
+    return with_values(_given(workbook, _wider(values)), {_CLEARANCE: values[_CLEARANCE]})
 
 
 @lru_cache(KEPT_ANSWERS)
 def _assessment(workbook: Path, key: str) -> Assessment:
     """Return the complete assessment at values, given as JSON."""
-    given, start = _given(workbook, key), _open(workbook)
-    # Friction, slope and clearance change no motion.
-    known = given is not start and given.shaking is start.shaking
-    accepted = _at_rest(workbook, {}).acceptance if known else None
-    return assess(given.sheet, given.shaking, accepted)
+    given, values, former = _given(workbook, key), json.loads(key), None
+    if _CLEARANCE in values:
+        former = _assessment(workbook, _wider(values))
+    elif values and given.shaking is _open(workbook).shaking:  # friction and slope: no motion
+        former = _assessment(workbook, "{}")
+    return assess(given.sheet, given.shaking, former)
+
+
+def _wider(values: Values) -> str:
+    """Return values as JSON, with the clearances of the workbook."""
+    return json.dumps({name: value for name, value in values.items() if name != _CLEARANCE})
 
 
 def _motion(motion: Motion) -> Json:

@@ -18,6 +18,7 @@ from report.web.controls import controls, shown
 from report.web.opened import opened, with_values
 from report.web.values import typed
 from sheets import make
+from solver.sliding import least_model
 from solver.sliding.least_model import Rung, Settings, solve
 
 PROJECTS = ROOT / "projects"
@@ -126,6 +127,23 @@ def test_sliders_end_where_the_workbook_could_have_no_value_beyond():
     beyond = retyped(given.sheet, typed(given.sheet, scales, {"friction": 1.02}))
     assert not at_end.problems
     assert beyond.problems
+
+
+def test_a_clearance_that_moves_runs_nothing_again(monkeypatch):
+    workbook = PROJECTS / "example" / "input.xlsx"
+
+    def answered(**values):
+        job = {"do": "assess", "workbook": str(workbook), "values": values, "moving": False}
+        return jobs.perform(job)["answer"]
+
+    before = answered(friction=0.91)
+    monkeypatch.setattr(least_model, "solve", lambda *_: pytest.fail("a run"))
+    narrower = answered(friction=0.91, clearance=-5.0)
+    provided = [[gap["provided_m"] for gap in one["clearances"]] for one in (before, narrower)]
+    assert all(after < given for given, after in zip(*provided, strict=True))
+    assert [a["bars"] for a in narrower["arrays"]] == [a["bars"] for a in before["arrays"]]
+    with pytest.raises(pytest.fail.Exception):
+        answered(friction=0.92, clearance=-5.0)
 
 
 def test_values_as_typed_change_no_cell():
