@@ -4,7 +4,7 @@ PYTHONPATH=tests .venv/bin/python tests/bench/page_latency.py [MOVES]
 
 One axis is the answer while a slider moves; two axes is the full model, from when the slider is let
 go, once the answer in one axis is drawn. Prints the median, the 95th percentile and the largest of
-all moves [ms].
+the moves of each slider [ms].
 """
 
 import sys
@@ -40,23 +40,23 @@ async ([slider, values, isLetGo]) => {
 
 
 def main(moves: int) -> None:
-    """Measure moves of three sliders of the example."""
+    """Measure moves of four sliders of the example."""
     spans = {"friction": (0.8, 1.0), "slope": (-0.4, 2.0), "intensity": (0.8, 1.2)}
+    spans["clearance"] = (-8.0, 8.0)
     with chromium() as browser, served() as (address, _), quiet_page(browser) as page:
         opened(page, address)
         for name, is_let_go in (("one axis", False), ("two axes", True)):
-            times = []
             for slider, span in spans.items():
-                steps = np.linspace(*span, 1 + moves // 3)
+                steps = np.linspace(*span, 1 + moves)
                 values = [round(float(step), 2) for step in steps]
-                times += page.evaluate(MEASURED, [slider, values, is_let_go])[1:]
+                times = page.evaluate(MEASURED, [slider, values, is_let_go])[1:]
                 page.wait_for_selector("body[data-phase=rest]")
-            half, most = np.percentile(times, [50, 95])
-            print(
-                f"{name}: {len(times)} moves, median {half:.0f} ms, 95th percentile {most:.0f} ms,"
-                f" largest {max(times):.0f} ms"
-            )
+                half, most = np.percentile(times, [50, 95])
+                print(
+                    f"{name}, {slider}: {len(times)} moves, median {half:.0f} ms,"
+                    f" 95th percentile {most:.0f} ms, largest {max(times):.0f} ms"
+                )
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 90)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 30)
