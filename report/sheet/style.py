@@ -242,8 +242,9 @@ def finish(sheet: Worksheet, is_us: bool) -> None:
         page.fitToWidth = 2
         sheet.print_title_cols = "A:B"
     margins = sheet.page_margins
-    margins.left = margins.right = margins.top = 0.4
-    margins.bottom, margins.footer = 0.6, 0.3
+    # A4 is lower and wider than letter: the same rows fill a page of both.
+    margins.left = margins.right = 0.4 if is_us else 0.75
+    margins.top, margins.bottom, margins.footer = (0.4, 0.6, 0.3) if is_us else (0.3, 0.46, 0.2)
     footer = ("left", "Roofslip input"), ("center", "&A"), ("right", "&P of &N")
     for side, text in footer:
         getattr(sheet.oddFooter, side).text = text

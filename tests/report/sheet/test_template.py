@@ -206,3 +206,14 @@ def test_a_text_that_looks_like_a_formula_is_written_as_text(tmp_path):
     data = project().project.model_dump() | {"name": "=1+1", "client": "#N/A"}
     sheet = load_workbook(make(tmp_path, project=data))["Project"]
     assert (sheet["B5"].value, sheet["B5"].data_type) == ("=1+1", "s")
+
+
+def test_a_page_of_a4_has_the_room_of_a_page_of_letter(blank):
+    units, book = blank
+    is_us = units is UnitsFirst.US
+    wide, tall = (279.4, 215.9) if is_us else (297.0, 210.0)  # mm, landscape
+    for sheet in book.worksheets:
+        margins = sheet.page_margins
+        assert sheet.page_setup.paperSize == (1 if is_us else 9)
+        assert wide - 25.4 * (margins.left + margins.right) == pytest.approx(259.0, abs=0.3)
+        assert tall - 25.4 * (margins.top + margins.bottom) == pytest.approx(190.6, abs=0.3)
