@@ -21,8 +21,8 @@ from places import DATA
 from report.cli.check import checked
 from report.sheet.cells import LARGEST, Found, read_cell
 from report.sheet.fields import entries
-from report.sheet.locate import CellPosition
 from report.sheet.parts import changed
+from report.sheet.positions import CellPosition
 from report.sheet.read import read
 from report.sheet.schema import SECTIONS
 from sheets import make

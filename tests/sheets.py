@@ -15,8 +15,8 @@ from openpyxl import Workbook, load_workbook
 from openpyxl.utils import coordinate_to_tuple
 
 from report.motions.prepare import Shaking, prepare
-from report.sheet.locate import CellPosition
 from report.sheet.parts import changed
+from report.sheet.positions import CellPosition
 from report.sheet.read import Sheet, read
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.template import write_template

@@ -16,7 +16,7 @@ import numpy as np
 
 from report.sheet.archive import OpenBook
 from report.sheet.cells import CellError, Found, check_saved, number
-from report.sheet.locate import MAX_COLUMNS, CellPosition, cells_below
+from report.sheet.positions import MAX_COLUMNS, CellPosition, cells_below
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 from solver.records.record import Record, record_from_values

@@ -21,17 +21,16 @@ from report.sheet.fields import Place, Section
 from report.sheet.findings import Finding, unanswered
 from report.sheet.grids import Column, columns_of, table_formulas
 from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell
-from report.sheet.locate import (
+from report.sheet.locate_tables import TableArea, table_area
+from report.sheet.lookups import write_lookups
+from report.sheet.positions import (
     FRESH,
     CellPosition,
-    TableArea,
     area_named,
     found_at,
     label_key,
     labels_of,
-    table_area,
 )
-from report.sheet.lookups import write_lookups
 from report.sheet.results_panel import write_panel
 from report.sheet.rules import write_rules
 from report.sheet.schema import SECTIONS, UnitsFirst

@@ -8,7 +8,8 @@ from report.sheet.archive import OpenBook
 from report.sheet.fields import Place
 from report.sheet.findings import Finding, note
 from report.sheet.live import has_live_formulas
-from report.sheet.locate import find_table, is_absent
+from report.sheet.locate import is_absent
+from report.sheet.locate_tables import find_table
 from report.sheet.schema import SECTIONS
 
 MOVE = "Run roofslip new FOLDER and copy your cells into the new workbook"

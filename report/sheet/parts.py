@@ -19,7 +19,7 @@ from xml.sax.saxutils import escape, unescape
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
 from report.sheet.archive import sheet_parts
-from report.sheet.locate import CellPosition
+from report.sheet.positions import CellPosition
 from report.sheet.scan import REOPEN
 from solver.files import write_whole
 from solver.model import InputError

@@ -17,17 +17,13 @@ from report.sheet.cells import CellError, Found, plain, read_cell, wish_for_miss
 from report.sheet.checks import faults
 from report.sheet.fields import Entry, Fault, Place, Section, YesNo, entries
 from report.sheet.locate import (
-    CellPosition,
-    FieldColumn,
-    TableFound,
     added_later,
     find_cell,
-    find_table,
     find_unit_cell,
-    found_at,
     is_absent,
-    unit_size,
 )
+from report.sheet.locate_tables import FieldColumn, TableFound, find_table
+from report.sheet.positions import CellPosition, found_at, unit_size
 from report.sheet.schema import SECTIONS, ProjectInput
 from report.words.units import Quantity
 from solver.model import InputError

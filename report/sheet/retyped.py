@@ -15,7 +15,7 @@ from openpyxl.utils import coordinate_to_tuple
 from report.sheet.cells import CellError, Found, read_cell
 from report.sheet.checks import faults
 from report.sheet.fields import Entry, Place, Section, entries
-from report.sheet.locate import CellPosition
+from report.sheet.positions import CellPosition
 from report.sheet.read import Gathered, Sheet
 from report.sheet.schema import SECTIONS
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import CellError, Found, check_saved, number
-from report.sheet.locate import CellPosition, found_at
+from report.sheet.positions import CellPosition, found_at
 from solver.model import Floats, InputError
 from solver.synthesis import BAND_HZ, Target
 

@@ -15,7 +15,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import cut, plain
-from report.sheet.locate import CellPosition, find_table, found_at
+from report.sheet.locate_tables import find_table
+from report.sheet.positions import CellPosition, found_at
 from report.sheet.schema import SECTIONS
 from solver.model import InputError
 

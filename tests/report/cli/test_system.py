@@ -10,8 +10,8 @@ from click.testing import CliRunner
 from places import ROOT
 from report.cli.main import main
 from report.cli.terminal import plain
-from report.sheet.locate import CellPosition
 from report.sheet.parts import write_cells
+from report.sheet.positions import CellPosition
 from sheets import edit, make
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"

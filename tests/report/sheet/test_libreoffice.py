@@ -5,8 +5,8 @@ from openpyxl import load_workbook
 from recalculated import converted
 from test_live import OVER, check, formulas, lost, typed_over
 
-from report.sheet.locate import CellPosition
 from report.sheet.parts import write_cells
+from report.sheet.positions import CellPosition
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template

@@ -10,8 +10,8 @@ from openpyxl import load_workbook
 from openpyxl.utils import coordinate_to_tuple
 
 from report.sheet import style
-from report.sheet.locate import CellPosition
 from report.sheet.parts import changed, write_cells
+from report.sheet.positions import CellPosition
 from sheets import make
 from solver.model import InputError
 
