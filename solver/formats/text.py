@@ -115,7 +115,7 @@ def _check_count(source: Source, table: _Table) -> None:
 
 def _check_last(source: Source, table: _Table) -> None:
     """Refuse a file without a line end whose last value has fewer digits than those before it."""
-    if source.is_ended:
+    if source.is_ended or not _content(source.lines[-1]) or "#" in source.lines[-1]:
         return
     rows = list(_rows(source.lines, max(table.start, len(source.lines) - COMPARED)))
     fields = [content.split(_separator(content))[-1].strip() for _, content in rows]

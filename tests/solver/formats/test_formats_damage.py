@@ -188,6 +188,16 @@ def test_a_text_whose_last_value_is_cut_short_is_refused(file: Any) -> None:
     assert read_motion_file(file(text[:-3] + "\n"), units="g").notes == ()
 
 
+@pytest.mark.parametrize("lines", [1, 60])
+def test_a_comment_that_ends_a_text_without_a_line_end_is_no_cut_value(
+    file: Any, lines: int
+) -> None:
+    rows = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.125:.4f}\n" for i in range(20))
+    text = rows[:-3] + "\n" + "\n".join(["# end"] * lines)
+    (note,) = read_motion_file(file(text), units="g").notes
+    assert note.startswith("the last line has no line end")
+
+
 def test_a_block_of_a_heading_states_its_lines(file: Any) -> None:
     lines = (SAMPLES / "cosmos.v2c").read_bytes().splitlines(keepends=True)
     assert problems_of(file(b"".join([*lines[:30], *lines[31:]]), "roof.v2c")) == (
