@@ -39,9 +39,7 @@ class Forces:
         """
         if np.min(self.normal_mps2) <= 0.0:
             return math.inf
-        # Accelerations are bounded, so that no square overflows; `hypot` takes four times as long.
-        pull = np.sqrt(np.square(self.down_mps2) + np.square(self.across_mps2))
-        return float(np.max(pull / self.normal_mps2))
+        return float(np.max(np.hypot(self.down_mps2, self.across_mps2) / self.normal_mps2))
 
 
 def forces(scene: Scene) -> Forces:
@@ -52,13 +50,16 @@ def forces(scene: Scene) -> Forces:
     return Forces(
         down_mps2=gravity * sn - ax * cs,
         across_mps2=across,
-        normal_mps2=gravity * cs + ax * sn,
+        normal_mps2=_normal(scene, ax, gravity),
     )
 
 
 def normal_mps2(scene: Scene) -> Floats:
     """Return N / m alone, as `forces` has it [m/s2], shape (n,)."""
-    ax, gravity = _accelerations(scene)
+    return _normal(scene, *_accelerations(scene))
+
+
+def _normal(scene: Scene, ax: Floats, gravity: Floats) -> Floats:
     return gravity * math.cos(scene.slope_rad) + ax * math.sin(scene.slope_rad)
 
 

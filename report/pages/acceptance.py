@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
-from report.assessment.spectra import Spectra
+from report.assessment.spectra import LEAST_MEAN, Spectra
 from report.pages.parts import OK, Table, TableColumn, TableRow
 from report.sheet.schema import MotionInput
 from report.typeset.equations import symbol
@@ -100,10 +100,10 @@ def _between(acceptance: Acceptance, spectra: Sequence[Spectra]) -> str:
     at_points = [row.found for row in acceptance.rows if row.title.startswith("Spectrum / target")]
     shown = [(*part.lowest, part.title) for part in spectra if not part.is_ground]
     ratio, motion, period_s, component = min(shown, default=(math.inf, "", 0.0, ""))
-    if not ratio < min([*at_points, 0.995]):
+    if not ratio < min([*at_points, LEAST_MEAN]):
         return ""
     return (
-        f" Between them a spectrum may be lower: the smallest ratio of those shown below is "
+        " Between them a spectrum may be lower: the smallest ratio of those shown below is "
         f"{number(ratio, 2)} ({motion}, {component.lower()}, at {period_s:.3g} s)."
     )
 
