@@ -30,7 +30,7 @@ Letters:
     span, part  unit of time of a series [s]; fraction of it that a step uses
     b           series, as coefficients of (time / span)^k: rows VA and VS of v and EA and ES of e,
                 along and across; W of w; Q of q; E of the exponential of a law, or work space;
-                ROOTS: sign changes found; SHARE: 1 / (k + 1)
+                ROOTS: sign changes found; SHARE: 1 / (k + 1); RISE: k times row W
     swell       bound of the change of a law's exponent rate w in a step: the terms of its series
                 decrease only from that degree on
     law         None, or mu_fast, mu_fast - mu_slow, rate [s/m] and mu at rest (`slide_plane`)
@@ -46,7 +46,10 @@ import numpy as np
 from numba import njit
 
 # Division by zero gives infinity, as in IEEE arithmetic: numba adds no test and raises nothing.
-jit = partial(njit, error_model="numpy")
+# Without `_nrt` no reference is counted: every function but `slide_plane` borrows its arrays, and
+# locked counters took a tenth of the time.
+ieee = partial(njit, error_model="numpy")
+jit = partial(ieee, _nrt=False)
 
 # How a run ends.
 FOLLOWED = 0
@@ -59,7 +62,7 @@ STOP = 0.0
 
 ORDER = 20
 CREEP_ORDER = 12
-VA, VS, EA, ES, W, Q, E, SHARE, ROOTS = range(9)
+VA, VS, EA, ES, W, Q, E, SHARE, ROOTS, RISE = range(10)
 
 # Samples in a block of `kernels.bounds`.
 SHIFT = 4
@@ -156,23 +159,32 @@ def _part(order, before, last, tol):
 
 
 @jit(forceinline=True)
-def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
-    """Compute the series of a sliding block, along and across its motion.
+def _begin(w, ga, gs, ra, rs, c, rc, span, law, b):
+    """Write coefficients 0 and 1 of a sliding block's series, along and across its motion.
 
-    Requires w > 0, or no friction. Without a law the recurrence is arranged so that a coefficient
-    of e depends on the one before through a single product; the processor computes the other sums
-    meanwhile and does not wait for them.
-
-    Returns the degree and the fraction of the span in which the series meets tol, estimated from
-    its last two terms.
+    Returns 1 / w, or 0 without friction, and its product with coefficient 1 of w.
     """
     inverse = 1.0 / w if c > 0.0 or rc > 0.0 else 0.0
     b[VA, 0], b[VS, 0], b[W, 0], b[EA, 0], b[ES, 0] = w, 0.0, w, 1.0, 0.0
     _friction(0, b, c, rc, law)
     _advance(0, b, ga, gs, ra, rs, span, law)
-    slows = inverse * b[W, 1]
-    ea, es, ea_before, es_before = 0.0, inverse * b[VS, 1], 0.0, 0.0
-    b[EA, 1], b[ES, 1] = ea, es
+    b[EA, 1], b[ES, 1] = 0.0, inverse * b[VS, 1]
+    return inverse, inverse * b[W, 1]
+
+
+@jit(forceinline=True)
+def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, b):
+    """Compute the series of a sliding block with constant mu, along and across its motion.
+
+    Requires w > 0, or no friction. The recurrence is arranged so that a coefficient of e depends on
+    the one before through a single product; the processor computes the other sums meanwhile and
+    does not wait for them.
+
+    Returns the degree and the fraction of the span in which the series meets tol, estimated from
+    its last two terms.
+    """
+    inverse, slows = _begin(w, ga, gs, ra, rs, c, rc, span, None, b)
+    ea, es, ea_before, es_before = 0.0, b[ES, 1], 0.0, 0.0
     # Contribution of the constant term of e, (1, 0), which is therefore not in ea_before.
     kick, turn = ra - rc, rs
     before, last = np.inf, abs(b[VA, 1]) + abs(b[VS, 1])
@@ -184,25 +196,61 @@ def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
             each, m = b[W, np.uintp(j)], np.uintp(k + 1 - j)
             older += each * b[EA, m]
             side += each * b[ES, m]
-        if law is None:
-            along = share * (kick - (c * ea + rc * ea_before))
-            across = share * (turn - (c * es + rc * es_before))
-            w = share * (ga * ea + gs * es) + share * (kick + (ra * ea_before + rs * es_before))
-            b[VA, n], b[VS, n], b[W, n] = along, across, w
-            part = share * inverse
-            older = inverse * older + part * ((rc + ra) * ea_before + rs * es_before)
-            side = inverse * side + part * (rc * es_before - turn)
-            ea_before, es_before = ea, es
-            ea = -(ea * (part * (c + ga) + slows) + (part * gs * es + older))
-            es = -(es * (part * c + slows) + side)
-            kick = turn = 0.0
-            before, last = last, abs(along) + abs(across)
-        else:
-            _friction(k, b, c, rc, law)
-            before, last = last, _advance(k, b, ga, gs, ra, rs, span, law)
-            ea = inverse * (b[VA, n] - b[W, n] - older) - slows * ea
-            es = inverse * (b[VS, n] - side) - slows * es
+        along = share * (kick - (c * ea + rc * ea_before))
+        across = share * (turn - (c * es + rc * es_before))
+        w = share * (ga * ea + gs * es) + share * (kick + (ra * ea_before + rs * es_before))
+        b[VA, n], b[VS, n], b[W, n] = along, across, w
+        part = share * inverse
+        older = inverse * older + part * ((rc + ra) * ea_before + rs * es_before)
+        side = inverse * side + part * (rc * es_before - turn)
+        ea_before, es_before = ea, es
+        ea = -(ea * (part * (c + ga) + slows) + (part * gs * es + older))
+        es = -(es * (part * c + slows) + side)
         b[EA, n], b[ES, n] = ea, es
+        kick = turn = 0.0
+        before, last = last, abs(along) + abs(across)
+        if last <= tol and before <= tol and k > 1:
+            order = k + 1
+            break
+    return order, _part(order, before, last, tol)
+
+
+@jit(forceinline=True)
+def _sliding_by_law(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
+    """Compute what `_sliding` does with a friction law, all sums of a degree in one loop.
+
+    The terms of `_friction` and `_advance` that hold the newest coefficients are added last.
+    """
+    inverse, slows = _begin(w, ga, gs, ra, rs, c, rc, span, law, b)
+    ea, es, ea_before, es_before = 0.0, b[ES, 1], 1.0, 0.0
+    faded, kick, turn = b[E, 0], ra, rs
+    b[RISE, 1] = b[W, 1]
+    before, last = np.inf, abs(b[VA, 1]) + abs(b[VS, 1])
+    order = most
+    for k in range(1, most):
+        n, share = np.uintp(k + 1), span * b[SHARE, np.uintp(k)]
+        older = side = ahead = aside = fades = 0.0
+        for j in range(2, k + 1):
+            m, i = np.uintp(k + 1 - j), np.uintp(j)
+            each, rub, x, y = b[W, i], b[Q, np.uintp(j - 1)], b[EA, m], b[ES, m]
+            older += each * x
+            side += each * y
+            ahead += rub * x
+            aside += rub * y
+            fades += b[RISE, i] * b[E, np.uintp(k - j)]
+        fades = -law[2] * b[SHARE, np.uintp(k - 1)] * (fades + b[RISE, 1] * faded)
+        rub = rc * ((law[0] if k == 1 else 0.0) - faded) - c * fades
+        b[E, np.uintp(k)], b[Q, np.uintp(k)], faded = fades, rub, fades
+        along = share * (kick - (ahead + rub + b[Q, 0] * ea))
+        across = share * (turn - (aside + b[Q, 0] * es))
+        w = share * (ga * ea + gs * es + ra * ea_before + rs * es_before - rub)
+        b[VA, n], b[VS, n], b[W, n], b[RISE, n] = along, across, w, (k + 1) * w
+        ea_before, es_before = ea, es
+        ea = inverse * (along - w - older) - slows * ea
+        es = inverse * (across - side) - slows * es
+        b[EA, n], b[ES, n] = ea, es
+        kick = turn = 0.0
+        before, last = last, abs(along) + abs(across)
         if last <= tol and before <= tol and k > 1 and k > swell:
             order = k + 1
             break
@@ -346,7 +394,12 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
         span = min(span, max(unseen, SWELL / (rate * most_push)))
         swell = rate * most_push * span if span > unseen else 0.0
     ra, rs = span * (rx * ux + ry * uy), span * (ry * ux - rx * uy)
-    order, part = _sliding(w, ga, gs, ra, rs, c, rc * span, span, tol, most, swell, law, b)
+    if law is None:
+        order, part = _sliding(w, ga, gs, ra, rs, c, rc * span, span, tol, most, b)
+    else:
+        order, part = _sliding_by_law(
+            w, ga, gs, ra, rs, c, rc * span, span, tol, most, swell, law, b
+        )
     return order, part, span, 0.0, ux, uy
 
 
@@ -829,7 +882,7 @@ def _fill(history, i, end, sx, sy, vx, vy):
         history[0, k], history[1, k], history[2, k], history[3, k] = sx, sy, vx, vy
 
 
-@jit(cache=True, nogil=True)
+@ieee(cache=True, nogil=True)
 def slide_plane(
     ax, ay, az, x, y, z, dt, sn, cs, mu, g, scale, tolerance, most, most_steps, law,
     events, history, top, end,
@@ -880,7 +933,7 @@ def slide_plane(
     terms = _terms(x, y, z, p, q, 1.0 if law is None else max(hold, slow, law[0]))
     dead, least = DEAD * terms, EPS * dt
     tolerance = max(tolerance, LEAST_TOLERANCE)
-    b = np.empty((9, ORDER + 2))
+    b = np.empty((10, ORDER + 2))
     for k in range(ORDER + 2):
         b[SHARE, k] = 1.0 / (k + 1)
     for k in range(6):

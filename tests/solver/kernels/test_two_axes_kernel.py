@@ -109,6 +109,18 @@ def test_a_run_without_an_answer_says_why():
     assert given_up(wave(2, 30), 2000, dt=1e200)[0] == two_axes.NOT_FINITE
 
 
+def test_a_run_holds_and_releases_none_of_its_arrays():
+    """The functions inside count no references to what they borrow."""
+    ax, ay, az = readonly(wave(2, 30)), readonly(wave(3, 30)), readonly(np.zeros(30))
+    given = [ax, ay, az, *(one_axis.bounds(a) for a in (ax, ay, az))]
+    filled = [np.empty(shape) for shape in ((9, 4), (4, 30), 6, 4)]
+    before = [sys.getrefcount(array) for array in given + filled]
+    settings = (0.05, 0.0, 1.0, 1.0, G, 1.0, 1e-6, 12, 2000, GROWS)
+    for _ in range(100):
+        assert two_axes.slide_plane(*given, *settings, *filled)[0] == two_axes.FOLLOWED
+    assert [sys.getrefcount(array) for array in given + filled] == before
+
+
 def test_the_blocks_passed_over_are_those_of_the_bounds():
     assert two_axes.SHIFT == one_axis.SHIFT
 
