@@ -53,10 +53,11 @@ def bounds(a):
     coarse = (fine + BLOCK - 1) >> SHIFT
     extremes = np.empty((2, fine + coarse + 1))
     extremes[0], extremes[1] = np.inf, -np.inf
-    for i in range(a.size):
-        block = i >> SHIFT
-        extremes[0, block] = min(extremes[0, block], a[i])
-        extremes[1, block] = max(extremes[1, block], a[i])
+    for block in range(fine):
+        least, greatest = np.inf, -np.inf
+        for i in range(block << SHIFT, min((block + 1) << SHIFT, a.size)):
+            least, greatest = min(least, a[i]), max(greatest, a[i])
+        extremes[0, block], extremes[1, block] = least, greatest
     for block in range(fine):
         for above in (fine + (block >> SHIFT), fine + coarse):
             extremes[0, above] = min(extremes[0, above], extremes[0, block])

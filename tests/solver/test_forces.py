@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from solver.forces import forces
+from solver.forces import Forces, forces
 from solver.model import Scene, coulomb
 
 RNG = np.random.default_rng(3)
@@ -42,6 +42,16 @@ def test_components_that_are_absent_are_zero():
     np.testing.assert_array_equal(
         forces(scene(AX)).normal_mps2, forces(scene(AX, az=np.zeros(50))).normal_mps2
     )
+
+
+@pytest.mark.parametrize("size", [1e-200, 1.0, 1e100, 1e200])
+def test_the_friction_demand_is_to_the_last_bit_the_largest_ratio(size):
+    wave = np.random.default_rng(5).normal(0.0, 4.0, (2, 1000))
+    drive = Forces(
+        down_mps2=size * wave[0], across_mps2=size * wave[1], normal_mps2=9.0 - wave[0] / 9
+    )
+    ratios = np.hypot(drive.down_mps2, drive.across_mps2) / drive.normal_mps2
+    assert drive.friction_demand == ratios.max()
 
 
 def test_the_friction_demand_is_the_largest_between_the_samples_too():
