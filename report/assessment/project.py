@@ -11,7 +11,7 @@ import math
 import time
 from collections.abc import Callable, Hashable, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
@@ -40,8 +40,16 @@ from solver.records.acceptance import Acceptance
 from solver.rules import provisions
 from solver.rules.provisions import Check, RuleSet
 from solver.rules.spectra import RequiredSpectrum
+from solver.sliding.least_model import DEFAULT
 
 THREADS = 2
+
+ROUGH = 1e-3
+"""Tolerance of the runs with less friction, relative to the PRD: they tell OK from NG."""
+
+# Least difference between required and provided separation at which rough runs tell OK from NG:
+# twice what a simpler model may neglect (`least_model.Settings`), with the tolerance, and more.
+_FAR_SHARE, _FAR_M = 0.02, 0.005
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +75,8 @@ class Assessment:
     rows : tuple of Row
         Requirements beside the numeric limits, of the project, its motions and its arrays.
     less : Assessment or None
-        The same with less friction; None in that one itself.
+        The same with less friction, from runs that tell whether clearances are satisfied
+        (`ROUGH`); None in that one itself.
     """
 
     sheet: Sheet
@@ -197,15 +206,45 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
     """
     data = sheet.project
     with ThreadPoolExecutor(THREADS) as pool:
-        begun = _begin(pool, run_motion, data, shaking.motions, check_models=True, former=former)
+        begin = partial(_begin, pool, motions=shaking.motions)
+        begun = begin(run_motion, data, check_models=True, former=former)
         # The runs with less friction follow without a pause, while motions and arrays are checked.
-        softer, less = with_friction(data, 1.0 - SHIFT), former and former.less
-        begun_less = _begin(
-            pool, run_motion, softer, shaking.motions, check_models=False, former=less
-        )
+        softer, known = with_friction(data, 1.0 - SHIFT), former and former.less
+        rough = begin(_run_roughly, softer, check_models=False, former=known)
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
-        return whole(data, begun=begun, less=lambda: whole(softer, begun=begun_less))
+
+        def less() -> Assessment:
+            found = whole(softer, begun=rough)
+            close = [check for check in found.clearances if not _is_far(check)]
+            if not close:
+                return found
+            others = replace(found, arrays=_without(close, found.arrays))
+            exact = begin(run_motion, softer, check_models=False, former=others)
+            return whole(softer, begun=exact)
+
+        return whole(data, begun=begun, less=less)
+
+
+def _run_roughly(array: Array, motion: Motion) -> MotionRun:
+    """Run an array to a tolerance of `ROUGH`, if the error has a bound."""
+    tolerance = ROUGH if array.friction.is_monotone else DEFAULT.tolerance
+    return run_motion(array, motion, tolerance=tolerance)
+
+
+def _without(
+    checks: Sequence[ClearanceCheck], arrays: Sequence[ArrayAssessment]
+) -> tuple[ArrayAssessment, ...]:
+    """Return the arrays whose runs decide none of the clearances."""
+    beside = {name for check in checks for name in (check.clearance.array, check.clearance.object)}
+    run = {scene_key(item.array) for item in arrays if item.array.id in beside}
+    return tuple(item for item in arrays if scene_key(item.array) not in run)
+
+
+def _is_far(check: ClearanceCheck) -> bool:
+    """Whether exact runs would find the same verdict as rough ones; False without a value."""
+    difference = abs(check.required_m - check.clearance.provided_m)
+    return difference > max(_FAR_SHARE * check.required_m, _FAR_M)
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:

@@ -15,7 +15,7 @@ from report.sheet.schema import Array, Direction, Model
 from solver.model import Heading, Motion, Scene, SlideHistory, SlideResult, Status
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
-from solver.sliding.least_model import Rung, Settings, Solution
+from solver.sliding.least_model import DEFAULT, Rung, Settings, Solution
 
 RUNGS: Mapping[Model, Rung] = {
     Model.ONE_AXIS: Rung.ONE_AXIS,
@@ -98,15 +98,23 @@ def scene_key(array: Array) -> Hashable:
     return array.slope_rad, array.friction, array.model
 
 
-def run_motion(array: Array, motion: Motion, model: Model | None = None) -> MotionRun:
+def run_motion(
+    array: Array,
+    motion: Motion,
+    model: Model | None = None,
+    tolerance: float = DEFAULT.tolerance,
+) -> MotionRun:
     """Run one array under one motion in all of its runs.
 
     Parameters
     ----------
     model : Model, optional
         Replaces the model of the array.
+    tolerance : float
+        Of the solver, relative to the PRD.
     """
-    return motion_run(motion, [run_heading(array, motion, h, model) for h in motion.headings])
+    headings = motion.headings
+    return motion_run(motion, [run_heading(array, motion, h, model, tolerance) for h in headings])
 
 
 def run_along(array: Array, motion: Motion, headings: Sequence[Heading]) -> MotionRun:
@@ -134,10 +142,15 @@ def motion_run(motion: Motion, runs: Sequence[HeadingRun]) -> MotionRun:
 
 
 def run_heading(
-    array: Array, motion: Motion, heading: Heading, model: Model | None = None
+    array: Array,
+    motion: Motion,
+    heading: Heading,
+    model: Model | None = None,
+    tolerance: float = DEFAULT.tolerance,
 ) -> HeadingRun:
-    """Run one array under one motion at one heading; `model` as in `run_motion`."""
-    settings = Settings(forced=RUNGS.get(array.model if model is None else model))
+    """Run one array under one motion at one heading; the rest as in `run_motion`."""
+    forced = RUNGS.get(array.model if model is None else model)
+    settings = Settings(forced=forced, tolerance=tolerance)
     scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
     return HeadingRun(heading=heading, scene=scene, solution=_solved(scene, settings))
 

@@ -150,7 +150,7 @@ def accuracy(given: Assessment) -> Accuracy:
     """Run the governing motion by every method, and all arrays with changed friction."""
     return Accuracy(
         rivals=rivals(given.governing),
-        less=given.less or reassess(given, with_friction(given.project, 1.0 - SHIFT)),
+        less=reassess(given, with_friction(given.project, 1.0 - SHIFT)),
         given=given,
         more=reassess(given, with_friction(given.project, 1.0 + SHIFT)),
     )
