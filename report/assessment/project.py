@@ -10,12 +10,13 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Hashable, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass
 from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, Route, assess_array, by_id
+from report.assessment.begun import Begun, RunMotion, begin_runs
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.conditions import (
     array_rows,
@@ -29,27 +30,20 @@ from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_rows import friction_rows
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
+from report.assessment.rough import run_roughly, told_by_rough_runs
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
 from report.assessment.verdict import Row, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
 from report.sheet.read import Sheet
-from report.sheet.schema import Array, Model, ProjectInput
+from report.sheet.schema import Array, ProjectInput
 from solver.model import Motion, SlideResult, Status
 from solver.records.acceptance import Acceptance
 from solver.rules import provisions
 from solver.rules.provisions import Check, RuleSet
 from solver.rules.spectra import RequiredSpectrum
-from solver.sliding.least_model import DEFAULT
 
 THREADS = 2
-
-ROUGH = 1e-3
-"""Tolerance of the runs with less friction, relative to the PRD: they tell OK from NG."""
-
-# Least difference between required and provided separation at which rough runs tell OK from NG:
-# twice what a simpler model may neglect (`least_model.Settings`), with the tolerance, and more.
-_FAR_SHARE, _FAR_M = 0.02, 0.005
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,7 +70,7 @@ class Assessment:
         Requirements beside the numeric limits, of the project, its motions and its arrays.
     less : Assessment or None
         The same with less friction, from runs that tell whether clearances are satisfied
-        (`ROUGH`); None in that one itself.
+        (`report.assessment.rough`); None in that one itself.
     """
 
     sheet: Sheet
@@ -206,45 +200,24 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
     """
     data = sheet.project
     with ThreadPoolExecutor(THREADS) as pool:
-        begin = partial(_begin, pool, motions=shaking.motions)
-        begun = begin(run_motion, data, check_models=True, former=former)
+        begin = partial(begin_runs, pool, motions=shaking.motions)
+        begun = begin(run_motion, data, check_models=True, former=former.arrays if former else ())
         # The runs with less friction follow without a pause, while motions and arrays are checked.
-        softer, known = with_friction(data, 1.0 - SHIFT), former and former.less
-        rough = begin(_run_roughly, softer, check_models=False, former=known)
+        softer = with_friction(data, 1.0 - SHIFT)
+        known = former.less.arrays if former and former.less else ()
+        rough = begin(run_roughly, softer, check_models=False, former=known)
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
 
         def less() -> Assessment:
             found = whole(softer, begun=rough)
-            close = [check for check in found.clearances if not _is_far(check)]
-            if not close:
+            told = told_by_rough_runs(found.arrays, found.clearances)
+            if len(told) == len(found.arrays):
                 return found
-            others = replace(found, arrays=_without(close, found.arrays))
-            exact = begin(run_motion, softer, check_models=False, former=others)
+            exact = begin(run_motion, softer, check_models=False, former=told)
             return whole(softer, begun=exact)
 
         return whole(data, begun=begun, less=less)
-
-
-def _run_roughly(array: Array, motion: Motion) -> MotionRun:
-    """Run an array to a tolerance of `ROUGH`, if the error has a bound."""
-    tolerance = ROUGH if array.friction.is_monotone else DEFAULT.tolerance
-    return run_motion(array, motion, tolerance=tolerance)
-
-
-def _without(
-    checks: Sequence[ClearanceCheck], arrays: Sequence[ArrayAssessment]
-) -> tuple[ArrayAssessment, ...]:
-    """Return the arrays whose runs decide none of the clearances."""
-    beside = {name for check in checks for name in (check.clearance.array, check.clearance.object)}
-    run = {scene_key(item.array) for item in arrays if item.array.id in beside}
-    return tuple(item for item in arrays if scene_key(item.array) not in run)
-
-
-def _is_far(check: ClearanceCheck) -> bool:
-    """Whether exact runs would find the same verdict as rough ones; False without a value."""
-    difference = abs(check.required_m - check.clearance.provided_m)
-    return difference > max(_FAR_SHARE * check.required_m, _FAR_M)
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:
@@ -280,51 +253,9 @@ def _again(
 ) -> Assessment:
     motions = given.shaking.motions
     with ThreadPoolExecutor(THREADS) as pool:
-        begun = _begin(pool, run, project, motions, check_models=False, key=key)
+        begun = begin_runs(pool, run, project, motions, check_models=False, key=key)
         return _assess(given.sheet, given.shaking, project, acceptance=given.acceptance,
                        pool=pool, begun=begun)  # fmt: skip
-
-
-RunMotion = Callable[[Array, Motion], MotionRun]
-
-_Runs = tuple[tuple[MotionRun, ...], tuple[MotionRun, ...]]
-"""Runs of an array, and those with the adequate models; one object twice if they are the same."""
-
-_Begun = Sequence[Callable[[], _Runs]]
-"""Wait for the runs of each array."""
-
-
-def _begin(
-    pool: Executor,
-    run: RunMotion,
-    data: ProjectInput,
-    motions: Sequence[Motion],
-    *,
-    check_models: bool,
-    key: Callable[[Array], Hashable] = scene_key,
-    former: Assessment | None = None,
-) -> _Begun:
-    """Begin the runs of an input; `check_models` compares requested models with adequate ones.
-
-    Arrays with one key share their runs, those of a former assessment among them.
-    """
-    known = {
-        key(item.array): (item.motions, item.needed) for item in (former.arrays if former else ())
-    }
-
-    def begun(array: Array) -> Callable[[], _Runs]:
-        if (runs_of := known.get(key(array))) is not None:
-            return lambda: runs_of
-        # Runs in two axes and of rows release the GIL: two proceed in parallel.
-        runs = [pool.submit(run, array, motion) for motion in motions]
-        if array.model is Model.CHOOSE or not check_models:
-            return partial(_done, runs, runs)
-        chosen = partial(run_motion, array, model=Model.CHOOSE)
-        return partial(_done, runs, [pool.submit(chosen, motion) for motion in motions])
-
-    by_key = {key(array): array for array in data.arrays}
-    runs = {each: begun(array) for each, array in by_key.items()}
-    return [runs[key(array)] for array in data.arrays]
 
 
 def _assess(
@@ -334,7 +265,7 @@ def _assess(
     *,
     acceptance: Acceptance,
     pool: Executor,
-    begun: _Begun,
+    begun: Begun,
     less: Callable[[], Assessment] | None = None,
 ) -> Assessment:
     """Assess an input from its runs.
@@ -399,8 +330,3 @@ def _friction_rows(given: Sequence[ClearanceCheck], less: Assessment) -> Sequenc
 
 def _verdict(is_ok: bool) -> Verdict:
     return Verdict.OK if is_ok else Verdict.NG
-
-
-def _done(runs: Sequence[Future[MotionRun]], needed: Sequence[Future[MotionRun]]) -> _Runs:
-    done = tuple(run.result() for run in runs)
-    return done, done if needed is runs else tuple(run.result() for run in needed)

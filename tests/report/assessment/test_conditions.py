@@ -6,7 +6,8 @@ import pytest
 
 import stand_in
 from report.assessment.friction import SHIFT, with_friction
-from report.assessment.project import ROUGH, reassess
+from report.assessment.project import reassess
+from report.assessment.rough import ROUGH
 from report.assessment.verdict import Verdict, worst
 from solver.records.acceptance_row import Consequence
 
