@@ -17,9 +17,11 @@ from solver.sliding.least_model import DEFAULT
 ROUGH = 1e-3
 """Tolerance of a rough run, relative to the PRD."""
 
-# Least difference between required and provided separation at which rough runs tell the verdict:
-# twice what a simpler model may neglect (`least_model.Settings`), with the tolerance, and more.
-_FAR_SHARE, _FAR_M = 0.02, 0.005
+# Difference up to which rough runs do not tell a verdict, as a share of the required separation and
+# as a displacement [m]: the tolerance with what the exact run may neglect (`Settings.bound_m`), and
+# where the rough run may neglect as much, with that too.
+_CLOSE, _CLOSE_M = 0.007, 0.0015
+_CLOSE_NEGLECTING, _CLOSE_NEGLECTING_M = 0.013, 0.0025
 
 
 def run_roughly(array: Array, motion: Motion) -> MotionRun:
@@ -35,13 +37,31 @@ def told_by_rough_runs(
 
     The others are beside a clearance near its limit, or without a value.
     """
-    close = [check for check in clearances if not _is_far(check)]
-    beside = {name for check in close for name in (check.clearance.array, check.clearance.object)}
-    not_told = {scene_key(item.array) for item in arrays if item.array.id in beside}
+    neglecting = {item.id for item in arrays if not _is_whole(item)}
+    not_told = {
+        scene_key(item.array)
+        for check in clearances
+        if _is_close(check, is_neglecting=not neglecting.isdisjoint(_sides(check)))
+        for item in arrays
+        if item.id in _sides(check)
+    }
     return [item for item in arrays if scene_key(item.array) not in not_told]
 
 
-def _is_far(check: ClearanceCheck) -> bool:
-    """Whether a clearance is not near its limit; False without a value."""
+def _sides(check: ClearanceCheck) -> tuple[str, str]:
+    return check.clearance.array, check.clearance.object
+
+
+def _is_whole(item: ArrayAssessment) -> bool:
+    """Whether no run of an array neglects anything."""
+    solutions = [run.solution for motion in item.motions for run in motion.runs]
+    return all(solution.next_rung is solution.rung for solution in solutions)
+
+
+def _is_close(check: ClearanceCheck, *, is_neglecting: bool) -> bool:
+    """Whether a clearance is near its limit; also without a value."""
+    share, displacement_m = (
+        (_CLOSE_NEGLECTING, _CLOSE_NEGLECTING_M) if is_neglecting else (_CLOSE, _CLOSE_M)
+    )
     difference = abs(check.required_m - check.clearance.provided_m)
-    return difference > max(_FAR_SHARE * check.required_m, _FAR_M)
+    return not difference > max(share * check.required_m, check.factor * displacement_m)

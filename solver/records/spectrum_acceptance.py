@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,8 @@ _PLACE = np.arange(len(POINTS_HZ))
 _IS_SLIDING, _IS_AC156 = _PLACE < _N_SLIDING, _PLACE >= _N_SLIDING - 1
 _IS_SLOW = _IS_AC156 & (POINTS_HZ <= _PLATEAU)
 _IS_FAST = POINTS_HZ > _PLATEAU
+
+_KEPT = 64  # spectra; up to three of each motion
 
 SpectrumAt = Callable[[Floats], Floats]
 """Target acceleration [g] at frequencies [Hz], 5 % damping; NaN where there is no target."""
@@ -104,7 +107,7 @@ def spectrum_ratios(
         SpectrumRatio(
             motion=motion.id,
             component=name,
-            ratio=abs(motion.scale) * ratio_to_target(a, motion.dt_s, goals[name]),
+            ratio=abs(motion.scale) * _spectrum_g(a.tobytes(), motion.dt_s) / goals[name],
         )
         for motion in motions
         for name, a in components_of(motion).items()
@@ -113,8 +116,15 @@ def spectrum_ratios(
 
 def ratio_to_target(a_mps2: Floats, dt_s: float, target_g: Floats) -> Floats:
     """Return a component's spectrum over its target at `POINTS_HZ`, 5 % damping."""
-    spectrum = response_spectrum(a_mps2, dt_s, 1.0 / POINTS_HZ)
-    return np.asarray(spectrum / UNITS["g"] / target_g)
+    return np.asarray(response_spectrum(a_mps2, dt_s, 1.0 / POINTS_HZ) / UNITS["g"] / target_g)
+
+
+@lru_cache(_KEPT)
+def _spectrum_g(record: bytes, dt_s: float) -> Floats:
+    """Return a record's spectrum [g], computed once for all scales and targets that are tried."""
+    spectrum = ratio_to_target(np.frombuffer(record), dt_s, np.ones(len(POINTS_HZ)))
+    spectrum.setflags(write=False)
+    return spectrum
 
 
 def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[AcceptanceRow]:
