@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.runs import MotionRun, run_motion, scene_key
-from report.sheet.schema import Array
+from report.sheet.schema import Array, Model
 from solver.model import Motion
 from solver.sliding.least_model import DEFAULT
 
@@ -25,9 +25,11 @@ _CLOSE_NEGLECTING, _CLOSE_NEGLECTING_M = 0.013, 0.0025
 
 
 def run_roughly(array: Array, motion: Motion) -> MotionRun:
-    """Run an array to a tolerance of `ROUGH`, if its error has a bound."""
+    """Run an array to a tolerance of `ROUGH`, if its error has a bound; no models are compared."""
     tolerance = ROUGH if array.friction.is_monotone else DEFAULT.tolerance
-    return run_motion(array, motion, tolerance=tolerance)
+    has_choice = array.model is Model.CHOOSE and array.friction.is_constant
+    model = Model.TWO_AXES if has_choice and motion.has_transverse else array.model
+    return run_motion(array, motion, model, tolerance)
 
 
 def told_by_rough_runs(

@@ -24,9 +24,10 @@ from report.web.values import Values, typed
 from solver.model import InputError, Motion
 
 KEPT_PROJECTS, KEPT_ANSWERS = 16, 8
-"""Projects and assessments that a process keeps."""
+"""Projects with their assessments that a process keeps, and assessments at other values."""
 
 _CLEARANCE = "clearance"  # the slider that changes no run
+_AS_TYPED = "{}"  # the key of values that change nothing
 
 Json = Mapping[str, Any]
 
@@ -127,7 +128,7 @@ def _at(workbook: Path, values: Values) -> Opened:
 
 def _at_rest(workbook: Path, values: Values) -> Assessment:
     """Return the complete assessment at values."""
-    return _assessment(workbook, _key(workbook, values))
+    return _complete(workbook, _key(workbook, values))
 
 
 def _key(workbook: Path, values: Values) -> str:
@@ -149,14 +150,25 @@ def _given(workbook: Path, key: str) -> Opened:
     return with_values(_given(workbook, _wider(values)), {_CLEARANCE: values[_CLEARANCE]})
 
 
+def _complete(workbook: Path, key: str) -> Assessment:
+    """Return the complete assessment at values, given as JSON."""
+    return _as_typed(workbook) if key == _AS_TYPED else _assessment(workbook, key)
+
+
+@lru_cache(KEPT_PROJECTS)
+def _as_typed(workbook: Path) -> Assessment:
+    """Return the assessment from which others start: no other values drive it out."""
+    given = _open(workbook)
+    return assess(given.sheet, given.shaking)
+
+
 @lru_cache(KEPT_ANSWERS)
 def _assessment(workbook: Path, key: str) -> Assessment:
-    """Return the complete assessment at values, given as JSON."""
     given, values, former = _given(workbook, key), json.loads(key), None
     if _CLEARANCE in values:
-        former = _assessment(workbook, _wider(values))
-    elif values and given.shaking is _open(workbook).shaking:  # friction and slope: no motion
-        former = _assessment(workbook, "{}")
+        former = _complete(workbook, _wider(values))
+    elif given.shaking is _open(workbook).shaking:  # friction and slope: no motion
+        former = _as_typed(workbook)
     return assess(given.sheet, given.shaking, former)
 
 
