@@ -32,6 +32,14 @@ def tracked():
     return [ROOT / name for name in names if (ROOT / name).exists()]
 
 
+def test_no_benchmark_hides_a_module_of_the_tests():
+    """A script finds what is beside it first."""
+    tests, bench = ROOT / "tests", ROOT / "tests" / "bench"
+    assert not {file.name for file in tests.glob("*.py")} & {
+        file.name for file in bench.glob("*.py")
+    }
+
+
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """The wheel and the sdist, built offline."""

@@ -1,7 +1,7 @@
 """Runs hostile inputs by seed: each must be read, or refused with an input error, within 10 s.
 
-Run from the top: PYTHONPATH=.:tests .venv/bin/python tests/bench/campaign.py [CASES] [FIRST SEED]
-    [PROCESSES]
+Run from the top: PYTHONPATH=.:tests .venv/bin/python tests/bench/hostile_inputs.py [CASES]
+    [FIRST SEED] [PROCESSES]
 Four cases in five change a record. Prints every case that ended otherwise as soon as it is found,
 then the count by kind.
 """
