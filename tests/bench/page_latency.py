@@ -4,8 +4,8 @@ PYTHONPATH=tests .venv/bin/python tests/bench/page_latency.py [MOVES]
 
 One axis is the answer while a slider moves; two axes is the full model, from when the slider is let
 go, once the answer in one axis is drawn. Each move is to another value, half a second after the
-answer before. Prints the median, the 95th percentile and the largest of the moves of each slider
-[ms].
+answer before. Prints the median, the 95th percentile and the largest of the moves [ms], of each
+slider and of all.
 """
 
 import sys
@@ -48,15 +48,22 @@ def main(moves: int) -> None:
     with chromium() as browser, served() as (address, _), quiet_page(browser) as page:
         opened(page, address)
         for name, is_let_go in (("one axis", False), ("two axes", True)):
+            every: list[float] = []
             for slider, (first, step) in steps.items():
                 values = [round(first + step * move, 2) for move in range(1 + moves)]
                 times = page.evaluate(MEASURED, [slider, values, is_let_go])[1:]
                 page.wait_for_selector("body[data-phase=rest]")
-                half, most = np.percentile(times, [50, 95])
-                print(
-                    f"{name}, {slider}: {len(times)} moves, median {half:.0f} ms,"
-                    f" 95th percentile {most:.0f} ms, largest {max(times):.0f} ms"
-                )
+                every += times
+                _tell(f"{name}, {slider}", times)
+            _tell(f"{name}, all", every)
+
+
+def _tell(what: str, times: list[float]) -> None:
+    half, most = np.percentile(times, [50, 95])
+    print(
+        f"{what}: {len(times)} moves, median {half:.0f} ms, 95th percentile {most:.0f} ms,"
+        f" largest {max(times):.0f} ms"
+    )
 
 
 if __name__ == "__main__":
