@@ -211,7 +211,7 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
 
         def less() -> Assessment:
             found = whole(softer, begun=rough)
-            told = told_by_rough_runs(found.arrays, found.clearances)
+            told = told_by_rough_runs(softer, found.rules, found.arrays, found.clearances)
             if len(told) == len(found.arrays):
                 return found
             exact = begin(run_motion, softer, check_models=False, former=told)

@@ -7,63 +7,72 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.clearances import ClearanceCheck
-from report.assessment.runs import MotionRun, run_motion, scene_key
-from report.sheet.schema import Array, Model
+from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.clearances import ClearanceCheck, facing
+from report.assessment.runs import HeadingRun, MotionRun, run_motion, scene_key
+from report.sheet.schema import Array, Direction, ProjectInput
 from solver.model import Motion
+from solver.rules import provisions
+from solver.rules.provisions import RuleSet
 from solver.sliding.least_model import DEFAULT
 
 ROUGH = 1e-3
 """Tolerance of a rough run, relative to the PRD."""
 
-# Difference up to which rough runs do not tell a verdict, as a share of the required separation and
-# as a displacement [m]: the tolerance with what the exact run may neglect (`Settings.bound_m`), and
-# where the rough run may neglect as much, with that too.
-_CLOSE, _CLOSE_M = 0.007, 0.0015
-_CLOSE_NEGLECTING, _CLOSE_NEGLECTING_M = 0.013, 0.0025
-
 
 def run_roughly(array: Array, motion: Motion) -> MotionRun:
-    """Run an array to a tolerance of `ROUGH`, if its error has a bound; no models are compared."""
+    """Run an array to a tolerance of `ROUGH`, if its error has a bound."""
     tolerance = ROUGH if array.friction.is_monotone else DEFAULT.tolerance
-    has_choice = array.model is Model.CHOOSE and array.friction.is_constant
-    model = Model.TWO_AXES if has_choice and motion.has_transverse else array.model
-    return run_motion(array, motion, model, tolerance)
+    return run_motion(array, motion, tolerance=tolerance)
 
 
 def told_by_rough_runs(
-    arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck]
+    data: ProjectInput,
+    rules: RuleSet,
+    arrays: Sequence[ArrayAssessment],
+    clearances: Sequence[ClearanceCheck],
 ) -> Sequence[ArrayAssessment]:
     """Return the arrays for which exact runs would find the verdicts that rough runs found.
 
     The others are beside a clearance near its limit, or without a value.
     """
-    neglecting = {item.id for item in arrays if not _is_whole(item)}
     not_told = {
         scene_key(item.array)
         for check in clearances
-        if _is_close(check, is_neglecting=not neglecting.isdisjoint(_sides(check)))
-        for item in arrays
-        if item.id in _sides(check)
+        for item, direction in facing(data, arrays, check.clearance)
+        if not _is_told(rules, check, item, direction)
     }
     return [item for item in arrays if scene_key(item.array) not in not_told]
 
 
-def _sides(check: ClearanceCheck) -> tuple[str, str]:
-    return check.clearance.array, check.clearance.object
+def _is_told(
+    rules: RuleSet, check: ClearanceCheck, item: ArrayAssessment, direction: Direction
+) -> bool:
+    """Whether exact runs of an array leave the verdict on a clearance; not without a value."""
+    off_m = check.factor * design_off_m(rules, item, direction)
+    return abs(check.required_m - check.clearance.provided_m) > off_m
 
 
-def _is_whole(item: ArrayAssessment) -> bool:
-    """Whether no run of an array neglects anything."""
-    solutions = [run.solution for motion in item.motions for run in motion.runs]
-    return all(solution.next_rung is solution.rung for solution in solutions)
+def design_off_m(rules: RuleSet, item: ArrayAssessment, direction: Direction) -> float:
+    """Return a bound on the change of a design displacement by exact runs [m].
+
+    A mean of values, or the largest, times a factor, changes by no more than that of their changes,
+    and no more where it is the larger of that and a floor.
+    """
+    offs = [max(_off_m(run, direction) for run in motion.runs) for motion in item.motions]
+    if item.route is Route.PRESCRIPTIVE:
+        return max(offs)  # the prescriptive value, not less than the largest PRD
+    return provisions.analysis_value(rules, offs, item.analysis.basis).value_m
 
 
-def _is_close(check: ClearanceCheck, *, is_neglecting: bool) -> bool:
-    """Whether a clearance is near its limit; also without a value."""
-    share, displacement_m = (
-        (_CLOSE_NEGLECTING, _CLOSE_NEGLECTING_M) if is_neglecting else (_CLOSE, _CLOSE_M)
-    )
-    difference = abs(check.required_m - check.clearance.provided_m)
-    return not difference > max(share * check.required_m, check.factor * displacement_m)
+def _off_m(run: HeadingRun, direction: Direction) -> float:
+    """Return a bound on the change of an excursion by an exact run [m]."""
+    solution = run.solution
+    exact_m = DEFAULT.tolerance * run.prd_m
+    off_m = solution.result.error_m + exact_m
+    if solution.margin_m > 2.0 * exact_m:
+        return off_m
+    # The exact run may choose a simpler model, whose bound follows from a PRD of its own: one that
+    # is larger by twice that bound at most. In one axis the PRD stands for what goes across.
+    off_m += 2.0 * DEFAULT.bound_m(1.02 * run.prd_m)
+    return off_m + (run.prd_m if direction is Direction.ACROSS else 0.0)

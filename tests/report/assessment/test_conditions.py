@@ -5,9 +5,6 @@ import datetime as dt
 import pytest
 
 import stand_in
-from report.assessment.friction import SHIFT, with_friction
-from report.assessment.project import reassess
-from report.assessment.rough import ROUGH
 from report.assessment.verdict import Verdict, worst
 from solver.records.acceptance_row import Consequence
 
@@ -75,22 +72,6 @@ def test_interconnection_and_slack_are_conditions_without_a_value_and_ng_with_to
             done = assessed(arrays=[array], clearances=[])
             assert row(done, key).verdict is verdict
             assert (done.array_verdict(done.arrays[0]) is Verdict.NG) is (verdict is Verdict.NG)
-
-
-def test_rough_runs_with_less_friction_tell_only_what_they_can_tell():
-    """At the limit the exact runs of the array decide; further away, and of others, none is run."""
-    options = {"peer_reviewed": True, **STATED}
-    wide = [stand_in.clearance(name, "RTU-1", 30.0) for name in ("A1", "A2")]
-    given = assessed(options=options, clearances=wide)
-    rough = [gap.required_m for gap in given.less.clearances]
-    softer = reassess(given, with_friction(given.project, 1.0 - SHIFT))
-    exact = [gap.required_m for gap in softer.clearances]
-    assert all(0.0 < abs(r / e - 1.0) < ROUGH for r, e in zip(rough, exact, strict=True))
-    for share in (-1e-3, -1e-9, 0.0, 1e-9, 1e-3):
-        close = wide[0] | {"provided_m": exact[0] * (1.0 + share)}
-        less = assessed(options=options, clearances=[close, wide[1]]).less.clearances
-        assert [gap.required_m for gap in less] == [exact[0], rough[1]]
-        assert less[0].ok is (share >= 0.0)
 
 
 def test_a_clearance_that_five_percent_less_friction_breaks_is_a_condition():

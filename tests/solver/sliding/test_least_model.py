@@ -133,6 +133,27 @@ def test_what_is_left_out_changes_less_than_is_said_and_than_may_be(share, mu, s
         assert off(true, solution.result) <= solution.next_effect_m <= allowed
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_where_the_margin_is_positive_a_finer_tolerance_chooses_the_same_model(seed):
+    """The faint component is tuned to the criterion itself, where coarse runs may choose wrong."""
+    ax, ay = shaking(seed, 0.9, 8.0), shaking(seed + 100, 0.9, 8.0)
+    coarse, fine = Settings(tolerance=1e-3), Settings(tolerance=1e-8)
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        middle = (low + high) / 2.0
+        chosen = solve(scene(ax, times(ay, middle)), fine).rung
+        low, high = (low, middle) if chosen is Rung.TWO_AXES else (middle, high)
+    told = []
+    for share in (low, low * (1.0 - 1e-5), low * (1.0 - 1e-2), low * 0.5, low * 2.0, 1.0):
+        case = scene(ax, times(ay, share))
+        rough = solve(case, coarse)
+        told.append(rough.margin_m > 0.0)
+        if told[-1]:
+            assert rough.rung is solve(case, fine).rung
+    assert not told[0]
+    assert told[-1]
+
+
 def one_sided(periods_hz, peak_g, push_g, rise_s, seconds=20.0):
     """Shaking along the slope that repeats, and a push across it that stays."""
     t = np.arange(round(seconds / DT) + 1) * DT
