@@ -38,6 +38,17 @@ def perform(job: Json) -> Json:
     Workbooks that are wrong, and values that no workbook can have, are problems; anything else is
     an internal error and is raised.
     """
+    try:
+        return _performed(job)
+    except MemoryError:
+        pass  # out of here, where the error no longer holds what was begun
+    # What is kept may be all that fills the memory.
+    for function in (_open, _given, _as_typed, _assessment):
+        function.cache_clear()
+    return _performed(job)
+
+
+def _performed(job: Json) -> Json:
     workbook = Path(job["workbook"])
     try:
         return {"answer": _JOBS[job["do"]](workbook, job)}

@@ -178,3 +178,27 @@ def test_a_polarity_without_the_governing_heading_runs_all_that_it_has():
             known = along.motion.headings
             assert headings == ([governs] if governs in known else list(known))
             assert {heading.sign for heading in headings} == {-1}
+
+
+@pytest.mark.parametrize("shortages", [1, 2])
+def test_where_memory_ends_what_is_kept_goes_and_the_job_is_done_again_once(shortages, monkeypatch):
+    workbook = PROJECTS / "school" / "input.xlsx"
+    job = {"do": "assess", "workbook": str(workbook), "values": {}, "moving": False}
+    jobs.perform(job)
+    kept = []
+
+    def short_at_first(*given):
+        kept.append(jobs._as_typed.cache_info().currsize)
+        if len(kept) <= shortages:
+            raise MemoryError
+        return assess(*given)
+
+    monkeypatch.setattr(jobs, "assess", short_at_first)
+    other = job | {"values": {"friction": 1.0 - 0.01 * shortages}}
+    if shortages == 1:
+        assert "answer" in jobs.perform(other)
+    else:
+        with pytest.raises(MemoryError):
+            jobs.perform(other)
+    assert kept[0] >= 1
+    assert kept[1] == 0
