@@ -46,6 +46,9 @@ class ArrayAssessment:
         Minimum design displacement without peer review [m]; 0 with peer review.
     route : Route
         By which the design displacement is obtained.
+    is_permitted : bool
+        Whether the route is permitted: its limits are satisfied, and by analysis those on the
+        motions.
     design_m : float
         Design displacement [m]. By analysis: the larger of the value from analysis and the floor.
         By the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where
@@ -77,6 +80,7 @@ class ArrayAssessment:
     prescriptive: Prescriptive
     floor_m: float
     route: Route
+    is_permitted: bool
     design_m: float
     by_direction: bool
     tipping: Tipping
@@ -99,6 +103,13 @@ class ArrayAssessment:
         if self.route is Route.PRESCRIPTIVE:
             return DesignBasis.PRESCRIPTIVE
         return DesignBasis.FLOOR if self.floor_m > self.analysis.value_m else DesignBasis.ANALYSIS
+
+    @property
+    def source(self) -> str:
+        """Source of the design displacement in words; not permitted where neither route is."""
+        has_value = not math.isnan(self.design_m)
+        mark = ", not permitted" if has_value and not self.is_permitted else ""
+        return f"{self.governs.value}{mark}"
 
     @property
     def limits(self) -> tuple[Check, ...]:
@@ -183,10 +194,14 @@ class RouteLimits:
     route: Route
 
     @property
+    def of_route(self) -> tuple[Check, ...]:
+        """The limits of the route taken."""
+        return self.analysis if self.route is Route.ANALYSIS else self.prescriptive
+
+    @property
     def on_route(self) -> tuple[Check, ...]:
         """Every limit that must be satisfied on the route taken."""
-        taken = self.analysis if self.route is Route.ANALYSIS else self.prescriptive
-        return (*self.both, *taken)
+        return (*self.both, *self.of_route)
 
 
 def limits_of(
@@ -276,6 +291,8 @@ def assess_array(
         prescriptive=prescriptive,
         floor_m=floor_m,
         route=limits.route,
+        is_permitted=(motions_qualify or limits.route is Route.PRESCRIPTIVE)
+        and all(check.ok for check in limits.of_route),
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, each),

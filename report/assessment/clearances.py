@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, by_id
+from report.assessment.neighbors import NearbyKind, PlanNeighbor
 from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import Verdict
 from report.sheet.schema import (
@@ -126,6 +127,29 @@ def check_clearance(
         required_m=provisions.required_separation(
             rules, neighbor, design_m=design_m, importance=importance
         ),
+    )
+
+
+def least_gap_m(
+    data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment], near: PlanNeighbor
+) -> float:
+    """Return the separation that the rule set requires between neighbors of the plan [m].
+
+    As `check_clearance` has it for a row in any direction; NaN without a design displacement.
+    """
+    if near.kind is not NearbyKind.BARE_EDGE:
+        row = Clearance(
+            array=near.array,
+            object=near.other,
+            direction=Direction.ANY,
+            provided_m=max(near.gap_m, 0.0),
+        )
+        return check_clearance(data, rules, arrays, row).required_m
+    return provisions.required_separation(
+        rules,
+        Neighbor.EDGE,
+        design_m=by_id(arrays, near.array).design_toward_m(Direction.ANY),
+        importance=_importance(rules, Neighbor.EDGE, i_e=data.site.i_e, i_p=math.nan),
     )
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.neighbors import PlanNeighbor
-from report.assessment.verdict import Row
+from report.assessment.verdict import Row, Verdict
 from report.motions.history import PreparedMotion
 from report.sheet.schema import Array, ProjectInput
 from report.words.units import Quantity, compared, number, pair
@@ -136,28 +136,46 @@ def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
     if not is_ng:
         return "Show that the motions are strong for long enough, or replace them."
     if takes_analysis:
-        return "Without it there is no value from analysis: replace or complete the motions."
+        return (
+            "Without it the value from analysis is not permitted: replace or complete the motions."
+        )
     return "The design displacements are prescriptive; the analysis is for information."
 
 
 def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Row, ...]:
-    """Return what the plan shows near an array and no clearance covers, or contradicts."""
+    """Return what the plan shows near an array and no clearance covers, or contradicts.
+
+    A gap of the plan that no clearance covers, and that is less than is required, is NG.
+    """
     us_first = data.project.units_first == "US"
     return tuple(
         Row(
             id="neighbors",
             title=f"Clearance {neighbor.array} to {neighbor.other}",
             subject=neighbor.array,
-            found=NOT_GIVEN if neighbor.is_missing else "contradicts the plan",
-            limit="given, as in the plan",
+            found=found,
+            limit=limit,
             basis="roof plan",
             is_satisfied=False,
-            consequence=Consequence.CONDITION,
+            consequence=Consequence.NG if neighbor.is_short else Consequence.CONDITION,
             remedy=f"{text}.",
         )
         for neighbor in nearby
+        for found, limit in (_compared(neighbor, us_first),)
         for text in neighbor.shortcomings(us_first)
     )
+
+
+def _compared(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
+    """Return what is found of a clearance, and what is required."""
+    if not neighbor.is_short:
+        return NOT_GIVEN if neighbor.is_missing else "contradicts the plan", "given, as in the plan"
+    shown, had = compared(neighbor.required_m, neighbor.gap_m)
+    gap = pair(neighbor.gap_m, Quantity.SIZE, us_first, had)
+    required = "none, without a design displacement"
+    if not math.isnan(neighbor.required_m):
+        required = f"≥ {pair(neighbor.required_m, Quantity.SIZE, us_first, shown)}"
+    return f"{NOT_GIVEN}; {gap} in plan", required
 
 
 def drifts(prepared: PreparedMotion) -> bool:
@@ -236,18 +254,41 @@ def friction_row(given: ClearanceCheck, less: ClearanceCheck, share: float) -> R
     share : float
         Fraction by which the friction coefficients are smaller in `less`.
     """
-    changes = given.ok and not less.ok
     row = given.clearance
-    percent = number(100.0 * share, 0)
+    return _softer_row(
+        row.array,
+        f"Clearance {row.array} to {row.object}",
+        (given.verdict, less.verdict),
+        share,
+        "this clearance is NG: confirm the friction coefficient, or provide more clearance",
+    )
+
+
+def route_row(given: ArrayAssessment, less: ArrayAssessment, share: float) -> Row:
+    """Return whether the route of an array that is permitted stays so with less friction."""
+    before, after = (Verdict.OK if item.is_permitted else Verdict.NG for item in (given, less))
+    return _softer_row(
+        given.id,
+        f"The {given.route} route",
+        (before, after),
+        share,
+        "no route is permitted: confirm the friction coefficient",
+    )
+
+
+def _softer_row(
+    subject: str, title: str, verdicts: tuple[Verdict, Verdict], share: float, effect: str
+) -> Row:
+    given, less = verdicts
+    friction = f"{number(100.0 * share, 0)} % less friction"
     return Row(
         id="less_friction",
-        title=f"Clearance {row.array} to {row.object} with {percent} % less friction",
-        subject=row.array,
-        found=less.verdict.value,
-        limit=given.verdict.value,
+        title=f"{title} with {friction}",
+        subject=subject,
+        found=less.value,
+        limit=given.value,
         basis="sensitivity",
-        is_satisfied=not changes,
+        is_satisfied=not (given.is_permitted and not less.is_permitted),
         consequence=Consequence.CONDITION,
-        remedy=f"With {percent} % less friction this clearance is NG: confirm the friction "
-        "coefficient, or provide more clearance.",
+        remedy=f"With {friction} {effect}.",
     )

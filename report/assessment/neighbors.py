@@ -6,8 +6,8 @@ Measures from the plan alone; decides nothing (`report.assessment.project`). Rea
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations
 
@@ -79,6 +79,8 @@ class PlanNeighbor:
         Smallest distance in plan [m]; negative if they overlap.
     reach_m : float
         `REACH_FACTOR` times the larger design displacement of the two [m].
+    required_m : float
+        Required separation between them [m]; NaN without a design displacement.
     given : tuple of GivenGap
         Clearances between them, from either side.
     to_add : str
@@ -95,11 +97,22 @@ class PlanNeighbor:
     given: tuple[GivenGap, ...]
     to_add: str
     drawn_as: str
+    required_m: float = math.nan
+
+    @property
+    def is_near(self) -> bool:
+        """Whether it is within reach, or nearer than is required."""
+        return self.gap_m <= self.reach_m or self.gap_m < self.required_m
 
     @property
     def is_missing(self) -> bool:
-        """Whether it is within reach and no clearance is given."""
-        return not self.given and self.gap_m <= self.reach_m
+        """Whether it is near and no clearance is given."""
+        return not self.given and self.is_near
+
+    @property
+    def is_short(self) -> bool:
+        """Whether no clearance is given and the gap of the plan is not known to be sufficient."""
+        return self.is_missing and not self.gap_m >= self.required_m
 
     @property
     def contradictions(self) -> tuple[GivenGap, ...]:
@@ -110,38 +123,55 @@ class PlanNeighbor:
 
     def shortcomings(self, us_first: bool) -> tuple[str, ...]:
         """Return in words what is missing or contradicts the plan, with the cell to change."""
-        gap, reach = (pair(v, Quantity.SIZE, us_first) for v in (self.gap_m, self.reach_m))
-        apart = f"{self.array} and {self.other} are {gap} apart in plan"
+        apart = f"{self.array} and {self.other} are {_both(self.gap_m, us_first)} apart in plan"
         if self.is_missing:
             what = (
                 "add the edge as an object, and a clearance to it"
                 if self.kind is NearbyKind.BARE_EDGE
                 else "add a row with their clearance"
             )
-            near = f"{apart}, within twice the design displacement ({reach})"
-            return (f"{self.to_add}: {near}, and no clearance is given; {what}",)
+            near = (
+                f"within twice the design displacement ({_both(self.reach_m, us_first)})"
+                if self.gap_m <= self.reach_m
+                else "nearer than is required"
+            )
+            return (f"{self.to_add}: {apart}, {near}, and no clearance is given; {what}",)
         return tuple(
-            f"{row.cell}: provided clearance is "
-            f"{pair(row.clearance.provided_m, Quantity.SIZE, us_first)}, but {apart}; correct "
-            f"the clearance or the {self.drawn_as}"
+            f"{row.cell}: provided clearance is {_both(row.clearance.provided_m, us_first)}, but "
+            f"{apart}{self._short_in_plan(row)}; correct the clearance or the {self.drawn_as}"
             for row in self.contradictions
         )
 
+    def _short_in_plan(self, row: GivenGap) -> str:
+        """Return that a clearance suffices as given and would not as drawn, if so."""
+        breaks = self.gap_m < self.required_m <= row.clearance.provided_m
+        return ", which would be NG" if breaks else ""
+
+
+def _both(value_m: float, us_first: bool) -> str:
+    return pair(value_m, Quantity.SIZE, us_first)
+
 
 def neighbors(
-    data: ProjectInput, arrays: Sequence[ArrayAssessment], addresses: Mapping[Place, str]
+    data: ProjectInput,
+    arrays: Sequence[ArrayAssessment],
+    addresses: Mapping[Place, str],
+    required: Callable[[PlanNeighbor], float],
 ) -> tuple[PlanNeighbor, ...]:
     """Return each pair of arrays, array and object, array and bare roof edge of the plan.
 
-    Of those, the pairs within reach or with a clearance. An object without a place in plan is in
+    Of those, the pairs that are near or with a clearance. An object without a place in plan is in
     none of them (`unplaced`). An array without a design displacement reaches twice the
     prescriptive one.
+
+    Parameters
+    ----------
+    required : callable
+        Returns the required separation of a pair [m].
     """
-    return tuple(
-        neighbor
-        for neighbor in _pairs(data, arrays, addresses)
-        if neighbor.given or neighbor.gap_m <= neighbor.reach_m
-    )
+    pairs = _pairs(data, arrays, addresses)
+    complete = (replace(each, required_m=required(each)) for each in pairs)
+    return tuple(each for each in complete if each.given or each.is_near)
 
 
 def unplaced(data: ProjectInput) -> tuple[str, ...]:

@@ -15,15 +15,16 @@ from dataclasses import dataclass
 from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
-from report.assessment.arrays import ArrayAssessment, Route, assess_array, by_id
+from report.assessment.arrays import ArrayAssessment, assess_array, by_id
 from report.assessment.begun import Begun, RunMotion, begin_runs
-from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.clearances import ClearanceCheck, check_clearance, least_gap_m
 from report.assessment.conditions import (
     array_rows,
     friction_row,
     motion_rows,
     plan_rows,
     project_rows,
+    route_row,
 )
 from report.assessment.foresight import ruled
 from report.assessment.friction import SHIFT, with_friction
@@ -124,7 +125,7 @@ class Assessment:
             item.is_model_enough
             and item.tipping.is_ok
             and all(check.ok for check in item.limits)
-            and (item.route is Route.PRESCRIPTIVE or self.acceptance.qualifies)
+            and item.is_permitted
             and all(run.result.status is Status.OK for m in item.motions for run in m.runs)
         )
 
@@ -289,7 +290,8 @@ def _assess(
     linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
     softer = less() if less else None
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
-    nearby = neighbors(data, arrays, sheet.addresses)
+    required = partial(least_gap_m, data, rules, arrays)
+    nearby = neighbors(data, arrays, sheet.addresses, required)
     return Assessment(
         sheet=sheet,
         shaking=shaking,
@@ -314,17 +316,23 @@ def _assess(
             *motion_rows(acceptance, arrays),
             *(row for item in arrays for row in array_rows(data, item)),
             *plan_rows(data, nearby),
-            *(_friction_rows(clearances, softer) if softer else ()),
+            *(_friction_rows(arrays, clearances, softer) if softer else ()),
         ),
         less=softer,
         solver_seconds=seconds,
     )
 
 
-def _friction_rows(given: Sequence[ClearanceCheck], less: Assessment) -> Sequence[Row]:
-    """Return the clearances whose verdict less friction changes."""
-    pairs = zip(given, less.clearances, strict=True)
-    rows = (friction_row(before, after, SHIFT) for before, after in pairs)
+def _friction_rows(
+    arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck], less: Assessment
+) -> Sequence[Row]:
+    """Return the routes and clearances whose verdict less friction changes."""
+    routes = zip(arrays, less.arrays, strict=True)
+    gaps = zip(clearances, less.clearances, strict=True)
+    rows = (
+        *(route_row(before, after, SHIFT) for before, after in routes),
+        *(friction_row(before, after, SHIFT) for before, after in gaps),
+    )
     return [row for row in rows if not row.is_satisfied]
 
 

@@ -12,7 +12,7 @@ from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, Route, assess_array
+from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import array_with_friction
 from report.assessment.project import Assessment
@@ -98,7 +98,7 @@ class Trials:
         self.array = array
         self._pool = pool
         self._runs = runs
-        self._was_permitted = _is_permitted(given, array)
+        self._was_permitted = _is_permitted(array)
         self._governing: dict[tuple[int, int], ArrayAssessment] = {}
         self._all: dict[tuple[int, int], ArrayAssessment] = {}
 
@@ -151,7 +151,7 @@ class Trials:
         return self._runs[key]
 
     def _passes(self, trial: ArrayAssessment, row: Clearance | None, s_ds: int) -> bool:
-        if not is_final(trial) or (self._was_permitted and not _is_permitted(self.given, trial)):
+        if not is_final(trial) or (self._was_permitted and not _is_permitted(trial)):
             return False
         return row is None or alone(self.given, self._data(s_ds), trial, row).ok
 
@@ -192,10 +192,9 @@ def with_s_ds(data: ProjectInput, s_ds_g: float) -> ProjectInput:
     return data.model_copy(update={"site": data.site.model_copy(update={"s_ds_g": s_ds_g})})
 
 
-def _is_permitted(given: Assessment, array: ArrayAssessment) -> bool:
-    """Whether the limits of the route of an array hold, those on its motions included."""
-    is_qualified = array.route is Route.PRESCRIPTIVE or given.acceptance.qualifies
-    return is_qualified and all(check.ok for check in array.limits)
+def _is_permitted(array: ArrayAssessment) -> bool:
+    """Whether an array and its route are permitted."""
+    return array.is_permitted and all(check.ok for check in array.checks)
 
 
 def is_final(array: ArrayAssessment) -> bool:

@@ -48,7 +48,7 @@ def _governing(package: PackageData) -> Iterator[tuple[str, str]]:
     design = package.fmt.both(array.design_m) + package.design_mark(array)
     yield (
         "Governing array",
-        f"{array.id}: design displacement {design}, governed by: {array.governs}",
+        f"{array.id}: design displacement {design}, governed by: {array.source}",
     )
     gap = governing_clearance(package)
     yield (

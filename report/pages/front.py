@@ -147,7 +147,7 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
         (
             f"Largest design displacement (array {array.id})",
             package.fmt.both(array.design_m) + package.design_mark(array),
-            f"governed by: {array.governs}",
+            f"governed by: {array.source}",
         ),
         *_exceptional(package),
     )
@@ -220,8 +220,8 @@ def _array_row(package: PackageData, array: ArrayAssessment) -> TableRow:
             *package.fmt.cells(array.analysis.value_m),
             *package.fmt.cells(array.prescriptive.value_m, mark=prescriptive),
             *package.fmt.cells(array.design_m, mark=package.design_mark(array)),
-            array.governs,
-            verdict(all(check.ok for check in array.limits)),
+            array.source,
+            verdict(array.is_permitted and all(check.ok for check in array.limits)),
             ratio(largest) if demands else "none given",
             stamp(package.assessment.array_verdict(array)),
         ),

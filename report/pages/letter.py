@@ -72,7 +72,7 @@ def _array(package: PackageData, item: ArrayAssessment) -> tuple[str, ...]:
     return (
         item.id,
         *package.fmt.cells(item.design_m, mark=package.design_mark(item)),
-        item.governs,
+        item.source,
         "—" if gap is None else ratio(gap.demand_capacity),
         "none given" if gap is None else f"to {gap.across_from(item.id)}",
         stamp(package.assessment.array_verdict(item)),

@@ -53,6 +53,21 @@ def failed_limits(package: PackageData) -> Sequence[str]:
     ]
 
 
+def analysis_faults(package: PackageData, array: ArrayAssessment) -> Sequence[str]:
+    """Return why the analysis route of an array is not permitted, in a few words each."""
+    few = ["too few motions"] if array.analysis.basis is Basis.TOO_FEW else []
+    return [
+        *(check.title for check in array.analysis_checks if not check.ok),
+        *_motion_faults(package),
+        *few,
+    ]
+
+
+def _motion_faults(package: PackageData) -> Sequence[str]:
+    missed = package.assessment.acceptance.missed
+    return [row.title for row in missed if row.consequence is Consequence.NG]
+
+
 def troubles(package: PackageData) -> Sequence[str]:
     """Return everything that prevents an OK, except clearances, in words."""
     few = [
@@ -61,9 +76,16 @@ def troubles(package: PackageData) -> Sequence[str]:
         for array in package.assessment.arrays
         if array.analysis.basis is Basis.TOO_FEW
     ]
+    motions = [
+        f"Array {array.id}: the value from analysis is not permitted with these motions "
+        f"({'; '.join(_motion_faults(package))})."
+        for array in package.assessment.arrays
+        if array.route is Route.ANALYSIS and _motion_faults(package)
+    ]
     return [
         *package.assessment.warnings,
         *few,
+        *motions,
         *model_troubles(package),
         *tipping_troubles(package),
         *link_troubles(package),

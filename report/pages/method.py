@@ -274,7 +274,7 @@ def _design_line(package: PackageData, array: ArrayAssessment) -> Line:
                 fmt.both(array.design_m) + package.design_mark(array),
             ),
         ),
-        note=f"Governed by: {array.governs}.",
+        note=f"Governed by: {array.source}.",
     )
 
 

@@ -10,13 +10,11 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.project import run_warnings
 from report.assessment.runs import MotionRun
-from report.pages.limits import check_table
+from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import NO_VALUE, PackageData, Table, TableColumn, TableRow, Wide, statistic
 from report.sheet.schema import Direction
 from report.words.units import number
 from solver.model import Heading, Status
-from solver.records.acceptance_row import Consequence
-from solver.rules.provisions import Basis
 
 PEAK_ROWS = 16
 """The PRDs of usual suites stay on one page, with their mean and the design value."""
@@ -218,7 +216,7 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
             "Design",
             array.design_m,
             package.design_mark(array),
-            f"governed by: {array.governs}",
+            f"governed by: {array.source}",
             toward,
         ),
     )
@@ -293,7 +291,7 @@ def _ratio_row(package: PackageData, array: ArrayAssessment) -> TableRow:
             *fmt.cells(array.floor_m, mark=package.mark("analysis_floor")),
             *fmt.cells(array.design_m, mark=package.design_mark(array)),
             *(NO_VALUE if math.isnan(share) else number(share, 2) for share in shares),
-            array.governs,
+            array.source,
         ),
         kind=package.bar(array.id in package.changes.arrays),
     )
@@ -319,16 +317,14 @@ def _sentence(package: PackageData, array: ArrayAssessment) -> str:
             f"{package.mark('analysis_floor')} "
             f"{'governs' if array.governs is DesignBasis.FLOOR else 'does not govern'}"
         )
+    if not array.is_permitted:
+        faults = "; ".join(analysis_faults(package, array))
+        route = f"the analysis route is not permitted ({faults}); {route}"
     return f"Array {array.id}: {_exceeds(package, array)}{floor}; {route}."
 
 
 def _prescriptive_sentence(package: PackageData, array: ArrayAssessment) -> str:
     """Return why the prescriptive route is taken."""
-    acceptance = package.assessment.acceptance
-    failed = [check.title for check in array.analysis_checks if not check.ok]
-    failed += [row.title for row in acceptance.missed if row.consequence is Consequence.NG]
-    if array.analysis.basis is Basis.TOO_FEW:
-        failed.append("too few motions")
     exceeds = (
         "the largest PRD exceeds the prescriptive displacement and is used; "
         if array.analysis.largest_m > array.prescriptive.value_m
@@ -336,7 +332,7 @@ def _prescriptive_sentence(package: PackageData, array: ArrayAssessment) -> str:
     )
     return (
         f"Array {array.id}: the prescriptive route is taken; {exceeds}the analysis route is not "
-        f"permitted ({'; '.join(failed)})."
+        f"permitted ({'; '.join(analysis_faults(package, array))})."
     )
 
 

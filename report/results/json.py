@@ -153,6 +153,7 @@ def _design(item: ArrayAssessment) -> dict[str, Any]:
         "floor_m": item.floor_m,
         "design_m": item.design_m,
         "design_governs": item.governs,
+        "design_permitted": item.is_permitted,
     }
 
 

@@ -56,6 +56,10 @@ class _Shown:
         """Return a verdict; none while values are provisional."""
         return None if self._is_provisional else verdict.value
 
+    def source(self, item: ArrayAssessment) -> str:
+        """Return what governs; while values are provisional, not whether it is permitted."""
+        return item.governs.value if self._is_provisional else item.source
+
     def length(self, value_m: float) -> str:
         """Return a displacement in both systems of units, or that there is none."""
         return "none" if math.isnan(value_m) else pair(value_m, Quantity.SIZE, self.us_first)
@@ -95,7 +99,7 @@ def _array(shown: _Shown, item: ArrayAssessment) -> Mapping[str, Any]:
         **{f"{name}_m": finite(value) for name, value in values.items()},
         **{name: shown.length(value) for name, value in values.items()},
         **{f"{name}_short": shown.short(value) for name, value in values.items()},
-        "source": item.governs.value,
+        "source": shown.source(item),
         "verdict": shown.verdict(shown.assessment.array_verdict(item)),
         "bars": [
             {

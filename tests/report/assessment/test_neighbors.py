@@ -2,13 +2,14 @@
 
 import math
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import stand_in
+from report.assessment.clearances import least_gap_m
 from report.assessment.neighbors import NearbyKind, bare_edges, neighbors, unplaced
 from report.assessment.project import assess
 from report.motions.prepare import prepare
@@ -22,7 +23,9 @@ OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 *
 
 def of(assessment):
     """The neighbors of an assessment, which a test may have changed."""
-    return neighbors(assessment.project, assessment.arrays, assessment.sheet.addresses)
+    data, arrays = assessment.project, assessment.arrays
+    required = partial(least_gap_m, data, assessment.rules, arrays)
+    return neighbors(data, arrays, assessment.sheet.addresses, required)
 
 
 @pytest.fixture(scope="module")
