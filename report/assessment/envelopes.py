@@ -14,6 +14,7 @@ from report.assessment.project import Assessment
 from report.assessment.runs import HeadingRun
 from report.sheet.schema import Direction, Polygon, Shape
 from report.sheet.shapes import Point, merged, sides
+from solver.model import INCH_M
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor
 
@@ -128,3 +129,11 @@ def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
         design_m=array.design_m,
         importance=array.array.i_p if rules.importance_in_separation else 1.0,
     )
+
+
+def keep_clear_words(separation_m: float, us_first: bool) -> str:
+    """Return the field note of an array, its distance rounded up to 1 in or 10 mm."""
+    if math.isnan(separation_m):
+        return "keep clear: no value"
+    steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
+    return f"keep clear {steps} in" if us_first else f"keep clear {10 * steps} mm"

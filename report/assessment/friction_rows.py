@@ -42,6 +42,7 @@ def _on_file(data: ProjectInput) -> Row:
         found="; ".join(given) or NOT_GIVEN,
         limit="laboratory, report number, date",
         is_satisfied=not missing,
+        remedy="Obtain the friction test report and complete the sheet Friction tests.",
     )
 
 
@@ -55,6 +56,8 @@ def _standard(data: ProjectInput) -> Row:
         found=f"{standard}; {accreditation}",
         limit="ASTM G115, accredited laboratory",
         is_satisfied=by_standard and bool(tests.accreditation),
+        remedy="Obtain tests to ASTM G115 by an accredited laboratory, and state both on the sheet "
+        "Friction tests.",
     )
 
 
@@ -74,10 +77,11 @@ def _wet_and_dry(data: ProjectInput) -> Row:
         limit=f"{LEAST_RUNS} runs or more in each condition",
         is_satisfied=bool(reports)
         and all(counts.get((r, s), 0) >= LEAST_RUNS for r in reports for s in Surface),
+        remedy="Obtain the runs that are missing, and enter them on the sheet Friction tests.",
     )
 
 
-def _row(*, title: str, found: str, limit: str, is_satisfied: bool) -> Row:
+def _row(*, title: str, found: str, limit: str, is_satisfied: bool, remedy: str) -> Row:
     return Row(
         id="friction_tests",
         title=title,
@@ -86,7 +90,7 @@ def _row(*, title: str, found: str, limit: str, is_satisfied: bool) -> Row:
         basis="friction tests",
         is_satisfied=is_satisfied,
         consequence=Consequence.CONDITION,
-        remedy="Obtain the friction test report and complete the sheet Friction tests.",
+        remedy=remedy,
     )
 
 

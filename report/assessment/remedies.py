@@ -194,7 +194,7 @@ def _s_ds(trials: Sequence[Trials], number: int, row: Clearance | None) -> Remed
             lambda s_ds: all(one.holds(row, s_ds=s_ds) for one in trials), start, end, S_DS_STRIDES
         )
     most = held[-1] / 100 if held else math.nan
-    takes_floor = any(one.array.route is Route.ANALYSIS and one.array.floor_m for one in trials)
+    takes_floor = any(one.route is Route.ANALYSIS and one.floor_m for one in given.arrays)
     floor = " and the floor" if takes_floor else ""
     scaled = (
         f"all motions scaled in proportion to S_DS, the prescriptive displacement{floor} by "

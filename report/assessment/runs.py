@@ -39,6 +39,12 @@ class HeadingRun:
         return self.solution.result
 
     @property
+    def model(self) -> str:
+        """Name of the model used; without the vertical where the motion has none."""
+        title = self.solution.rung.title
+        return title if self.scene.az_mps2.size else title.removesuffix(" with vertical")
+
+    @property
     def prd_m(self) -> float:
         """PRD [m]; NaN where the run has no final displacement."""
         return self.result.prd_m if self.result.status is Status.OK else math.nan

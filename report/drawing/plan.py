@@ -13,6 +13,7 @@ from report.assessment.envelopes import (
     Outline,
     design_envelope,
     keep_clear_m,
+    keep_clear_words,
     runs_envelope,
 )
 from report.assessment.neighbors import bare_edges
@@ -138,7 +139,7 @@ def _array_notes(assessment: Assessment, name: str, us_first: bool) -> Iterator[
         yield "design displacement: no value"
         return
     yield f"design displacement {pair(array.design_m, Quantity.SIZE, us_first)}"
-    yield f"keep clear {pair(keep_clear_m(assessment, array), Quantity.SIZE, us_first)}; no conduit"
+    yield f"{keep_clear_words(keep_clear_m(assessment, array), us_first)}; no conduit"
     slope = number(math.degrees(array.array.slope_rad), 2).replace("−", "-")
     yield f"slope {slope} deg, downslope {array.array.downslope_deg:.0f} deg"
 

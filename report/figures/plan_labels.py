@@ -9,14 +9,13 @@ import math
 from collections.abc import Iterator
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.envelopes import keep_clear_m
+from report.assessment.envelopes import keep_clear_m, keep_clear_words
 from report.figures.base import tick_text
 from report.figures.labels import LINE_IN, Frame, centered, width_in
 from report.figures.paper_plan import text_size
 from report.figures.plan_sheet import PlanSheet
 from report.sheet.schema import ObjectKind, Rectangle, RoofObject
 from report.words.units import number
-from solver.model import INCH_M
 
 ARROW_IN = 0.3
 
@@ -124,14 +123,6 @@ def label_object(plan: PlanSheet, item: RoofObject) -> None:
         return
     plan.paper.box(label, facecolor="white", edgecolor="none", zorder=2)
     plan.paper.lines(label, [words])
-
-
-def keep_clear_words(separation_m: float, us_first: bool) -> str:
-    """Return the field note of an array, its distance rounded up to 1 in or 10 mm."""
-    if math.isnan(separation_m):
-        return "keep clear: no value"
-    steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
-    return f"keep clear {steps} in" if us_first else f"keep clear {10 * steps} mm"
 
 
 def _inner(frame: Frame) -> Frame:

@@ -7,10 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from report.assessment.envelopes import design_envelope, keep_clear_m, runs_envelope
+from report.assessment.envelopes import (
+    design_envelope,
+    keep_clear_m,
+    keep_clear_words,
+    runs_envelope,
+)
 from report.assessment.neighbors import bare_edges
 from report.figures.plan_key import Key, Symbol
-from report.figures.plan_labels import keep_clear_words
 from report.figures.plan_sheet import PlanSheet
 from report.sheet.schema import ObjectKind
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.friction import SHIFT
@@ -65,7 +66,7 @@ def _run(package: PackageData, rivals: Rivals) -> str:
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
         f"μ = {number(array.mu, 3)}) under motion {rivals.motion.motion.id}, {run.heading.name}, "
         f"{vertical} vertical shaking. PRD {package.fmt.both(run.prd_m)}, model "
-        f"{int(run.solution.rung)} of {package.part('model')}, {run.solution.rung.title}."
+        f"{int(run.solution.rung)} of {package.part('model')}, {run.model}."
     )
 
 
@@ -172,7 +173,18 @@ def parameters(values: Mapping[str, float]) -> str:
 def _by_array(
     accuracy: Accuracy,
 ) -> Iterator[tuple[ArrayAssessment, ArrayAssessment, ArrayAssessment]]:
-    yield from zip(accuracy.given.arrays, accuracy.less.arrays, accuracy.more.arrays, strict=True)
+    """Yield each array as given, with less and with more friction."""
+    for given, *others in zip(
+        accuracy.given.arrays, accuracy.less.arrays, accuracy.more.arrays, strict=True
+    ):
+        less, more = (_if_permitted(given, other) for other in others)
+        yield given, less, more
+
+
+def _if_permitted(given: ArrayAssessment, other: ArrayAssessment) -> ArrayAssessment:
+    """Return an array with changed friction; without a design value if that closes its route."""
+    is_lost = given.is_permitted and not other.is_permitted
+    return replace(other, design_m=math.nan) if is_lost else other
 
 
 def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
@@ -243,7 +255,7 @@ def _sentence(
     package: PackageData, given: ArrayAssessment, less: ArrayAssessment, more: ArrayAssessment
 ) -> str:
     start = f"Array {given.id}: "
-    if any(math.isnan(array.design_m) for array in (given, less, more)):
+    if any(math.isnan(array.design_m) for array in (given, more)):
         return f"{start}no design displacement, so no sensitivity to friction is given."
     ways = (
         f"with {_PERCENT} {word} friction the design displacement of "
@@ -258,6 +270,9 @@ def _sentence(
 def _becomes(
     package: PackageData, given: ArrayAssessment, other: ArrayAssessment, *, short: bool = False
 ) -> str:
+    if math.isnan(other.design_m):
+        words = "no route is permitted" if not other.is_permitted else "there is no value"
+        return f"{words}, and the design displacement is none" if short else f"is none: {words}"
     change = other.design_m - given.design_m
     if abs(change) <= 1e-9 * given.design_m:
         return "it is unchanged" if short else "is unchanged"
@@ -271,7 +286,7 @@ def _becomes(
 def _clearances(accuracy: Accuracy) -> Sequence[str]:
     """Return the effect of less friction on clearances and on the outcome of runs."""
     texts = []
-    if accuracy.given.clearances:
+    if any(gap.ok for gap in accuracy.given.clearances):
         texts.append(_short_of(accuracy))
     unfinished = _unfinished(accuracy.less) - _unfinished(accuracy.given)
     if unfinished > 0:

@@ -9,6 +9,7 @@ from report.assessment.certainty import TOLERANCE, Certainty, Margin, Surface
 from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
 from report.words.letters import power_of_ten
 from report.words.units import Quantity, number
+from solver.rules.provisions import Neighbor
 
 
 def page(package: PackageData, certainty: Certainty) -> dict[str, object]:
@@ -61,7 +62,7 @@ def _dots(surface: Surface) -> str:
         return " Dots: the arrays."
     law = "constant" if surface.array.array.friction.is_constant else "velocity-dependent"
     return (
-        f" Dots: the arrays; hollow ({', '.join(surface.others)}): its friction is not of the kind "
+        f" Dots: the arrays; hollow ({', '.join(surface.others)}): friction is not of the kind "
         f"shown, that of {surface.array.id} ({law}), scaled as a whole."
     )
 
@@ -126,8 +127,8 @@ def _margin(package: PackageData, margins: Sequence[Margin]) -> str:
     """Return the smallest margin, and the clearances that have none, in words."""
     if not margins:
         return "The workbook lists no clearances: there is no margin to state."
-    have = [margin for margin in margins if not math.isnan(margin.least_mu)]
-    without = sorted({margin.number for margin in margins} - {m.number for m in have if m.gap.ok})
+    have = [margin for margin in margins if margin.gap.ok and not math.isnan(margin.least_mu)]
+    without = sorted({margin.number for margin in margins} - {margin.number for margin in have})
     sentences = []
     if have and not all(margin.is_beyond for margin in have):
         least = max(have, key=lambda margin: _share(margin))
@@ -166,14 +167,14 @@ def _share(margin: Margin) -> float:
 def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
     fmt = package.fmt
     return Table(
-        caption="Friction coefficient to which each array may fall, all else as given",
+        caption="Least friction coefficient of each array with which each clearance is satisfied",
         columns=(
             TableColumn(head="No.", share=0.5),
             TableColumn(head="From", align="left", share=1.0),
             TableColumn(head="To", align="left", share=1.2),
             TableColumn(head="Friction of", align="left", share=1.0),
             TableColumn(head="μ", unit="given", share=0.8),
-            TableColumn(head="μ", unit="may fall to", share=1.1),
+            TableColumn(head="μ", unit="least", share=1.1),
             TableColumn(head="Change", unit="%", share=0.9),
             *fmt.columns("Required there", share=0.9),
             *fmt.columns("Provided", share=0.9),
@@ -181,12 +182,22 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         rows=tuple(_margin_row(package, margin) for margin in margins),
         notes=(
             "Searched down to half of the given coefficient in steps of 0.05, then of 0.01, in the "
-            "governing heading of each motion; the value shown satisfies in all runs, and 0.01 "
-            "less does not, unless marked ≤ (the lowest value tried). Required there: for this "
-            "array alone. A friction law is scaled as a whole and named by its low-velocity "
-            "coefficient.",
+            "governing heading of each motion; with the value shown all runs satisfy the "
+            "clearance, and with 0.01 less they do not, unless marked ≤ (the lowest value tried). "
+            "Required there: for this array alone. A friction law is scaled as a whole and named "
+            f"by its low-velocity coefficient.{_alike(margins)}",
         ),
         kind="compact",
+    )
+
+
+def _alike(margins: Sequence[Margin]) -> str:
+    """Return that arrays that are alike stay so, if any are."""
+    if not any(margin.gap.neighbor is Neighbor.LIKE for margin in margins):
+        return ""
+    return (
+        " Arrays that are alike remain alike: the friction of both is that shown. With another "
+        "friction on one side alone they are not, and the factor of unlike arrays applies."
     )
 
 

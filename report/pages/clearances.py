@@ -31,7 +31,7 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
         ()
         if brief
         else (
-            *fmt.columns("Displ.", share=0.72),
+            *fmt.columns("Displ.", share=0.8),
             TableColumn(head="Array", align="left", share=0.75),
             *directions,
             TableColumn(head="Factor" + factor, share=0.75),

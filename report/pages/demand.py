@@ -80,6 +80,7 @@ def _force(package: PackageData) -> Iterator[Line]:
     s_ds, i_p = number(site.s_ds, 3), number(largest_i_p, 2)
     factor, divisor = number(site.force_factor, 2), number(site.force_divisor, 2)
     height = number(site.z_over_h, 3)
+    steps: tuple[tuple[str | Markup, str], ...] = ()
     if site.edition.has_site_coefficients:
         latex = r"\frac{F_p}{W_p}=\frac{0.4\,a_p\,S_{DS}}{R_p/I_p}\left(1+2\,\frac{z}{h}\right)"
         substituted = f"0.4 × {factor} × {s_ds} / ({divisor} / {i_p}) × (1 + 2 × {height})"
@@ -88,11 +89,17 @@ def _force(package: PackageData) -> Iterator[Line]:
         amplified = force.formula / (
             0.4 * site.s_ds * largest_i_p * site.force_factor / site.force_divisor
         )
+        reduction = site.edition.amplification.reduction if site.roof_height_m > 0.0 else 1.0
+        ratio_of = Markup("{} / {} = {} / {}").format(
+            symbol("H_f"), symbol("R_μ"), number(amplified * reduction, 3), number(reduction, 2)
+        )
+        steps = ((ratio_of, number(amplified, 3)),)
         substituted = f"0.4 × {s_ds} × {i_p} × {number(amplified, 3)} × {factor} / {divisor}"
     yield Line(
         latex=latex,
         reference=site.edition.clause("force"),
         steps=(
+            *steps,
             (substituted, number(force.formula, 3)),
             (f"At most 1.6 × {s_ds} × {i_p}", number(force.largest, 3)),
             (f"At least 0.3 × {s_ds} × {i_p}", number(force.least, 3)),

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.certainty import Certainty
+from report.assessment.friction_rows import tested
 from report.assessment.remedies import Remedy
 from report.assessment.spectra import Spectra, departures
 from report.assessment.verdict import Verdict
@@ -132,7 +133,7 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
                 number(site.i_e, 2),
                 site.risk_category.value,
             ),
-            "input",
+            "input" if site.s_ds_g is not None else package.part("inputs"),
         ),
         (
             "Prescriptive displacement",
@@ -241,6 +242,9 @@ def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
         if any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
         else "the records prescribe",
         "friction": _friction(package),
+        "tests": f"The friction tests are listed in {package.part('inputs')}."
+        if tested(package.data)
+        else "The workbook gives no runs of friction tests.",
         "requested": _requested(package),
         "linked": _linked(package),
         "peer": "is stated to be peer reviewed"
@@ -336,8 +340,8 @@ def _friction(package: PackageData) -> str:
     single = (
         "a single coefficient μ for each array, at rest and while sliding, independent of velocity"
     )
-    tested = [array.id for array in package.data.arrays if not array.friction.is_constant]
-    if not tested:
+    by_velocity = [array.id for array in package.data.arrays if not array.friction.is_constant]
+    if not by_velocity:
         return single
-    names = ", ".join(tested)
+    names = ", ".join(by_velocity)
     return f"{single} (except {names}: velocity-dependent, as tested, see {package.part('model')})"

@@ -13,6 +13,7 @@ from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.pages.site import NOT_GIVEN, s_ds_note, site_table
 from report.sheet.schema import Array, Polygon, RoofObject, Shape
 from report.words.units import Quantity, number
+from solver.rules.rulesets import LowProfileLength
 
 
 def below(_: PackageData) -> tuple[tuple[str, str], ...]:
@@ -107,9 +108,22 @@ def _sizes(package: PackageData) -> Table:
         ),
         notes=(
             "Center of gravity: height above the roof surface. Plan x and y: size of the array.",
+            _low_profile(package),
             *_outlined(package.data.arrays),
         ),
     )
+
+
+def _low_profile(package: PackageData) -> str:
+    """Return the length by which the rule set limits the height of the center of gravity."""
+    of, arrays = package.assessment.rules.low_profile_length, package.data.arrays
+    takes_base = of is LowProfileLength.BASE
+    sizes = [array.base_dimension_m if takes_base else array.support_spacing_m for array in arrays]
+    each = ", ".join(
+        f"{array.id} {package.fmt.both(size, Quantity.SIZE)}"
+        for array, size in zip(arrays, sizes, strict=True)
+    )
+    return f"The height of the center of gravity is limited by the {of.value}: {each}."
 
 
 def _outlined(rows: Sequence[Array | RoofObject]) -> Iterator[str]:

@@ -99,6 +99,10 @@ def _clearances(package: PackageData) -> str:
     if passed == len(gaps):
         each = "The clearance is" if passed == 1 else f"All {counted(passed, 'clearance')} are"
         return f"{each} satisfied."
+    if not passed:
+        if len(gaps) == 1:
+            return "The clearance is not satisfied."
+        return f"None of the {counted(len(gaps), 'clearance')} is satisfied."
     are = "is" if passed == 1 else "are"
     return f"{capitalized(spelled(passed))} of {counted(len(gaps), 'clearance')} {are} satisfied."
 

@@ -184,13 +184,20 @@ def _model_rows(array: ArrayAssessment) -> Iterator[tuple[str, ...]]:
         demand = max(run.solution.friction_demand for run in runs)
         yield (
             array.id,
-            f"{int(rung)}, {rung.title}",
+            f"{int(rung)}, {_model(runs)}",
             f"{len(runs)} of {total}",
             number(array.array.friction.mu_static, 2),
             number(demand, 2) if math.isfinite(demand) else "no limit",
             _reason(array, worst),
             _error(runs),
         )
+
+
+def _model(runs: Sequence[HeadingRun]) -> str:
+    """Return the name of the model of runs, and how many have no vertical component to model."""
+    title, names = runs[0].solution.rung.title, {run.model for run in runs}
+    lacking = sum(run.model != title for run in runs)
+    return runs[0].model if len(names) == 1 else f"{title} ({lacking} runs without)"
 
 
 def _reason(array: ArrayAssessment, run: HeadingRun) -> str:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Certainty
 from report.assessment.evidence import Plotted
+from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra, departures
 from report.pages import accuracy, certainty, friction_tests, limits, section
 from report.pages.parts import PackageData, Picture
@@ -62,8 +63,8 @@ def draw_assessment(package: PackageData) -> Pictures:
         "comparison": [
             Picture(
                 svg=figures.comparison(assessment.arrays[at : at + CHART_ROWS], us_first),
-                caption="Prescriptive displacement, floor, peak relative displacement (PRD) of "
-                "each motion, their mean, and design displacement.",
+                caption=f"Prescriptive displacement,{_floor(assessment)} peak relative "
+                "displacement (PRD) of each motion, their mean, and design displacement.",
                 alt="Chart of displacements by array",
             )
             for at in range(0, len(assessment.arrays), CHART_ROWS)
@@ -79,6 +80,11 @@ def draw_assessment(package: PackageData) -> Pictures:
             for at in range(0, len(assessment.clearances), CHART_ROWS)
         ],
     }
+
+
+def _floor(assessment: Assessment) -> str:
+    """Return the floor where the chart draws one."""
+    return " floor," if any(array.floor_m for array in assessment.arrays) else ""
 
 
 def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[Picture]:

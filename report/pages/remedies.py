@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from report.assessment.remedies import Remedy, RemedyKind
+from report.assessment.trials import involved
 from report.pages.certainty import coefficient
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
 from report.pages.symbols import with_symbols
-from report.words.units import Quantity, compared, number, pair
+from report.words.units import Quantity, compared, no_less, number, pair
 
 
 def sentences(package: PackageData, remedies: Sequence[Remedy]) -> Sequence[str]:
@@ -40,7 +41,17 @@ def _sentence(package: PackageData, remedies: Sequence[Remedy]) -> str:
         if not remedy.exists
     }
     words = [f"{start} with {_any_of(enough)}."] if enough else [f"{start} by none of these."]
-    return " ".join([*words, *sorted(reasons)])
+    return " ".join([*words, *sorted(reasons), *_not_permitted(package, first)])
+
+
+def _not_permitted(package: PackageData, remedy: Remedy) -> Sequence[str]:
+    """Return which arrays of a clearance have no permitted route, which this does not change."""
+    if not remedy.clearance:
+        return []
+    given = package.assessment
+    row = given.clearances[remedy.clearance - 1].clearance
+    names = [array.id for array in involved(given, row) if not array.is_permitted]
+    return [f"No route is permitted for {' and '.join(names)} as given."] if names else []
 
 
 def _any_of(texts: Sequence[str]) -> str:
@@ -64,10 +75,10 @@ def _other(package: PackageData, remedy: Remedy) -> str:
 
 def _separations(package: PackageData, remedy: Remedy) -> tuple[str, str]:
     """Return a separation that would do and the one given, as the clearances print them."""
-    would_do, had = compared(remedy.value, remedy.given)
+    _, had = compared(remedy.value, remedy.given)
     us_first = package.fmt.us_first
     given = pair(remedy.given, Quantity.SIZE, us_first, had)
-    return pair(remedy.value, Quantity.SIZE, us_first, would_do), given
+    return pair(remedy.value, Quantity.SIZE, us_first, no_less), given
 
 
 def table(package: PackageData, remedies: Sequence[Remedy]) -> Table:

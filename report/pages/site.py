@@ -90,7 +90,7 @@ def _building(package: PackageData) -> Iterator[Parameter]:
     yield Parameter("Component amplification", factor, _plain(site.force_factor, 2), force)
     yield Parameter("Component response", divisor, _plain(site.force_divisor, 2), force)
     yield Parameter(
-        "Height of the array above the base",
+        "Height of the supporting roof above the base",
         "z",
         fmt.both(site.roof_height_m, Quantity.PLAN),
         force,

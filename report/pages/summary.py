@@ -16,7 +16,7 @@ from report.pages.registry import package_data
 from report.sheet.findings import Level, located
 from report.sheet.older import what_is_new
 from report.sheet.schema import Model
-from report.words.units import Quantity, compared, pair, ratio
+from report.words.units import Quantity, compared, no_less, pair, ratio
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -183,12 +183,13 @@ def _short(gap: ClearanceCheck, us_first: bool) -> str:
     """Return a clearance that is too small, with what would do."""
     row = gap.clearance
     shown, had = compared(gap.required_m, row.provided_m)
+    enough = pair(gap.required_m, Quantity.SIZE, us_first, no_less)
     provided = pair(row.provided_m, Quantity.SIZE, us_first, had)
     name = f"clearance {row.array} to {row.object}: {provided} provided"
     if math.isnan(gap.required_m):
         return f"{name}; there is no design displacement of {gap.governing_array} to compare with"
     required = pair(gap.required_m, Quantity.SIZE, us_first, shown)
-    return f"{name}; {required} required (D/C {ratio(gap.demand_capacity)}); provide {required}"
+    return f"{name}; {required} required (D/C {ratio(gap.demand_capacity)}); provide {enough}"
 
 
 def _lowered(text: str) -> str:

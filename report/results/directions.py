@@ -34,7 +34,7 @@ DirectionCells = Mapping[tuple[str, Direction], str]
 _RUNS_COLUMNS = DIRECTION_HEADINGS | {Direction.ANY: "PRD [in]"}
 _DIRECTIONS_HEADINGS = (
     "Array", "Direction", "Mean of peaks [in]", "Largest peak [in]", "Analysis factor",
-    "Computed [in]", "Floor [in]", "Design [in]", "Design by Roofslip [in]", "Difference [in]",
+    "Computed [in]", "Floor [in]", "In this direction [in]", "By Roofslip [in]", "Difference [in]",
 )  # fmt: skip
 
 

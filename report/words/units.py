@@ -124,17 +124,21 @@ def _rounded(to_whole: Callable[[float], int], noise: float, value_si: float, un
 def compared(required_si: float, provided_si: float) -> tuple[Show, Show]:
     """Return how a required and a provided value print.
 
-    A required value that is larger must print larger: it is rounded up, and the provided one down
-    where it would print alike. NaN is no value: there is nothing to compare.
+    A required value that is larger must print larger: where the two would print alike it is rounded
+    up, and where they still do the provided one down. NaN is no value: there is nothing to compare.
     """
     if not required_si > provided_si:
         return measured, measured
 
+    def required(value_si: float, unit: Unit) -> str:
+        is_alike = measured(required_si, unit) == measured(provided_si, unit)
+        return (no_less if is_alike else measured)(value_si, unit)
+
     def provided(value_si: float, unit: Unit) -> str:
-        is_alike = measured(value_si, unit) == no_less(required_si, unit)
+        is_alike = measured(value_si, unit) == required(required_si, unit)
         return (no_more if is_alike else measured)(value_si, unit)
 
-    return no_less, provided
+    return required, provided
 
 
 def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:

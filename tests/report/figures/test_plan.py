@@ -10,11 +10,11 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import stand_in
+from report.assessment.envelopes import keep_clear_words
 from report.figures.base import load_fonts, style
 from report.figures.labels import TYPE_PT, width_in
 from report.figures.paper_plan import FOOT_M, nice_length, round_scale, wrapped
 from report.figures.plan import is_wide, plan_figure, roof_plan
-from report.figures.plan_labels import keep_clear_words
 from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.sheet.schema import Roof
 from report.typeset.pdf import TEMPLATES

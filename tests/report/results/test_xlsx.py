@@ -230,7 +230,7 @@ def test_a_clearance_follows_from_the_runs_through_its_direction():
         "up",
     )
     assert values["Directions"][f"H{row}"].value == pytest.approx(gap.design_m / 0.0254)
-    assert head[7] == "Design [in]"
+    assert head[7] == "In this direction [in]"
     peaks = re.fullmatch(
         r"=AVERAGE\(Peaks!D(\d+):D(\d+)\)", formulas["Directions"][f"C{row}"].value
     )

@@ -1,0 +1,135 @@
+"""Sentences that once claimed what the tables of their package denied."""
+
+import datetime as dt
+import re
+from dataclasses import replace
+
+import pytest
+
+import stand_in
+from report.assessment.certainty import certainty
+from report.assessment.envelopes import keep_clear_m, keep_clear_words
+from report.assessment.remedies import remedies
+from report.assessment.sensitivity import accuracy
+from report.drawing.plan import plan_drawing
+from report.pages import accuracy as accuracy_page
+from report.pages import certainty as certainty_page
+from report.pages import letter, limits, model, results
+from report.pages import remedies as remedies_page
+from report.pages.demand import demand_lines
+from report.pages.registry import package_data
+from stand_in import FOOT
+
+REVIEW = {
+    "peer_reviewed": True,
+    "peer_reviewer": "Reviewer of record",
+    "peer_license": "CA S0000",
+    "peer_date": dt.date(2026, 3, 1),
+}
+COMPLETE = stand_in.motions(3, seconds=8.0)
+ONE_WITHOUT = (replace(COMPLETE[0], az_mps2=stand_in.NO_RECORD), *COMPLETE[1:])
+
+
+def made(motions=COMPLETE, **changes):
+    return package_data(stand_in.assess_input(stand_in.project(**changes), motions))
+
+
+@pytest.fixture(scope="module")
+def unqualified():
+    """A1 has no route; A2 has the prescriptive one, which 5 % less friction closes."""
+    arrays = [stand_in.array("A1", 0.5, mu=0.3), stand_in.array("A2", 0.5, mu=0.41, x=120)]
+    gaps = [stand_in.clearance("A1", "RTU-1", 7 * FOOT), stand_in.clearance("A1", "A2", 2 * FOOT)]
+    return made(ONE_WITHOUT, arrays=arrays, clearances=gaps)
+
+
+def test_a_route_that_is_not_permitted_is_said_wherever_its_value_is(unqualified):
+    first, second = results.comparison(unqualified)["sentences"]
+    assert "the analysis route is not permitted (Number of components" in first
+    assert "the prescriptive route is not permitted" in first
+    assert "the prescriptive route is taken" in second
+    (text,) = [text for text in limits.troubles(unqualified) if "these motions" in text]
+    assert text.startswith("Array A1: the value from analysis is not permitted")
+
+
+def test_what_would_do_for_a_clearance_says_that_no_route_is_permitted(unqualified):
+    texts = remedies_page.sentences(unqualified, remedies(unqualified.assessment))
+    (gap,) = [text for text in texts if text.startswith("Clearance 2")]
+    assert "No route is permitted for A1 as given." in gap
+
+
+def test_less_friction_that_closes_the_route_leaves_no_design_displacement(unqualified):
+    found = accuracy(unqualified.assessment)
+    content = accuracy_page.page(unqualified, found)
+    (text,) = [text for text in content["sentences"] if text.startswith("Array A2")]
+    assert "is none: no route is permitted" in text
+    row = next(row for row in content["friction"].rows if row.cells[0] == "A2")
+    assert row.cells[2:4] == ("none", "none")
+    assert row.cells[-2] == "none"
+
+
+def test_runs_without_a_vertical_component_are_not_said_to_have_one(unqualified):
+    cells = model._model_rows(unqualified.assessment.arrays[0])
+    names = {row[1]: row[2] for row in cells}
+    assert any("runs without)" in name for name in names)
+    alone = made(tuple(replace(m, az_mps2=stand_in.NO_RECORD) for m in COMPLETE), clearances=[])
+    for row in model._model_rows(alone.assessment.arrays[0]):
+        assert "vertical" not in row[1]
+
+
+@pytest.mark.parametrize(
+    ("provided_ft", "text"),
+    [
+        ((0.1, 0.2), "None of the two clearances is satisfied."),
+        ((0.1, 30.0), "One of two clearances is satisfied."),
+        ((30.0, 30.0), "All two clearances are satisfied."),
+        ((0.1,), "The clearance is not satisfied."),
+        ((30.0,), "The clearance is satisfied."),
+    ],
+)
+def test_the_letter_counts_the_clearances(provided_ft, text):
+    names = ("A1", "A2")
+    rows = [
+        stand_in.clearance(name, "RTU-1", ft * FOOT)
+        for name, ft in zip(names, provided_ft, strict=False)
+    ]
+    assert letter._clearances(made(clearances=rows)) == text
+
+
+def test_the_smallest_margin_is_that_of_a_satisfied_clearance():
+    """A1 alone would satisfy the first one; A3 beside it does not."""
+    arrays = [stand_in.array("A1", 0.5, mu=1.0), stand_in.array("A3", 4.0, y=90)]
+    wide = made(arrays=arrays, options=REVIEW, clearances=[stand_in.clearance("A1", "A3", 9.0)])
+    low, high = (array.design_m for array in wide.assessment.arrays)
+    gap = [stand_in.clearance("A1", "A3", (low + high) / 2.0)]
+    package = made(arrays=arrays, options=REVIEW, clearances=gap)
+    text = certainty_page.page(package, certainty(package.assessment))["margin"]
+    assert "satisfied clearance" not in text
+    assert text.startswith("Clearance 1 is not satisfied as given")
+
+
+def test_what_alike_arrays_assume_is_said_where_there_are_any():
+    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=120)]
+    for names, is_said in (("A2", True), ("RTU-1", False)):
+        rows = [stand_in.clearance("A1", names, 30.0)]
+        package = made(arrays=arrays, options=REVIEW, clearances=rows)
+        table = certainty_page.page(package, certainty(package.assessment))["margins"]
+        assert ("Arrays that are alike remain alike" in table.notes[0]) is is_said
+
+
+def test_the_drawing_keeps_clear_what_the_package_does():
+    package = made(options=REVIEW)
+    words = {text.words for text in plan_drawing(package.assessment).texts}
+    for array in package.assessment.arrays:
+        keep = keep_clear_words(keep_clear_m(package.assessment, array), us_first=True)
+        assert f"{keep}; no conduit" in words
+
+
+def test_the_height_factor_and_the_reduction_are_printed_and_give_the_ratio():
+    site = stand_in.project().site.model_dump()
+    edition = {"rule_set": "ASCE 7-22", "force_factor": 1.4, "force_divisor": 1.5}
+    package = made(site=site | edition, clearances=[], spectrum=[])
+    force = next(line for line in demand_lines(package) if "F_p" in line.latex)
+    (text, ratio), (formula, _), *_ = force.steps
+    above, below = map(float, re.findall(r"[\d.]+", str(text).split("=")[1]))
+    assert above / below == pytest.approx(float(ratio), abs=1e-3)
+    assert ratio in formula
