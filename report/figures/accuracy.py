@@ -34,9 +34,8 @@ def work_precision(rivals: Rivals, us_first: bool) -> str:
         axes.annotate(
             "exact method: rounding error",
             (1.0, 100.0 * floor),
-            (9, -2),
+            (9, 3),  # clear of the axis below
             textcoords="offset points",
-            va="center",
         )
         _axes(axes, max(run.steps for run in rivals.runs))
         peak = rivals.exact.prd_m / unit.si

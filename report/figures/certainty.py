@@ -43,16 +43,16 @@ def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool
         axes.set_xlabel("Friction coefficient μ at low velocity", fontsize=TYPE_PT)
         axes.set_ylabel("Slope [deg]", fontsize=TYPE_PT)
         axes.tick_params(labelsize=TYPE_PT)
-        _edges(axes.set_xlim, surface.mus)
-        _edges(axes.set_ylim, degrees)
+        _edges(axes.set_xlim, surface.mus, 0.03)
+        _edges(axes.set_ylim, degrees, 0.09)
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.2f}"))
         bare(axes)
         return svg_text(figure)
 
 
-def _edges(limit: Callable[[float, float], object], values: Floats) -> None:
+def _edges(limit: Callable[[float, float], object], values: Floats, share: float) -> None:
     """Leave room for the labels of the outermost contours."""
-    room = 0.03 * (values[-1] - values[0])
+    room = share * (values[-1] - values[0])
     limit(values[0] - room, values[-1] + room)
 
 
