@@ -163,7 +163,7 @@ def parameters(values: Mapping[str, float]) -> str:
     """Return parameters of a method in words."""
     texts = {
         "substeps": "{:g} sub-steps",
-        "stiffness_per_m": "k = {:g} /m",
+        "stiffness_per_m": "stiffness {:g} /m",
         "velocity_mps": "v0 = {:g} m/s",
         "tolerance": "tolerance {:g}",
     }

@@ -29,15 +29,15 @@ MOST_DIPS = 2
 _LOW, _KNEE, _PLATEAU, _HIGH = 0.1, 1.3, 8.3, 33.3
 
 # Less than 1/6 octave apart, so that both ends of each band are points.
-_N_SLIDING, _N_AC156 = 24, 30
+N_SLIDING, N_AC156 = 24, 30
 
 POINTS_HZ: Floats = np.concatenate(
-    [np.geomspace(_LOW, _KNEE, _N_SLIDING), np.geomspace(_KNEE, _HIGH, _N_AC156)[1:]]
+    [np.geomspace(_LOW, _KNEE, N_SLIDING), np.geomspace(_KNEE, _HIGH, N_AC156)[1:]]
 )
 """Frequencies at which spectra are compared [Hz]: 24 from 0.1 to 1.3 Hz, 30 from there to 33.3."""
 
 _PLACE = np.arange(len(POINTS_HZ))
-_IS_SLIDING, _IS_AC156 = _PLACE < _N_SLIDING, _PLACE >= _N_SLIDING - 1
+_IS_SLIDING, _IS_AC156 = _PLACE < N_SLIDING, _PLACE >= N_SLIDING - 1
 _IS_SLOW = _IS_AC156 & (POINTS_HZ <= _PLATEAU)
 _IS_FAST = POINTS_HZ > _PLATEAU
 
