@@ -26,6 +26,7 @@ FIRE_LANE_M = 150 * 0.3048
 """Largest plan dimension of an array between fire lanes [m]."""
 
 NOT_GIVEN = "not given"
+NO_DESIGN = "unknown without a design displacement"
 
 
 def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tuple[Row, ...]:
@@ -82,16 +83,16 @@ def _hazard(data: ProjectInput) -> Iterator[Row]:
 
 def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Row]:
     us_first = data.project.units_first == "US"
-    limit = pair(DRIFT_M, Quantity.DISPLACEMENT, us_first)
     for motion in prepared:
         largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
+        more, most = compared(largest, DRIFT_M)
         if drifts(motion):
             yield Row(
                 id="drift",
                 title="Final displacement of the record",
                 subject=motion.motion_id,
-                found=pair(largest, Quantity.DISPLACEMENT, us_first),
-                limit=f"≤ {limit}",
+                found=pair(largest, Quantity.DISPLACEMENT, us_first, more),
+                limit=f"≤ {pair(DRIFT_M, Quantity.DISPLACEMENT, us_first, most)}",
                 basis="limit of this program",
                 is_satisfied=False,
                 consequence=Consequence.CONDITION,
@@ -172,7 +173,7 @@ def _compared(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
         return NOT_GIVEN if neighbor.is_missing else "contradicts the plan", "given, as in the plan"
     shown, had = compared(neighbor.required_m, neighbor.gap_m)
     gap = pair(neighbor.gap_m, Quantity.SIZE, us_first, had)
-    required = "none, without a design displacement"
+    required = NO_DESIGN
     if not math.isnan(neighbor.required_m):
         required = f"≥ {pair(neighbor.required_m, Quantity.SIZE, us_first, shown)}"
     return f"{NOT_GIVEN}; {gap} in plan", required
@@ -238,7 +239,7 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
         title="Electrical slack provided",
         subject=assessed.array.id,
         found=NOT_GIVEN if provided is None else pair(provided, Quantity.SIZE, us_first, had),
-        limit=f"≥ {pair(design, Quantity.SIZE, us_first, shown) if has_value else 'none'}",
+        limit=f"≥ {pair(design, Quantity.SIZE, us_first, shown)}" if has_value else NO_DESIGN,
         basis="design displacement",
         is_satisfied=provided is not None and has_value and provided >= design,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,

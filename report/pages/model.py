@@ -24,6 +24,7 @@ from report.pages.parts import (
     verdict,
 )
 from report.sheet.schema import Array, Direction
+from report.words.counts import spelled
 from report.words.units import number, ratio
 from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT, Rung, Solution
@@ -142,12 +143,14 @@ def _combinations(package: PackageData) -> str:
         )
     both = all(len(motion.signs) == 2 for motion in motions)
     of = "Each motion has" if two == len(motions) else f"{two} of {len(motions)} motions have"
+    counts = sorted({len(motion.headings) for motion in motions if motion.has_transverse})
+    run = " or ".join(map(spelled, counts))
     polarities = "" if both else " where the workbook requests both polarities"
     return (
         f"{of} eight combinations{polarities}: either horizontal component along the slope, in "
         "either polarity, with the other component across it in either polarity. Reversing the "
         "cross-slope component mirrors the motion and changes no downslope, upslope or cross-slope "
-        "displacement, so four are run and the largest PRD governs."
+        f"displacement, so {run} are run and the largest PRD governs."
     )
 
 

@@ -152,7 +152,7 @@ def attention(assessment: Assessment) -> Iterator[Line]:
         yield Line("NG", _short(gap, us_first))
     for row in assessment.conditions:
         where = f"{row.subject}, " if row.subject else ""
-        text = f"{where}{_lowered(row.title)}: {row.found}; {row.limit} required. {row.remedy}"
+        text = f"{where}{_lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
         yield Line(row.consequence.value, text)
     for finding in what_is_new(assessment.sheet.book):
         yield Line(finding.level.value, finding.text)

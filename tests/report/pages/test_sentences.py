@@ -8,6 +8,7 @@ import pytest
 
 import stand_in
 from report.assessment.certainty import certainty
+from report.assessment.conditions import project_rows
 from report.assessment.envelopes import keep_clear_m, keep_clear_words
 from report.assessment.remedies import remedies
 from report.assessment.sensitivity import accuracy
@@ -133,3 +134,21 @@ def test_the_height_factor_and_the_reduction_are_printed_and_give_the_ratio():
     above, below = map(float, re.findall(r"[\d.]+", str(text).split("=")[1]))
     assert above / below == pytest.approx(float(ratio), abs=1e-3)
     assert ratio in formula
+
+
+def test_a_drift_over_its_limit_prints_larger():
+    book = stand_in.book(stand_in.project(clearances=[]), COMPLETE)
+    drifting = replace(
+        book.shaking.prepared[0].measures["horizontal"], final_displacement_m=0.010004
+    )
+    first = replace(book.shaking.prepared[0], measures={"horizontal": drifting})
+    rows = project_rows(book.sheet.project, [first])
+    (row,) = [row for row in rows if row.id == "drift"]
+    numbers = [float(re.search(r"\((\d+) mm\)", text)[1]) for text in (row.found, row.limit)]
+    assert numbers[0] > numbers[1]
+
+
+@pytest.mark.parametrize(("signs", "count"), [((1,), "two are run"), ((1, -1), "four are run")])
+def test_the_runs_of_a_motion_are_those_of_its_polarities(signs, count):
+    motions = tuple(replace(motion, signs=signs) for motion in COMPLETE)
+    assert count in model._combinations(made(motions, clearances=[]))
