@@ -246,7 +246,7 @@ def design_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]
                     "peer reviewed: no floor"
                     if package.data.options.peer_reviewed
                     else f"{floor} × {fmt.both(array.prescriptive.value_m)}",
-                    fmt.both(array.floor_m) + package.mark("analysis_floor"),
+                    fmt.both(package.floor_m(array)) + package.floor_mark,
                 ),
             ),
         ),

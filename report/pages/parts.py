@@ -304,6 +304,15 @@ class PackageData:
             "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
         )
 
+    def floor_m(self, array: ArrayAssessment) -> float:
+        """Return the floor of an array for print [m]; NaN where peer review removes it."""
+        return math.nan if self.data.options.peer_reviewed else array.floor_m
+
+    @property
+    def floor_mark(self) -> str:
+        """The marks of the floor, if there is one."""
+        return "" if self.data.options.peer_reviewed else self.mark("analysis_floor")
+
     def direction_mark(self, array: ArrayAssessment, direction: Direction) -> str:
         """Return the marks of a design displacement in a direction."""
         value = array.directions[direction].value_m

@@ -206,10 +206,10 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
         (
             "floor_m",
             f"Floor: {_floor_words(package, floor)}",
-            array.floor_m,
-            package.mark("analysis_floor"),
+            package.floor_m(array),
+            package.floor_mark,
             "",
-            [array.floor_m] * len(ways),
+            [package.floor_m(array)] * len(ways),
         ),
         (
             "design_m",
@@ -288,7 +288,7 @@ def _ratio_row(package: PackageData, array: ArrayAssessment) -> TableRow:
             ),
             *fmt.cells(array.analysis.mean_m),
             *fmt.cells(array.analysis.value_m),
-            *fmt.cells(array.floor_m, mark=package.mark("analysis_floor")),
+            *fmt.cells(package.floor_m(array), mark=package.floor_mark),
             *fmt.cells(array.design_m, mark=package.design_mark(array)),
             *(NO_VALUE if math.isnan(share) else number(share, 2) for share in shares),
             array.source,

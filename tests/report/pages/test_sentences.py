@@ -152,3 +152,11 @@ def test_a_drift_over_its_limit_prints_larger():
 def test_the_runs_of_a_motion_are_those_of_its_polarities(signs, count):
     motions = tuple(replace(motion, signs=signs) for motion in COMPLETE)
     assert count in model._combinations(made(motions, clearances=[]))
+
+
+@pytest.mark.parametrize("options", [{}, REVIEW])
+def test_a_floor_that_peer_review_removes_is_none_and_not_a_length(options):
+    package = made(options=options)
+    row = results.comparison(package)["table"].rows[0]
+    is_none = row.cells[7:9] == ("none", "none")
+    assert is_none is bool(options)
