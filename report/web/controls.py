@@ -92,7 +92,7 @@ def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:
     most_mu = math.floor(100.0 * min(_MOST, MOST_MU / max(mus, default=1.0))) / 100.0
     yield _slider("friction", "Friction", "×", (0.5, most_mu, 0.01), 1.0,
                   "Factor on every coefficient; a law by velocity as a whole.")  # fmt: skip
-    yield _slider("slope", "Slope", "deg", (-_TURN_DEG, _TURN_DEG, 0.1), 0.0,
+    yield _slider("slope", "Slope", "°", (-_TURN_DEG, _TURN_DEG, 0.1), 0.0,
                   "Added to the slope of every array; no slope is less than 0.")  # fmt: skip
     yield _slider("intensity", "Intensity", "×", (_LEAST, _MOST, 0.02), 1.0,
                   "Factor on all motions, and on S_DS where both change together.")  # fmt: skip

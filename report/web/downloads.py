@@ -63,7 +63,7 @@ async def _begin(request: Request) -> Response:
     if session.workbook != opened:
         raise InputError("Another workbook was opened meanwhile; make the package again.")
     await desk.ask(session, _writing(values, str(path)), Rank.AT_REST)
-    return JSONResponse({"ticket": desk.packages.begin(session, path).ticket})
+    return JSONResponse(desk.packages.about(desk.packages.begin(session, path, values)))
 
 
 def _writing(values: Any, to: str) -> dict[str, Any]:

@@ -23,6 +23,7 @@ from typing import Any
 
 from report.making import STEPS
 from report.web.sessions import Session
+from report.web.values import Values
 from solver.model import InputError
 
 LONGEST_S = 900.0
@@ -49,11 +50,15 @@ class State(StrEnum):
 
 @dataclass(slots=True, eq=False)
 class Package:
-    """A package of a session: the workbook as written, beside it its records and out/."""
+    """A package of a session: the workbook as written, beside it its records and out/.
+
+    Its values are those of the page that were written into the workbook.
+    """
 
     ticket: str
     owner: str
     workbook: Path
+    values: Values
     state: State = State.QUEUED
     stage: str = "waiting"
     step: int = 0
@@ -79,7 +84,7 @@ class Packages:
         """The sessions that have a package."""
         return {each.owner for each in self._all.values()}
 
-    def begin(self, session: Session, workbook: Path) -> Package:
+    def begin(self, session: Session, workbook: Path, values: Values) -> Package:
         """Queue the package of a workbook that has a folder of its own, with its records.
 
         Raises
@@ -92,7 +97,8 @@ class Packages:
         for old in own[: len(own) - KEPT + 1]:
             del self._all[old.ticket]
             shutil.rmtree(old.workbook.parent, ignore_errors=True)
-        package = Package(ticket=secrets.token_hex(12), owner=session.id, workbook=workbook)
+        ticket = secrets.token_hex(12)
+        package = Package(ticket=ticket, owner=session.id, workbook=workbook, values=values)
         self._all[package.ticket] = package
         task = asyncio.create_task(self._make(package))
         self._tasks.add(task)
@@ -115,6 +121,7 @@ class Packages:
         queued = [each for each in self._all.values() if each.state is State.QUEUED]
         return {
             "ticket": package.ticket,
+            "values": package.values,
             "state": package.state.value,
             "place": queued.index(package) + 1 if package in queued else 0,
             "stage": package.stage,

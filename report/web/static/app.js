@@ -2,6 +2,7 @@
 
 import { createApi } from "./api.js";
 import { showBars } from "./bars.js";
+import { changes } from "./changes.js";
 import { fromFragment, toFragment } from "./link.js";
 import { html, replace } from "./make.js";
 import { mountPlan } from "./plan.js";
@@ -35,8 +36,7 @@ const takeaway = mountTakeaway(
     status: part("package-status"),
   },
   api,
-  session.values,
-  fail,
+  { values: session.values, words: (values) => changes(values, state), fail },
 );
 
 let state = null; // of the project that is open
@@ -148,7 +148,7 @@ function showPicked() {
 
 function showMoving(phase, next) {
   views.moving();
-  takeaway.outdate();
+  takeaway.compare();
   if (phase === "settling") showProvisional(part("verdict"), "The full model is running.", "The values below are not final.");
   else if (next) showProvisional(part("verdict"), "Values while a slider moves; no verdict.", next.model_text);
 }
@@ -158,6 +158,7 @@ function showRest() {
   announce(`${answer.verdict}. ${answer.verdict_text} ${answer.model_text}`);
   const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
   history.replaceState(null, "", fragment ? `#${fragment}` : location.pathname);
+  takeaway.compare();
   views.update(scene());
 }
 

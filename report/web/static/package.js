@@ -10,13 +10,17 @@ const FILES = [
   ["plan.dxf", "plan.dxf"],
 ];
 
-/** Show in `status` how a package is made; ends when it is made, failed, cancelled or no longer wanted. */
-export async function follow(status, api, ticket, { cancel, isWanted }) {
+/**
+ * Show in `status` how a package is made; ends when it is made, failed, cancelled or no longer wanted.
+ * `compare` is called where the page shows a package, with what the server tells of it.
+ */
+export async function follow(status, api, ticket, { cancel, isWanted, compare }) {
   while (isWanted()) {
     const state = await api.packageState(ticket);
     if (!isWanted()) return;
     if (state.state === "done") {
       showFiles(status, ticket);
+      compare(state);
       api.announce("The package is made. Its files can be saved.");
       return;
     }
@@ -25,6 +29,7 @@ export async function follow(status, api, ticket, { cancel, isWanted }) {
       return;
     }
     showProgress(status, api, state, cancel);
+    compare(state);
     await new Promise((done) => {
       setTimeout(done, POLL_MS);
     });
@@ -37,10 +42,12 @@ export function say(status, api, sentence) {
   api.announce(sentence);
 }
 
-/** Note beside files on offer that the values were changed since. */
-export function outdate(status) {
-  const made = status.querySelector(".made");
-  if (made && !made.querySelector("em")) made.append(html("em", {}, "Made before the last change of values."));
+/** Note beside a package what it is made with, where the page has other values; no words where not. */
+export function noteValues(status, words) {
+  const note = status.querySelector(".made-with");
+  if (!note) return;
+  const when = status.querySelector(".made") ? "Made" : "Started";
+  note.textContent = words && `${when} before the last change of values, with ${words}.`;
 }
 
 // The elements stay while the package is made, so that Cancel keeps the focus.
@@ -48,7 +55,7 @@ function showProgress(status, api, { state, place, stage, part }, cancel) {
   if (!status.querySelector("progress")) {
     replace(
       status,
-      html("label", {}, html("span", { class: "stage" }), html("progress", { max: 1 })),
+      html("label", {}, html("span", { class: "stage" }), html("progress", { max: 1 }), madeWith()),
       html("button", { type: "button", class: "button", on: { click: cancel } }, "Cancel"),
     );
     catchFocus(status, "button");
@@ -66,8 +73,12 @@ function showProgress(status, api, { state, place, stage, part }, cancel) {
 
 function showFiles(status, ticket) {
   const made = FILES.map(([name, label]) => html("a", { href: `/api/package/${ticket}/${name}`, download: name }, label));
-  replace(status, html("p", { class: "made" }, made));
+  replace(status, html("p", { class: "made" }, made, madeWith()));
   catchFocus(status, "a");
+}
+
+function madeWith() {
+  return html("em", { class: "made-with" });
 }
 
 // The button that had the focus is disabled or gone: its successor gets it.

@@ -1,15 +1,25 @@
 // What the user takes away: the package, the workbook, and a link.
 
+import { isSame } from "./changes.js";
 import { html, replace } from "./make.js";
-import { follow, outdate, say } from "./package.js";
+import { follow, noteValues, say } from "./package.js";
 
 const WHAT = "The package and the workbook get the values of the page.";
 const COPIED = "The link is copied. It restores these values in this browser, as long as the session lives.";
 
-/** Make the buttons work; `values` gives those of the sliders, `fail` gets an error. */
-export function mountTakeaway({ make, workbook, copy, status }, api, values, fail) {
+/**
+ * Make the buttons work: `values` gives those of the sliders, `words` says what values change, and
+ * `fail` gets an error.
+ */
+export function mountTakeaway({ make, workbook, copy, status }, api, { values, words, fail }) {
   const guarded = (action) => () => action().catch(fail);
   let opened = 0; // projects so far
+  let shown = null; // the package of which the page shows the progress or the files
+
+  function compare(next = shown) {
+    shown = next;
+    if (shown) noteValues(status, isSame(shown.values, values()) ? "" : words(shown.values));
+  }
 
   async function makePackage() {
     const of = opened;
@@ -21,7 +31,7 @@ export function mountTakeaway({ make, workbook, copy, status }, api, values, fai
         make.focus(); // the button that had the focus goes
         await api.cancelPackage(ticket);
       });
-      await follow(status, api, ticket, { cancel, isWanted: () => of === opened });
+      await follow(status, api, ticket, { cancel, compare, isWanted: () => of === opened });
     } finally {
       make.disabled = false;
     }
@@ -47,10 +57,11 @@ export function mountTakeaway({ make, workbook, copy, status }, api, values, fai
   copy.addEventListener("click", guarded(copyLink));
   return {
     /** The values changed. */
-    outdate: () => outdate(status),
+    compare: () => compare(),
     /** Another project is open: nothing is on offer. */
     clear() {
       opened += 1;
+      shown = null;
       replace(status, html("p", { class: "note" }, WHAT));
     },
   };

@@ -176,7 +176,9 @@ def test_the_workbook_with_the_values_is_read_back_as_what_was_assessed(client, 
 
 
 def test_a_package_is_queued_and_cancelled(client):
-    ticket = client.post("/api/package", json={"values": {}}).json()["ticket"]
+    begun = client.post("/api/package", json={"values": {"friction": 0.9}}).json()
+    ticket = begun["ticket"]
+    assert begun["values"] == {"friction": 0.9}
     again = client.post("/api/package", json={"values": {}})
     assert again.status_code == 422
     assert again.json()["error"].startswith("A package is being made already")

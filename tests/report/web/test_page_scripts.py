@@ -118,6 +118,74 @@ def test_a_slow_provisional_answer_is_shown_before_the_full_model_is_asked(page)
     assert called(page, "session", body) == [1, [True, False], [["moving", 1]]]
 
 
+UNITS = {
+    "sliders": [
+        {"id": "friction", "label": "Friction", "unit": "×", "step": 0.01, "typed": 1},
+        {"id": "slope", "label": "Slope", "unit": "°", "step": 0.1, "typed": 0},
+        {"id": "clearance", "label": "Clearance", "unit": "in", "step": 1, "typed": 0},
+    ],
+    "choices": [
+        {"id": "rule_set", "label": "Rule set", "typed": "a", "options": [
+            {"value": "a", "label": "ASCE A"}, {"value": "b", "label": "ASCE B"}]},
+    ],
+}  # fmt: skip
+
+
+def test_the_value_of_a_slider_is_written_with_its_unit_and_in_full_between_steps(page):
+    body = "return g.values.map((all, k) => all.map((value) => m.own(g.sliders[k], value)));"
+    values = [[0.83, 1, 0.955], [0.7, 0, -1], [3, -3]]
+    assert called(page, "changes", body, UNITS | {"values": values}) == [
+        ["× 0.83", "× 1.00", "× 0.955"], ["+0.7°", "0.0°", "−1.0°"], ["+3 in", "−3 in"]
+    ]  # fmt: skip
+
+
+def test_what_is_changed_is_named_and_what_is_as_typed_is_not(page):
+    body = "return g.values.map((one) => m.changes(one, g));"
+    values = [{"friction": 0.9, "slope": 0, "rule_set": "b"}, {"friction": 1, "rule_set": "a"}, {}]
+    found = called(page, "changes", body, UNITS | {"values": values})
+    assert found == ["Friction × 0.90, Rule set: ASCE B", *["the values of the workbook"] * 2]
+
+
+TAKEAWAY = """
+    const button = "<button></button>";
+    document.body.innerHTML = `${button}${button}${button}<div></div>`;
+    const [make, workbook, copy, status] = document.body.children;
+    let values = { friction: 0.9 };
+    let state = { ticket: "t", state: "running", stage: "Plans", part: 0.2, values };
+    const failed = [], asked = [];
+    const api = {
+      announce() {},
+      startPackage: async () => state,
+      packageState: async () => (asked.push("state"), state),
+      cancelPackage: async () => (asked.push("cancel"), (state = { ...state, state: "cancelled" })),
+      ...g?.api,
+    };
+    const all = { values: () => values, words: ({ friction }) => `friction ${friction}`,
+      fail: (error) => failed.push(error.message) };
+    const takeaway = m.mountTakeaway({ make, workbook, copy, status }, api, all);
+    const pause = () => new Promise((done) => setTimeout(done, 20));
+    const until = async (holds) => {
+      for (let k = 0; k < 150 && !holds(); k += 1) await pause();
+    };
+    const has = (selector) => until(() => status.querySelector(selector));
+    const note = () => status.querySelector(".made-with").textContent;
+"""
+
+
+def test_a_package_names_what_it_is_made_with_wherever_the_page_has_other_values(page):
+    body = f"""{TAKEAWAY}
+        make.click(); await has("progress");
+        const notes = [note()];
+        values = {{ friction: 0.8 }}; takeaway.compare();
+        notes.push(note());
+        state = {{ ...state, state: "done" }}; await has(".made");
+        notes.push(note());
+        values = {{ friction: 0.9 }}; takeaway.compare();
+        return [...notes, note()];"""
+    before = "before the last change of values, with friction 0.9."
+    assert called(page, "takeaway", body) == ["", f"Started {before}", f"Made {before}", ""]
+
+
 def test_labels_are_placed_near_free_of_one_another_and_inside(page):
     body = """
         const frame = { x: 0, y: 0, wide: 300, tall: 200 };

@@ -1,0 +1,30 @@
+// What values change, in words: the value of a slider beside it, and all that differ from the workbook.
+
+import { number } from "./reading.js";
+
+/** Return the value of a slider, such as `× 0.83`, `+0.7°` or `−3 in`; one between two steps in full. */
+export function own({ unit, step }, value) {
+  const decimals = step % 1 === 0 ? 0 : String(step).split(".")[1].length;
+  const isOnStep = Number(value.toFixed(decimals)) === value;
+  const text = isOnStep ? number(value, decimals) : String(value).replace("-", "−");
+  if (unit === "×") return `× ${text}`;
+  return `${value > 0 ? "+" : ""}${text}${unit === "°" ? "" : " "}${unit}`;
+}
+
+/** Return which values are not those of the workbook, such as `Friction × 0.90, Polarity both`. */
+export function changes(values, { sliders, choices }) {
+  const isChanged = ({ id, typed }) => id in values && values[id] !== typed;
+  const moved = sliders.filter(isChanged).map((item) => `${item.label} ${own(item, values[item.id])}`);
+  const chosen = choices.filter(isChanged).map((item) => `${item.label}: ${labelOf(item, values[item.id])}`);
+  return [...moved, ...chosen].join(", ") || "the values of the workbook";
+}
+
+/** Whether two sets of values are the same. */
+export function isSame(some, others) {
+  const all = new Set([...Object.keys(some), ...Object.keys(others)]);
+  return [...all].every((id) => some[id] === others[id]);
+}
+
+function labelOf({ options }, value) {
+  return options.find((option) => option.value === value)?.label ?? value;
+}
