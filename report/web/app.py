@@ -27,7 +27,7 @@ from report.web.desk import Desk, RefusedError, desk_of, session_of
 from report.web.downloads import package_routes, workbook
 from report.web.limits import is_full
 from report.web.receiving import receive_json, received
-from report.web.sessions import EXAMPLE, Sessions
+from report.web.sessions import EXAMPLE, OtherProjectError, Sessions
 from report.web.workers import LostError, Rank, StaleError
 from solver.model import InputError
 
@@ -89,6 +89,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             RefusedError: _refused,
             StaleError: _stale,
             LostError: _lost,
+            OtherProjectError: _other_project,
             HTTPException: _failed,
             OSError: _not_written,
         },
@@ -130,7 +131,8 @@ async def _upload(request: Request) -> Response:
 
 async def _whole_state(request: Request) -> Response:
     session, desk = session_of(request), desk_of(request)
-    found = dict(await desk.ask(session, {"do": "state"}, Rank.READ))
+    opened = session.opened
+    found = {"opened": opened, **await desk.ask(session, {"do": "state"}, Rank.READ)}
     if found["project"]:
         about = {"file": session.workbook.name, "is_example": session.is_example}
         found["project"] = found["project"] | about
@@ -165,6 +167,10 @@ async def _stale(_: Request, __: Exception) -> Response:
 
 async def _lost(_: Request, error: Exception) -> Response:
     return _error(str(error) or "The process that computes has ended. Try it again.", 503)
+
+
+async def _other_project(_: Request, __: Exception) -> Response:
+    return _error("Another project was opened in another tab; reload the page to see it.", 412)
 
 
 async def _not_written(_: Request, error: Exception) -> Response:

@@ -16,6 +16,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.types import Message
 
+from report.web.desk import session_of
 from report.web.uploads import MB, MOST_FILES, MOST_SENT, remove, store
 from solver.model import InputError
 
@@ -26,11 +27,13 @@ _MOST_NUMBER = 2**53
 
 
 async def receive_json(request: Request) -> dict[str, Any]:
-    """Return a request of the page: its values, its number and the page that sent it.
+    """Return a request of the page about what is open: its values, its number and its page.
+
+    A script that does not name what is open asks about whatever it is.
 
     Raises
     ------
-    InputError, HTTPException
+    InputError, HTTPException, OtherProjectError
     """
     capped = _capped(request, MOST_JSON)
     if request.headers.get("content-type", "").partition(";")[0] != "application/json":
@@ -42,6 +45,8 @@ async def receive_json(request: Request) -> dict[str, Any]:
     if not _is_request(asked):
         raise InputError("the request is not one of the page; load the page again")
     found: Mapping[str, Any] = asked
+    session = session_of(request)
+    session.check_opened(found.get("opened", session.opened))
     return {"page": "", "n": 0, "values": {}} | dict(found)
 
 

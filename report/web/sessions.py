@@ -25,6 +25,10 @@ EXAMPLE = next(path for path in _HOMES if path.is_dir()) / "input.xlsx"
 """The example: within the package where it is installed, or of the checkout."""
 
 
+class OtherProjectError(Exception):
+    """A page asks about a project that its session no longer has open."""
+
+
 @dataclass(slots=True)
 class Session:
     """A session.
@@ -51,6 +55,21 @@ class Session:
     def is_example(self) -> bool:
         """Whether the example is open."""
         return self.workbook == EXAMPLE
+
+    @property
+    def opened(self) -> str:
+        """Name of what is open, which no other upload has."""
+        return "example" if self.is_example else self.workbook.relative_to(self.folder).parts[0]
+
+    def check_opened(self, name: str) -> None:
+        """Refuse a request of a page that has something else open.
+
+        Raises
+        ------
+        OtherProjectError
+        """
+        if name != self.opened:
+            raise OtherProjectError
 
     def new_folder(self) -> Path:
         """Return an empty folder for an upload."""

@@ -9,6 +9,19 @@ export class ApiError extends Error {
   }
 }
 
+const ENDED = 401; // the session
+const OTHER_PROJECT = 412; // is open in the session
+
+/** Whether nothing but loading the page again helps. */
+export function needsReload({ status }) {
+  return status === ENDED || status === OTHER_PROJECT;
+}
+
+/** Load the page again, without the values in its address: they belong to the project that was open. */
+export function reload() {
+  location.replace(location.pathname);
+}
+
 const UNREACHABLE =
   "The server does not answer. Check that `roofslip serve` is running, then move a slider or reload the page.";
 
@@ -17,6 +30,16 @@ export function createApi(announce) {
   const page = crypto.getRandomValues(new Uint32Array(2)).join("-");
   const newest = new Map();
   let n = 0;
+  let opened = ""; // what the page shows, as the server names it
+
+  // Ask about what the page shows: the server refuses where another tab has opened something else.
+  const about = (body) => json({ opened, ...body });
+
+  async function open(url, options) {
+    const state = await asked(url, options);
+    opened = state.opened;
+    return state;
+  }
 
   // The answer of the newest request of its kind; null for an older one, even if it failed.
   async function latest(kind, body) {
@@ -25,7 +48,7 @@ export function createApi(announce) {
     newest.set(kind, mine);
     const isNewest = () => newest.get(kind) === mine;
     try {
-      const answer = await post(`/api/${kind}`, { page, n: mine, ...body });
+      const answer = await asked(`/api/${kind}`, about({ page, n: mine, ...body }));
       return isNewest() ? answer : null;
     } catch (error) {
       if (isNewest() && error.status !== 409) throw error;
@@ -35,17 +58,17 @@ export function createApi(announce) {
 
   return {
     announce,
-    state: () => asked("/api/state"),
-    example: () => post("/api/example", {}),
-    upload: (files) => asked("/api/upload", { method: "POST", body: form(files) }),
+    state: () => open("/api/state"),
+    example: () => open("/api/example", { method: "POST" }),
+    upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
     assess: (moving, values) => latest("assess", { moving, values }),
     slide: (body) => latest("slide", body),
     contour: (body) => latest("contour", body),
     paths: (body) => latest("paths", body),
-    startPackage: (values) => post("/api/package", { values }),
+    startPackage: (values) => asked("/api/package", about({ values })),
     packageState: (ticket) => asked(`/api/package/${ticket}`),
     cancelPackage: (ticket) => asked(`/api/package/${ticket}`, { method: "DELETE" }),
-    workbook: (values) => downloaded("/api/workbook", json({ values })),
+    workbook: (values) => downloaded("/api/workbook", about({ values })),
   };
 }
 
@@ -61,10 +84,6 @@ function json(body) {
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify(body),
   };
-}
-
-async function post(url, body) {
-  return asked(url, json(body));
 }
 
 async function asked(url, options) {

@@ -1,6 +1,6 @@
 // Starts the page and joins its parts. Read session.js for what happens when a slider moves.
 
-import { createApi } from "./api.js";
+import { createApi, needsReload, reload } from "./api.js";
 import { showBars } from "./bars.js";
 import { changes } from "./changes.js";
 import { fromFragment, toFragment } from "./link.js";
@@ -15,7 +15,6 @@ import { mountTakeaway } from "./takeaway.js";
 import { mountUpload } from "./upload.js";
 import { createViews } from "./views.js";
 
-const ENDED = 401; // the session
 const CORRECT =
   "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
 
@@ -188,11 +187,12 @@ function failAnswer(error, moving) {
   document.body.dataset.phase = "failed";
   showNoVerdict(part("verdict"), isRefused ? error.problems.map(({ text }) => text) : []);
   if (isRefused) announce(`No verdict. ${error.message}`);
-  else fail(error, "Try again", session.rest);
+  // While another project is opened here, its answer replaces what was asked of the last one.
+  else if (!document.body.hasAttribute("aria-busy")) fail(error, "Try again", session.rest);
 }
 
 function fail(error, what = "Close", act = hideError) {
-  const [label, action] = error.status === ENDED ? ["Reload", () => location.reload()] : [what, act];
+  const [label, action] = needsReload(error) ? ["Reload", reload] : [what, act];
   replace(part("error"), html("p", {}, error.message), html("button", { type: "button", class: "button", on: { click: action } }, label));
   part("error").hidden = false;
 }

@@ -1,5 +1,6 @@
 // What all views share: ask, draw, draw again in another size, and say what went wrong.
 
+import { needsReload, reload } from "./api.js";
 import { html, replace } from "./make.js";
 
 /**
@@ -38,7 +39,8 @@ export function createView(element, scene, { ask, fetch, build }) {
       shown = key;
     } catch (error) {
       drawing = null;
-      replace(element, html("p", { role: "alert" }, error.message));
+      const remedy = needsReload(error) ? button("Reload", "Load the page again", reload) : null;
+      replace(element, html("p", { role: "alert" }, error.message), remedy);
     }
     element.classList.toggle("is-stale", isMoving);
     element.removeAttribute("aria-busy");

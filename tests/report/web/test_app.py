@@ -101,6 +101,7 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
         for name, content in files:
             archive.writestr(name, content)
     second = sent(client, [("example.zip", packed.getvalue())]).json()
+    assert first.pop("opened") != second.pop("opened")
     assert first == second
     assert not first["project"]["is_example"]
     assert first["answer"]["verdict"] == "OK"
@@ -152,6 +153,19 @@ def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_pat
     assert (row["heads"][row["at"]], row["cells"][row["at"]]) == ("Friction coefficient", "wet")
     # The records were not sent: every motion says so.
     assert len([item for item in state["problems"] if item["sheet"] == "Motions"]) >= 7
+
+
+@pytest.mark.parametrize("name", ["assess", "slide", "contour", "paths", "workbook", "package"])
+def test_a_page_that_shows_another_project_than_is_open_is_told(client, name):
+    shown = sent(client, folder_of(EXAMPLE)).json()["opened"]
+    body = {"values": {}, "array": "A1", "motion": "RM1"}
+    client.post("/api/example")  # of another tab
+    answer = client.post(f"/api/{name}", json=body | {"opened": shown})
+    assert answer.status_code == 412
+    assert answer.json()["error"].startswith("Another project was opened in another tab; reload")
+    opened = client.get("/api/state").json()["opened"]
+    if name != "package":
+        assert client.post(f"/api/{name}", json=body | {"opened": opened}).status_code == 200
 
 
 def test_sessions_cannot_see_each_other(client):

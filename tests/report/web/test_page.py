@@ -349,6 +349,21 @@ def test_two_visitors_see_nothing_of_each_other(browser, address, tmp_path):
         assert verdicts(two)[0] == "OK"
 
 
+def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(page, tmp_path):
+    other = page.context.new_page()
+    other.goto(page.url)
+    at_rest(other)
+    sent(other, CONDITIONS, tmp_path / "other")
+    other.wait_for_selector("h1:has-text('Small Warehouse')")
+    before = numbers(page, "arrays", 3)
+    moved(page, "friction", 0.9)
+    page.wait_for_selector("#error:visible")
+    assert "opened in another tab" in page.inner_text("#error")
+    assert numbers(page, "arrays", 3) == before
+    page.click("#error button")
+    page.wait_for_selector("h1:has-text('Small Warehouse')")
+
+
 def test_when_every_process_is_killed_the_page_goes_on(page, server):
     before = verdicts(page)
     for pid in processes_of(server[1]):
