@@ -27,7 +27,8 @@ from report.web.desk import Desk, RefusedError, desk_of, session_of
 from report.web.downloads import package_routes, workbook
 from report.web.limits import is_full
 from report.web.receiving import receive_json, received
-from report.web.sessions import EXAMPLE, OtherProjectError, Sessions
+from report.web.sessions import EXAMPLE, OtherProjectError, Session, Sessions
+from report.web.uploads import remove
 from report.web.workers import LostError, Rank, StaleError
 from solver.model import InputError
 
@@ -113,30 +114,45 @@ async def _index(_: Request) -> Response:
 
 
 async def _state(request: Request) -> Response:
-    return await _whole_state(request)
+    return JSONResponse(await _whole_state(request, session_of(request).workbook))
 
 
 async def _example(request: Request) -> Response:
-    session_of(request).workbook = EXAMPLE
-    return await _whole_state(request)
+    await _open(session_of(request), EXAMPLE)
+    return JSONResponse(await _whole_state(request, EXAMPLE))
 
 
 async def _upload(request: Request) -> Response:
+    """Open what was sent, unless it has errors or something else was opened meanwhile."""
     session = session_of(request)
     folder = session.new_folder()
-    session.workbook = await received(request, folder)
-    await run_in_threadpool(session.keep_only, folder)
-    return await _whole_state(request)
+    workbook = await received(request, folder)
+    try:
+        found = await _whole_state(request, workbook)
+        if not session.is_newest(folder):
+            raise InputError("Another project was opened meanwhile; open this one again.")
+    except BaseException:
+        await run_in_threadpool(remove, folder)
+        raise
+    if found["problems"]:
+        await run_in_threadpool(remove, folder)
+    else:
+        await _open(session, workbook)
+    return JSONResponse(found | {"opened": session.opened})
 
 
-async def _whole_state(request: Request) -> Response:
+async def _open(session: Session, workbook: Path) -> None:
+    await run_in_threadpool(remove, session.open(workbook))
+
+
+async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:
     session, desk = session_of(request), desk_of(request)
-    opened = session.opened
-    found = {"opened": opened, **await desk.ask(session, {"do": "state"}, Rank.READ)}
+    opened, job = session.opened, {"do": "state", "workbook": str(workbook)}
+    found = {"opened": opened, **await desk.ask(session, job, Rank.READ)}
     if found["project"]:
-        about = {"file": session.workbook.name, "is_example": session.is_example}
+        about = {"file": workbook.name, "is_example": workbook == EXAMPLE}
         found["project"] = found["project"] | about
-    return JSONResponse(found)
+    return found
 
 
 async def _assess(request: Request) -> Response:

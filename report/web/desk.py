@@ -56,7 +56,7 @@ class Desk:
         rank: Rank,
         asked: Mapping[str, Any] | None = None,
     ) -> Mapping[str, Any]:
-        """Return the answer to a job about what is open in a session.
+        """Return the answer to a job of a session, about what it has open if it names no workbook.
 
         Parameters
         ----------
@@ -72,7 +72,7 @@ class Desk:
         self._asked += 1
         page, number = (asked["page"], asked["n"]) if asked else (str(self._asked), 0)
         place = Place((session.id, str(job["do"]), page), number)
-        found = await self.workers.ask({**job, "workbook": str(session.workbook)}, rank, place)
+        found = await self.workers.ask({"workbook": str(session.workbook), **job}, rank, place)
         if "answer" in found:
             answer: Mapping[str, Any] = found["answer"]
             return answer

@@ -38,18 +38,18 @@ class Session:
     folder : Path
         Its own; no other session reads or writes it.
     workbook : Path
-        What is open: the example, or what was uploaded last.
+        What is open: the example, or the last upload that could be read.
     used_s : float
         When it was last used, on the clock of `Sessions`.
-    uploads : int
-        How many there were; each has a folder of its own.
+    openings : int
+        How many uploads were begun and projects opened; a newer one replaces an upload under way.
     """
 
     id: str
     folder: Path
     used_s: float
     workbook: Path = EXAMPLE
-    uploads: int = 0
+    openings: int = 0
 
     @property
     def is_example(self) -> bool:
@@ -73,16 +73,21 @@ class Session:
 
     def new_folder(self) -> Path:
         """Return an empty folder for an upload."""
-        self.uploads += 1
-        folder = self.folder / f"{_UPLOAD}{self.uploads}"
+        self.openings += 1
+        folder = self.folder / f"{_UPLOAD}{self.openings}"
         folder.mkdir()
         return folder
 
-    def keep_only(self, upload: Path) -> None:
-        """Remove the folders of earlier uploads."""
-        for folder in self.folder.glob(f"{_UPLOAD}*"):
-            if folder != upload:
-                shutil.rmtree(folder, ignore_errors=True)
+    def is_newest(self, folder: Path) -> bool:
+        """Whether nothing was opened, and no upload begun, after that of a folder."""
+        return folder.name == f"{_UPLOAD}{self.openings}"
+
+    def open(self, workbook: Path) -> Path:
+        """Open a workbook, and return the folder of what was open, which can be removed."""
+        former = self.folder / self.opened
+        self.workbook = workbook
+        self.openings += 1
+        return former
 
 
 class Sessions:

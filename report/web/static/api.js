@@ -35,20 +35,14 @@ export function createApi(announce) {
   // Ask about what the page shows: the server refuses where another tab has opened something else.
   const about = (body) => json({ opened, ...body });
 
-  async function open(url, options) {
-    const state = await asked(url, options);
-    opened = state.opened;
-    return state;
-  }
-
   // The answer of the newest request of its kind; null for an older one, even if it failed.
-  async function latest(kind, body) {
+  async function latest(kind, send) {
     n += 1;
     const mine = n;
     newest.set(kind, mine);
     const isNewest = () => newest.get(kind) === mine;
     try {
-      const answer = await asked(`/api/${kind}`, about({ page, n: mine, ...body }));
+      const answer = await send(mine);
       return isNewest() ? answer : null;
     } catch (error) {
       if (isNewest() && error.status !== 409) throw error;
@@ -56,15 +50,24 @@ export function createApi(announce) {
     }
   }
 
+  const computed = (kind, body) => latest(kind, (number) => asked(`/api/${kind}`, about({ page, n: number, ...body })));
+
+  // Of two projects, the one that was opened last stays, whichever answer comes first.
+  async function open(url, options) {
+    const state = await latest("open", () => asked(url, options));
+    if (state) opened = state.opened;
+    return state;
+  }
+
   return {
     announce,
     state: () => open("/api/state"),
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
-    assess: (moving, values) => latest("assess", { moving, values }),
-    slide: (body) => latest("slide", body),
-    contour: (body) => latest("contour", body),
-    paths: (body) => latest("paths", body),
+    assess: (moving, values) => computed("assess", { moving, values }),
+    slide: (body) => computed("slide", body),
+    contour: (body) => computed("contour", body),
+    paths: (body) => computed("paths", body),
     startPackage: (values) => asked("/api/package", about({ values })),
     packageState: (ticket) => asked(`/api/package/${ticket}`),
     cancelPackage: (ticket) => asked(`/api/package/${ticket}`, { method: "DELETE" }),

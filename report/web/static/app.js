@@ -56,12 +56,13 @@ async function opening(fetched, isRestored = false) {
   document.body.setAttribute("aria-busy", "true");
   hideError();
   try {
-    open(await fetched(), isRestored);
+    const next = await fetched();
+    if (!next) return; // something else is being opened since
+    open(next, isRestored);
   } catch (error) {
     fail(error);
-  } finally {
-    document.body.removeAttribute("aria-busy");
   }
+  document.body.removeAttribute("aria-busy");
 }
 
 function open(next, isRestored) {

@@ -5,9 +5,17 @@ const HIDDEN = /(^|\/)(\.|~\$|__MACOSX\/|Thumbs\.db$)/;
 
 /** Listen to the whole page; `take` gets a list of `{file, path}`. */
 export function mountUpload({ zone, files, folder }, take) {
+  let given = 0;
+  // A large folder takes a while to list: what is given meanwhile counts, not the folder.
+  async function receive(listed) {
+    given += 1;
+    const mine = given;
+    const found = await listed;
+    if (mine === given) take(visible(found));
+  }
   for (const input of [files, folder]) {
     input.addEventListener("change", () => {
-      take(visible([...input.files].map((file) => ({ file, path: file.webkitRelativePath || file.name }))));
+      receive([...input.files].map((file) => ({ file, path: file.webkitRelativePath || file.name })));
       input.value = ""; // the same file again is a change
     });
   }
@@ -23,19 +31,23 @@ export function mountUpload({ zone, files, folder }, take) {
     if (depth === 0) shown(false);
   });
   addEventListener("dragover", (event) => event.preventDefault());
-  addEventListener("drop", async (event) => {
+  addEventListener("drop", (event) => {
     event.preventDefault();
     depth = 0;
     shown(false);
     // Entries are only readable until the first await.
     const entries = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter(Boolean);
-    take(visible((await Promise.all(entries.map(inside))).flat()));
+    receive(all(entries));
   });
 }
 
 /** Return the files without hidden ones. */
 export function visible(files) {
   return files.filter(({ path }) => !HIDDEN.test(path));
+}
+
+async function all(entries) {
+  return (await Promise.all(entries.map(inside))).flat();
 }
 
 async function inside(entry) {
@@ -48,7 +60,7 @@ async function inside(entry) {
   const reader = entry.createReader();
   // A reader gives at most 100 entries at a time.
   for (let part = await batch(reader); part.length > 0; part = await batch(reader)) found.push(...part);
-  return (await Promise.all(found.map(inside))).flat();
+  return all(found);
 }
 
 function batch(reader) {

@@ -10,11 +10,13 @@ import pytest
 
 from places import ROOT
 from report.sheet.read import read
+from report.web import receiving
 from report.web.worker import _answered
 from sheets import edit
 
 TOKEN = "a-token-of-this-server"
 EXAMPLE = ROOT / "projects" / "example"
+CONDITIONS = ROOT / "projects" / "conditions"
 
 
 def asked(client, values, *, moving=False, n=1):
@@ -106,6 +108,36 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
     assert not first["project"]["is_example"]
     assert first["answer"]["verdict"] == "OK"
     assert client.post("/api/example").json()["project"]["is_example"]
+
+
+def test_of_two_uploads_the_last_is_open_whichever_arrives_first(client, monkeypatch):
+    store = receiving.store
+
+    def meanwhile(files, folder):
+        """While the first is stored, the second comes and is read."""
+        monkeypatch.setattr(receiving, "store", store)
+        arrived.append(sent(client, folder_of(CONDITIONS)).json()["project"]["name"])
+        return store(files, folder)
+
+    arrived = []
+    monkeypatch.setattr(receiving, "store", meanwhile)
+    answer = sent(client, folder_of(EXAMPLE))
+    assert answer.status_code == 422
+    assert answer.json()["error"].startswith("Another project was opened meanwhile")
+    state = client.get("/api/state").json()
+    assert arrived == [state["project"]["name"]]
+    assert state["answer"]["verdict"] == "NG"
+
+
+def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, sessions):
+    before = sent(client, folder_of(EXAMPLE)).json()["opened"]
+    assert sent(client, [("input.xlsx", b"no workbook")]).json()["problems"]
+    assert sent(client, [("records/x.csv", b"0")]).status_code == 422
+    state = client.get("/api/state").json()
+    assert state["opened"] == before
+    assert state["answer"]["verdict"] == "OK"
+    folder = sessions.find(client.cookies["roofslip-8765"]).folder
+    assert [each.name for each in folder.iterdir()] == [before]
 
 
 def full(*_, **__):

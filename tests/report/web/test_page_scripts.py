@@ -215,6 +215,51 @@ def test_hidden_files_and_excels_lock_are_not_sent(page):
     assert called(page, "upload", body, names) == ["p/input.xlsx", "p/records/a.csv"]
 
 
+def test_of_two_drops_the_last_is_taken_though_the_first_is_longer_to_list(page):
+    body = """
+        const part = () => document.createElement("input");
+        const taken = [];
+        const take = (files) => taken.push(files);
+        m.mountUpload({ zone: part(), files: part(), folder: part() }, take);
+        const answers = [];
+        const drop = (path) => {
+          const file = (done) => answers.push(() => done(path));
+          const entry = { isFile: true, fullPath: path, file };
+          const event = new Event("drop");
+          event.dataTransfer = { items: [{ webkitGetAsEntry: () => entry }] };
+          dispatchEvent(event);
+        };
+        drop("/first"); drop("/last");
+        for (const answer of answers.toReversed()) {
+          answer();
+          await new Promise((done) => setTimeout(done, 0));
+        }
+        return taken.map((files) => files.map(({ path }) => path));"""
+    assert called(page, "upload", body) == [["last"]]
+
+
+def test_what_was_opened_last_is_shown_and_asked_about_whichever_answer_comes_first(page):
+    body = """
+        const asked = [], answers = [], real = fetch;
+        fetch = (url, options) => new Promise((done) => {
+          asked.push(options);
+          answers.push((state) => done(new Response(JSON.stringify(state))));
+        });
+        const tick = () => new Promise((done) => setTimeout(done, 0));
+        const api = m.createApi(() => {}), states = [];
+        for (const k of [1, 2]) api.upload([]).then((state) => states.push(state));
+        for (const k of [1, 0]) {
+          answers[k]({ opened: `upload-${k + 1}` });
+          await tick();
+        }
+        api.assess(false, {}); await tick();
+        fetch = real;
+        return [states, JSON.parse(asked[2].body).opened];"""
+    states, opened = called(page, "api", body)
+    assert states == [{"opened": "upload-2"}, None]
+    assert opened == "upload-2"
+
+
 def test_the_picture_of_a_row_shows_its_first_cell_and_those_around_the_fault(page):
     row = {"heads": [""] * 12, "cells": [""] * 12}
     body = "return g.map((row) => m.drawn(row));"

@@ -49,6 +49,16 @@ def test_where_there_are_too_many_the_one_unused_for_longest_ends(tmp_path, monk
 def test_an_upload_replaces_the_files_of_the_one_before(tmp_path):
     session = Sessions(tmp_path).begin()
     before, after = session.new_folder(), session.new_folder()
-    session.keep_only(after)
-    assert not before.exists()
-    assert after.exists()
+    session.open(before / "project" / "input.xlsx")
+    assert session.opened == before.name
+    assert session.open(after / "input.xlsx") == before
+    assert session.opened == after.name
+
+
+def test_of_two_uploads_the_one_that_was_begun_last_counts(tmp_path):
+    session = Sessions(tmp_path).begin()
+    first, second = session.new_folder(), session.new_folder()
+    assert not session.is_newest(first)
+    assert session.is_newest(second)
+    session.open(sessions.EXAMPLE)
+    assert not session.is_newest(second)
