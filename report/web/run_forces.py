@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.assessment.runs import HeadingRun
-from report.web.thinning import MOST, peaks_kept
 from solver.forces import Forces, forces
 from solver.model import Event, EventKind, Floats, Scene, SlideHistory
 from solver.rivals.methods import NO_RECORD
@@ -55,14 +54,14 @@ def with_jumps(run: HeadingRun, used: Floats, events: Sequence[Event]) -> tuple[
         Numbers of samples, ascending, and values; a jump has two values at one number.
     """
     law, dt_s = _modeled(run).friction, run.scene.dt_s
-    at = peaks_kept(used, max(MOST - 2 * len(events), MOST // 2))
+    at = np.arange(used.size)
     jumps = np.array([event.t_s for event in events]) / dt_s
     # Where the block turns back at once, the demand is above what friction can give at rest.
     at_rest = np.minimum(_demand_at(forces(_modeled(run)), jumps), law.mu_static)
     begins = [event.kind is EventKind.SLIP for event in events]
     before = np.where(begins, at_rest, law.mu_slow)
     after = np.where(begins, law.mu_slow, at_rest)
-    i, v = np.concatenate([at, jumps, jumps]), np.concatenate([used[at], before, after])
+    i, v = np.concatenate([at, jumps, jumps]), np.concatenate([used, before, after])
     order = np.argsort(i, kind="stable")
     return i[order], v[order]
 

@@ -1,4 +1,4 @@
-"""Which samples of a history a browser needs: few enough to send, and every peak among them."""
+"""Which samples a moving plan or a path needs: few enough to draw, and every peak among them."""
 
 from __future__ import annotations
 
@@ -9,13 +9,10 @@ from numpy.typing import NDArray
 
 from solver.model import Floats
 
-MOST = 3000
-"""Samples of one history."""
-
 Indices = NDArray[np.intp]
 
 
-def peaks_kept(values: Floats, most: int = MOST) -> Indices:
+def peaks_kept(values: Floats, most: int) -> Indices:
     """Return the samples of at most `most` that have the smallest and largest value of their part.
 
     The history is divided into equal parts; its ends stay. NaN is neither small nor large.

@@ -19,7 +19,7 @@ from report.assessment.runs import HeadingRun, MotionRun
 from report.figures.levels import LEAST_M, is_decade, levels
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
-from report.web.thinning import MOST, Indices, beside, peaks_kept
+from report.web.thinning import Indices, beside, peaks_kept
 from report.words.units import G_MPS2, Quantity, Unit, measured, number, pair
 from solver.model import INCH_M, Event, Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
@@ -71,7 +71,6 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         "runs": [_run_choice(motion, one, us_first) for one in motion.runs],
         "dt_s": chosen.scene.dt_s,
         "seconds": motion.seconds,
-        "n_samples": len(history.t_s),
         "plan": {
             "outline": item.array.shape.points,
             "downslope_deg": item.array.downslope_deg,
@@ -213,7 +212,7 @@ def _series(
     roof: Sequence[Record],
     slips: Sequence[Slip],
 ) -> dict[str, object]:
-    """Return the histories, each with the samples that show its own peaks."""
+    """Return the histories with all of their samples, so that every reading is right."""
     relative = {"downslope": history.u_m}
     if history.across_m.size:
         relative["cross-slope"] = history.across_m
@@ -256,10 +255,6 @@ def _slide_texts(
     result, rung = history.result, run.solution.rung
     travel = max(float(np.abs(velocity_displacement(record)[1]).max()) for record in roof)
     when = "" if math.isnan(result.prd_m) else f" at {number(result.t_prd_s, 2)} s"
-    n = len(history.t_s)
-    drawn = "Every sample is drawn."
-    if n > MOST:
-        drawn = f"Each history is drawn from about {MOST:,} of {n:,} samples, its peaks among them."
     return {
         "prd": f"{_prd(result.prd_m, us_first)}{when}",
         "model": f"Model: {rung.title}; {run.solution.reason}.",
@@ -267,7 +262,6 @@ def _slide_texts(
         "roof": "Roof velocity and displacement are integrated from the acceleration as analyzed, "
         "without baseline correction; the roof moves "
         f"{pair(travel, Quantity.DISPLACEMENT, us_first)} at most.",
-        "samples": drawn,
         "axes": "Down is downslope; cross is cross-slope, positive to the left when facing "
         "downslope.",
     }
@@ -352,8 +346,7 @@ def _path(motion: MotionRun, us_first: bool) -> Json:
 
 
 def _history(name: str, values: Floats) -> Json:
-    at = peaks_kept(values)
-    return {"name": name, "i": at.tolist(), "v": _at(values, at)}
+    return {"name": name, "v": _numbers(values)}
 
 
 def _at(values: Floats, at: Indices) -> list[float | None]:

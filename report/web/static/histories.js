@@ -39,8 +39,10 @@ function build(element, data, again, announce) {
   const { texts } = data;
   const lens = createLens(data);
   const buttons = zoomButtons(lens);
+  let drawn = null;
   lens.follow((span, time) => {
-    panels.show(span);
+    if (span !== drawn) panels.show(span);
+    drawn = span;
     panels.at(time);
     where.textContent = `t = ${number(time, 3)} s`;
     buttons.follow(lens);
@@ -55,7 +57,7 @@ function build(element, data, again, announce) {
     html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run })), buttons.element, where),
     stage,
     html("p", { class: "note", id: "histories-keys" }, KEYS),
-    html("p", { class: "note" }, [texts.status, texts.axes, texts.model, texts.roof, texts.samples].filter(Boolean).join(" ")),
+    html("p", { class: "note" }, [texts.status, texts.axes, texts.model, texts.roof].filter(Boolean).join(" ")),
   );
   resize();
   lens.reset();
@@ -70,14 +72,16 @@ function panelsOf(data) {
   }));
 }
 
-// The span of time that is shown and the time that is read, within it.
+// The span of time that is shown, and the sample that is read, within it.
 function createLens({ seconds, dt_s: dt, t_prd_s: peak }) {
   let changed = null;
   let span = [0, seconds];
   let time = peak ?? 0;
 
+  // A reading stops at samples.
   function read(next) {
-    time = within(next, ...span);
+    const [first, last] = [Math.ceil(span[0] / dt - 1e-6), Math.floor(span[1] / dt + 1e-6)];
+    time = within(Math.round(next / dt), first, last) * dt;
     changed(span, time);
   }
 

@@ -1,4 +1,5 @@
-// Histories as the server sends them: numbers of samples and values, null where there is none.
+// Histories as the server sends them: values at the samples, or at the numbers of samples beside them,
+// null where there is none.
 
 const NAMES = { downslope: "down", "cross-slope": "cross", "normal force": "N / W" };
 const LOOKS = { "cross-slope": "is-across", vertical: "is-third", demand: "is-third" };
@@ -8,7 +9,7 @@ export function seriesOf(data, kind) {
   return data[kind].map(({ name, i, v }) => ({
     name: NAMES[name] ?? name,
     look: LOOKS[name] ?? "is-first",
-    t: Float64Array.from(i, (k) => k * data.dt_s),
+    t: Float64Array.from(i ?? v.keys(), (k) => k * data.dt_s),
     v,
   }));
 }

@@ -79,7 +79,8 @@ def text(page, selector):
 
 def value_at(series, dt_s, time):
     """What a history has at a time; None where it has nothing."""
-    return float(np.interp(time, np.array(series["i"]) * dt_s, np.array(series["v"], float)))
+    at = np.array(series.get("i", range(len(series["v"]))))
+    return float(np.interp(time, at * dt_s, np.array(series["v"], float)))
 
 
 # --- what the page reads and draws, function by function
@@ -430,6 +431,25 @@ def test_a_span_is_enlarged_by_dragging_over_it(page, run):
     low, high = span(page)
     assert first <= low < high <= last
     assert last - first == pytest.approx(8.0 * 100 / (590 - 46 - 8), abs=0.02)
+
+
+def test_a_reading_is_that_of_its_sample_in_a_record_of_more_than_the_page_is_wide(page):
+    usual = stand_in.motions(2, seconds=20.0)
+    data = views.slide(stand_in.assessed(stand_in.book(stand_in.project(), usual)), "A1", "M1")
+    mounted(page, "histories", data)
+    page.locator(".stage").focus()
+    page.keyboard.press("Home")
+    samples = data["acceleration"][0]["v"]
+    for _ in range(60):
+        page.keyboard.press("ArrowRight")
+        shown = page.locator(".panel-head").first.locator(".value").first.inner_text()
+        sample = samples[round(when(page) / data["dt_s"])] / stand_in.G
+        assert float(shown.split()[0].replace("−", "-")) == pytest.approx(sample, abs=0.0051)
+    for _ in range(20):
+        page.keyboard.press("+")
+    # The shortest span has 20 samples, and the curve goes through each of them.
+    curve = page.locator(".panel").first.locator(".curve").last.get_attribute("d")
+    assert 20 <= len(re.split("[ML]", curve)) - 1 <= 24
 
 
 # --- contours and paths

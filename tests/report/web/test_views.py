@@ -16,7 +16,7 @@ from solver.sliding import least_model
 from solver.sliding.least_model import Settings
 
 PEER = {"peer_reviewed": True}
-LONG = stand_in.motions(2, seconds=20.0)  # 4,000 samples: more than are drawn
+LONG = stand_in.motions(2, seconds=20.0)  # 4,000 samples: more than are drawn of a path
 G = stand_in.G
 
 
@@ -63,7 +63,7 @@ def test_a_run_is_that_of_the_solver_to_the_last_bit(usual, array):
     track, at = answer["track"], answer["track"]["i"]
     assert track["relative_m"] == [history.u_m[at].tolist(), history.across_m[at].tolist()]
     for series, samples in zip(answer["relative"], (history.u_m, history.across_m), strict=True):
-        assert series["v"] == samples[series["i"]].tolist()
+        assert series["v"] == samples.tolist()
     slips = [(slip["from_s"], slip["to_s"]) for slip in answer["slips"]]
     assert [t for pair in slips for t in pair] == [event.t_s for event in history.events]
     governing = next(one for one in usual.arrays if one.array.id == array).motions[1].governing
@@ -90,9 +90,9 @@ def test_the_roof_is_its_acceleration_integrated_by_cubic_sums(usual):
     names = [series["name"] for series in answer["velocity"]]
     assert names == ["downslope", "cross-slope", "vertical"]
     downslope = answer["velocity"][0]
-    assert downslope["v"] == pytest.approx(np.array(velocity)[downslope["i"]], abs=1e-12)
+    assert downslope["v"] == pytest.approx(np.array(velocity), abs=1e-12)
     series = answer["acceleration"][0]
-    assert series["v"] == a[series["i"]].tolist()
+    assert series["v"] == a.tolist()
 
 
 @pytest.mark.parametrize("array", ["A1", "A2"])
@@ -129,7 +129,7 @@ def test_the_friction_used_jumps_where_a_slip_begins_and_ends(usual, array):
     series, dt = answer["friction"][0], answer["dt_s"]
     i, v = np.array(series["i"]), values(series)
     assert (np.diff(i) >= 0.0).all()
-    assert len(i) <= 3000
+    assert set(range(4000)) <= set(i.tolist())
     mu = {"A1": 0.45, "A2": 0.4}[array]
     for slip in answer["slips"]:
         assert v[i == slip["from_s"] / dt] == pytest.approx([mu, mu], abs=2e-3)
@@ -153,10 +153,9 @@ def between(samples):
     return (samples[:-1] + samples[1:]) / 2
 
 
-def test_every_history_keeps_its_peaks_and_its_ends(usual):
+def test_every_history_has_all_of_its_samples(usual):
     answer = views.slide(usual, "A1", "M1")
     scene, history = solved(usual, "A1", "M1", answer["run"])
-    assert answer["n_samples"] == 4000
     full = {
         "acceleration": [scene.ax_mps2, scene.ay_mps2, scene.az_mps2],
         "relative": [history.u_m, history.across_m],
@@ -164,10 +163,7 @@ def test_every_history_keeps_its_peaks_and_its_ends(usual):
     }
     for name, samples in full.items():
         for series, of in zip(answer[name], samples, strict=True):
-            assert len(series["i"]) <= 3000
-            assert (series["i"][0], series["i"][-1]) == (0, 3999)
-            assert values(series).max() == of.max()
-            assert values(series).min() == of.min()
+            assert values(series) == pytest.approx(of, rel=1e-15, abs=0.0)
     around = {math.floor(event.t_s / scene.dt_s) for event in history.events}
     assert around <= set(answer["track"]["i"])
 
