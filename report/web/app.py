@@ -27,7 +27,7 @@ from report.web.desk import Desk, RefusedError, desk_of, session_of
 from report.web.downloads import package_routes, workbook
 from report.web.limits import is_full
 from report.web.receiving import receive_json, received
-from report.web.sessions import EXAMPLE, OtherProjectError, Session, Sessions
+from report.web.sessions import EXAMPLE, OtherProjectError, Sessions
 from report.web.uploads import remove
 from report.web.workers import LostError, Rank, StaleError
 from solver.model import InputError
@@ -118,7 +118,7 @@ async def _state(request: Request) -> Response:
 
 
 async def _example(request: Request) -> Response:
-    await _open(session_of(request), EXAMPLE)
+    await _open(request, EXAMPLE)
     return JSONResponse(await _whole_state(request, EXAMPLE))
 
 
@@ -137,21 +137,29 @@ async def _upload(request: Request) -> Response:
     if found["problems"]:
         await run_in_threadpool(remove, folder)
     else:
-        await _open(session, workbook)
-    return JSONResponse(found | {"opened": session.opened})
+        await _open(request, workbook)
+    return JSONResponse(found | {"opened": session.opened, "package": None})
 
 
-async def _open(session: Session, workbook: Path) -> None:
-    await run_in_threadpool(remove, session.open(workbook))
+async def _open(request: Request, workbook: Path) -> None:
+    """Open a workbook in place of another project, with the package that is made of it."""
+    session = session_of(request)
+    former = session.open(workbook)
+    await desk_of(request).packages.cancel_unfinished(session)
+    await run_in_threadpool(remove, former)
 
 
 async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:
     session, desk = session_of(request), desk_of(request)
-    opened, job = session.opened, {"do": "state", "workbook": str(workbook)}
-    found = {"opened": opened, **await desk.ask(session, job, Rank.READ)}
+    package = desk.packages.last(session)
+    about = {
+        "opened": session.opened,
+        "package": desk.packages.about(package) if package else None,
+    }
+    job = {"do": "state", "workbook": str(workbook)}
+    found = {**about, **await desk.ask(session, job, Rank.READ)}
     if found["project"]:
-        about = {"file": workbook.name, "is_example": workbook == EXAMPLE}
-        found["project"] = found["project"] | about
+        found["project"] |= {"file": workbook.name, "is_example": workbook == EXAMPLE}
     return found
 
 

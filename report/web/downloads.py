@@ -15,7 +15,7 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from report.making import OUTPUTS
-from report.web.desk import desk_of, session_of
+from report.web.desk import RefusedError, desk_of, session_of
 from report.web.packages import Package, State, copied
 from report.web.receiving import receive_json
 from report.web.workers import Rank
@@ -52,17 +52,17 @@ async def workbook(request: Request) -> Response:
 async def _begin(request: Request) -> Response:
     session, desk = session_of(request), desk_of(request)
     values = (await receive_json(request))["values"]
-    desk.packages.check_free(session)
     opened = session.workbook
     path = session.folder / f"package-{secrets.token_hex(8)}" / opened.name
+    writing = _writing(values, str(path)) | {"workbook": str(opened)}
     try:
         await run_in_threadpool(copied, opened, path.parent)
-    except OSError:
+        await desk.ask(session, writing, Rank.AT_REST)
+    except (OSError, RefusedError):
         if session.workbook == opened:
             raise
     if session.workbook != opened:
         raise InputError("Another workbook was opened meanwhile; make the package again.")
-    await desk.ask(session, _writing(values, str(path)), Rank.AT_REST)
     return JSONResponse(desk.packages.about(desk.packages.begin(session, path, values)))
 
 

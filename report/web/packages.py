@@ -24,7 +24,6 @@ from typing import Any
 from report.making import STEPS
 from report.web.sessions import Session
 from report.web.values import Values
-from solver.model import InputError
 
 LONGEST_S = 900.0
 """Longest time of a package [s]; then its process is ended."""
@@ -52,11 +51,17 @@ class State(StrEnum):
 class Package:
     """A package of a session: the workbook as written, beside it its records and out/.
 
-    Its values are those of the page that were written into the workbook.
+    Attributes
+    ----------
+    opened : str
+        What the session had open.
+    values : mapping
+        Those of the page that were written into the workbook.
     """
 
     ticket: str
     owner: str
+    opened: str
     workbook: Path
     values: Values
     state: State = State.QUEUED
@@ -87,29 +92,37 @@ class Packages:
     def begin(self, session: Session, workbook: Path, values: Values) -> Package:
         """Queue the package of a workbook that has a folder of its own, with its records.
 
-        Raises
-        ------
-        InputError
-            While another one of the session waits or is made.
+        While another one of the session waits or is made, that one is returned.
         """
-        self.check_free(session)
-        own = [each for each in self._all.values() if each.owner == session.id]
+        if (unfinished := self.unfinished(session)) is not None:
+            shutil.rmtree(workbook.parent, ignore_errors=True)
+            return unfinished
+        own = self._of(session)
         for old in own[: len(own) - KEPT + 1]:
             del self._all[old.ticket]
             shutil.rmtree(old.workbook.parent, ignore_errors=True)
         ticket = secrets.token_hex(12)
-        package = Package(ticket=ticket, owner=session.id, workbook=workbook, values=values)
+        package = Package(
+            ticket=ticket,
+            owner=session.id,
+            opened=session.opened,
+            workbook=workbook,
+            values=values,
+        )
         self._all[package.ticket] = package
         task = asyncio.create_task(self._make(package))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return package
 
-    def check_free(self, session: Session) -> None:
-        """Refuse a second package at a time."""
-        own = [each for each in self._all.values() if each.owner == session.id]
-        if any(not each.state.is_over for each in own):
-            raise InputError("A package is being made already; wait for it, or cancel it.")
+    def unfinished(self, session: Session) -> Package | None:
+        """Return the package of a session that waits or is made."""
+        return next((each for each in self._of(session) if not each.state.is_over), None)
+
+    def last(self, session: Session) -> Package | None:
+        """Return the last package of what a session has open, unless it was cancelled."""
+        found = [each for each in self._of(session) if each.opened == session.opened]
+        return found[-1] if found and found[-1].state is not State.CANCELLED else None
 
     def find(self, session: Session, ticket: str) -> Package | None:
         """Return a package of a session."""
@@ -137,6 +150,11 @@ class Packages:
         if package.process is not None:
             await _end(package.process)
 
+    async def cancel_unfinished(self, session: Session) -> None:
+        """Cancel the package of a session that waits or is made."""
+        if (package := self.unfinished(session)) is not None:
+            await self.cancel(package)
+
     async def forget(self, owner: str) -> None:
         """End and forget the packages of a session."""
         for package in [each for each in self._all.values() if each.owner == owner]:
@@ -148,6 +166,9 @@ class Packages:
         for package in self._all.values():
             await self.cancel(package)
         await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    def _of(self, session: Session) -> list[Package]:
+        return [each for each in self._all.values() if each.owner == session.id]
 
     async def _make(self, package: Package) -> None:
         async with self._turn:
@@ -163,6 +184,9 @@ class Packages:
             stdin=DEVNULL, stdout=PIPE, start_new_session=True,
             env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
         )  # fmt: skip
+        if package.state.is_over:  # cancelled while the process started
+            await _end(process)
+            return
         try:
             async with asyncio.timeout(LONGEST_S):
                 await _follow(package, process)

@@ -22,6 +22,8 @@ export function reload() {
   location.replace(location.pathname);
 }
 
+const PATIENCE_MS = 20_000; // with a server that says how far a package is
+
 const UNREACHABLE =
   "The server does not answer. Check that `roofslip serve` is running, then move a slider or reload the page.";
 
@@ -69,7 +71,7 @@ export function createApi(announce) {
     contour: (body) => computed("contour", body),
     paths: (body) => computed("paths", body),
     startPackage: (values) => asked("/api/package", about({ values })),
-    packageState: (ticket) => asked(`/api/package/${ticket}`),
+    packageState: (ticket) => asked(`/api/package/${ticket}`, { signal: AbortSignal.timeout(PATIENCE_MS) }),
     cancelPackage: (ticket) => asked(`/api/package/${ticket}`, { method: "DELETE" }),
     workbook: (values) => downloaded("/api/workbook", about({ values })),
   };

@@ -35,7 +35,7 @@ const takeaway = mountTakeaway(
     status: part("package-status"),
   },
   api,
-  { values: session.values, words: (values) => changes(values, state), fail },
+  { values: session.values, words: (values) => changes(values, state), fail, forget: hideError },
 );
 
 let state = null; // of the project that is open
@@ -82,10 +82,10 @@ function open(next, isRestored) {
   const { name, file, sha256 } = state.project;
   named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
   replace(part("warnings"), warnings(state.warnings));
-  takeaway.clear();
   fillSelects();
   if (!isRestored) history.replaceState(null, "", location.pathname);
   restore();
+  takeaway.open(state.package);
 }
 
 function named(name, ...file) {

@@ -1,8 +1,10 @@
 // Follows the making of a package: place in line, progress, cancel, and its files.
 
+import { isSame } from "./changes.js";
 import { html, replace } from "./make.js";
 
 const POLL_MS = 500;
+const WHAT = "The package and the workbook get the values of the page.";
 const FILES = [
   ["calc-package.pdf", "Calc package"],
   ["results.xlsx", "results.xlsx"],
@@ -11,29 +13,61 @@ const FILES = [
 ];
 
 /**
- * Show in `status` how a package is made; ends when it is made, failed, cancelled or no longer wanted.
- * `compare` is called where the page shows a package, with what the server tells of it.
+ * Make packages at the click of `make`; returns what to call when values change (`compare`) and when a
+ * project is open, with its package where there is one (`open`).
  */
-export async function follow(status, api, ticket, { cancel, isWanted, compare }) {
-  while (isWanted()) {
-    const state = await api.packageState(ticket);
-    if (!isWanted()) return;
-    if (state.state === "done") {
-      showFiles(status, ticket);
-      compare(state);
-      api.announce("The package is made. Its files can be saved.");
-      return;
-    }
-    if (state.state !== "queued" && state.state !== "running") {
-      say(status, api, state.state === "failed" ? state.message : "The package was cancelled.");
-      return;
-    }
-    showProgress(status, api, state, cancel);
-    compare(state);
-    await new Promise((done) => {
-      setTimeout(done, POLL_MS);
-    });
+export function mountPackage({ make, status }, api, { values, words, guarded }) {
+  let turn = 0; // of the package that is shown; another one, or another project, takes the next
+  let shown = null; // what the server told of it last
+
+  function compare() {
+    if (shown) noteValues(status, isSame(shown.values, values()) ? "" : words(shown.values));
   }
+
+  // Show a package until it is over, from what `begin` promises that the server tells of it.
+  async function track(begin) {
+    turn += 1;
+    const mine = turn;
+    const isWanted = () => mine === turn;
+    // Who pressed a button that goes or is disabled gets the next one; a page that is loaded does not.
+    const keepsFocus = document.activeElement === make || status.contains(document.activeElement);
+    make.disabled = true;
+    try {
+      await follow(api, await begin(), { isWanted, show: (told) => show(told, keepsFocus) });
+    } catch (error) {
+      if (!isWanted()) return;
+      if (status.querySelector("progress")) offer(); // no bar that nothing moves
+      throw error;
+    } finally {
+      if (isWanted()) make.disabled = false;
+    }
+    if (keepsFocus && hasLostFocus()) make.focus();
+  }
+
+  function show(told, keepsFocus) {
+    shown = told;
+    showPackage(status, api, told, { cancel, keepsFocus });
+    compare();
+  }
+
+  const cancel = guarded(() => track(() => api.cancelPackage(shown.ticket)));
+
+  // Nothing is made, and nothing can be saved.
+  function offer() {
+    shown = null;
+    replace(status, html("p", { class: "note" }, WHAT));
+  }
+
+  make.addEventListener("click", guarded(() => track(() => api.startPackage(values()))));
+  return {
+    compare,
+    open(told) {
+      turn += 1;
+      make.disabled = false;
+      offer();
+      if (told) guarded(() => track(async () => told))();
+    },
+  };
 }
 
 /** Show a sentence and say it to a screen reader. */
@@ -42,12 +76,43 @@ export function say(status, api, sentence) {
   api.announce(sentence);
 }
 
-/** Note beside a package what it is made with, where the page has other values; no words where not. */
-export function noteValues(status, words) {
+// Show a package, from what the server told of it, until it is over or no longer wanted.
+async function follow(api, told, { isWanted, show }) {
+  let latest = told;
+  while (isWanted()) {
+    show(latest);
+    if (isOver(latest)) return;
+    await new Promise((done) => {
+      setTimeout(done, POLL_MS);
+    });
+    if (isWanted()) latest = await api.packageState(told.ticket);
+  }
+}
+
+// How far a package is, its files, or what became of it.
+function showPackage(status, api, told, { cancel, keepsFocus }) {
+  if (!isOver(told)) {
+    showProgress(status, api, told, cancel);
+    if (keepsFocus && hasLostFocus()) status.querySelector("button").focus();
+  } else if (told.state === "done") {
+    showFiles(status, told.ticket);
+    if (keepsFocus && hasLostFocus()) status.querySelector("a").focus();
+    api.announce("The package is made. Its files can be saved.");
+  } else {
+    say(status, api, told.state === "failed" ? told.message : "The package was cancelled.");
+  }
+}
+
+// Beside a package, what it is made with where the page has other values; no words where not.
+function noteValues(status, words) {
   const note = status.querySelector(".made-with");
   if (!note) return;
   const when = status.querySelector(".made") ? "Made" : "Started";
   note.textContent = words && `${when} before the last change of values, with ${words}.`;
+}
+
+function isOver({ state }) {
+  return state !== "queued" && state !== "running";
 }
 
 // The elements stay while the package is made, so that Cancel keeps the focus.
@@ -58,7 +123,6 @@ function showProgress(status, api, { state, place, stage, part }, cancel) {
       html("label", {}, html("span", { class: "stage" }), html("progress", { max: 1 }), madeWith()),
       html("button", { type: "button", class: "button", on: { click: cancel } }, "Cancel"),
     );
-    catchFocus(status, "button");
   }
   const words = state === "queued" ? `In line, place ${place}` : stage;
   const shown = status.querySelector(".stage");
@@ -74,15 +138,13 @@ function showProgress(status, api, { state, place, stage, part }, cancel) {
 function showFiles(status, ticket) {
   const made = FILES.map(([name, label]) => html("a", { href: `/api/package/${ticket}/${name}`, download: name }, label));
   replace(status, html("p", { class: "made" }, made, madeWith()));
-  catchFocus(status, "a");
 }
 
 function madeWith() {
   return html("em", { class: "made-with" });
 }
 
-// The button that had the focus is disabled or gone: its successor gets it.
-function catchFocus(status, successor) {
-  const active = document.activeElement;
-  if (active === document.body || active.disabled) status.querySelector(successor).focus();
+// Whether what had the focus is disabled or gone.
+function hasLostFocus() {
+  return document.activeElement === document.body || document.activeElement.disabled;
 }

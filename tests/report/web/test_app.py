@@ -225,14 +225,24 @@ def test_a_package_is_queued_and_cancelled(client):
     begun = client.post("/api/package", json={"values": {"friction": 0.9}}).json()
     ticket = begun["ticket"]
     assert begun["values"] == {"friction": 0.9}
-    again = client.post("/api/package", json={"values": {}})
-    assert again.status_code == 422
-    assert again.json()["error"].startswith("A package is being made already")
+    # Another tab gets the one that is being made, and a page that is loaded finds it.
+    again = client.post("/api/package", json={"values": {}}).json()
+    assert (again["ticket"], again["values"]) == (ticket, {"friction": 0.9})
+    assert client.get("/api/state").json()["package"]["ticket"] == ticket
     assert client.get(f"/api/package/{ticket}/calc-package.pdf").status_code == 404
     assert client.delete(f"/api/package/{ticket}").json()["state"] == "cancelled"
+    assert client.get("/api/state").json()["package"] is None
     client.cookies.clear()
     client.get(f"/?token={TOKEN}")
     assert client.get(f"/api/package/{ticket}").status_code == 404
+
+
+def test_opening_another_project_cancels_the_package_that_is_made(client):
+    ticket = client.post("/api/package", json={"values": {}}).json()["ticket"]
+    opened = sent(client, folder_of(CONDITIONS)).json()
+    assert opened["package"] is None
+    assert client.get(f"/api/package/{ticket}").json()["state"] == "cancelled"
+    assert client.get("/api/state").json()["package"] is None
 
 
 def over(client, ticket):

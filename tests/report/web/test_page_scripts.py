@@ -161,7 +161,7 @@ TAKEAWAY = """
       ...g?.api,
     };
     const all = { values: () => values, words: ({ friction }) => `friction ${friction}`,
-      fail: (error) => failed.push(error.message) };
+      fail: (error) => failed.push(error.message), forget() {} };
     const takeaway = m.mountTakeaway({ make, workbook, copy, status }, api, all);
     const pause = () => new Promise((done) => setTimeout(done, 20));
     const until = async (holds) => {
@@ -184,6 +184,52 @@ def test_a_package_names_what_it_is_made_with_wherever_the_page_has_other_values
         return [...notes, note()];"""
     before = "before the last change of values, with friction 0.9."
     assert called(page, "takeaway", body) == ["", f"Started {before}", f"Made {before}", ""]
+
+
+def test_a_package_that_is_cancelled_and_made_again_at_once_is_the_one_that_is_followed(page):
+    body = f"""{TAKEAWAY}
+        make.focus();
+        make.click(); await has("progress");
+        const focused = [document.activeElement.textContent];
+        const cancelled = {{ ...state, state: "cancelled" }};
+        let answer;
+        api.cancelPackage = () => new Promise((done) => {{ answer = () => done(cancelled); }});
+        status.querySelector("button").click();
+        const seen = [make.disabled];
+        answer(); await until(() => !make.disabled);
+        await pause();
+        focused.push(document.activeElement === make);
+        seen.push(status.textContent);
+        make.click(); await has("progress");
+        await pause();
+        return [focused, ...seen, make.disabled, status.textContent];"""
+    focused, *found = called(page, "takeaway", body)
+    assert focused == ["Cancel", True]
+    assert found == [True, "The package was cancelled.", True, "PlansCancel"]
+
+
+def test_a_package_is_found_on_loading_and_gone_with_its_project(page):
+    body = f"""{TAKEAWAY}
+        takeaway.open(state); await has("progress");
+        const seen = [make.disabled, document.activeElement === document.body];
+        takeaway.open(null);
+        seen.push(make.disabled, status.textContent.slice(0, 11));
+        takeaway.open({{ ...state, state: "done" }}); await has(".made");
+        return [...seen, make.disabled, status.querySelectorAll("a").length];"""
+    assert called(page, "takeaway", body) == [True, True, False, "The package", False, 4]
+
+
+def test_without_the_server_no_bar_is_left_and_the_package_can_be_asked_for_again(page):
+    body = f"""{TAKEAWAY}
+        make.click(); await has("progress");
+        const answer = api.packageState;
+        api.packageState = async () => {{ throw new Error("The server does not answer."); }};
+        await until(() => failed.length > 0);
+        const seen = [failed, status.querySelector("progress"), make.disabled];
+        api.packageState = answer;
+        make.click(); await has("progress");
+        return seen;"""
+    assert called(page, "takeaway", body) == [["The server does not answer."], None, False]
 
 
 def test_labels_are_placed_near_free_of_one_another_and_inside(page):

@@ -1,0 +1,36 @@
+"""Packages of a session, with processes that only wait."""
+
+import asyncio
+import sys
+from pathlib import Path
+
+from report.web.packages import Packages, State
+from report.web.sessions import Session
+
+
+def test_a_package_that_is_cancelled_while_its_process_starts_leaves_no_process(monkeypatch):
+    start = asyncio.create_subprocess_exec
+    started = []
+
+    async def run():
+        packages = Packages()
+        session = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
+        package = packages.begin(session, Path("/nowhere/p/input.xlsx"), {})
+
+        async def slow(*_, **options):
+            await packages.cancel(package)
+            options.pop("env")
+            started.append(
+                await start(sys.executable, "-c", "import time; time.sleep(60)", **options)
+            )
+            return started[0]
+
+        monkeypatch.setattr("asyncio.create_subprocess_exec", slow)
+        async with asyncio.timeout(20.0):
+            while package.state is State.QUEUED or not started:
+                await asyncio.sleep(0.01)
+            await started[0].wait()
+        await packages.stop()
+        return package.state
+
+    assert asyncio.run(run()) is State.CANCELLED
