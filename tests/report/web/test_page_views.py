@@ -221,6 +221,27 @@ def test_between_computed_points_the_logarithm_is_linear(page):
     assert [one["isComputed"] for one in found] == [True, True, False, False]
 
 
+CLEARANCES = """async (gap) => {
+  document.body.innerHTML = '<link rel="stylesheet" href="/static/style.css">' +
+    '<table class="numbers" id="clearances"></table>';
+  await new Promise((done) => (document.querySelector('link').onload = done));
+  const table = document.querySelector('table');
+  table.style.width = '352px'; // beside the plan, on a screen of 1280 pixels
+  const { showClearances } = await import('/static/results.js');
+  showClearances(table, [gap]);
+  await document.fonts.ready;
+  return table.getBoundingClientRect().width;
+}"""
+
+
+@pytest.mark.parametrize("verdict", ["NG", "OK with conditions"])
+def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(page, verdict):
+    gap = {"array": "ARRAY-NW-01", "object": "PV existing 2014", "direction": "across"}
+    gap |= {"provided": "", "provided_short": "96.0 in", "required": "", "ratio_text": "0.83"}
+    gap |= {"required_short": "107.5 in", "verdict": verdict}
+    assert page.evaluate(CLEARANCES, gap) <= 352
+
+
 # --- watch it slide
 
 
