@@ -164,11 +164,12 @@ def _us_first(assessment: Assessment) -> bool:
 
 
 def _run_choice(motion: MotionRun, run: HeadingRun, us_first: bool) -> Json:
-    governs = ", governing" if run is motion.governing else ""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
-    prd_m = run.result.prd_m
-    prd = "no PRD" if math.isnan(prd_m) else f"PRD {measured(prd_m, unit)} {unit.symbol}"
-    label = f"{_heading(motion, run)}, {prd}{governs}"
+    label, prd_m = f"{_heading(motion, run)}, no PRD", run.result.prd_m
+    if not math.isnan(prd_m):
+        governs = ", governing" if run is motion.governing else ""
+        prd = f"PRD {measured(prd_m, unit)} {unit.symbol}"
+        label = f"{_heading(motion, run)}, {prd}{governs}"
     return {"name": run.heading.name, "label": label}
 
 
@@ -258,13 +259,17 @@ def _slide_texts(
     return {
         "prd": f"{_prd(result.prd_m, us_first)}{when}",
         "model": f"Model: {rung.title}; {run.solution.reason}.",
-        "status": "" if result.status is Status.OK else f"This run is {result.status.sentence}.",
+        "status": "" if result.status is Status.OK else _capitalized(result.status.sentence),
         "roof": "Roof velocity and displacement are integrated from the acceleration as analyzed, "
         "without baseline correction; the roof moves "
         f"{pair(travel, Quantity.DISPLACEMENT, us_first)} at most.",
         "axes": "Down is downslope; cross is cross-slope, positive to the left when facing "
         "downslope.",
     }
+
+
+def _capitalized(sentence: str) -> str:
+    return f"{sentence[0].upper()}{sentence[1:]}."
 
 
 def _levels(found: Surface, us_first: bool) -> Iterator[Json]:

@@ -8,6 +8,7 @@ import { lastUpTo } from "./view-series.js";
 const ARRAY = 0.3; // of the drawing, that the array fills
 const MOTION = 0.34; // of the drawing, to each side, that the motion fills
 const GRID = 26; // pixels between the lines of the roof
+const LEAST_M = 1e-4; // a motion below it is none
 const BAR = 80; // pixels of the scale bar, at most
 
 /**
@@ -66,10 +67,11 @@ function scaleOf({ reach, relative }, outline, width, height) {
   const least = Math.min(width, height);
   const box = boxOf(outline);
   const perMeter = (ARRAY * least) / Math.max(box.wide, box.tall, 1e-9);
-  const factor = roundBelow((MOTION * least) / (Math.max(reach, 1e-4) * perMeter));
+  const moves = reach >= LEAST_M;
+  const factor = moves ? roundBelow((MOTION * least) / (reach * perMeter)) : 1;
   const pixel = factor * perMeter;
   const path = relative.map(([x, y]) => [x * pixel, -y * pixel]);
-  return { width, height, box, perMeter, factor, pixel, path, along: lengths(path) };
+  return { width, height, box, perMeter, moves, factor, pixel, path, along: lengths(path) };
 }
 
 function place(shapes, { peak }, data, scale) {
@@ -147,7 +149,8 @@ function translation([x, y]) {
   return `translate(${x.toFixed(2)} ${(-y).toFixed(2)})`;
 }
 
-function drawFoot(foot, { cx, cy, scale: { pixel, factor }, title, data }) {
+function drawFoot(foot, { cx, cy, scale: { pixel, moves, factor }, title, data }) {
+  const shown = factor === 1 ? "motion to scale" : `motion × ${factor}`;
   const unit = data.units.displacement[0];
   const length = roundBelow(BAR / pixel / unit.si);
   const wide = length * unit.si * pixel;
@@ -158,7 +161,7 @@ function drawFoot(foot, { cx, cy, scale: { pixel, factor }, title, data }) {
     foot,
     svg("path", { class: "bar-line", d: `M${left} ${low - 4}v8M${left} ${low}h${wide}m0 -4v8` }),
     svg("text", { class: "label on-line", x: left + wide + 6, y: low + 4 }, `${length} ${unit.symbol}`),
-    svg("text", { class: "tick on-line", x: left, y: -cy + 16 }, factor === 1 ? `${title}, motion to scale` : `${title}, motion × ${factor}`),
+    svg("text", { class: "tick on-line", x: left, y: -cy + 16 }, moves ? `${title}, ${shown}` : title),
     svg("path", { class: "arrow", d: `M${-14 * dx} ${14 * dy}L${14 * dx} ${-14 * dy}m${-8 * dx - 4 * dy} ${8 * dy - 4 * dx}l${8 * dx + 4 * dy} ${-8 * dy + 4 * dx}l${-8 * dx + 4 * dy} ${8 * dy + 4 * dx}`, transform: `translate(${ax} ${ay})` }),
     svg("text", { class: "tick on-line end-at", x: cx - 8, y: cy - 48 }, "downslope"),
   );

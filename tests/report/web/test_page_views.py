@@ -378,6 +378,7 @@ def test_a_run_without_displacement_is_drawn_at_rest(page):
     mounted(page, "slide", answer)
     assert "normal force falls below zero" in text(page, ".slip-text")
     assert "—" in page.locator(".panel-head").first.inner_text()
+    assert page.locator(".track-foot .tick").all_text_contents()[2] == "On the roof"
     assert page.locator(".track .peak").nth(1).get_attribute("visibility") == "hidden"
     mounted(page, "histories", answer)
     assert page.locator(".panel").count() == 4
