@@ -16,7 +16,7 @@ from report.assessment.verdict import Verdict
 from report.pages.front import verdict_sentence
 from report.pages.registry import package_data
 from report.pages.summary import attention
-from report.web.plan import plan
+from report.web.plan import NO_VALUE, plan
 from report.words.units import Quantity, Show, compared, measured, pair, ratio
 
 ONE_AXIS, FULL = "one axis", "full"
@@ -57,17 +57,19 @@ class _Shown:
         return None if self._is_provisional else verdict.value
 
     def source(self, item: ArrayAssessment) -> str:
-        """Return what governs; while values are provisional, not whether it is permitted."""
+        """Return what governs, if anything; while values are provisional, not whether it may."""
+        if math.isnan(item.design_m):
+            return ""
         return item.governs.value if self._is_provisional else item.source
 
     def length(self, value_m: float) -> str:
         """Return a displacement in both systems of units, or that there is none."""
-        return "none" if math.isnan(value_m) else pair(value_m, Quantity.SIZE, self.us_first)
+        return NO_VALUE if math.isnan(value_m) else pair(value_m, Quantity.SIZE, self.us_first)
 
     def short(self, value_m: float, show: Show = measured) -> str:
         """Return a length in the first system of units."""
         unit = Quantity.SIZE.us if self.us_first else Quantity.SIZE.si
-        return "none" if math.isnan(value_m) else f"{show(value_m, unit)} {unit.symbol}"
+        return NO_VALUE if math.isnan(value_m) else f"{show(value_m, unit)} {unit.symbol}"
 
 
 def _whole(assessment: Assessment) -> str:
@@ -125,11 +127,11 @@ def _clearance(shown: _Shown, gap: ClearanceCheck) -> Mapping[str, Any]:
         "required_m": finite(gap.required_m),
         "ratio": finite(gap.demand_capacity),
         "provided": pair(row.provided_m, Quantity.SIZE, shown.us_first, provided),
-        "required": "none" if has_none
+        "required": NO_VALUE if has_none
         else pair(gap.required_m, Quantity.SIZE, shown.us_first, required),
         "provided_short": shown.short(row.provided_m, provided),
         "required_short": shown.short(gap.required_m, required),
-        "ratio_text": ratio(gap.demand_capacity),
+        "ratio_text": NO_VALUE if has_none else ratio(gap.demand_capacity),
         "verdict": shown.verdict(gap.verdict),
     }  # fmt: skip
 

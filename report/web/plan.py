@@ -18,6 +18,9 @@ from report.sheet.schema import ObjectKind, ProjectInput, Shape
 from report.sheet.shapes import Point, around, closest, label_point
 from report.words.units import Quantity, compared, round_below
 
+NO_VALUE = "no value"
+"""In place of a length that no run gives: nothing is required only where it is zero."""
+
 ShowVerdict = Callable[[Verdict], str | None]
 
 
@@ -87,7 +90,7 @@ def _gaps(assessment: Assessment, show: ShowVerdict) -> Iterator[Mapping[str, An
             "from": _point(start),
             "to": _point(end),
             "provided": f"{show_provided(provided, unit)} {unit.symbol}",
-            "required": "none"
+            "required": NO_VALUE
             if math.isnan(required)
             else f"{show_required(required, unit)} {unit.symbol}",
             "verdict": show(check.verdict),

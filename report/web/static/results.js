@@ -43,7 +43,7 @@ export function showArrays(element, arrays, picked, pick) {
       { class: array.id === picked ? "is-picked" : null },
       html("th", { scope: "row" }, pickButton(array.id, array.id === picked, pick)),
       html("td", { title: array.mean_prd }, array.mean_prd_short ?? array.mean_prd),
-      html("td", { title: `${array.design}, ${array.source}` }, array.design_short ?? array.design),
+      html("td", { title: [array.design, array.source].filter(Boolean).join(", ") }, array.design_short ?? array.design),
       html("td", { title: array.prescriptive }, array.prescriptive_short ?? array.prescriptive),
       html("td", { class: "word" }, tag(array.verdict)),
     );

@@ -7,6 +7,7 @@ from functools import cache
 
 import pytest
 
+import stand_in
 from places import ROOT
 from report.assessment.project import anticipate, assess
 from report.sheet.parts import changed
@@ -73,6 +74,22 @@ def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
     again = written(project, values, tmp_path)
     assert again.sheet.project == with_values(given, values).sheet.project
     assert again.sheet.project != given.sheet.project
+
+
+def test_where_no_run_gives_a_displacement_the_page_says_no_value():
+    lifted = stand_in.motions(1, seconds=4.0)[0]
+    lifted = stand_in.motion("M1", lifted.ax_mps2, 4.0 * lifted.az_mps2, dt_s=0.005)
+    arrays = [stand_in.array("A1", 0.5)]
+    objects = [stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)]
+    gaps = [stand_in.clearance("A1", "RTU-1", 9.0)]
+    data = stand_in.project(
+        options={"peer_reviewed": True}, arrays=arrays, objects=objects, clearances=gaps
+    )
+    found = answer(stand_in.assessed(stand_in.book(data, [lifted])), is_provisional=True)
+    (array,), (gap,), (drawn,) = found["arrays"], found["clearances"], found["plan"]["gaps"]
+    assert {array["mean_prd"], array["mean_prd_short"]} == {"no value"}
+    assert {gap["required"], gap["required_short"], drawn["required"]} == {"no value"}
+    assert '"none"' not in json.dumps(found)
 
 
 def test_a_law_by_velocity_is_multiplied_as_a_whole():
