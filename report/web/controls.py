@@ -72,7 +72,7 @@ def check(given: Opened, values: Values) -> None:
             span = sliders[name]["least"], sliders[name]["greatest"]
             if not _is_number(value) or not span[0] <= float(value) <= span[1]:
                 wanted = f"give a number from {span[0]:g} to {span[1]:g}"
-                why = f" ({sliders[name]['why']})" if sliders[name]["why"] else ""
+                why = "".join(f" ({text})" for text in sliders[name]["stops"].values())
                 wrong.append(f"{sliders[name]['label']} is {cut(str(value))}; {wanted}{why}")
         elif name not in choices:
             wrong.append(f"{cut(name)}: the workbook has no such slider; leave it out")
@@ -110,12 +110,12 @@ def _slider(
     least, greatest, step = span
     return {
         "id": name, "label": label, "unit": unit, "least": least, "greatest": greatest,
-        "step": step, "value": start, "typed": start, "help": words, "why": "",
+        "step": step, "value": start, "typed": start, "help": words, "stops": {},
     }  # fmt: skip
 
 
 def _stopped(given: Opened, slider: dict[str, Any]) -> dict[str, Any]:
-    """Return a slider that ends where the workbook could have no value beyond, and says why."""
+    """Return a slider that stops where the workbook could have no value beyond, and says why."""
     for end in ("least", "greatest"):
         away = round((slider[end] - slider["typed"]) / slider["step"])
         if not _problem_at(given, slider, away):
@@ -125,11 +125,11 @@ def _stopped(given: Opened, slider: dict[str, Any]) -> dict[str, Any]:
         while abs(bad - good) > 1:
             middle = (good + bad) // 2
             good, bad = (good, middle) if _problem_at(given, slider, middle) else (middle, bad)
-        why = f"beyond the {end}: {_problem_at(given, slider, bad)}"
+        why = f"No value beyond the {end}: {_problem_at(given, slider, bad)}"
         slider = slider | {
             end: _value_at(slider, good),
-            "why": f"{slider['why']}; {why}" if slider["why"] else why,
-            "help": f"{slider['help']} {why[0].upper()}{why[1:]}.",
+            "stops": slider["stops"] | {end: why},
+            "help": f"{slider['help']} {why}.",
         }
     return slider
 

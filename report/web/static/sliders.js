@@ -1,5 +1,6 @@
 // Sliders and choices: native controls, so that the keyboard and a screen reader know them.
 
+import { own } from "./changes.js";
 import { html, replace, words } from "./make.js";
 
 /** Show the controls of a project; returns how to follow its answers. */
@@ -17,14 +18,14 @@ export function mountSliders(element, { sliders, choices }, values, session) {
 function slider(item, values, session) {
   const id = `slider-${item.id}`;
   const output = html("output", { for: id, class: "numbers" });
-  const ticks = html("datalist", { id: `${id}-typed` }, html("option", { value: item.typed }));
+  const amount = html("span", { class: "numbers amount" });
+  const stop = html("p", { class: "stop", hidden: true });
   const input = html("input", {
     id,
     type: "range",
     min: item.least,
     max: item.greatest,
     step: item.step,
-    list: ticks.id,
     "aria-describedby": item.help ? `${id}-help` : null,
     on: {
       input: () => {
@@ -44,16 +45,22 @@ function slider(item, values, session) {
       on: {
         click: () => {
           input.value = item.typed;
+          session.set({ [item.id]: item.typed });
           mark();
           input.focus();
-          session.set({ [item.id]: item.typed });
         },
       },
     },
     "Reset",
   );
   // `hidden` would move the focus; an untouched slider keeps the button's place.
-  const mark = () => back.classList.toggle("is-idle", input.valueAsNumber === item.typed);
+  const mark = () => {
+    const value = session.values()[item.id];
+    back.classList.toggle("is-idle", value === item.typed);
+    amount.textContent = own(item, value);
+    stop.textContent = stopOf(item, value);
+    stop.hidden = stop.textContent === "";
+  };
   input.value = values[item.id];
   mark();
   const say = (text) => {
@@ -63,13 +70,27 @@ function slider(item, values, session) {
   const field = html(
     "div",
     { class: "slider" },
-    html("div", { class: "slider-head" }, html("label", { for: id, title: item.help }, words(item.label)), back),
+    html("div", { class: "slider-head" }, html("label", { for: id, title: item.help }, words(item.label)), amount, back),
     output,
-    input,
-    ticks,
+    html("div", { class: "range" }, input, typedMark(item)),
+    stop,
     item.help ? html("p", { class: "note", id: `${id}-help` }, item.help) : null,
   );
   return { id: item.id, field, say };
+}
+
+// Where the value of the workbook is. No datalist: its values pull the pointer, so that those beside it
+// cannot be chosen.
+function typedMark({ least, greatest, typed }) {
+  const mark = html("span", { class: "typed-mark" });
+  mark.style.setProperty("--share", (typed - least) / (greatest - least));
+  return mark;
+}
+
+// Why a slider goes no further, where it is at such an end.
+function stopOf({ least, greatest, stops }, value) {
+  if (value <= least) return stops.least ?? "";
+  return value >= greatest ? (stops.greatest ?? "") : "";
 }
 
 function choice(item, values, session) {

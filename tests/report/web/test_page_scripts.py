@@ -146,6 +146,56 @@ def test_what_is_changed_is_named_and_what_is_as_typed_is_not(page):
     assert found == ["Friction × 0.90, Rule set: ASCE B", *["the values of the workbook"] * 2]
 
 
+SLIDER = {
+    "id": "friction", "label": "Friction", "unit": "×", "least": 0.5, "greatest": 1.01,
+    "step": 0.01, "typed": 1, "help": "", "stops": {"greatest": "No value beyond the greatest."},
+}  # fmt: skip
+MOUNT = """
+    document.body.innerHTML = "<div></div>";
+    document.body.firstChild.style.width = "250px";
+    const values = { friction: g.value };
+    const move = (id, value) => (values[id] = value);
+    const session = { values: () => values, move, set() {}, release() {} };
+    const state = { sliders: [g.slider], choices: [] };
+    m.mountSliders(document.body.firstChild, state, values, session);
+    document.querySelector("input").style.width = "250px";
+    const shown = (selector) => document.querySelector(selector).textContent;
+"""
+
+
+@pytest.mark.parametrize(
+    ("value", "amount", "stop", "is_typed"),
+    [
+        (1.01, "× 1.01", "No value beyond the greatest.", False),
+        (1, "× 1.00", "", True),
+        (0.5, "× 0.50", "", False),
+        (1.001, "× 1.001", "", False),
+    ],
+)
+def test_a_slider_shows_the_value_that_is_computed_and_why_it_goes_no_further(
+    page, value, amount, stop, is_typed
+):
+    body = f"""{MOUNT}
+        const isIdle = document.querySelector(".back").classList.contains("is-idle");
+        return [shown(".amount"), shown(".stop"), isIdle];"""
+    found = called(page, "sliders", body, {"slider": SLIDER, "value": value})
+    assert found == [amount, stop, is_typed]
+
+
+def test_the_values_beside_that_of_the_workbook_can_be_chosen_with_the_mouse(page):
+    called(page, "sliders", MOUNT, {"slider": SLIDER, "value": 0.7})
+    box = page.locator("input").bounding_box()
+    y = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + 100, y)
+    page.mouse.down()
+    chosen = set()
+    for x in range(int(box["width"]) - 30, int(box["width"])):
+        page.mouse.move(box["x"] + x, y)
+        chosen.add(page.locator(".amount").inner_text())
+    page.mouse.up()
+    assert {"× 0.98", "× 0.99", "× 1.00", "× 1.01"} <= chosen
+
+
 TAKEAWAY = """
     const button = "<button></button>";
     document.body.innerHTML = `${button}${button}${button}<div></div>`;

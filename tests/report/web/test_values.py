@@ -138,7 +138,8 @@ def test_sliders_end_where_the_workbook_could_have_no_value_beyond():
     given = start("example")
     friction = controls(given)["sliders"][0]
     assert (friction["id"], friction["greatest"]) == ("friction", 1.01)
-    assert "the tests give 0.505" in friction["why"]
+    assert "the tests give 0.505" in friction["stops"]["greatest"]
+    assert "least" not in friction["stops"]
     scales = given.scales
     at_end = retyped(given.sheet, typed(given.sheet, scales, {"friction": 1.01}))
     beyond = retyped(given.sheet, typed(given.sheet, scales, {"friction": 1.02}))
