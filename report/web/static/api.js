@@ -11,10 +11,16 @@ export class ApiError extends Error {
 
 const ENDED = 401; // the session
 const OTHER_PROJECT = 412; // is open in the session
+const UNREACHED = 0;
 
 /** Whether nothing but loading the page again helps. */
 export function needsReload({ status }) {
   return status === ENDED || status === OTHER_PROJECT;
+}
+
+/** Whether no server answered. */
+export function isUnreached({ status }) {
+  return status === UNREACHED;
 }
 
 /** Load the page again, without the values in its address: they belong to the project that was open. */
@@ -108,7 +114,7 @@ async function sent(url, options) {
   try {
     reply = await fetch(url, options);
   } catch {
-    throw new ApiError(UNREACHABLE, 0);
+    throw new ApiError(UNREACHABLE, UNREACHED);
   }
   if (reply.ok) return reply;
   const told = await reply.json().catch(() => ({}));

@@ -1,6 +1,6 @@
 // Starts the page and joins its parts. Read session.js for what happens when a slider moves.
 
-import { createApi, needsReload, reload } from "./api.js";
+import { createApi, isUnreached, needsReload, reload } from "./api.js";
 import { showBars } from "./bars.js";
 import { changes } from "./changes.js";
 import { fromFragment, toFragment } from "./link.js";
@@ -183,10 +183,12 @@ function choose(changed) {
 
 // The values have no answer: refused with their problems, or the server did not answer.
 function failAnswer(error, moving) {
-  const isRefused = error.problems?.length > 0;
+  const reasons = (error.problems ?? []).map(({ text }) => text);
+  const isRefused = reasons.length > 0;
   if (moving && !isRefused) return; // the full model is asked next, and tells
   document.body.dataset.phase = "failed";
-  showNoVerdict(part("verdict"), isRefused ? error.problems.map(({ text }) => text) : []);
+  const unanswered = isUnreached(error) ? "the server does not answer" : "the server gave no answer";
+  showNoVerdict(part("verdict"), isRefused ? "these values have no answer" : unanswered, reasons);
   if (isRefused) announce(`No verdict. ${error.message}`);
   // While another project is opened here, its answer replaces what was asked of the last one.
   else if (!document.body.hasAttribute("aria-busy")) fail(error, "Try again", session.rest);

@@ -25,9 +25,9 @@ export function showProvisional(element, what, model) {
   replace(element, html("p", { class: "verdict-line" }, mark, " ", what), html("p", { class: "note" }, model));
 }
 
-/** Show that these values have no answer, and why. */
-export function showNoVerdict(element, reasons) {
-  replace(element, html("p", { class: "verdict-line" }, "No verdict: these values have no answer."), list(reasons));
+/** Show that there is no verdict, and why, with the reasons of the server where it gave any. */
+export function showNoVerdict(element, why, reasons) {
+  replace(element, html("p", { class: "verdict-line" }, `No verdict: ${why}.`), list(reasons));
 }
 
 function list(reasons) {
