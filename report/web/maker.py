@@ -32,7 +32,7 @@ def main() -> None:
     workbook, out = (Path(each) for each in sys.argv[1:])
     try:
         with beside() as second:
-            make(workbook, out, None, lambda stage: _say(stage=stage), second)
+            make(workbook, out, None, lambda stage: _say(stage=in_words(stage)), second)
     except InputError as error:
         _say(stage="failed", message=error.problems[0])
     except MemoryError:
@@ -42,6 +42,12 @@ def main() -> None:
         _say(stage="failed", message="An internal error; see what roofslip serve printed.")
     else:
         _say(stage="done")
+
+
+def in_words(stage: str) -> str:
+    """Return a step as a sentence of the page, where the solver is compiled by then."""
+    words = stage.removesuffix(" (the first run compiles the solver)")
+    return f"{words[0].upper()}{words[1:]}"
 
 
 def _say(**said: str) -> None:

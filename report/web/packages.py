@@ -65,7 +65,7 @@ class Package:
     workbook: Path
     values: Values
     state: State = State.QUEUED
-    stage: str = "waiting"
+    stage: str = "Waiting"
     step: int = 0
     message: str = ""
     process: Process | None = None
@@ -146,7 +146,7 @@ class Packages:
         """End a package, and the process that makes it."""
         if package.state.is_over:
             return
-        package.state, package.stage = State.CANCELLED, "cancelled"
+        package.state, package.stage = State.CANCELLED, "Cancelled"
         if package.process is not None:
             await _end(package.process)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from starlette.concurrency import run_in_threadpool
-from starlette.datastructures import UploadFile
+from starlette.datastructures import FormData, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.types import Message
@@ -74,7 +74,7 @@ async def received(request: Request, folder: Path) -> Path:
         The folder is then removed.
     """
     try:
-        form = await _capped(request, MOST_SENT).form(max_files=MOST_FILES, max_fields=_MOST_FIELDS)
+        form = await _form(request)
         try:
             files = [
                 (part.filename or "", part.file)
@@ -87,6 +87,21 @@ async def received(request: Request, folder: Path) -> Path:
     except BaseException:
         await run_in_threadpool(remove, folder)
         raise
+
+
+async def _form(request: Request) -> FormData:
+    """Return the files of a request; errors of the form are those of what was dropped."""
+    capped = _capped(request, MOST_SENT)
+    try:
+        return await capped.form(max_files=MOST_FILES, max_fields=_MOST_FIELDS)
+    except HTTPException as error:
+        if error.status_code != 400:
+            raise
+        if error.detail.startswith("Too many files"):
+            raise InputError(
+                f"more than {MOST_FILES} files; drop the workbook and its records"
+            ) from error
+        raise InputError("the files did not arrive whole; drop them again") from error
 
 
 def _capped(request: Request, most: int) -> Request:

@@ -24,6 +24,7 @@ MOST_STORED = 200 * MB
 MOST_FILES = 500
 
 _MOST_NAME, _DEEPEST = 200, 8
+_MOST_BYTES = 255  # of a name, in the file systems of today
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]|[. ]$')
 _DEVICE = re.compile(r"(con|prn|aux|nul|com[0-9]|lpt[0-9])(\..*)?", re.IGNORECASE)
 _CHUNK = 1 << 20
@@ -113,16 +114,27 @@ def checked(name: str) -> PurePosixPath:
     InputError
     """
     parts = name.replace("\\", "/").split("/")
-    is_bad = (
-        len(name) > _MOST_NAME
-        or len(parts) > _DEEPEST
-        or any(part in ("", ".", "..") for part in parts)
-        or any(_FORBIDDEN.search(part) or _DEVICE.fullmatch(part) for part in parts)
-    )
-    if is_bad:
-        shown = _FORBIDDEN.sub("?", name)[:60]
-        raise InputError(f"'{shown}' is no path within a folder; rename the file")
+    if wrong := _wrong(name, parts):
+        raise InputError(f"'{_FORBIDDEN.sub('?', name)[:60]}' {wrong}")
     return PurePosixPath(*parts)
+
+
+def _wrong(name: str, parts: Sequence[str]) -> str:
+    """Return what is wrong with a path and what would do; empty if nothing is."""
+    if len(name) > _MOST_NAME or any(len(part.encode()) > _MOST_BYTES for part in parts):
+        return "is too long; shorten its name"
+    if len(parts) > _DEEPEST:
+        return f"is more than {_DEEPEST - 1} folders deep; move it up"
+    if any(part in ("", ".", "..") for part in parts):
+        return "is no path within a folder; rename the file"
+    if reserved := [part for part in parts if _DEVICE.fullmatch(part)]:
+        return f"is not allowed: Windows reserves the name '{reserved[0]}'; rename it"
+    if any(_FORBIDDEN.search(part) for part in parts):
+        return (
+            "has a character that Windows does not allow in a name, such as : or ?, or ends with "
+            "a period or a space; rename it"
+        )
+    return ""
 
 
 def _opened(content: IO[bytes]) -> zipfile.ZipFile:

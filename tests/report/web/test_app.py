@@ -140,6 +140,12 @@ def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, session
     assert [each.name for each in folder.iterdir()] == [before]
 
 
+def test_more_files_than_a_project_has_are_refused_in_the_words_of_the_page(client):
+    answer = sent(client, [(f"{k}.csv", b"") for k in range(501)])
+    assert answer.status_code == 422
+    assert answer.json()["error"] == "More than 500 files; drop the workbook and its records"
+
+
 def full(*_, **__):
     raise OSError(errno.ENOSPC, "No space left on device")
 

@@ -4,6 +4,7 @@ import asyncio
 import sys
 from pathlib import Path
 
+from report.web.maker import in_words
 from report.web.packages import Packages, State
 from report.web.sessions import Session
 
@@ -34,3 +35,11 @@ def test_a_package_that_is_cancelled_while_its_process_starts_leaves_no_process(
         return package.state
 
     assert asyncio.run(run()) is State.CANCELLED
+
+
+def test_a_step_is_named_in_a_sentence_without_what_compiles():
+    compiling = "running the motions (the first run compiles the solver)"
+    assert in_words(compiling) == "Running the motions"
+    assert (
+        in_words("running the motions (about 3 minutes)") == "Running the motions (about 3 minutes)"
+    )
