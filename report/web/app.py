@@ -28,7 +28,7 @@ from report.web.downloads import package_routes, workbook
 from report.web.limits import is_full
 from report.web.receiving import receive_json, received
 from report.web.sessions import EXAMPLE, OtherProjectError, Sessions
-from report.web.uploads import remove
+from report.web.uploads import is_alone, remove
 from report.web.workers import LostError, Rank, StaleError
 from solver.model import InputError
 
@@ -135,6 +135,7 @@ async def _upload(request: Request) -> Response:
         await run_in_threadpool(remove, folder)
         raise
     if found["problems"]:
+        found["is_alone"] = await run_in_threadpool(is_alone, workbook, folder)
         await run_in_threadpool(remove, folder)
     else:
         await _open(request, workbook)

@@ -178,6 +178,11 @@ def _workbook(paths: Iterable[Path]) -> Path:
     raise InputError(f"{len(top)} workbooks were sent ({names}); name the one to use input.xlsx")
 
 
+def is_alone(workbook: Path, folder: Path) -> bool:
+    """Whether a workbook was sent without any other file."""
+    return all(path == workbook or path.is_dir() for path in folder.rglob("*"))
+
+
 def remove(folder: Path) -> None:
     """Remove a folder with all that was stored in it."""
     shutil.rmtree(folder, ignore_errors=True)

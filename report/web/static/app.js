@@ -15,6 +15,8 @@ import { mountTakeaway } from "./takeaway.js";
 import { mountUpload } from "./upload.js";
 import { createViews } from "./views.js";
 
+const ALONE =
+  "The workbook came alone. Drop its folder on this page, or a zip of it, so that its records come with it. A cell below that names a record has no error of its own.";
 const CORRECT =
   "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
 
@@ -67,25 +69,35 @@ async function opening(fetched, isRestored = false) {
 
 function open(next, isRestored) {
   if (next.problems.length > 0) {
-    session.load({}); // what was asked of the other project is dropped
-    showProblems(part("problems"), next.problems, "Errors in the workbook", CORRECT);
-    part("problems").querySelector("h2").focus();
-    part("desk").hidden = true;
-    part("welcome").hidden = true;
-    named(next.project?.name ?? "This workbook has errors", next.project?.file ?? "");
+    showErrors(next);
     return;
   }
   state = next;
-  part("problems").hidden = true;
-  part("desk").hidden = false;
-  part("welcome").hidden = !state.project.is_example;
-  const { name, file, sha256 } = state.project;
-  named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
+  showDesk();
   replace(part("warnings"), warnings(state.warnings));
   fillSelects();
   if (!isRestored) history.replaceState(null, "", location.pathname);
   restore();
   takeaway.open(state.package);
+}
+
+// A workbook with errors is not opened: what was open stays so.
+function showErrors({ problems, is_alone: isAlone }) {
+  const isLost = isAlone && problems.some(({ cell }) => cell); // a workbook, but no records
+  showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
+  if (state) part("problems").append(html("button", { type: "button", class: "button", on: { click: showDesk } }, `Back to ${state.project.name}`));
+  part("problems").querySelector("h2").focus();
+  part("desk").hidden = true;
+  part("welcome").hidden = true;
+  named("This workbook has errors");
+}
+
+function showDesk() {
+  const { name, file, sha256, is_example: isExample } = state.project;
+  part("problems").hidden = true;
+  part("desk").hidden = false;
+  part("welcome").hidden = !isExample;
+  named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
 }
 
 function named(name, ...file) {

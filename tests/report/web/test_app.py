@@ -186,6 +186,7 @@ def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_pat
     state = sent(client, [("input.xlsx", path.read_bytes())]).json()
     assert state["project"] is None
     assert state["answer"] is None
+    assert state["is_alone"]
     by_cell = {item["cell"]: item for item in state["problems"] if item["sheet"] == "Arrays"}
     row = by_cell["E8"]["row"]
     assert (row["heads"][row["at"]], row["cells"][row["at"]]) == ("Friction coefficient", "wet")

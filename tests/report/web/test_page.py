@@ -200,9 +200,19 @@ def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     assert page.locator("#problems .is-faulty").first.inner_text().startswith("low")
     assert page.locator("#desk").is_hidden()
     assert page.evaluate("document.activeElement.textContent") == "Errors in the workbook"
-    page.click("#example")
+    page.click("text=Back to Distribution Warehouse")
     page.wait_for_selector("#problems", state="hidden")
+    assert "Distribution Warehouse" in page.inner_text("h1")
+    moved(page, "friction", 0.95)
+    page.wait_for_url("**/#friction=0.95")
     at_rest(page)
+
+
+def test_of_a_workbook_that_is_sent_alone_the_page_says_first_that_its_records_are_missing(page):
+    page.set_input_files("#files", EXAMPLE / "input.xlsx")
+    page.wait_for_selector("#problems tbody tr")
+    assert page.inner_text("#problems h2") == "The records were not sent"
+    assert page.inner_text("#problems p").startswith("The workbook came alone. Drop its folder")
 
 
 def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
