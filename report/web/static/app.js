@@ -85,7 +85,7 @@ function open(next, isRestored) {
 function showErrors({ problems, is_alone: isAlone }) {
   const isLost = isAlone && problems.some(({ cell }) => cell); // a workbook, but no records
   showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
-  if (state) part("problems").append(html("button", { type: "button", class: "button", on: { click: showDesk } }, `Back to ${state.project.name}`));
+  if (state) part("problems").querySelector("p").after(html("button", { type: "button", class: "button", on: { click: showDesk } }, `Back to ${state.project.name}`));
   part("problems").querySelector("h2").focus();
   part("desk").hidden = true;
   part("welcome").hidden = true;
