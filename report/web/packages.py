@@ -98,7 +98,7 @@ class Packages:
             shutil.rmtree(workbook.parent, ignore_errors=True)
             return unfinished
         own = self._of(session)
-        for old in own[: len(own) - KEPT + 1]:
+        for old in own[: max(len(own) - KEPT + 1, 0)]:
             del self._all[old.ticket]
             shutil.rmtree(old.workbook.parent, ignore_errors=True)
         ticket = secrets.token_hex(12)

@@ -43,3 +43,20 @@ def test_a_step_is_named_in_a_sentence_without_what_compiles():
     assert (
         in_words("running the motions (about 3 minutes)") == "Running the motions (about 3 minutes)"
     )
+
+
+def test_the_last_five_packages_of_a_session_are_kept(monkeypatch):
+    async def made(_, package):
+        package.state = State.DONE
+
+    async def run():
+        packages = Packages()
+        session = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
+        found = []
+        for k in range(7):
+            found.append(packages.begin(session, Path(f"/nowhere/{k}/input.xlsx"), {}))
+            await asyncio.sleep(0)
+        return [packages.find(session, one.ticket) is not None for one in found]
+
+    monkeypatch.setattr(Packages, "_make", made)
+    assert asyncio.run(run()) == [False] * 2 + [True] * 5
