@@ -57,10 +57,10 @@ def numbers(page, table, column):
 
 
 def required(clearance):
-    """A required separation [in]; one that is not provided is rounded up, as in the package."""
-    value = clearance["required_m"] / INCH_M
-    is_more = clearance["required_m"] > clearance["provided_m"]
-    return f"{math.ceil(10 * value - 1e-6) / 10 if is_more else value:.1f} in"
+    """A required separation [in], rounded up where a smaller one provided would print alike."""
+    needed, given = (clearance[name] / INCH_M for name in ("required_m", "provided_m"))
+    is_alike = needed > given and f"{needed:.1f}" == f"{given:.1f}"
+    return f"{math.ceil(10 * needed - 1e-6) / 10 if is_alike else needed:.1f} in"
 
 
 def saved(page, click):
