@@ -253,12 +253,12 @@ def _peak(history: SlideHistory) -> Json | None:
 def _slide_texts(
     run: HeadingRun, history: SlideHistory, roof: Sequence[Record], us_first: bool
 ) -> Json:
-    result, rung = history.result, run.solution.rung
+    result = history.result
     travel = max(float(np.abs(velocity_displacement(record)[1]).max()) for record in roof)
     when = "" if math.isnan(result.prd_m) else f" at {number(result.t_prd_s, 2)} s"
     return {
         "prd": f"{_prd(result.prd_m, us_first)}{when}",
-        "model": f"Model: {rung.title}; {run.solution.reason}.",
+        "model": f"Model: {run.model}; {run.solution.reason}.",
         "status": "" if result.status is Status.OK else _capitalized(result.status.sentence),
         "roof": "Roof velocity and displacement are integrated from the acceleration as analyzed, "
         "without baseline correction; the roof moves "
