@@ -101,8 +101,8 @@ def project(**changes: object) -> ProjectInput:
         ],
         "motions": [
             _motion("M1", vertical="records/z.csv", source="made"),
-            _motion("M2", scaling="factor", scale_value=2.0, polarity="reversed"),
-            _motion("M3", scaling="PPA", scale_value=1.5, polarity="as recorded", dt_s=0.02),
+            _motion("M2", "x2", scaling="factor", scale_value=2.0, polarity="reversed"),
+            _motion("M3", "x3", scaling="PPA", scale_value=1.5, polarity="as recorded", dt_s=0.02),
         ],
         "options": {"statistic": "1.1 x mean", "peer_reviewed": True},
         "overrides": [
@@ -148,16 +148,20 @@ def _clearance(array: str, other: str, direction: str, provided: float) -> dict[
     }
 
 
-def _motion(name: str, **changes: object) -> dict[str, object]:
-    return {"id": name, "record": "records/x.csv", "units": "g", "dt_s": 0.01, **changes}
+def _motion(name: str, record: str = "x", **changes: object) -> dict[str, object]:
+    return {"id": name, "record": f"records/{record}.csv", "units": "g", "dt_s": 0.01, **changes}
+
+
+WAVES = (("x", 0.5, 0.3), ("x2", 0.5, 0.31), ("x3", 0.5, 0.32), ("z", 0.25, 0.3))
+"""Records of the project: name, peak [g], angle from one sample to the next [rad]."""
 
 
 def make(folder: Path, units: UnitsFirst = UnitsFirst.US, **changes: object) -> Path:
     """Write the project's workbook and records into a folder; return the workbook."""
     records = folder / "records"
     records.mkdir(parents=True, exist_ok=True)
-    for name, peak in (("x", 0.5), ("z", 0.25)):
-        samples = (peak * math.sin(0.3 * i) for i in range(200))
+    for name, peak, per_step in WAVES:
+        samples = (peak * math.sin(per_step * i) for i in range(200))
         text = "".join(f"{sample:.6f}\n" for sample in samples)
         (records / f"{name}.csv").write_text(text)
     path = folder / "input.xlsx"

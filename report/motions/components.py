@@ -83,11 +83,14 @@ class Components:
         By field of `MotionInput`: record, transverse, vertical; with equal time step and length.
     unfiltered : mapping of str to Record
         The same without the high-pass filter; empty if there is none.
+    whole : mapping of str to Record
+        As read, before processing.
     """
 
     files: tuple[RecordFile, ...]
     records: Mapping[str, Record]
     unfiltered: Mapping[str, Record]
+    whole: Mapping[str, Record]
 
 
 def read_components(book: OpenBook, index: int, row: Mapping[str, Any]) -> Components | list[Fault]:
@@ -163,7 +166,9 @@ def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
             yield Fault(Place("motions", index, field), text)
 
 
-_HORIZONTAL = ("record", "transverse")
+HORIZONTAL = ("record", "transverse")
+"""Fields of a motion that name its horizontal components."""
+
 _TO_A_LEVEL = {Scaling.PPA: ("record",), Scaling.TARGET: ("record", "transverse")}
 
 
@@ -189,7 +194,7 @@ def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
             f" give a record of {SHORTEST_S:g} s or more"
         )
         yield Fault(place, text)
-    elif not any(records[field].a_mps2.any() for field in _HORIZONTAL if field in records):
+    elif not any(records[field].a_mps2.any() for field in HORIZONTAL if field in records):
         which = "and transverse records are" if "transverse" in records else "record is"
         yield Fault(place, f"horizontal {which} all zeros; give a record of the shaking")
 
@@ -229,6 +234,7 @@ def _processed(
         ),
         records=kept,
         unfiltered=dict(zip(components, bare, strict=True)) if has_highpass else {},
+        whole={field: component.record for field, component in components.items()},
     )
 
 

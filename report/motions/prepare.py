@@ -1,6 +1,7 @@
 """The motions of a workbook, ready to run: records read, processed, scaled, carried to the roof.
 
-Orders the steps: `components` reads, `history` scales and carries to the roof. Read `prepare`.
+Orders the steps: `components` reads, `repeated` compares, `history` scales and carries to the
+roof. Read `prepare`.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from dataclasses import dataclass
 from report.motions.components import Components, RecordFile, read_components
 from report.motions.files import bytes_of
 from report.motions.history import PreparedMotion, shake
+from report.motions.repeated import repeated
 from report.motions.stiff_links import stiff_links
 from report.sheet.fields import Fault, Place
 from report.sheet.motion_checks import LABELS
@@ -61,7 +63,7 @@ def prepare(sheet: Sheet) -> Shaking:
 
 def read_records(sheet: Sheet) -> tuple[Components, ...]:
     """Read and process the records of each motion; raises as `prepare`, but knows no roof yet."""
-    by_motion: list[Components] = []
+    by_motion: dict[int, Components] = {}
     faults: list[Fault] = []
     total = 0
     for index, row in enumerate(sheet.draft["motions"]):
@@ -73,11 +75,12 @@ def read_records(sheet: Sheet) -> tuple[Components, ...]:
             break
         match read_components(sheet.book, index, row):
             case Components() as components:
-                by_motion.append(components)
+                by_motion[index] = components
             case wrong:
                 faults += wrong
+    faults += repeated(sheet.draft["motions"], by_motion, lambda place: sheet.addresses[place])
     sheet.refuse(faults)
-    return tuple(by_motion)
+    return tuple(by_motion.values())
 
 
 def shaking(sheet: Sheet, by_motion: Sequence[Components]) -> Shaking:

@@ -27,7 +27,7 @@ def test_a_project_that_fails_stops_no_other(tmp_path):
     head, *rows = done.stdout.splitlines()
     assert head.split() == ["project", "verdict", "D/C", "time", "package"]
     assert [row.split()[0] for row in rows] == [str(tmp_path / n) for n in ("one", "two", "none")]
-    assert "3 problems" in rows[1]
+    assert "1 problem " in rows[1]
     assert "1 problem" in rows[2]
     assert (tmp_path / "one" / "out" / "calc-package.pdf").is_file()
     assert not (tmp_path / "two" / "out").exists()

@@ -36,7 +36,7 @@ def records(count=3, seconds=6.0):
 
 
 def prepared(records, unfiltered=None):
-    return Components(files=(), records=records, unfiltered=unfiltered or {})
+    return Components(files=(), records=records, unfiltered=unfiltered or {}, whole={})
 
 
 def shaken(records, data_changes=None, unfiltered=None, **changes):

@@ -5,6 +5,8 @@ import pytest
 from report.motions import prepare as module
 from sheets import make, problems, read_workbook
 
+RECORDS = ("x", "z", "x2", "x3")
+
 
 @pytest.fixture
 def path(tmp_path):
@@ -13,8 +15,8 @@ def path(tmp_path):
 
 
 def test_records_of_too_many_bytes_together_are_refused_by_cell(path, monkeypatch):
-    sizes = [(path.parent / "records" / f"{name}.csv").stat().st_size for name in "xz"]
-    together = 3 * sizes[0] + sizes[1]
+    sizes = [(path.parent / "records" / f"{name}.csv").stat().st_size for name in RECORDS]
+    together = sum(sizes)
     monkeypatch.setattr(module, "MAX_TOGETHER", together)
     assert len(read_workbook(path).motions) == 3
     monkeypatch.setattr(module, "MAX_TOGETHER", together - 1)
@@ -25,8 +27,8 @@ def test_records_of_too_many_bytes_together_are_refused_by_cell(path, monkeypatc
 
 
 def test_once_a_record_is_at_fault_the_others_are_read_within_a_bound(path, monkeypatch):
-    (path.parent / "records" / "x.csv").write_text("0.1\nabc\n0.2\n")
-    assert len(problems(path)) == 3
+    for name in RECORDS:
+        (path.parent / "records" / f"{name}.csv").write_text("0.1\nabc\n0.2\n")
+    assert len(problems(path)) == 4
     monkeypatch.setattr(module, "MAX_BESIDE_FAULTS", 0)
-    (only,) = problems(path)
-    assert only.startswith("Motions!C8")
+    assert [line.split(":")[0] for line in problems(path)] == ["Motions!C8", "Motions!E8"]

@@ -316,7 +316,7 @@ def ground(name="G1", **changes):
         field: Record(name=field, dt_s=given.dt_s, a_mps2=a)
         for field, a in (("record", given.ax_mps2), ("vertical", given.az_mps2))
     }
-    prepared = Components(files=(), records=components, unfiltered=components)
+    prepared = Components(files=(), records=components, unfiltered=components, whole={})
     ((motion, prepared),) = shake(data, [prepared])
     return data, motion, prepared
 

@@ -256,16 +256,20 @@ def test_every_cell_is_echoed_as_typed_and_as_used(path):
 # Formulas: openpyxl saves no values, so LibreOffice saved these.
 
 
-def test_a_workbook_saved_by_libreoffice_reads_the_same(tmp_path):
+@pytest.fixture
+def saved(tmp_path):
+    """The project as LibreOffice saved it, when its motions were one record."""
     path = make(tmp_path)
     path.write_bytes((DATA / "saved-by-libreoffice.xlsx").read_bytes())
-    assert same(read_workbook(path).input, project())
+    return type_into(path, {"Motions!C9": "records/x2.csv", "Motions!C10": "records/x3.csv"})
 
 
-def test_formulas_use_their_saved_values_and_are_shown_in_the_echo(tmp_path):
-    path = make(tmp_path)
-    path.write_bytes((DATA / "saved-by-libreoffice.xlsx").read_bytes())
-    rows = {(row.sheet, row.cell): row.typed for row in read_workbook(path).echo}
+def test_a_workbook_saved_by_libreoffice_reads_the_same(saved):
+    assert same(read_workbook(saved).input, project())
+
+
+def test_formulas_use_their_saved_values_and_are_shown_in_the_echo(saved):
+    rows = {(row.sheet, row.cell): row.typed for row in read_workbook(saved).echo}
     assert rows["Arrays", "E8"] == "=0.4+0.05 → 0.45"
     assert rows["Arrays", "E9"] == "=E8 → 0.45"
 
@@ -323,8 +327,8 @@ def test_records_are_listed_with_their_hashes(tmp_path):
     assert [(r.motion_id, r.component, r.name) for r in records] == [
         ("M1", "horizontal", "records/x.csv"),
         ("M1", "vertical", "records/z.csv"),
-        ("M2", "horizontal", "records/x.csv"),
-        ("M3", "horizontal", "records/x.csv"),
+        ("M2", "horizontal", "records/x2.csv"),
+        ("M3", "horizontal", "records/x3.csv"),
     ]
     data = (path.parent / "records" / "z.csv").read_bytes()
     assert records[1].sha256 == hashlib.sha256(data).hexdigest()
@@ -625,7 +629,7 @@ def test_a_workbook_without_the_sheets_of_later_versions_is_read(tmp_path):
 
 def test_a_record_of_zeros_cannot_be_scaled_to_a_peak(tmp_path):
     path = make(tmp_path)
-    (path.parent / "records" / "x.csv").write_text("0\n0\n0\n")
+    (path.parent / "records" / "x3.csv").write_text("0\n0\n0\n")
     assert (
         "Motions!C10: horizontal record is all zeros and cannot be scaled to a PPA; change the"
         " record or scaling" in problems(path)
@@ -671,7 +675,7 @@ def test_a_record_without_shaking_is_refused(tmp_path, text, words):
 def test_one_horizontal_record_of_zeros_is_read_if_the_other_shakes(tmp_path):
     path = make(tmp_path)
     (path.parent / "records" / "still.csv").write_text("0\n" * 200)
-    cells = {"Motions!C9": "records/still.csv", "Motions!D9": "records/x.csv"}
+    cells = {"Motions!C9": "records/still.csv", "Motions!D9": "records/x2.csv"}
     motion = read_workbook(type_into(path, cells)).motions[1]
     assert not motion.ax_mps2.any()
     assert motion.ay_mps2.any()
