@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from report.sheet.checks import GAP_TOLERANCE, GAP_TOLERANCE_M
 from report.sheet.fields import Place
-from report.sheet.findings import Finding, warning
+from report.sheet.findings import Finding, note, warning
 from report.sheet.schema import (
     PROVISION_KEYS,
     Array,
@@ -18,13 +18,18 @@ from report.sheet.schema import (
     Direction,
     ProjectInput,
     Shape,
+    Site,
 )
 from report.sheet.shapes import closest, gap_m
 from report.words.units import PRESSURES, Quantity, pair
 from solver.rules.rulesets import usual
+from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
 LEAST_PRESSURE_PA, MOST_PRESSURE_PA = 1.0 * PRESSURES["psf"], 30.0 * PRESSURES["psf"]
 """Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf."""
+
+ROUNDING_OF_COEFFICIENTS = 0.0051
+"""Difference of a site coefficient from its table that is rounding: to two decimals."""
 
 MOST_ASKEW_DEG = 60.0
 """Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
@@ -41,6 +46,7 @@ def implausible(data: ProjectInput) -> Iterator[Finding]:
     """Yield a warning for each value that is permitted and improbable."""
     us_first = data.project.units_first == "US"
     yield from _height(data, us_first)
+    yield from _site_coefficients(data.site)
     for index, array in enumerate(data.arrays):
         yield from _weight(index, array, us_first)
         yield from _friction(index, array)
@@ -61,6 +67,28 @@ def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
         given, most = (pair(value, Quantity.PLAN, us_first) for value in (z, h))
         text = f"height of the array z is {given}, above the structure height h of {most};"
         yield warning("height z", Place("site", 0, "roof_height_m"), f"{text} correct one of them")
+
+
+def _site_coefficients(site: Site) -> Iterator[Finding]:
+    """Yield coefficients that are not those of the table for the site class."""
+    for table, field, given, mapped, mapped_g in (
+        (F_A, "f_a", site.f_a, "S_S", site.s_s_g),
+        (F_V, "f_v", site.f_v, "S_1", site.s_1_g),
+    ):
+        has_row = site.edition.name == table.edition and site.site_class in table.rows
+        if not has_row or given is None or mapped_g is None:
+            continue
+        tabulated = site_coefficient(table, str(site.site_class), mapped_g)
+        if math.isnan(tabulated) or abs(given - tabulated) <= ROUNDING_OF_COEFFICIENTS:
+            continue
+        is_less = given < tabulated
+        text = (
+            f"{table.symbol} is {given:g}, {'less' if is_less else 'more'} than {tabulated:.4g} in"
+            f" {table.clause} for site class {site.site_class} and {mapped} {mapped_g:g} g; correct"
+            f" {table.symbol}, {mapped} or the site class"
+        )
+        place = Place("site", 0, field)
+        yield warning(table.symbol, place, text) if is_less else note(place, text)
 
 
 def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:

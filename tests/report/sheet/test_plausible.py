@@ -58,6 +58,61 @@ def test_an_improbable_value_gives_one_warning(section, index, change, name, tex
     assert text in found[name]
 
 
+SITE = {"rule_set": "ASCE 7-16", "site_class": "C", "s_s_g": 1.5, "s_1_g": 0.6, "s_ds_g": None}
+
+
+@pytest.mark.parametrize(
+    ("change", "name", "text"),
+    [
+        (
+            {"f_a": 0.9, "f_v": 1.4},
+            "F_a",
+            "F_a is 0.9, less than 1.2 in ASCE 7-16 Table 11.4-1 for site class C and S_S 1.5 g;"
+            " correct F_a, S_S or the site class",
+        ),
+        (
+            {"f_a": 1.2, "f_v": 1.39},
+            "F_v",
+            "F_v is 1.39, less than 1.4 in ASCE 7-16 Table 11.4-2 for site class C and S_1 0.6 g;"
+            " correct F_v, S_1 or the site class",
+        ),
+        (
+            {"site_class": "D", "s_s_g": 0.6, "f_a": 1.2, "f_v": 1.7},
+            "F_a",
+            "F_a is 1.2, less than 1.32 in",
+        ),
+    ],
+)
+def test_a_site_coefficient_below_its_table_gives_a_warning(change, name, text):
+    found = warnings(changed("site", None, **SITE | change))
+    assert list(found) == [name]
+    assert text in found[name]
+
+
+def test_a_site_coefficient_above_its_table_gives_a_note():
+    (found,) = implausible(changed("site", None, **SITE | {"f_a": 1.6, "f_v": 1.4}))
+    assert (found.level, found.place.field) == (Level.NOTE, "f_a")
+    assert "F_a is 1.6, more than 1.2 in ASCE 7-16 Table 11.4-1" in found.text
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"f_a": 1.2, "f_v": 1.4},
+        {"f_a": 1.195, "f_v": 1.395},
+        {"site_class": "D", "s_s_g": 1.271, "s_1_g": 0.455, "f_a": 1.0, "f_v": 1.845},
+        {"site_class": "D (default)", "f_a": 1.2, "f_v": 1.7},
+        # Site-specific in the table, or no row of it.
+        {"site_class": "E", "f_a": 0.5, "f_v": 0.5},
+        {"site_class": "CD", "f_a": 0.5, "f_v": 0.5},
+        {"site_class": None, "f_a": 0.5, "f_v": 0.5},
+        {"rule_set": "ASCE 7-22", "f_a": 0.5, "f_v": 0.5, "s_ds_g": 1.0},
+    ],
+)
+def test_a_site_coefficient_of_the_table_gives_none(change):
+    assert list(implausible(changed("site", None, **SITE | change))) == []
+
+
 def overridden(**values):
     """The usual input with other numbers of the rule set."""
     return project(
