@@ -13,7 +13,16 @@ from enum import Enum
 from solver.records.units import is_other_unit, unit_size
 
 _TIMES = {"t", "time", "times", "zeit", "tiempo", "temps", "tempo", "sec", "secs", "seconds"}
-_SECONDS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 0.001}
+_SECONDS = (
+    dict.fromkeys(("s", "sec", "secs", "second", "seconds"), 1.0)
+    | dict.fromkeys(("ms", "msec"), 0.001)
+    | dict.fromkeys(("min", "mins", "minute", "minutes"), 60.0)
+)
+_OTHER_TIMES = {"us", "µs", "μs", "ns", "usec", "h", "hr", "hrs", "hour", "hours", "day", "days"}
+_INDEXES = {
+    *("count", "counter", "frame", "i", "idx", "index", "n", "no", "nr", "number"),
+    *("point", "points", "pt", "row", "sample", "samples", "step"),
+}
 
 _BRACKETED = re.compile(r"([^\[(]*)[\[(]([^\])]*)[\])]\s*")
 _IN = re.compile(r"(.*\S)\s+in\s+(\S+)", re.IGNORECASE)
@@ -57,7 +66,7 @@ class Heading:
     unit : str
         As written; "" if there is none.
     seconds : float
-        Value [s] of the unit of a time; otherwise 1.
+        Value [s] of the unit of a time, NaN if it is not known; 1 if there is none.
     """
 
     text: str
@@ -65,6 +74,11 @@ class Heading:
     kind: Kind
     unit: str
     seconds: float
+
+    @property
+    def is_index(self) -> bool:
+        """Whether it is a word for the number of a sample, if the values rise."""
+        return not self.unit and self.name.rstrip(".").lower() in _INDEXES
 
 
 def parse(text: str) -> Heading:
@@ -127,17 +141,21 @@ def count_in(line: str) -> int:
 def _split(text: str) -> tuple[str, str]:
     """Name and unit of a heading."""
     for pattern in (_BRACKETED, _IN):
-        if (match := pattern.fullmatch(text)) and _is_unit(match[2], bracketed=True):
+        match = pattern.fullmatch(text)
+        if match and (_is_unit(match[2], bracketed=True) or _is_time(match[1])):
             return match[1].strip(), match[2].strip()
     for place in (i for i, letter in enumerate(text) if letter == "_"):
         name, unit = text[:place], text[place + 1 :]
-        if _is_unit(unit, bracketed=False) or (unit.lower() in _SECONDS and _is_time(name)):
+        if _is_unit(unit, bracketed=False) or (_is_time_unit(unit) and _is_time(name)):
             return name, unit
-    return text, ""
+    # A unit alone, such as `min`; shorter ones may be directions: NS, S.
+    is_unit = text.lower() == "ms" or (len(text) > 2 and _is_time_unit(text))
+    return (text, text) if is_unit and not _is_time(text) else (text, "")
 
 
 def _is_unit(text: str, *, bracketed: bool) -> bool:
-    if bracketed and text.strip().lower() in _SECONDS:
+    plain = text.strip().lower()
+    if bracketed and (plain in _SECONDS or (len(plain) > 2 and _is_time_unit(plain))):
         return True
     # After an underscore, `in` and `ft` may as well be words.
     other = is_other_unit(text) and (bracketed or text.lower() not in ("in", "ft"))
@@ -148,10 +166,17 @@ def _is_time(name: str) -> bool:
     return name.strip().lower() in _TIMES
 
 
+def _is_time_unit(text: str) -> bool:
+    return text.strip().lower() in _SECONDS.keys() | _OTHER_TIMES
+
+
 def _kind(name: str, unit: str) -> tuple[Kind, float]:
-    seconds = _SECONDS.get(unit.strip().lower(), 0.0)
-    if seconds or (not unit and _is_time(name)):
-        return Kind.TIME, seconds or 1.0
+    if _is_time_unit(unit):
+        return Kind.TIME, _SECONDS.get(unit.strip().lower(), math.nan)
     if not math.isnan(unit_size(unit)):
         return Kind.ACCELERATION, 1.0
+    if unit and is_other_unit(unit):
+        return Kind.OTHER, 1.0
+    if _is_time(name):
+        return Kind.TIME, math.nan if unit else 1.0
     return Kind.OTHER if unit else Kind.UNSAID, 1.0

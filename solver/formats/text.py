@@ -157,7 +157,8 @@ def _has_times(source: Source, table: _Table) -> bool:
 def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Sampled:
     if not timed:
         return Sampled(dt_s=_stated_step(source, table), columns=columns, notes=())
-    times = table.values[:, 0] * (table.headings[0].seconds if table.headings else 1.0)
+    unit_s = _seconds(source, table)
+    times = table.values[:, 0] * unit_s
     _check_decimal_comma(source, table, times)
 
     @cache
@@ -165,9 +166,27 @@ def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Samp
         rows = _rows(source.lines, table.start)
         return np.fromiter((index for index, _ in rows), dtype=np.int64)
 
-    even = sampled(source, times, columns, lambda i: int(indexes()[i]))
+    even = sampled(source, times, columns, lambda i: int(indexes()[i]), unit_s)
     _check_step(source, table, even)
     return even
+
+
+def _seconds(source: Source, table: _Table) -> float:
+    """Value [s] of the unit of the times."""
+    if not table.headings:
+        return 1.0
+    heading = table.headings[0]
+    if heading.is_index:
+        raise InputError(
+            f"{source.at(table.heading_index)}: found {shown(heading.text)} over the first column;"
+            " give times in seconds, such as time_s, or delete the column and give the time step dt"
+        )
+    if math.isnan(heading.seconds):
+        raise InputError(
+            f"{source.at(table.heading_index)}: found times in {shown(heading.unit)}; give them in"
+            " s, ms or min, such as time_s"
+        )
+    return heading.seconds
 
 
 def _check_step(source: Source, table: _Table, even: Sampled) -> None:

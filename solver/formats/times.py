@@ -45,7 +45,13 @@ class Sampled:
     notes: tuple[str, ...]
 
 
-def sampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int]) -> Sampled:
+def sampled(
+    source: Source,
+    t_s: Floats,
+    columns: Floats,
+    line_of: Callable[[int], int],
+    unit_s: float = 1.0,
+) -> Sampled:
     """Columns at an even step: unchanged if the times are even, otherwise resampled.
 
     The record is linear between its samples, so resampling is by linear interpolation. The step is
@@ -61,6 +67,8 @@ def sampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int
     columns : array, shape (k, n)
     line_of : function of int
         Index of the line of a time; called only for times that a message mentions.
+    unit_s : float
+        Unit in which the times are printed [s].
 
     Raises
     ------
@@ -68,7 +76,7 @@ def sampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int
         If times do not increase, or a step given by the caller does not agree.
     """
     _check_rising(source, t_s, line_of)
-    step, blur = _even_step(t_s)
+    step, blur = _even_step(t_s, unit_s)
     if not math.isnan(step):
         return Sampled(dt_s=_agreed(source, step, blur), columns=columns, notes=())
     if not math.isnan(source.dt_s):
@@ -79,9 +87,9 @@ def sampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int
     return _resampled(source, t_s, columns, line_of)
 
 
-def is_even(t_s: Floats) -> bool:
+def is_even(t_s: Floats, unit_s: float = 1.0) -> bool:
     """Whether times increase evenly, within the digits printed."""
-    return bool((np.diff(t_s) > 0.0).all()) and not math.isnan(_even_step(t_s)[0])
+    return bool((np.diff(t_s) > 0.0).all()) and not math.isnan(_even_step(t_s, unit_s)[0])
 
 
 def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) -> None:
@@ -94,11 +102,12 @@ def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) ->
     )
 
 
-def _even_step(t_s: Floats) -> tuple[float, float]:
+def _even_step(t_s: Floats, unit_s: float) -> tuple[float, float]:
     """Step of even times and the error in it from their rounding; NaN if uneven."""
     n = len(t_s) - 1
     step = (t_s[-1] - t_s[0]) / n
-    resolution = next((10.0**-k for k in range(10) if fits(t_s, 10.0**-k)), 0.0)
+    printed = t_s / unit_s
+    resolution = next((unit_s * 10.0**-k for k in range(10) if fits(printed, 10.0**-k)), 0.0)
     # Each printed time has an error of up to half the resolution. If the resolution is coarser than
     # half a step, no allowance is made: it could hide a missing sample, and times printed in whole
     # steps need none.

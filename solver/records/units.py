@@ -27,7 +27,7 @@ _SIZES = UNITS | {
 }
 
 _LENGTHS = "mm|cm|m|ft|in"
-_NOT_ACCELERATION = re.compile(rf"({_LENGTHS})(/s)?", re.ASCII)
+_NOT_ACCELERATION = re.compile(rf"({_LENGTHS})(/s)?|[a-z]+/s2", re.ASCII)
 
 
 def unit_size(text: str) -> float:
@@ -36,7 +36,7 @@ def unit_size(text: str) -> float:
 
 
 def is_other_unit(text: str) -> bool:
-    """Whether the text is a unit of length or of velocity."""
+    """Whether the text is a unit of length, of velocity, or of an acceleration not known here."""
     return bool(_NOT_ACCELERATION.fullmatch(_plain(text)))
 
 

@@ -81,6 +81,9 @@ def test_units_to_choose_from_are_those_of_records_and_gal() -> None:
         ("a in gal", "a", Kind.ACCELERATION, "gal"),
         ("[g]", "", Kind.ACCELERATION, "g"),
         ("vel_cm/s", "vel", Kind.OTHER, "cm/s"),
+        ("acc_km/s2", "acc", Kind.OTHER, "km/s2"),
+        ("EW [yd/s^2]", "EW", Kind.OTHER, "yd/s^2"),
+        ("EW (NS)", "EW (NS)", Kind.UNSAID, ""),
         ("d [in]", "d", Kind.OTHER, "in"),
         ("plug_in", "plug_in", Kind.UNSAID, ""),
         ("NS", "NS", Kind.UNSAID, ""),
@@ -92,6 +95,34 @@ def test_a_heading_says_name_kind_and_unit(text: str, name: str, kind: Kind, uni
     heading = parse(text)
     assert (heading.name, heading.kind, heading.unit) == (name, kind, unit)
     assert heading.seconds == (0.001 if unit == "ms" else 1.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [
+        ("Time [min]", 60.0),
+        ("time_min", 60.0),
+        ("t in minutes", 60.0),
+        ("elapsed [min]", 60.0),
+        ("min", 60.0),
+        ("ms", 0.001),
+        ("t (msec)", 0.001),
+        ("Time [us]", math.nan),
+        ("time_h", math.nan),
+        ("Time (UTC)", math.nan),
+        ("elapsed [hours]", math.nan),
+        ("hours", math.nan),
+    ],
+)
+def test_a_time_in_an_unknown_unit_has_no_value_in_seconds(text: str, seconds: float) -> None:
+    heading = parse(text)
+    assert heading.kind is Kind.TIME
+    assert heading.seconds == pytest.approx(seconds, nan_ok=True)
+
+
+def test_a_word_for_the_number_of_a_sample_is_an_index() -> None:
+    words = ("sample", "Index", "No.", "N", "n_g", "NS", "t")
+    assert [parse(word).is_index for word in words] == [True] * 4 + [False] * 3
 
 
 def test_words_keep_their_brackets() -> None:

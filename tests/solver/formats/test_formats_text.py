@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -141,6 +142,29 @@ class TestStep:
             "roof.csv: the time step in the file is 0.01 s but dt is 0.02 s; omit dt, or correct"
             " one of them"
         )
+
+    def test_times_in_minutes_are_converted(self, file: Any) -> None:
+        content = "Time [min],a_g\n0,1\n0.001,2\n0.002,3\n"
+        assert read_record(file(content)).dt_s == pytest.approx(0.06)
+
+    @pytest.mark.parametrize("unit", ["us", "h", "samples", "UTC"])
+    def test_times_in_an_unknown_unit_are_refused(self, file: Any, unit: str) -> None:
+        (problem,) = problems_of(file(f"Time [{unit}],a_g\n0,1\n1,2\n"), units="")
+        assert problem == (
+            f"roof.csv:1: found times in '{unit}'; give them in s, ms or min, such as time_s"
+        )
+
+    @pytest.mark.parametrize("dt_s", [math.nan, 0.005])
+    def test_an_index_is_no_time(self, file: Any, dt_s: float) -> None:
+        (problem,) = problems_of(file("sample,a_g\n0,1\n1,2\n"), units="", dt_s=dt_s)
+        assert problem == (
+            "roof.csv:1: found 'sample' over the first column; give times in seconds, such as"
+            " time_s, or delete the column and give the time step dt"
+        )
+
+    def test_a_component_to_the_north_is_no_index(self, file: Any) -> None:
+        content = "N,E\n0,1\n1,2\n0,3\n"
+        assert len(read_motion_file(file(content), units="g", dt_s=0.1).channels) == 2
 
 
 class TestSeveralColumns:
