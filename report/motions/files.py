@@ -1,6 +1,7 @@
 """Reads one record that a workbook names: a file beside it, or a column in one of its sheets.
 
-Owns which files a workbook may access. `solver.formats` reads the record formats.
+Owns which files a workbook may access. `solver.formats` reads the record formats, `pasted` the
+columns.
 """
 
 from __future__ import annotations
@@ -14,18 +15,14 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 import numpy as np
 
+from report.motions.pasted import heading_on, read_column
 from report.sheet.archive import OpenBook
-from report.sheet.cells import CellError, Found, check_saved, number
-from report.sheet.positions import MAX_COLUMNS, CellPosition, cells_below
+from report.sheet.positions import CellPosition
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
-from solver.records.record import Record, record_from_values
+from solver.records.record import Record
 
 MAX_BYTES = 64_000_000
-HEADING_ROWS = 10
-MAX_SAMPLES = 200_000
-MAX_TOLD = 5
-
 
 BAR = "|"
 """Separates a file from its channel; not allowed in Windows file names."""
@@ -155,29 +152,10 @@ def find_heading(book: OpenBook, name: str) -> CellPosition | None:
     for sheet in book.book.worksheets:
         for title in (sheet.title, f"'{sheet.title}'"):
             if name.casefold().startswith(f"{title}!".casefold()):
-                return _heading_on(book, sheet.title, name[len(title) + 1 :].strip())
+                return heading_on(book, sheet.title, name[len(title) + 1 :].strip())
     if (book.path.parent / name.partition(BAR)[0].strip().replace("\\", "/")).is_file():
         return None
     raise InputError(f"'{name}' names no sheet of this workbook; give Sheet!Header, or a file")
-
-
-def _heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
-    extent, sheet = book.extent(title), book.book[title]
-    spots = [
-        CellPosition(title, row, column)
-        for row in range(1, min(HEADING_ROWS, extent.last_row) + 1)
-        for column in range(1, min(MAX_COLUMNS, extent.last_column) + 1)
-        if str(sheet.cell(row, column).value or "").strip().casefold() == header.casefold()
-    ]
-    if not spots:
-        raise InputError(
-            f"sheet '{title}' has no heading '{header}' in its first {HEADING_ROWS} rows; write it"
-            " above the column"
-        )
-    if len(spots) > 1:
-        places = " and ".join(position.address for position in spots[:2])
-        raise InputError(f"heading '{header}' appears at {places}; rename one")
-    return spots[0]
 
 
 def _read_column(
@@ -186,16 +164,7 @@ def _read_column(
     missing = [("time step", dt_s is None), ("units", not units)]
     if problems := [f"'{name}' is a pasted column; give its {w}" for w, is_so in missing if is_so]:
         raise InputError(problems)
-    extent = book.extent(heading.sheet)
-    if extent.last_row > heading.row + MAX_SAMPLES:
-        raise InputError(
-            f"{heading.sheet}!{extent.row_cell} contains data more than {MAX_SAMPLES:,} rows"
-            " below the heading; clear it, or give the record as a file"
-        )
-    values = _numbers(cells_below(book, heading))
-    # 1 gal = 1 cm/s2; the solver's table has one name for each unit.
-    units = "cm/s2" if units == "gal" else units
-    record = record_from_values(name, values, units=units, dt_s=float(dt_s or 0.0))
+    record = read_column(book, name, heading, units, float(dt_s or 0.0))
     data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()
     return Component(
         record=record,
@@ -205,26 +174,3 @@ def _read_column(
         hold_s=math.nan,
         size=0,
     )
-
-
-def _numbers(cells: list[Found]) -> list[float]:
-    while cells and cells[-1].is_blank:
-        cells.pop()
-    values, problems = [], []
-    for cell in cells:
-        try:
-            values.append(_number(cell))
-        except CellError as error:
-            problems.append(f"{cell.address} {error.problems[0]}")
-    if len(problems) > MAX_TOLD:
-        problems[MAX_TOLD:] = [f"... and {len(problems) - MAX_TOLD} more cells"]
-    if problems:
-        raise InputError(problems)
-    return values
-
-
-def _number(cell: Found) -> float:
-    if cell.is_blank:
-        raise CellError("is blank, with values below it; fill it in or delete it")
-    check_saved(cell)
-    return number(cell)

@@ -347,6 +347,12 @@ def pasted(values, header="North", name="Pasted!North"):
     return {"Pasted!B3": header, "Motions!C9": name} | below
 
 
+def timed(times, header="time_s"):
+    """Return the cells of such a column with times beside it."""
+    beside = {f"Pasted!A{row}": time for row, time in enumerate(times, start=4)}
+    return pasted([0.1] * len(times)) | {"Pasted!A3": header} | beside
+
+
 @pytest.fixture(scope="module")
 def with_sheet(tmp_path_factory):
     """The bytes of the usual workbook with a sheet Pasted."""
@@ -379,6 +385,15 @@ def test_a_pasted_column_is_a_record(paste, name):
     assert book.records[2].npts == 104
 
 
+@pytest.mark.parametrize(
+    ("header", "per_row"), [("time_s", 0.01), ("t [ms]", 10.0), ("Time [min]", 0.01 / 60.0)]
+)
+def test_a_pasted_column_agrees_with_the_times_and_units_beside_it(paste, header, per_row):
+    cells = timed([per_row * i for i in range(104)], header)
+    name = {"Pasted!B3": "North [g]", "Motions!C9": "Pasted!North [g]"}
+    assert read_workbook(paste(cells | name)).records[2].npts == 104
+
+
 PASTED = "Motions!C9: horizontal record:"
 
 
@@ -394,7 +409,7 @@ PASTED = "Motions!C9: horizontal record:"
         ),
         (
             pasted([0.1, None, 0.2]),
-            [f"{PASTED} Pasted!B5 is blank, with values below it; fill it in or delete it"],
+            [f"{PASTED} Pasted!B5 is blank, beside or above values; fill it in, or delete its row"],
         ),
         (
             pasted(["x"] * 8),
@@ -416,6 +431,50 @@ PASTED = "Motions!C9: horizontal record:"
                 f"{PASTED} 'Elsewhere!North' names no sheet of this workbook; give Sheet!Header,"
                 " or a file"
             ],
+        ),
+        (
+            pasted([0.1, 0.2], header="North [m/s2]", name="Pasted!North [m/s2]"),
+            [
+                f"{PASTED} Pasted!B3 is 'North [m/s2]', but the record units are g; correct one of"
+                " them"
+            ],
+        ),
+        (
+            pasted([0.1, 0.2], header="North [km/s2]", name="Pasted!North [km/s2]"),
+            [
+                f"{PASTED} Pasted!B3 is 'North [km/s2]', which is no acceleration; give the column"
+                " of an acceleration"
+            ],
+        ),
+        (
+            timed([0.0, 0.02, 0.04, 0.06]),
+            [
+                f"{PASTED} Pasted!A3 has times at a step of 0.02 s, but the time step is 0.01 s;"
+                " correct one of them"
+            ],
+        ),
+        (
+            timed([0.0, 0.01, 0.02, 0.05]),
+            [
+                f"{PASTED} Pasted!A7 is 0.05 s, 0.03 s after the row above it, but the typical step"
+                " is 0.01 s; fill in the missing rows, or give the record as a file, which is"
+                " resampled"
+            ],
+        ),
+        (
+            timed([0.0, 0.01, 0.01, 0.02]),
+            [
+                f"{PASTED} Pasted!A6: found time 0.01 s after 0.01 s, with a typical step of 0.01"
+                " s; give increasing times"
+            ],
+        ),
+        (
+            timed([0.0, None, 0.02, 0.03]),
+            [f"{PASTED} Pasted!A5 is blank, beside or above values; fill it in, or delete its row"],
+        ),
+        (
+            timed([0.0, 1.0, 2.0, 3.0], header="Time [h]"),
+            [f"{PASTED} Pasted!A3 is 'Time [h]'; give times in s, ms or min"],
         ),
         (
             pasted([0.1, 0.2]) | {"Motions!G9": None},
