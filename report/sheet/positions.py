@@ -6,7 +6,7 @@ Knows no input; `locate` and `locate_tables` find them with it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from openpyxl import Workbook
@@ -149,5 +149,13 @@ def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
         if symbol.casefold() == unit.casefold():
             return symbol, si
     problem = f"is '{unit}'" if unit else "is missing"
-    wanted = ", ".join(symbol for symbol in accepted if symbol) or "none"
-    raise InputError(f"unit of {entry.spoken} {problem}; write one of {wanted}")
+    raise InputError(f"unit of {entry.spoken} {problem}; {_wanted(list(accepted))}")
+
+
+def _wanted(symbols: Sequence[str]) -> str:
+    """Return what to write for a unit, of those that a field accepts."""
+    if symbols == [""]:
+        return "it has no unit: delete it"
+    if len(symbols) == 1:
+        return f"give the number in {symbols[0]}, and write {symbols[0]}"
+    return f"write one of {', '.join(symbols)}"

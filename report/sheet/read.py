@@ -253,8 +253,8 @@ def _read_block(book: OpenBook, section: Section, gathered: Gathered) -> None:
 def _block_column(
     book: OpenBook, section: Section, entry: Entry, position: CellPosition
 ) -> FieldColumn:
-    if entry.quantity is None:
-        return FieldColumn(number=position.column, unit=str(entry.cell.unit), si=1.0)
+    if entry.kind not in (int, float):
+        return FieldColumn(number=position.column, unit="", si=1.0)
     unit = found_at(book, find_unit_cell(book, section, entry, position))
     text = "" if unit.value is None else plain(unit.value).strip()
     try:

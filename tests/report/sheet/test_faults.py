@@ -552,10 +552,10 @@ def test_a_duplicate_heading_is_reported(tmp_path):
     "headings",
     [
         {
-            "E7": ("Friction coefficient [%]", "friction coefficient is '%'; write one of"),
+            "E7": ("Friction coefficient [%]", "friction coefficient is '%'; it has no unit: d"),
             "H7": ("Weight [t]", "weight is 't'; write one of lb, kip, N, kN, kg"),
             "I7": ("CG height", "CG height is missing; write one of in, ft, mm, cm, m"),
-            "O7": ("Downslope direction [rad]", "downslope direction is 'rad'; write one of"),
+            "O7": ("Downslope direction [rad]", "downslope direction is 'rad'; give the number"),
         },
         {"I7": ("CG height [yd]", "CG height is 'yd'; write one of in, ft, mm, cm, m")},
     ],
@@ -572,6 +572,25 @@ def test_the_unit_of_a_single_field_must_be_valid(tmp_path):
         "Site!C16: unit of structure height h is 'yd'; write one of in, ft, mm, cm, m",
         "Site!C17: unit of height of the array z is missing; write one of in, ft, mm, cm, m",
     )
+
+
+@pytest.mark.parametrize(
+    ("cell", "unit", "words"),
+    [
+        ("Site!C13", "m/s2", "S_DS is 'm/s2'; give the number in g, and write g"),
+        ("Site!C11", "%", "F_a is '%'; it has no unit: delete it"),
+        ("Building!C6", "Hz", "period T1 is 'Hz'; give the number in s, and write s"),
+        ("Building!C9", "-", "damping is '-'; give the number in %, and write %"),
+        ("Options!C23", "Hz", "long-period transition T_L is 'Hz'; give the number in s, and"),
+    ],
+)
+def test_a_unit_that_cannot_be_chosen_must_be_that_of_the_sheet(tmp_path, cell, unit, words):
+    (line,) = problems(type_into(make(tmp_path), {cell: unit}))
+    assert line.startswith(f"{cell}: unit of {words}")
+
+
+def test_a_unit_that_cannot_be_chosen_may_be_blank(tmp_path):
+    read_workbook(type_into(make(tmp_path), {"Site!C13": None, "Building!C6": " S "}))
 
 
 def test_merged_cells_in_a_table_are_reported(tmp_path):
