@@ -128,7 +128,10 @@ def _headings(book: OpenBook, section: Section) -> _Place:
     wanted = set[str]().union(*(labels_of(section, entry) for entry in fields))
     for sheet in [own] if own else sheets_of(book):
         rows: dict[int, list[int]] = {}
+        taken = _rows_of_others(sheet, section)
         for position in scanned(book, sheet):
+            if position.row in taken:
+                continue
             if label_key(sheet.cell(position.row, position.column).value) in wanted:
                 rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
@@ -137,6 +140,18 @@ def _headings(book: OpenBook, section: Section) -> _Place:
     what = f"no table {section.table_name} and no row of its headings"
     missing = "" if own else "the sheet is missing: "
     raise InputError(f"{section.sheet}: {missing}{what}; {FRESH}")
+
+
+def _rows_of_others(sheet: Worksheet, section: Section) -> set[int]:
+    """Return the rows of headings of tables that bear the name of another section.
+
+    Sections have headings in common, and one without a table must not read that of another.
+    """
+    names = {str(table.name).casefold(): table.ref for table in sheet.tables.values()}
+    others = [
+        ref for name, ref in names.items() if name.endswith("_table") and name != section.table_name
+    ]
+    return {bounds[1] for ref in others if (bounds := bounds_of(ref))}
 
 
 def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:

@@ -23,7 +23,7 @@ from report.sheet.locate import (
     is_absent,
 )
 from report.sheet.locate_tables import FieldColumn, TableFound, find_table
-from report.sheet.positions import CellPosition, found_at, unit_size
+from report.sheet.positions import FRESH, CellPosition, found_at, unit_size
 from report.sheet.schema import SECTIONS, ProjectInput
 from report.words.units import Quantity
 from solver.model import InputError
@@ -222,6 +222,10 @@ def _read_section(book: OpenBook, section: Section, gathered: Gathered) -> None:
         gathered.draft[section.key] += [] if section.is_table else [defaults]
         return
     try:
+        if is_absent(book, section) and not section.is_table:
+            raise InputError(
+                f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
+            )
         if section.is_table:
             _read_table(book, section, find_table(book, section), gathered)
         else:

@@ -502,6 +502,22 @@ def test_a_missing_sheet_is_reported_once(tmp_path):
     )
 
 
+def test_a_missing_sheet_takes_no_other_table_for_its_own(tmp_path):
+    path = edit(make(tmp_path), lambda book: book.remove(book["Objects"]))
+    assert problems(path) == (
+        "Objects: the sheet is missing: no table objects_table and no row of its headings; copy it"
+        " from a fresh workbook (roofslip new)",
+    )
+
+
+def test_a_missing_sheet_of_single_fields_is_reported_once(tmp_path):
+    path = edit(make(tmp_path), lambda book: book.remove(book["Site"]))
+    assert problems(path) == (
+        "Site: the sheet is missing, or all labels of Site and building; copy it from a fresh"
+        " workbook (roofslip new)",
+    )
+
+
 def test_a_missing_single_field_is_reported_by_name_and_label(tmp_path):
     def change(book):
         del book.defined_names["project_number"]
