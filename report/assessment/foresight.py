@@ -54,7 +54,7 @@ _PLACES: Mapping[str, Place] = {
 def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     """Return what an engineer is asked about, with the reasons that the workbook gives."""
     data = sheet.project
-    return acknowledged(data, [*implausible(data), *record_findings(data, shaking)])
+    return acknowledged(data, [*sheet.copies, *implausible(data), *record_findings(data, shaking)])
 
 
 def foreseen(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:

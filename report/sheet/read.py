@@ -15,7 +15,9 @@ from typing import Any
 from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import CellError, Found, plain, read_cell, wish_for_missing
 from report.sheet.checks import faults
+from report.sheet.copies import copies
 from report.sheet.fields import Entry, Fault, Place, Section, YesNo, entries
+from report.sheet.findings import Finding
 from report.sheet.locate import (
     added_later,
     find_cell,
@@ -86,6 +88,8 @@ class Sheet:
     addresses : mapping of Place to str
     unfound : frozenset of str
         Sections that could not be found.
+    copies : tuple of Finding
+        A warning for each sheet that is ignored beside one like it.
     """
 
     path: Path
@@ -96,6 +100,7 @@ class Sheet:
     problems: tuple[tuple[Place, str], ...]
     addresses: Mapping[Place, str]
     unfound: frozenset[str]
+    copies: tuple[Finding, ...]
 
     @cached_property
     def project(self) -> ProjectInput:
@@ -149,6 +154,7 @@ def read(path: Path) -> Sheet:
         problems=tuple(gathered.problems),
         addresses=gathered.addresses,
         unfound=frozenset(gathered.unfound),
+        copies=tuple(copies(book, gathered.addresses)),
     )
 
 
