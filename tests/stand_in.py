@@ -195,6 +195,7 @@ def sheet(data):
         problems=(),
         addresses={},
         unfound=frozenset(),
+        copies=(),
         made=data,
     )
 
