@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from report.sheet.checks import GAP_TOLERANCE, GAP_TOLERANCE_M
 from report.sheet.fields import Place
-from report.sheet.findings import Finding, note, warning
+from report.sheet.findings import Finding, Level, note, warning
 from report.sheet.schema import (
     PROVISION_KEYS,
     Array,
@@ -21,6 +21,7 @@ from report.sheet.schema import (
     Site,
 )
 from report.sheet.shapes import closest, gap_m
+from report.sheet.usual import spoken, unusual
 from report.words.units import PRESSURES, Quantity, pair
 from solver.rules.rulesets import usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
@@ -43,7 +44,15 @@ _FROM_DOWNSLOPE_DEG: Mapping[Direction, tuple[float, ...]] = {
 
 
 def implausible(data: ProjectInput) -> Iterator[Finding]:
-    """Yield a warning for each value that is permitted and improbable."""
+    """Yield a warning for each value that is permitted and improbable, one for a cell."""
+    found = list(_contradictory(data))
+    told = {finding.place for finding in found if finding.level is Level.WARNING}
+    yield from found
+    yield from (finding for finding in unusual(data) if finding.place not in told)
+
+
+def _contradictory(data: ProjectInput) -> Iterator[Finding]:
+    """Yield what contradicts the plan, a table, the rules or another cell."""
     us_first = data.project.units_first == "US"
     yield from _height(data, us_first)
     yield from _site_coefficients(data.site)
@@ -138,7 +147,7 @@ def _direction(index: int, row: Clearance, array: Array, other: Shape) -> Iterat
             f"direction is '{row.direction}', but {row.object} lies '{lies}' from {row.array} in"
             " plan; correct the direction, the plan, or the downslope direction"
         )
-        yield warning(f"direction {_name(row)}", Place("clearances", index, "direction"), text)
+        yield warning(f"direction {spoken(row)}", Place("clearances", index, "direction"), text)
 
 
 def _askew_deg(turned_deg: float, direction: Direction) -> float:
@@ -153,9 +162,4 @@ def _provided(index: int, row: Clearance, gap: float, us_first: bool) -> Iterato
     given, plan = (pair(value, Quantity.SIZE, us_first) for value in (row.provided_m, gap))
     text = f"provided clearance is {given}, but {row.array} and {row.object} are {plan} apart in"
     place = Place("clearances", index, "provided_m")
-    yield warning(f"clearance {_name(row)}", place, f"{text} plan; correct it or the plan")
-
-
-def _name(row: Clearance) -> str:
-    where = "" if row.direction is Direction.ANY else f" {row.direction}"
-    return f"{row.array} to {row.object}{where}"
+    yield warning(f"clearance {spoken(row)}", place, f"{text} plan; correct it or the plan")

@@ -103,10 +103,10 @@ def test_a_site_coefficient_above_its_table_gives_a_note():
         {"site_class": "D", "s_s_g": 1.271, "s_1_g": 0.455, "f_a": 1.0, "f_v": 1.845},
         {"site_class": "D (default)", "f_a": 1.2, "f_v": 1.7},
         # Site-specific in the table, or no row of it.
-        {"site_class": "E", "f_a": 0.5, "f_v": 0.5},
-        {"site_class": "CD", "f_a": 0.5, "f_v": 0.5},
-        {"site_class": None, "f_a": 0.5, "f_v": 0.5},
-        {"rule_set": "ASCE 7-22", "f_a": 0.5, "f_v": 0.5, "s_ds_g": 1.0},
+        {"site_class": "E", "f_a": 0.8, "f_v": 0.8},
+        {"site_class": "CD", "f_a": 0.8, "f_v": 0.8},
+        {"site_class": None, "f_a": 0.8, "f_v": 0.8},
+        {"rule_set": "ASCE 7-22", "f_a": 0.8, "f_v": 0.8, "s_ds_g": 1.0},
     ],
 )
 def test_a_site_coefficient_of_the_table_gives_none(change):
