@@ -10,11 +10,20 @@ from dataclasses import dataclass
 
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.references import suggestion
-from report.sheet.schema import ROOF, SIDES, Polygon, Rectangle, Shape, UnitsFirst
-from report.sheet.shapes import Point, crossing, outside, ring
+from report.sheet.schema import (
+    ROOF,
+    SIDES,
+    ObjectKind,
+    Polygon,
+    Rectangle,
+    Shape,
+    UnitsFirst,
+)
+from report.sheet.shapes import NEAR_M, Point, crossing, gap_m, outside, ring
 from report.words.units import Quantity, pair
 
 LEAST_VERTICES = 3
+_EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
 _PLACED = ("arrays", "objects")
 
 
@@ -51,6 +60,7 @@ def plan_faults(draft: Draft, where: Where) -> Iterator[Fault]:
     yield from _outline_rows(draft, where)
     yield from _doubled(draft, where)
     yield from _on_the_roof(draft, where)
+    yield from _overlaps(draft, where)
 
 
 def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:
@@ -237,3 +247,42 @@ def _beyond(
         wanted = f"give {limit} or {'more' if is_low else 'less'}"
         text = f"{_label(side)} is {given}, outside the roof; {wanted}, or correct the outline at"
         yield Fault(Place("arrays", index, side), f"{text} {where(Place('roof', 0, side))}")
+
+
+@dataclass(frozen=True, slots=True)
+class _Body:
+    """An array, or an object that no array can overlap, in plan."""
+
+    place: Place
+    name: str
+    is_array: bool
+    shape: Shape
+    bounds: Rectangle
+
+
+def _overlaps(draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield arrays that overlap each other or an object; `checks` has those with a clearance."""
+    given = {frozenset((row.get("array"), row.get("object"))) for row in draft["clearances"]}
+    bodies = sorted(_bodies(draft), key=lambda body: body.bounds.x_from_m)
+    for count, one in enumerate(bodies):
+        for other in bodies[count + 1 :]:
+            if other.bounds.x_from_m >= one.bounds.x_to_m:
+                break
+            first, second = sorted((one, other), key=lambda body: (not body.is_array, body.place))
+            if not first.is_array or frozenset((one.name, other.name)) in given:
+                continue
+            if gap_m(one.bounds, other.bounds) < 0.0 and gap_m(one.shape, other.shape) < -NEAR_M:
+                text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"
+                yield Fault(first.place, f"{text}; correct one of them")
+
+
+def _bodies(draft: Draft) -> Iterator[_Body]:
+    """Yield the arrays and objects that have a shape, without edges: an array may reach them."""
+    outlines = _outlines(draft)
+    for section in _PLACED:
+        for index, row in enumerate(draft[section]):
+            own = outlines.get(row.get("id", ""))
+            shape = _shape(row, own) if "id" in row else None
+            if shape is not None and row.get("kind") not in _EDGES:
+                place = Place(section, index, "x_from_m") if own is None else own.place
+                yield _Body(place, row["id"], section == "arrays", shape, shape.bounds)

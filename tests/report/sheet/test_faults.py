@@ -227,6 +227,21 @@ CONTRADICTIONS = [
         ],
     ),
     (
+        {"Arrays!L8": 120},
+        [
+            "Clearances!E8: provided clearance is 120.0 in (3048 mm), but A1 and A2 overlap in"
+            " plan; correct their rectangles"
+        ],
+    ),
+    (
+        {"Arrays!L8": 120} | {f"Clearances!{column}8": None for column in "BCDE"},
+        ["Arrays!K8: A1 and A2 at Arrays!K9 overlap in plan; correct one of them"],
+    ),
+    (
+        {"Objects!G8": 70} | {f"Clearances!{column}10": None for column in "BCDE"},
+        ["Arrays!K9: A2 and RTU-1 at Objects!E8 overlap in plan; correct one of them"],
+    ),
+    (
         {"Site!B6": "IV", "Site!B7": 1.25},
         ["Site!B7: importance factor I_e is 1.25; give at least 1.5 for risk category IV"],
     ),

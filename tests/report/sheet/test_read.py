@@ -60,9 +60,11 @@ def inputs(draw):
             "weight_n": draw(st.floats(1, 1e7)),
             "cg_height_m": draw(lengths),
             "x_to_m": array["x_from_m"] + draw(lengths),
+            "y_from_m": 10.0 * row,
+            "y_to_m": 10.0 * row + 5.0,
             "construction": draw(texts),
         }
-        for name in names
+        for row, name in enumerate(names)
     ]
     motion = base.motions[0].model_dump() | {
         "scaling": draw(st.sampled_from(["factor", "PPA"])),
