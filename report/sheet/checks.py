@@ -35,7 +35,15 @@ from solver.rules.rulesets import ALLOWED
 
 MAX_SLOPE_DEG = 45.0
 GAP_TOLERANCE = 0.01
-GAP_TOLERANCE_M = 0.5 * INCH_M
+# Below the inch at which a package states that a clearance contradicts the plan
+# (`report.assessment.neighbors`): what passes here passes there.
+GAP_TOLERANCES_M = (0.5 * INCH_M, 0.99 * INCH_M)
+
+
+def gap_tolerance_m(gap_m: float) -> float:
+    """Return how far a clearance may be from the gap of the plan [m]."""
+    low, high = GAP_TOLERANCES_M
+    return min(max(GAP_TOLERANCE * gap_m, low), high)
 
 
 def faults(draft: Draft, where: Where) -> list[Fault]:
@@ -189,7 +197,7 @@ def _room(index: int, row: DraftRow, shapes: Mapping[str, Shape], is_us: bool) -
     if gap < -1e-9:
         text = f"provided clearance is {given}, but {array} and {other} overlap in plan; correct"
         yield Fault(place, f"{text} their {noun}")
-    elif provided > gap + max(GAP_TOLERANCE * gap, GAP_TOLERANCE_M):
+    elif provided > gap + gap_tolerance_m(gap):
         most = pair(max(gap, 0.0), Quantity.SIZE, is_us)
         text = f"provided clearance is {given}, but {array} and {other} are {most} apart in plan"
         yield Fault(place, f"{text}; reduce it, or correct the {noun}")

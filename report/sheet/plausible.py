@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from report.sheet.checks import GAP_TOLERANCE, GAP_TOLERANCE_M
+from report.sheet.checks import gap_tolerance_m
 from report.sheet.fields import Place
 from report.sheet.findings import Finding, Level, note, warning
 from report.sheet.schema import (
@@ -157,7 +157,7 @@ def _askew_deg(turned_deg: float, direction: Direction) -> float:
 
 
 def _provided(index: int, row: Clearance, gap: float, us_first: bool) -> Iterator[Finding]:
-    if row.provided_m >= gap - max(GAP_TOLERANCE * gap, GAP_TOLERANCE_M):
+    if row.provided_m >= gap - gap_tolerance_m(gap):
         return  # a larger one is an error
     given, plan = (pair(value, Quantity.SIZE, us_first) for value in (row.provided_m, gap))
     text = f"provided clearance is {given}, but {row.array} and {row.object} are {plan} apart in"

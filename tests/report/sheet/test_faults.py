@@ -227,6 +227,13 @@ CONTRADICTIONS = [
         ],
     ),
     (
+        {"Clearances!E8": 121},
+        [
+            "Clearances!E8: provided clearance is 121.0 in (3073 mm), but A1 and A2 are 120.0 in"
+            " (3048 mm) apart in plan; reduce it, or correct the rectangles"
+        ],
+    ),
+    (
         {"Arrays!L8": 120},
         [
             "Clearances!E8: provided clearance is 120.0 in (3048 mm), but A1 and A2 overlap in"
@@ -498,8 +505,8 @@ def test_at_least_one_row_is_required(tmp_path, key, noun):
     )
 
 
-def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent(tmp_path):
-    changes = {"Clearances!E10": 60.49, "Clearances!E8": 121.19, "Clearances!E11": 4000}
+def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent_up_to_an_inch(tmp_path):
+    changes = {"Clearances!E10": 60.49, "Clearances!E8": 120.98, "Clearances!E11": 4000}
     assert read_workbook(type_into(make(tmp_path), changes)).input.clearances
 
 
