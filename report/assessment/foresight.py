@@ -111,6 +111,7 @@ def _foreseen(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
     acceptance = shaking_acceptance(shaking, targets(data))
     basis = statistic_basis(data)
     few = provisions.analysis_value(rules, [0.0] * len(shaking.motions), basis).basis
+    lacking = _lacking(rules, basis, len(shaking.motions)) if few is Basis.TOO_FEW else ""
     routes = [
         limits_of(
             data,
@@ -124,7 +125,7 @@ def _foreseen(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
     for index, limits in enumerate(routes):
         for check in limits.on_route:
             yield from _limit(check, "arrays", index, us_first)
-        yield from _prescriptive(data, index, limits.route, limits.analysis, us_first)
+        yield from _prescriptive(data, index, limits.route, limits.analysis, us_first, lacking)
     takes_analysis = any(limits.route is Route.ANALYSIS for limits in routes)
     rows = [
         *project_rows(data, shaking.prepared),
@@ -145,15 +146,27 @@ def _limit(check: Check, section: str, row: int, us_first: bool) -> Iterator[Fin
 
 
 def _prescriptive(
-    data: ProjectInput, index: int, route: Route, analysis: Sequence[Check], us_first: bool
+    data: ProjectInput,
+    index: int,
+    route: Route,
+    analysis: Sequence[Check],
+    us_first: bool,
+    lacking: str,
 ) -> Iterator[Finding]:
     """Yield why an array takes the prescriptive displacement."""
     if route is not Route.PRESCRIPTIVE:
         return
     failed = [limit_words(check, us_first) for check in analysis if not check.ok]
-    why = "; ".join(failed) or "the motions do not qualify"
+    why = "; ".join(failed) or lacking or "the motions do not qualify"
     text = f"array {data.arrays[index].id} takes the prescriptive displacement: {why}"
     yield note(Place("arrays", index, "slope_value"), text)
+
+
+def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
+    """Return which statistic the motions are too few for."""
+    asked = Basis.LARGEST_FACTORED if basis is None else basis
+    least = provisions.least_motions(rules, asked)
+    return f"{count} motions are given, and the statistic '{asked}' needs {least:.0f} or more"
 
 
 def _of(row: Row, data: ProjectInput) -> Place:

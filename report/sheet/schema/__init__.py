@@ -54,7 +54,7 @@ from report.sheet.schema.scene import (
     slope_rad,
 )
 from report.sheet.shapes import Point, Polygon, Rectangle, Shape, ring
-from solver.rules.provisions import OVERRIDABLE
+from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 
 __all__ = [
     "MAX_TEXT",
@@ -152,7 +152,8 @@ class Options(Frozen):
         Statistic,
         Cell(
             "Design value statistic",
-            "Rule set: the statistic that the rule set requires for this number of motions.",
+            "Rule set: the statistic that the rule set requires for this number of motions. Mean:"
+            f" {MEAN_WITHOUT_FACTOR_MOTIONS} motions or more.",
             "rule set",
         ),
     ] = Statistic.RULE_SET

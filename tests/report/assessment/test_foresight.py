@@ -96,3 +96,13 @@ def test_too_few_motions_and_no_vertical_are_said_at_the_motions():
 def test_a_limit_has_no_name_to_acknowledge():
     book: Book = stand_in.book(*CASES["slope, risk category and stories"])
     assert {finding.id for finding in foreseen(book.sheet, book.shaking)} == {""}
+
+
+def test_a_statistic_that_needs_more_motions_is_named_as_the_reason():
+    options = stand_in.project().options.model_dump() | {"statistic": "mean"}
+    book = stand_in.book(stand_in.project(options=options), motions())
+    found = [f.text for f in foreseen(book.sheet, book.shaking) if f.level is Level.NOTE]
+    assert found
+    assert all(
+        "7 motions are given, and the statistic 'mean' needs 11 or more" in text for text in found
+    )
