@@ -82,8 +82,12 @@ def test_text_that_is_not_a_list_of_coefficients_is_reported(tmp_path):
     first = project().arrays[0].model_dump()
     ids = [f"A{number}" for number, _ in enumerate(NO_LISTS)]
     changes = {
-        "arrays": [first | {"id": name} for name in ids],
+        "arrays": [
+            first | {"id": name, "y_from_m": 9.0 * row, "y_to_m": 9.0 * row + 8.0}
+            for row, name in enumerate(ids)
+        ],
         "links": [links(name) for name in ids],
+        "objects": [],
         "clearances": [],
     }
     cells = {f"Links!C{row}": text for row, text in enumerate(NO_LISTS, start=8)}
