@@ -60,7 +60,7 @@ def project() -> ProjectInput:
                 "Example client",
                 "Sacramento, California",
                 "US",
-                date=dt.date(2026, 11, 20),
+                date=dt.date(2025, 11, 20),  # California adopts ASCE 7-22 from 2026
                 revision="A",
                 description="Draft, incomplete",
             ),

@@ -74,7 +74,7 @@ def project(units: UnitsFirst = UnitsFirst.US) -> ProjectInput:
                 "Example client",
                 "Los Angeles, California",
                 units.value,
-                date=dt.date(2026, 11, 20),
+                date=dt.date(2025, 11, 20),  # California adopts ASCE 7-22 from 2026
             ),
             "site": {
                 "rule_set": "SEAOC PV1-2012",
@@ -87,7 +87,7 @@ def project(units: UnitsFirst = UnitsFirst.US) -> ProjectInput:
                 "f_a": 1.2,
                 "f_v": 1.4,
                 "hazard_source": "ASCE 7 Hazard Tool, example values",
-                "hazard_date": dt.date(2026, 11, 2),
+                "hazard_date": dt.date(2025, 11, 2),
                 "sdc": "D",
                 "force_factor": 1.0,
                 "force_divisor": 1.5,
@@ -103,7 +103,7 @@ def project(units: UnitsFirst = UnitsFirst.US) -> ProjectInput:
                 "accreditation": "ISO/IEC 17025, example",
                 "standard": "ASTM G115-10",
                 "report": "EX-FT-1",
-                "date": dt.date(2026, 9, 15),
+                "date": dt.date(2025, 9, 15),
                 "membrane": "TPO, 60 mil",
                 "support": "EPDM pad",
             },
