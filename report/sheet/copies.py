@@ -12,7 +12,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet.archive import OpenBook
 from report.sheet.fields import Place, Section, entries
 from report.sheet.findings import Finding, warning
-from report.sheet.positions import MAX_COLUMNS, SCANNED_ROWS, label_key, labels_of, sheets_of
+from report.sheet.positions import label_key, labels_of, scanned, sheets_of
 from report.sheet.schema import SECTIONS
 
 Rows = tuple[frozenset[str], ...]
@@ -27,7 +27,7 @@ def copies(book: OpenBook, addresses: Mapping[Place, str]) -> Iterator[Finding]:
     addresses : mapping of Place to str
         Of what is read.
     """
-    rows = {sheet.title: _rows(sheet) for sheet in sheets_of(book)}
+    rows = {sheet.title: _rows(book, sheet) for sheet in sheets_of(book)}
     told: set[str] = set()
     for section in SECTIONS:
         read = _sheet_of(section, addresses)
@@ -42,9 +42,12 @@ def copies(book: OpenBook, addresses: Mapping[Place, str]) -> Iterator[Finding]:
                 yield warning(f"copy {title}", Place(section.key), text)
 
 
-def _rows(sheet: Worksheet) -> Rows:
-    cells = sheet.iter_rows(max_row=SCANNED_ROWS, max_col=MAX_COLUMNS, values_only=True)
-    return tuple(frozenset(label_key(cell) for cell in row if cell is not None) for row in cells)
+def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
+    rows: dict[int, set[str]] = {}
+    for position in scanned(book, sheet):
+        label = label_key(sheet.cell(position.row, position.column).value)
+        rows.setdefault(position.row, set()).add(label)
+    return tuple(map(frozenset, rows.values()))
 
 
 def _sheet_of(section: Section, addresses: Mapping[Place, str]) -> str:
