@@ -38,7 +38,8 @@ EXAMPLE_STEPS = 7
 
 @click.command()
 @click.argument("folder", metavar="DIR", type=SOURCE)
-@click.option("--units", type=click.Choice(["US", "SI"]), default="US", show_default=True,
+@click.option("--units", type=click.Choice(["US", "SI"], case_sensitive=False), default="US",
+              show_default=True,
               help="Units of the input cells and primary units of the package.")  # fmt: skip
 @click.option("--example", is_flag=True, help="Fill it in, with motions, to try a report.")
 @click.option("--study", is_flag=True, help="Write the workbook of a study instead.")

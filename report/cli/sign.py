@@ -9,10 +9,12 @@ import click
 from report.cli.report import SOURCE
 from report.cli.terminal import input_errors
 
+_THERE = click.Path(exists=True, dir_okay=False, path_type=Path)
+
 
 @click.command()
-@click.argument("file", metavar="FILE.pdf", type=SOURCE)
-@click.option("--p12", type=SOURCE, required=True, metavar="CERT.p12",
+@click.argument("file", metavar="FILE.pdf", type=_THERE, is_eager=True)
+@click.option("--p12", type=_THERE, is_eager=True, required=True, metavar="CERT.p12",
               help="PKCS#12 file with the private key and the certificate.")  # fmt: skip
 @click.option("--password", prompt=True, hide_input=True, envvar="ROOFSLIP_P12_PASSWORD",
               help="Of CERT.p12; without it, from ROOFSLIP_P12_PASSWORD or asked for.")  # fmt: skip

@@ -106,7 +106,7 @@ def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):
     assert first.exit_code == 0
     assert (tmp_path / "job" / "records").is_dir()
     before = (tmp_path / "job" / "input.xlsx").read_bytes()
-    second = run("new", tmp_path / "job", "--units", "SI")
+    second = run("new", tmp_path / "job", "--units", "si")
     assert second.exit_code == 2
     assert "already exists" in second.output
     assert (tmp_path / "job" / "input.xlsx").read_bytes() == before

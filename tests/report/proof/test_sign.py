@@ -238,3 +238,14 @@ def test_a_rewritten_file_is_no_update(sign, data):
     done, content = sign(content=again)
     assert done.exit_code == 0
     assert content.startswith(again)
+
+
+@pytest.mark.parametrize("missing", ["calc-package.pdf", "yours.p12"])
+def test_a_file_that_is_not_there_is_told_before_a_password_is_asked_for(missing, tmp_path):
+    for name in {"calc-package.pdf", "yours.p12"} - {missing}:
+        (tmp_path / name).write_bytes(b"")
+    words = ["sign", str(tmp_path / "calc-package.pdf"), "--p12", str(tmp_path / "yours.p12")]
+    done = CliRunner().invoke(main, words)
+    assert done.exit_code == 2
+    assert missing in done.output
+    assert "assword" not in done.output
