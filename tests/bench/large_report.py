@@ -1,7 +1,7 @@
 """A large report: 12 arrays, 11 motions of three components, 30 clearances. Time and memory.
 
-The product and the records are those of the example: other friction and slopes, and motions with
-their horizontal components exchanged.
+The product and the records are those of the example: other friction and slopes, and four motions
+reversed in time.
 Run from the top: .venv/bin/python tests/bench/large_report.py [FOLDER]
 """
 
@@ -14,10 +14,12 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 ARRAYS, MOTIONS, CLEARANCES = 12, 11, 30
 WAYS = ("down", "up", "across")
+COMPONENTS = ("record", "transverse", "vertical")
 
 
 def make(folder: Path) -> None:
@@ -57,14 +59,23 @@ def make(folder: Path) -> None:
     pairs += [(f"A{k + 1}", f"A{k + 5}", "up") for k in rows if k < 8]
     pairs += [("A4", "RTU-3", "across")]
     data["clearances"] = [example._clearance(*pair, 12) for pair in pairs][:CLEARANCES]
-    turned = [
-        row | {"id": f"{row['id']}T", "record": row["transverse"], "transverse": row["record"]}
-        for row in data["motions"]
-    ]
-    data["motions"] = [*data["motions"], *turned][:MOTIONS]
+    backward = [_backward(folder, row) for row in data["motions"]]
+    data["motions"] = [*data["motions"], *backward][:MOTIONS]
     data["roof"] |= {"x_to_m": 480 * example.FOOT, "y_to_m": 360 * example.FOOT}
     project = ProjectInput.model_validate(data)
     write_template(folder / "input.xlsx", units=UnitsFirst.US, example=project)
+
+
+def _backward(folder: Path, row: dict[str, Any]) -> dict[str, Any]:
+    """Write the records of a motion from their last sample to the first, and return its row."""
+    parts = {name: f"{row[name].removesuffix('.csv')}-back.csv" for name in COMPONENTS}
+    for name, path in parts.items():
+        head, heading, samples = (folder / row[name]).read_text().partition("_g\n")
+        pairs = [line.split(",") for line in samples.splitlines()]
+        times, values = zip(*pairs, strict=True)
+        lines = (f"{t},{a}\n" for t, a in zip(times, reversed(values), strict=True))
+        (folder / path).write_text("".join([head, heading, *lines]))
+    return row | {"id": f"{row['id']}B"} | parts
 
 
 def main() -> None:
