@@ -1,7 +1,8 @@
 """What a report costs by arrays, motions and samples, for `report.assessment.cost`.
 
 Run from the top: PYTHONPATH=.:tests .venv/bin/python tests/bench/report_cost.py
-Arrays and motions of the example, repeated; longer motions are its motions one after the other.
+Arrays and motions of the example, repeated, the motions in reverse; longer motions are its motions
+one after the other.
 Prints the processor time of the command with its second process, then the fit; rows of linked
 blocks are in no term of it, and shown to cost little.
 """
@@ -19,6 +20,7 @@ from typing import Any
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+COMPONENTS = ("record", "transverse", "vertical")
 # Arrays, motions, length of the motions as a multiple of 30 s, rows of linked blocks.
 CASES = (
     (3, 7, 1, 0), (12, 7, 1, 0), (3, 14, 1, 0), (3, 7, 4, 0), (12, 14, 1, 0), (12, 14, 3, 0),
@@ -39,8 +41,9 @@ def make(folder: Path, arrays: int, motions: int, length: int, rows: int) -> Non
     for path in (ROOT / "projects" / "example" / "records").iterdir():
         record = read_record(path)
         a_g = np.tile(record.a_mps2 / 9.80665, length)
-        lines = (f"{k * record.dt_s:.4f},{a:.6f}\n" for k, a in enumerate(a_g))
-        (folder / "records" / path.name).write_text("time_s,acceleration_g\n" + "".join(lines))
+        for name, samples in ((path.name, a_g), (_back(path.name), a_g[::-1])):
+            lines = (f"{k * record.dt_s:.4f},{a:.6f}\n" for k, a in enumerate(samples))
+            (folder / "records" / name).write_text("time_s,acceleration_g\n" + "".join(lines))
     data = example.project().model_dump()
     first = data["arrays"]
     data["arrays"] = [
@@ -56,15 +59,21 @@ def make(folder: Path, arrays: int, motions: int, length: int, rows: int) -> Non
     ]
     data["objects"], data["clearances"] = [], []
     data["roof"] |= {"x_to_m": 300.0, "y_to_m": 300.0}
-    data["motions"] = [
-        row | {"id": f"R{k + 1}"} for k, row in enumerate((data["motions"] * 2)[:motions])
-    ]
+    given = data["motions"]
+    backward = [row | {name: _back(row[name]) for name in COMPONENTS} for row in given]
+    rows_of = [*given, *backward][:motions]
+    data["motions"] = [row | {"id": f"R{k + 1}"} for k, row in enumerate(rows_of)]
     data["links"] = [
         {"array": f"A{k + 1 + k // 2}", "friction": "0.4, 0.5, 0.6", "stiffness_n_per_m": 1e5}
         for k in range(rows)
     ]
     project = ProjectInput.model_validate(data)
     write_template(folder / "input.xlsx", units=UnitsFirst.US, example=project)
+
+
+def _back(name: str) -> str:
+    """Return the name of a record reversed in time: no motion may be given twice."""
+    return f"{name.removesuffix('.csv')}-back.csv"
 
 
 def seconds(folder: Path) -> float:
