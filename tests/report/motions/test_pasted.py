@@ -1,0 +1,168 @@
+"""Records pasted into a column of the workbook: what is beside them must agree."""
+
+import numpy as np
+import pytest
+
+from sheets import edit, make, problems, read_workbook, type_into
+
+
+def pasted(values, header="North", name="Pasted!North"):
+    """Return the cells of a pasted column that M2 uses."""
+    below = {f"Pasted!B{row}": value for row, value in enumerate(values, start=4)}
+    return {"Pasted!B3": header, "Motions!C9": name} | below
+
+
+def timed(times, header="time_s"):
+    """Return the cells of such a column with times beside it."""
+    beside = {f"Pasted!A{row}": time for row, time in enumerate(times, start=4)}
+    return pasted([0.1] * len(times)) | {"Pasted!A3": header} | beside
+
+
+@pytest.fixture(scope="module")
+def with_sheet(tmp_path_factory):
+    """The bytes of the usual workbook with a sheet Pasted."""
+
+    def change(book):
+        book.create_sheet("Pasted")["B1"] = "from the laboratory"
+
+    return edit(make(tmp_path_factory.mktemp("pasted")), change).read_bytes()
+
+
+@pytest.fixture
+def paste(tmp_path, with_sheet):
+    """A function that types cells into such a workbook beside its records, and returns its path."""
+
+    def type_cells(cells):
+        path = make(tmp_path)
+        path.write_bytes(with_sheet)
+        return type_into(path, cells)
+
+    return type_cells
+
+
+@pytest.mark.parametrize("name", ["Pasted!North", "pasted!north", "'Pasted'!North"])
+def test_a_pasted_column_is_a_record(paste, name):
+    cells = [0.1, "0.2", -0.3, 0] * 26
+    book = read_workbook(paste(pasted(cells, name=name)))
+    expected = np.array([0.1, 0.2, -0.3, 0] * 26) * 9.80665
+    assert book.motions[1].ax_mps2 == pytest.approx(expected)
+    assert book.records[2].name == name
+    assert book.records[2].npts == 104
+
+
+@pytest.mark.parametrize(
+    ("header", "per_row"), [("time_s", 0.01), ("t [ms]", 10.0), ("Time [min]", 0.01 / 60.0)]
+)
+def test_a_pasted_column_agrees_with_the_times_and_units_beside_it(paste, header, per_row):
+    cells = timed([per_row * i for i in range(104)], header)
+    name = {"Pasted!B3": "North [g]", "Motions!C9": "Pasted!North [g]"}
+    assert read_workbook(paste(cells | name)).records[2].npts == 104
+
+
+PASTED = "Motions!C9: horizontal record:"
+
+
+@pytest.mark.parametrize(
+    ("cells", "lines"),
+    [
+        (pasted([0.1, "abc", 0.2]), [f"{PASTED} Pasted!B5 is 'abc'; give a number"]),
+        (pasted([0.1, "nan", 0.2]), [f"{PASTED} Pasted!B5 is 'nan'; give a number"]),
+        (pasted([0.1, "0,2", 0.2]), [f"{PASTED} Pasted!B5 is '0,2'; write 0.2"]),
+        (
+            pasted([0.1, "#N/A", 0.2]),
+            [f"{PASTED} Pasted!B5 is #N/A; correct the formula, or type a value"],
+        ),
+        (
+            pasted([0.1, None, 0.2]),
+            [f"{PASTED} Pasted!B5 is blank, beside or above values; fill it in, or delete its row"],
+        ),
+        (
+            pasted(["x"] * 8),
+            [
+                *(f"{PASTED} Pasted!B{row} is 'x'; give a number" for row in range(4, 9)),
+                f"{PASTED} ... and 3 more cells",
+            ],
+        ),
+        (
+            pasted([0.1, 0.2], header="East"),
+            [
+                f"{PASTED} sheet 'Pasted' has no heading 'North' in its first 10 rows; write it"
+                " above the column"
+            ],
+        ),
+        (
+            pasted([0.1, 0.2], name="Elsewhere!North"),
+            [
+                f"{PASTED} 'Elsewhere!North' names no sheet of this workbook; give Sheet!Header,"
+                " or a file"
+            ],
+        ),
+        (
+            pasted([0.1, 0.2], header="North [m/s2]", name="Pasted!North [m/s2]"),
+            [
+                f"{PASTED} Pasted!B3 is 'North [m/s2]', but the record units are g; correct one of"
+                " them"
+            ],
+        ),
+        (
+            pasted([0.1, 0.2], header="North [km/s2]", name="Pasted!North [km/s2]"),
+            [
+                f"{PASTED} Pasted!B3 is 'North [km/s2]', which is no acceleration; give the column"
+                " of an acceleration"
+            ],
+        ),
+        (
+            timed([0.0, 0.02, 0.04, 0.06]),
+            [
+                f"{PASTED} Pasted!A3 has times at a step of 0.02 s, but the time step is 0.01 s;"
+                " correct one of them"
+            ],
+        ),
+        (
+            timed([0.0, 0.01, 0.02, 0.05]),
+            [
+                f"{PASTED} Pasted!A7 is 0.05 s, 0.03 s after the row above it, but the typical step"
+                " is 0.01 s; fill in the missing rows, or give the record as a file, which is"
+                " resampled"
+            ],
+        ),
+        (
+            timed([0.0, 0.01, 0.01, 0.02]),
+            [
+                f"{PASTED} Pasted!A6: found time 0.01 s after 0.01 s, with a typical step of 0.01"
+                " s; give increasing times"
+            ],
+        ),
+        (
+            timed([0.0, None, 0.02, 0.03]),
+            [f"{PASTED} Pasted!A5 is blank, beside or above values; fill it in, or delete its row"],
+        ),
+        (
+            timed([0.0, 1.0, 2.0, 3.0], header="Time [h]"),
+            [f"{PASTED} Pasted!A3 is 'Time [h]'; give times in s, ms or min"],
+        ),
+        (
+            pasted([0.1, 0.2]) | {"Motions!G9": None},
+            [f"{PASTED} 'Pasted!North' is a pasted column; give its time step"],
+        ),
+        (
+            pasted([0.1, 0.2]) | {"Pasted!D2": "North"},
+            [f"{PASTED} heading 'North' appears at Pasted!D2 and Pasted!B3; rename one"],
+        ),
+        (
+            pasted([0.1, 0.2]) | {"Pasted!B300000": 1},
+            [
+                f"{PASTED} Pasted!B300000 contains data more than 200,000 rows below the heading;"
+                " clear it, or give the record as a file"
+            ],
+        ),
+    ],
+)
+def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
+    assert list(problems(paste(cells))) == lines
+
+
+def test_gals_of_a_pasted_column_are_cm_s2(paste):
+    cells = pasted([100.0, -200.0] * 51) | {"Motions!F9": "gal"}
+    motion = read_workbook(paste(cells)).motions[1]
+    assert motion.ax_mps2.tolist() == [1.0, -2.0] * 51
