@@ -162,12 +162,12 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Row, 
             remedy=f"{text}.",
         )
         for neighbor in nearby
-        for found, limit in (_compared(neighbor, us_first),)
+        for found, limit in (_found_and_required(neighbor, us_first),)
         for text in neighbor.shortcomings(us_first)
     )
 
 
-def _compared(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
+def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
     """Return what is found of a clearance, and what is required."""
     if not neighbor.is_short:
         return NOT_GIVEN if neighbor.is_missing else "contradicts the plan", "given, as in the plan"

@@ -89,7 +89,7 @@ def _force(package: PackageData) -> Iterator[Line]:
         amplified = force.formula / (
             0.4 * site.s_ds * largest_i_p * site.force_factor / site.force_divisor
         )
-        reduction = site.edition.amplification.reduction if site.roof_height_m > 0.0 else 1.0
+        reduction = site.edition.amplification.reduction_at(site.z_over_h)
         ratio_of = Markup("{} / {} = {} / {}").format(
             symbol("H_f"), symbol("R_μ"), number(amplified * reduction, 3), number(reduction, 2)
         )

@@ -115,15 +115,23 @@ def _sizes(package: PackageData) -> Table:
 
 
 def _low_profile(package: PackageData) -> str:
-    """Return the length by which the rule set limits the height of the center of gravity."""
-    of, arrays = package.assessment.rules.low_profile_length, package.data.arrays
-    takes_base = of is LowProfileLength.BASE
-    sizes = [array.base_dimension_m if takes_base else array.support_spacing_m for array in arrays]
-    each = ", ".join(
-        f"{array.id} {package.fmt.both(size, Quantity.SIZE)}"
-        for array, size in zip(arrays, sizes, strict=True)
+    """Return the length whose share limits the height of the center of gravity."""
+    rules, fmt = package.assessment.rules, package.fmt
+    takes_base = rules.low_profile_length is LowProfileLength.BASE
+
+    def length(array: Array) -> str:
+        if not takes_base:
+            return f"{array.id} {fmt.both(array.support_spacing_m, Quantity.SIZE)}"
+        stand_in = " (support spacing; no base given)" if array.base_m is None else ""
+        return f"{array.id} {fmt.both(array.base_dimension_m, Quantity.SIZE)}{stand_in}"
+
+    share = f"{rules['low_profile_ratio']:g}{package.mark('low_profile_ratio')}"
+    most = fmt.both(rules.length_m("low_profile_in"), Quantity.SIZE)
+    return (
+        f"Center of gravity at most {most}{package.mark('low_profile_in')} above the roof and at "
+        f"most {share} times the {rules.low_profile_length.value}: "
+        f"{', '.join(map(length, package.data.arrays))}."
     )
-    return f"The height of the center of gravity is limited by the {of.value}: {each}."
 
 
 def _outlined(rows: Sequence[Array | RoofObject]) -> Iterator[str]:

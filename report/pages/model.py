@@ -146,11 +146,12 @@ def _combinations(package: PackageData) -> str:
     counts = sorted({len(motion.headings) for motion in motions if motion.has_transverse})
     run = " or ".join(map(spelled, counts))
     polarities = "" if both else " where the workbook requests both polarities"
+    so = "so" if both else "so in the polarities requested"
     return (
         f"{of} eight combinations{polarities}: either horizontal component along the slope, in "
         "either polarity, with the other component across it in either polarity. Reversing the "
         "cross-slope component mirrors the motion and changes no downslope, upslope or cross-slope "
-        f"displacement, so {run} are run and the largest PRD governs."
+        f"displacement, {so} {run} are run and the largest PRD governs."
     )
 
 

@@ -20,7 +20,11 @@ class Amplification:
 
     def at(self, z_over_h: float) -> float:
         """Return the ratio at a relative height z/h; there is no reduction at grade."""
-        return self.height_factor(z_over_h) / (self.reduction if z_over_h > 0.0 else 1.0)
+        return self.height_factor(z_over_h) / self.reduction_at(z_over_h)
+
+    def reduction_at(self, z_over_h: float) -> float:
+        """Return the reduction at a relative height z/h: R_mu of ASCE 7-22 above grade."""
+        return self.reduction if z_over_h > 0.0 else 1.0
 
     def height_factor(self, z_over_h: float) -> float:
         """Return 1 + slope z/h: the factor of ASCE 7-16, H_f of ASCE 7-22 for unknown period."""

@@ -15,7 +15,7 @@ from report.assessment.sensitivity import accuracy
 from report.drawing.plan import plan_drawing
 from report.pages import accuracy as accuracy_page
 from report.pages import certainty as certainty_page
-from report.pages import letter, limits, model, results
+from report.pages import inputs, letter, limits, model, results
 from report.pages import remedies as remedies_page
 from report.pages.demand import demand_lines
 from report.pages.registry import package_data
@@ -148,7 +148,10 @@ def test_a_drift_over_its_limit_prints_larger():
     assert numbers[0] > numbers[1]
 
 
-@pytest.mark.parametrize(("signs", "count"), [((1,), "two are run"), ((1, -1), "four are run")])
+@pytest.mark.parametrize(
+    ("signs", "count"),
+    [((1,), "so in the polarities requested two are run"), ((1, -1), "so four are run")],
+)
 def test_the_runs_of_a_motion_are_those_of_its_polarities(signs, count):
     motions = tuple(replace(motion, signs=signs) for motion in COMPLETE)
     assert count in model._combinations(made(motions, clearances=[]))
@@ -160,3 +163,23 @@ def test_a_floor_that_peer_review_removes_is_none_and_not_a_length(options):
     row = results.comparison(package)["table"].rows[0]
     is_none = row.cells[7:9] == ("none", "none")
     assert is_none is bool(options)
+
+
+@pytest.mark.parametrize(
+    ("rule_set", "base_m", "words"),
+    [
+        ("SEAOC PV1-2012", 1.524, "supporting base: A1 60.0 in (1524 mm)."),
+        ("SEAOC PV1-2012", None, "A1 40.0 in (1016 mm) (support spacing; no base given)."),
+        ("ASCE 7-16", 1.524, "least spacing of the supports: A1 40.0 in (1016 mm)."),
+    ],
+)
+def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_set, base_m, words):
+    site = stand_in.project().site.model_dump() | {"rule_set": rule_set}
+    array = stand_in.array("A1", 0.5, base_m=base_m)
+    package = made(site=site, arrays=[array], clearances=[])
+    text = inputs._low_profile(package)
+    assert text.endswith(words)
+    assert text.startswith("Center of gravity at most 36.0 in (914 mm)")
+    (check,) = [c for c in package.assessment.arrays[0].checks if "center" in c.title]
+    length_m = 1.524 if "60.0" in words else 1.016
+    assert check.limit == pytest.approx(min(0.5 * length_m, 0.9144))
