@@ -11,7 +11,7 @@ export function own({ unit, step }, value) {
   return `${value > 0 ? "+" : ""}${text}${unit === "°" ? "" : " "}${unit}`;
 }
 
-/** Return which values are not those of the workbook, such as `Friction × 0.90, Polarity both`. */
+/** Return which values are not those of the workbook, such as `Friction × 0.90, Polarity: both`. */
 export function changes(values, { sliders, choices }) {
   const isChanged = ({ id, typed }) => id in values && values[id] !== typed;
   const moved = sliders.filter(isChanged).map((item) => `${item.label} ${own(item, values[item.id])}`);
