@@ -22,10 +22,14 @@ _KINDS = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 
 @contextmanager
 def chromium():
-    """Yield Debian's Chromium; skip where it is not installed."""
+    """Yield Debian's Chromium; skip where it is not installed, or what drives it cannot start."""
     path = shutil.which("chromium")
     if path is None:
         pytest.skip("Chromium is not installed: sudo apt-get install chromium")
+    driver = [sys.executable, "-m", "playwright", "--version"]
+    said = subprocess.run(driver, capture_output=True, text=True, check=False).stderr
+    if "libatomic.so.1" in said:
+        pytest.skip("Playwright cannot load libatomic.so.1: sudo apt-get install libatomic1")
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as started:
