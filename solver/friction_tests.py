@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -26,6 +26,9 @@ MOST_RATE_S_PER_M = 1000.0
 
 LEAST_VELOCITIES = 4
 """Distinct velocities to which a law with three parameters is fitted: one more than parameters."""
+
+SAME_VELOCITY = 0.05
+"""Largest difference between the velocities of repeats, as a share of the smallest of them."""
 
 # At the lowest rate searched, the exponent changes by a tenth over the tested velocities: the law
 # is then a straight line within 0.1 % of its change, and no lower rate can be told from it.
@@ -85,6 +88,28 @@ class Series:
         coefficients = [run.mu_static for run in self.runs if not math.isnan(run.mu_static)]
         return math.fsum(coefficients) / len(coefficients) if coefficients else math.nan
 
+    @property
+    def velocity_mps(self) -> float:
+        """Largest velocity that a run reports [m/s]; NaN for none."""
+        reported = (run.velocity_mps for run in self.runs if not math.isnan(run.velocity_mps))
+        return max(reported, default=math.nan)
+
+    @property
+    def repeats(self) -> tuple[Series, ...]:
+        """The runs at each velocity, from the lowest; last those that report no velocity."""
+        groups: list[list[FrictionRun]] = []
+        for run in sorted(self.runs, key=_nan_is_last):
+            if groups and _nan_is_last(run) <= (1.0 + SAME_VELOCITY) * _nan_is_last(groups[-1][0]):
+                groups[-1].append(run)
+            else:
+                groups.append([run])
+        return tuple(replace(self, runs=tuple(group)) for group in groups)
+
+    @property
+    def least_mu(self) -> float:
+        """Smallest mean of the kinetic coefficients at one velocity."""
+        return min(one.mean for one in self.repeats)
+
     def mean_of(self, law: Friction) -> float:
         """Return the mean of a friction law over the tested velocities.
 
@@ -95,6 +120,10 @@ class Series:
             most if math.isnan(run.velocity_mps) else law.at(run.velocity_mps) for run in self.runs
         )
         return math.fsum(values) / len(self.runs)
+
+
+def _nan_is_last(run: FrictionRun) -> float:
+    return math.inf if math.isnan(run.velocity_mps) else run.velocity_mps
 
 
 def series(runs: Iterable[FrictionRun]) -> tuple[Series, ...]:

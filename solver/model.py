@@ -70,7 +70,7 @@ class SlideResult:
     """One block under one motion. Displacements are horizontal, relative to the roof.
 
     With `Status.UPLIFT`, `Status.DIVERGED` or `Status.STEP_LIMIT` every displacement, its time and
-    its error are NaN.
+    its error, and every speed are NaN.
 
     Attributes
     ----------
@@ -95,6 +95,9 @@ class SlideResult:
         When the normal force first falls below zero [s]; NaN if it never does.
     end_speed_mps : float
         Horizontal relative velocity at the end of the record [m/s].
+    peak_speed_mps : float
+        Largest sliding speed [m/s], along the surface of the roof as friction has it; NaN by the
+        methods other than `exact`.
     error_m : float
         Largest difference of any displacement from the exact motion under the interpolated record
         [m]: the method's own bound in two axes; in one axis an allowance for rounding error by the
@@ -115,6 +118,7 @@ class SlideResult:
     n_min_g: float
     t_uplift_s: float
     end_speed_mps: float
+    peak_speed_mps: float
     error_m: float
 
 
@@ -201,10 +205,14 @@ class Friction:
         return self.mu_fast - drop * math.exp(-self.rate_s_per_m * speed_mps)
 
     @property
+    def is_by_velocity(self) -> bool:
+        """Whether it depends on velocity while sliding."""
+        return self.mu_fast != self.mu_slow and self.rate_s_per_m > 0.0
+
+    @property
     def is_constant(self) -> bool:
         """Whether it is Coulomb friction: one coefficient at rest and at every velocity."""
-        turns = self.mu_fast != self.mu_slow and self.rate_s_per_m > 0.0
-        return not turns and self.mu_static == self.mu_slow
+        return not self.is_by_velocity and self.mu_static == self.mu_slow
 
     @property
     def is_monotone(self) -> bool:

@@ -4,6 +4,7 @@ import gc
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 import report.beside  # before any test loads openpyxl: the package decides what that reads with
 from browsing import chromium
@@ -11,6 +12,8 @@ from places import RECORDS, SAMPLES
 
 G = 9.80665
 
+settings.register_profile("roofslip", deadline=None)  # a busy machine is no failure
+settings.load_profile("roofslip")
 
 # Files that take more than two seconds; in the whole suite they start first, so that no core idles
 # at its end.

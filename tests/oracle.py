@@ -17,6 +17,7 @@ class Oracle:
     residual: mpf
     down: mpf
     up: mpf
+    fastest: mpf  # along the slope
     n_stops: int
 
 
@@ -60,7 +61,7 @@ def slide(ax, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665):
         base, per_h, per_v = weights[sign]
         return base + per_h * a_h[i] + per_v * a_v[i]
 
-    u = v = peak = low = high = mpf(0)
+    u = v = peak = low = high = fastest = mpf(0)
     moving, n_stops = 0, 0
     ends = {sign: acceleration(sign, 0) for sign in (1, -1)}
     for i in range(len(a_h) - 1):
@@ -82,6 +83,9 @@ def slide(ax, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665):
             a0, rate = starts[moving] + rates[moving] * t, rates[moving]
             stop = _first_zero(v, a0, rate, dt - t)
             h = dt - t if stop is None else stop
+            # The speed is a parabola in time: largest at an end or at its vertex.
+            ends_at = [h, *([-a0 / rate] if rate != 0 and 0 < -a0 / rate < h else [])]
+            fastest = max(fastest, *(abs(v + a0 * x + rate * x**2 / 2) for x in ends_at))
             u += v * h + a0 * h**2 / 2 + rate * h**3 / 6
             v += a0 * h + rate * h**2 / 2
             t = dt if stop is None else t + h
@@ -90,4 +94,11 @@ def slide(ax, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665):
                 n_stops += 1
             low, high = min(low, u), max(high, u)
     peak = max(high, -low)
-    return Oracle(prd=peak, residual=u, down=high, up=-low, n_stops=n_stops)
+    return Oracle(
+        prd=peak,
+        residual=u,
+        down=high,
+        up=-low,
+        fastest=fastest / mp.cos(theta),
+        n_stops=n_stops,
+    )

@@ -6,6 +6,7 @@ solver of eighth order, with friction as a callable of speed.
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.integrate import DOP853, solve_ivp
@@ -23,6 +24,7 @@ class PlaneOracle:
     y_max: float
     y_min: float
     end: tuple[float, float]
+    fastest: float  # along the roof
     n_stops: int
     history: np.ndarray
 
@@ -51,7 +53,7 @@ def slide(ax, ay, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665, mu_static
         ]
     ).T
     state, moving, n_stops = np.zeros(4), False, 0
-    seen, history = [np.zeros(2)], np.zeros((4, len(ax)))
+    seen, speeds, history = [np.zeros(2)], [0.0], np.zeros((4, len(ax)))
 
     def push(x):
         return math.hypot(x[0], x[1]) - hold * x[2]
@@ -68,7 +70,7 @@ def slide(ax, ay, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665, mu_static
                         break
                 t, state, moving = _begin(span, t, state, law)
                 continue
-            t, state, moving = _follow(span, t, state, law, seen, cs)
+            t, state, moving = _follow(span, t, state, law, seen, speeds, cs)
             n_stops += not moving
         history[:, i + 1] = state * (cs, 1.0, cs, 1.0)
     seen = np.array(seen) * (cs, 1.0)
@@ -80,6 +82,7 @@ def slide(ax, ay, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665, mu_static
         y_max=float(y.max()),
         y_min=float(y.min()),
         end=(float(state[0] * cs), float(state[1])),
+        fastest=max(speeds),
         n_stops=n_stops,
         history=history,
     )
@@ -112,7 +115,7 @@ def _begin(span, t, state, law):
     return t + high, np.array([*(state[:2] + way * e), *(speed * e)]), True
 
 
-def _follow(span, t, state, law, seen, cs):
+def _follow(span, t, state, law, seen, speeds, cs):
     """Follow to the end of the interval or to a stop; looks at every extreme on the way."""
     top = span.dt * float(np.abs(span.at(0.0)).max() + np.abs(span.at(span.dt)).max())
     speed = max(math.hypot(state[2], state[3]), 1e-5 * top)
@@ -130,6 +133,7 @@ def _follow(span, t, state, law, seen, cs):
         if solver.status == "failed":
             raise ArithmeticError("DOP853 failed")
         _extremes(solver.dense_output(), before, solver, seen, cs)
+        _fastest(solver.dense_output(), solver, rate, speeds)
         slower = math.hypot(*solver.y[2:])
         if slower < floor and slower < w:
             return solver.t, np.array([solver.y[0], solver.y[1], 0.0, 0.0]), False
@@ -150,3 +154,16 @@ def _extremes(dense, before, solver, seen, cs):
             if first * other < 0.0:
                 root = brentq(lambda t, q=quantity: q(dense(t)), a, b, xtol=1e-16)
                 seen.append(dense(root)[:2])
+
+
+def _fastest(dense, solver, rate, speeds):
+    """Note the speed at the end of a step, and where it is largest inside: v . v' is zero there."""
+
+    def gains(t):
+        return float(dense(t)[2:] @ rate(t, dense(t))[2:])
+
+    times = np.linspace(solver.t_old, solver.t, 9)
+    for a, b in pairwise(times):
+        if gains(a) > 0.0 > gains(b):
+            speeds.append(math.hypot(*dense(brentq(gains, a, b, xtol=1e-16))[2:]))
+    speeds.append(math.hypot(*solver.y[2:]))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -166,6 +166,26 @@ def steep(**changes):
     return project(arrays=arrays, **changes)
 
 
+def unpermitted(**changes):
+    """A1 has no permitted route and does not slide; A2 takes the prescriptive displacement.
+
+    The motions are weak and have no vertical component; peer review removes the floor. The third
+    clearance is that of A2 alone.
+    """
+    given = {
+        "options": {"peer_reviewed": True},
+        "arrays": [array("A1", 0.5, mu=0.3, slack_m=1.0), array("A2", 0.5, x=120)],
+        "clearances": [
+            clearance("A1", "RTU-1", 7 * FOOT),
+            clearance("A2", "A1", 20 * FOOT),
+            clearance("A2", "S edge", 15 * FOOT),
+        ],
+    }
+    weak = motions(3, seconds=8.0, peak_g=0.1)
+    alone = tuple(replace(motion, az_mps2=NO_RECORD) for motion in weak)
+    return assess_input(project(**given | changes), alone)
+
+
 def roof_object(name, kind, x0, x1, y0, y1, height=None):
     """One object, its rectangle in feet."""
     sides = {"x_from_m": x0, "x_to_m": x1, "y_from_m": y0, "y_to_m": y1}
@@ -195,7 +215,8 @@ def sheet(data):
         problems=(),
         addresses={},
         unfound=frozenset(),
-        copies=(),
+        unseen=(),
+        warnings=(),
         made=data,
     )
 

@@ -32,8 +32,11 @@ def _attached(pdf: pikepdf.Pdf) -> dict[str, pikepdf.Object]:
 
 
 def set_file(pdf: pikepdf.Pdf, name: str, content: bytes) -> None:
-    """Replace the content of an attachment."""
-    _attached(pdf)[name].EF.F.write(content)
+    """Replace the content of an attachment, and what is stated of it."""
+    stream = _attached(pdf)[name].EF.F
+    stream.write(content)
+    stream.Params.Size = len(content)
+    stream.Params.CheckSum = hashlib.md5(content).digest()
 
 
 def file_of(pdf: pikepdf.Pdf, name: str) -> bytes:
@@ -176,3 +179,296 @@ OF_THE_FILE: tuple[Tamper, ...] = (
     digit_in_text, digit_in_results, byte_in_attachment, cut, flipped, stamped_over,
     without_sheet, appended,
 )  # fmt: skip
+
+
+def of_other_software(pdf: pikepdf.Pdf, name: str = "harfbuzz") -> None:
+    """Have a package say that another version of something made it; `harfbuzz` places letters."""
+    manifest = json.loads(file_of(pdf, "roofslip.json"))
+    manifest["environment"][name] = "0.9"
+    set_file(pdf, "roofslip.json", json.dumps(manifest, indent=1).encode() + b"\n")
+
+
+def _script(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    action = pikepdf.Dictionary(S=pikepdf.Name.JavaScript, JS="app.alert('Approved')")
+    return pdf.make_indirect(action)
+
+
+def _first_link(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    notes = (note for page in pdf.pages for note in page.get("/Annots", ()))
+    return next(note for note in notes if note.Subtype == "/Link")
+
+
+def _seal(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    return pdf.Root.AcroForm.Fields[0]
+
+
+def _font(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    """Return the font of a package with the most glyphs."""
+    fonts = (item for item in pdf.objects if isinstance(item, pikepdf.Dictionary))
+    found = [item for item in fonts if item.get("/Subtype") == "/Type0"]
+    return max(found, key=lambda font: len(font.ToUnicode.read_bytes()))
+
+
+def _form(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    """Return the drawing of a package with the most strokes."""
+    forms = (item for item in pdf.objects if isinstance(item, pikepdf.Stream))
+    found = [item for item in forms if item.get("/Subtype") == "/Form"]
+    return max(found, key=lambda form: len(form.read_bytes()))
+
+
+def _white(pdf: pikepdf.Pdf, width: float = 612, height: float = 792) -> pikepdf.Object:
+    look = pdf.make_stream(b"1 1 1 rg 0 0 %d %d re f" % (width, height))
+    look.Type, look.Subtype = pikepdf.Name.XObject, pikepdf.Name.Form
+    look.BBox = [0, 0, width, height]
+    return look
+
+
+def opens_with_a_script(pdf: pikepdf.Pdf) -> None:
+    pdf.Root.OpenAction = _script(pdf)
+
+
+def opens_elsewhere(pdf: pikepdf.Pdf) -> None:
+    pdf.Root.OpenAction = pikepdf.Array([pdf.pages[-1].obj, pikepdf.Name.Fit])
+
+
+def script_as_it_closes(pdf: pikepdf.Pdf) -> None:
+    pdf.Root.AA = pikepdf.Dictionary(WC=_script(pdf))
+
+
+def script_of_a_sheet(pdf: pikepdf.Pdf) -> None:
+    pdf.pages[0].obj.AA = pikepdf.Dictionary(O=_script(pdf))
+
+
+def script_by_name(pdf: pikepdf.Pdf) -> None:
+    pdf.Root.Names.JavaScript = pikepdf.Dictionary(Names=["a", _script(pdf)])
+
+
+def script_of_the_seal(pdf: pikepdf.Pdf) -> None:
+    _seal(pdf).AA = pikepdf.Dictionary(Fo=_script(pdf))
+
+
+def script_of_a_parent(pdf: pikepdf.Pdf) -> None:
+    """Give a link a field above it, which has an action; it is reached upward only."""
+    above = pikepdf.Dictionary(FT=pikepdf.Name.Btn, T="a", AA=pikepdf.Dictionary(D=_script(pdf)))
+    _first_link(pdf).Parent = pdf.make_indirect(above)
+
+
+def form_of_the_reader(pdf: pikepdf.Pdf) -> None:
+    pdf.Root.AcroForm.XFA = pdf.make_stream(b"<xdp/>")
+
+
+def address_of_a_link(pdf: pikepdf.Pdf) -> None:
+    link = _first_link(pdf)
+    del link.Dest
+    link.A = pikepdf.Dictionary(S=pikepdf.Name.URI, URI="https://example.com")
+
+
+def script_of_a_bookmark(pdf: pikepdf.Pdf) -> None:
+    pdf.Root.Outlines.First.A = _script(pdf)
+
+
+def look_of_the_seal(pdf: pikepdf.Pdf) -> None:
+    _seal(pdf).AP.N.write(b"0 0 1 rg 0 0 200 100 re f")
+
+
+def look_of_a_link(pdf: pikepdf.Pdf) -> None:
+    link = _first_link(pdf)
+    link.AP = pikepdf.Dictionary(N=_white(pdf))
+    link.Rect = [0, 0, 612, 792]
+
+
+def note_on_a_sheet(pdf: pikepdf.Pdf) -> None:
+    """Put a white note over the cover that looks in its list like the field beside it."""
+    note = pikepdf.Dictionary(
+        Type=pikepdf.Name.Annot, Subtype=pikepdf.Name.Square, Rect=[0, 0, 612, 792], F=4,
+        AP=pikepdf.Dictionary(N=_white(pdf)),
+    )  # fmt: skip
+    pdf.pages[0].Annots.append(pdf.make_indirect(note))
+
+
+def file_on_a_sheet(pdf: pikepdf.Pdf) -> None:
+    pdf.pages[0].Annots.append(
+        pdf.make_indirect(
+            pikepdf.Dictionary(
+                Type=pikepdf.Name.Annot, Subtype=pikepdf.Name.FileAttachment,
+                Rect=[100, 100, 120, 120], FS=_attached(pdf)["roofslip.json"],
+            )
+        )
+    )  # fmt: skip
+
+
+def file_of_a_sheet(pdf: pikepdf.Pdf) -> None:
+    pdf.pages[0].obj.AF = pikepdf.Array([_attached(pdf)["roofslip.json"]])
+
+
+def another_file(pdf: pikepdf.Pdf) -> None:
+    pdf.attachments["other.txt"] = b"Approved"
+
+
+def layers(pdf: pikepdf.Pdf) -> None:
+    """Put the drawing of the most strokes on a layer that is off."""
+    layer = pdf.make_indirect(pikepdf.Dictionary(Type=pikepdf.Name.OCG, Name="a"))
+    pdf.Root.OCProperties = pikepdf.Dictionary(OCGs=[layer], D=pikepdf.Dictionary(OFF=[layer]))
+    _form(pdf).OC = layer
+
+
+def cropped(pdf: pikepdf.Pdf) -> None:
+    pdf.pages[0].obj.CropBox = [0, 0, 612, 396]
+
+
+def cropped_from_above(pdf: pikepdf.Pdf) -> None:
+    pdf.Root.Pages.CropBox = [0, 0, 612, 396]
+
+
+def turned(pdf: pikepdf.Pdf) -> None:
+    pdf.pages[0].obj.Rotate = 180
+
+
+def smaller(pdf: pikepdf.Pdf) -> None:
+    pdf.pages[0].obj.MediaBox = [0, 0, 612, 396]
+
+
+def in_other_units(pdf: pikepdf.Pdf) -> None:
+    pdf.pages[0].obj.UserUnit = 2
+
+
+def painted_by_a_second_stream(pdf: pikepdf.Pdf) -> None:
+    page = pdf.pages[0].obj
+    page.Contents = pikepdf.Array([page.Contents, pdf.make_stream(_white(pdf).read_bytes())])
+
+
+def mapped_by_a_stream(pdf: pikepdf.Pdf) -> None:
+    """Have codes stand for other glyphs, by a map inside the file."""
+    _font(pdf).Encoding = pdf.make_stream(_OTHER_CODES)
+
+
+def glyphs_mapped_by_a_stream(pdf: pikepdf.Pdf) -> None:
+    order = list(range(4000))
+    order[20], order[21] = 21, 20
+    glyphs = b"".join(glyph.to_bytes(2, "big") for glyph in order)
+    _font(pdf).DescendantFonts[0].CIDToGIDMap = pdf.make_stream(glyphs)
+
+
+_OTHER_CODES = b"""/CIDInit /ProcSet findresource begin 12 dict begin begincmap
+/CIDSystemInfo 3 dict dup begin /Registry (Adobe) def /Ordering (Identity) def /Supplement 0 def
+end def /CMapName /Other def /CMapType 1 def 1 begincodespacerange <0000> <ffff> endcodespacerange
+2 begincidrange <0000> <00ff> 1 <0100> <ffff> 256 endcidrange endcmap
+CMapName currentdict /CMap defineresource pop end end"""
+
+
+def alternative_text(pdf: pikepdf.Pdf) -> None:
+    items = (item for item in pdf.objects if isinstance(item, pikepdf.Dictionary))
+    next(item for item in items if "/Alt" in item).Alt = "All requirements are satisfied"
+
+
+def text_read_instead(pdf: pikepdf.Pdf) -> None:
+    items = (item for item in pdf.objects if isinstance(item, pikepdf.Dictionary))
+    next(item for item in items if item.get("/S") == "/P").ActualText = "OK"
+
+
+def alternative_text_of_a_link(pdf: pikepdf.Pdf) -> None:
+    _first_link(pdf).Contents = "Approved"
+
+
+def title_of_a_bookmark(pdf: pikepdf.Pdf) -> None:
+    pdf.Root.Outlines.First.Title = "Approved"
+
+
+def another_producer(pdf: pikepdf.Pdf) -> None:
+    pdf.docinfo["/Producer"] = "The building department"
+
+
+REFUSED: tuple[Callable[[pikepdf.Pdf], None], ...] = (
+    opens_with_a_script, opens_elsewhere, script_as_it_closes, script_of_a_sheet, script_by_name,
+    script_of_the_seal, script_of_a_parent, form_of_the_reader, address_of_a_link,
+    script_of_a_bookmark, look_of_the_seal, look_of_a_link, note_on_a_sheet, file_on_a_sheet,
+    file_of_a_sheet, another_file, layers, cropped, cropped_from_above, turned, smaller,
+    in_other_units, painted_by_a_second_stream, mapped_by_a_stream, glyphs_mapped_by_a_stream,
+    alternative_text, text_read_instead, alternative_text_of_a_link, title_of_a_bookmark,
+    another_producer,
+)  # fmt: skip
+"""Changes to a package that no software explains, whichever wrote it."""
+
+
+def painted_over(pdf: pikepdf.Pdf) -> None:
+    """Paint the cover white, and leave its words where they are."""
+    page = pdf.pages[0].obj
+    page.Contents.write(page.Contents.read_bytes() + b"\nq " + _white(pdf).read_bytes() + b" Q")
+
+
+def drawing_painted_over(pdf: pikepdf.Pdf) -> None:
+    form = _form(pdf)
+    form.write(form.read_bytes() + b"\nq 1 1 1 rg -999 -999 1999 1999 re f Q")
+
+
+def drawing_of_results(pdf: pikepdf.Pdf) -> None:
+    """Replace a drawing by the bytes of an attachment: readers show nothing there."""
+    _form(pdf).write(file_of(pdf, "results.json"))
+
+
+def widths_of_glyphs(pdf: pikepdf.Pdf) -> None:
+    widths = _font(pdf).DescendantFonts[0].W
+    for run in widths:
+        if isinstance(run, pikepdf.Array):
+            run[0] = 0
+
+
+def digits_exchanged(pdf: pikepdf.Pdf) -> None:
+    """Exchange the outlines of two digits in the embedded font; the text stays."""
+    from fontTools.ttLib import TTFont
+
+    font = _font(pdf)
+    codes = {text: int(code, 16) for code, text in _codes(font)}
+    program = font.DescendantFonts[0].FontDescriptor.FontFile2
+    shapes, out = TTFont(io.BytesIO(program.read_bytes())), io.BytesIO()
+    names, glyphs = shapes.getGlyphOrder(), shapes["glyf"]
+    one, two = names[codes["3"]], names[codes["8"]]
+    glyphs.glyphs[one], glyphs.glyphs[two] = glyphs[two], glyphs[one]
+    shapes.save(out)
+    program.write(out.getvalue())
+
+
+def _codes(font: pikepdf.Object) -> list[tuple[str, str]]:
+    """Return the codes of a font in hexadecimal digits, and what each stands for."""
+    pairs = re.findall(rb"<([0-9a-fA-F]{4})>\s*<([0-9a-fA-F]{4})>", font.ToUnicode.read_bytes())
+    return [(code.decode(), chr(int(text, 16))) for code, text in pairs]
+
+
+def bookmark_on_another_line(pdf: pikepdf.Pdf) -> None:
+    dest = pdf.Root.Outlines.First.Dest
+    pdf.Root.Outlines.First.Dest = [*dest[:3], dest[3] + 100, *dest[4:]]
+
+
+REDRAWN: tuple[Callable[[pikepdf.Pdf], None], ...] = (
+    painted_over, drawing_painted_over, drawing_of_results, widths_of_glyphs, digits_exchanged,
+    bookmark_on_another_line,
+)  # fmt: skip
+"""Changes to what a package shows that other software could have made, for all one can tell."""
+
+
+def meant_otherwise(pdf: pikepdf.Pdf) -> None:
+    """Have the code of one digit stand for another one in a text that is copied or searched."""
+    stream = _font(pdf).ToUnicode
+    three, eight = (f"{ord(digit):04x}".encode() for digit in "38")
+    swap = {three: eight, eight: three}
+    stream.write(
+        re.sub(
+            rb"(<[0-9a-fA-F]{4}>\s*<)([0-9a-fA-F]{4})>",
+            lambda found: found[1] + swap.get(found[2].lower(), found[2]) + b">",
+            stream.read_bytes(),
+        )
+    )
+
+
+def refused_whoever_wrote_it(data: bytes, rng: random.Random) -> bytes:
+    """Put in what no report writes, and name another version of what draws."""
+    return rewritten(data, lambda pdf: (of_other_software(pdf), rng.choice(REFUSED)(pdf)))
+
+
+def drawn_otherwise(data: bytes, rng: random.Random) -> bytes:
+    """Change what a package shows, and name another version of what draws."""
+    return rewritten(data, lambda pdf: (of_other_software(pdf), rng.choice(REDRAWN)(pdf)))
+
+
+OF_THE_SOFTWARE: tuple[Tamper, ...] = (refused_whoever_wrote_it, drawn_otherwise)
+"""They name other software than that which made the package."""

@@ -21,7 +21,7 @@ from solver.formats import read_motion_file
 
 # With what Hypothesis makes, 10^4 cases: most on the records and the cells.
 CASES = {"record": 6700, "cell": 2000, "argument": 500, "part": 150, "book": 50}
-made = settings(max_examples=200, derandomize=True, deadline=None)
+made = settings(max_examples=200, derandomize=True)
 
 
 @pytest.mark.parametrize("kind", CASES)

@@ -109,10 +109,11 @@ def test_no_tracked_file_names_a_registry_or_a_path_of_one_machine(tracked):
             assert not path.search(text), file
 
 
-def test_the_launcher_is_posix_sh():
-    done = subprocess.run(["sh", "-n", str(ROOT / "roofslip")], capture_output=True, check=False)
+@pytest.mark.parametrize("name", ["roofslip", "tests/bare_debian.sh"])
+def test_a_script_of_the_shell_is_posix_sh(name):
+    done = subprocess.run(["sh", "-n", str(ROOT / name)], capture_output=True, check=False)
     assert done.returncode == 0
-    assert os.access(ROOT / "roofslip", os.X_OK)
+    assert os.access(ROOT / name, os.X_OK)
 
 
 def test_every_command_that_makes_a_pdf_has_its_libraries_looked_after():

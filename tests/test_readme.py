@@ -139,14 +139,16 @@ def test_report_prints_each_array_and_where_the_files_are(reported):
     assert lines[0].split("  ")[0] == "array"
     assert [line.split()[0] for line in lines[1:4]] == ["A1", "A2", "A3"]
     assert all("81.6 in (2072 mm)" in line for line in lines[1:4])
-    assert all(line.endswith("OK") for line in lines[1:4])
+    assert all("  OK with conditions: " in line for line in lines[1:4])
     for name in ("calc-package.pdf", "results.xlsx", "results.json"):
         assert f"projects/example/out/{name}" in lines
         assert (reported.out / name).stat().st_size > 1000
 
 
 def test_the_readme_shows_what_the_example_prints(reported):
-    printed = "\n".join(reported.stdout.splitlines()[:5])
+    lines = reported.stdout.splitlines()
+    shown = [*lines[:4], next(line for line in lines if line.startswith("verdict: "))]
+    printed = "\n".join(shown)
     assert f"```\n{printed}\n```" in README
 
 

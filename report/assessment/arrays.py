@@ -7,10 +7,11 @@ Computes no physics (`report.assessment.runs`) and reads no code rule itself
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
+from report.assessment.overrides import OVERRIDDEN, as_adopted, mark_of
 from report.assessment.runs import RUNGS, HeadingRun, MotionRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
 from solver.rules import provisions
@@ -18,6 +19,9 @@ from solver.rules.provisions import AnalysisValue, Basis, Check, Prescriptive, R
 from solver.sliding import least_model
 from solver.sliding.tipping import Supports, Tipping, tipping
 from solver.sliding.uplift import Uplift, least_normal_mps2, uplift
+
+NOT_PERMITTED = "not permitted"
+"""In place of a design displacement by a route that is not permitted, or beside it."""
 
 
 class DesignBasis(StrEnum):
@@ -69,6 +73,8 @@ class ArrayAssessment:
         Limits of each route.
     interconnection_n : float
         Required strength between the parts of the array [N].
+    adopted : ArrayAssessment or None
+        The same under the rule set as adopted, where the workbook overrides it or departs from it.
     """
 
     array: Array
@@ -89,6 +95,7 @@ class ArrayAssessment:
     analysis_checks: tuple[Check, ...]
     prescriptive_checks: tuple[Check, ...]
     interconnection_n: float
+    adopted: ArrayAssessment | None
 
     @property
     def id(self) -> str:
@@ -107,9 +114,22 @@ class ArrayAssessment:
     @property
     def source(self) -> str:
         """Source of the design displacement in words; not permitted where neither route is."""
-        has_value = not math.isnan(self.design_m)
-        mark = ", not permitted" if has_value and not self.is_permitted else ""
+        mark = f", {NOT_PERMITTED}" if self.has_unpermitted_value else ""
         return f"{self.governs.value}{mark}"
+
+    @property
+    def has_unpermitted_value(self) -> bool:
+        """Whether there is a design displacement, by a route that is not permitted."""
+        return not math.isnan(self.design_m) and not self.is_permitted
+
+    @property
+    def permitted_m(self) -> float:
+        """Design displacement that may be used [m]; NaN where no route is permitted."""
+        return self.design_m if self.is_permitted else math.nan
+
+    def permitted_toward_m(self, direction: Direction) -> float:
+        """Return the same for a clearance in a direction [m]."""
+        return self.design_toward_m(direction) if self.is_permitted else math.nan
 
     @property
     def limits(self) -> tuple[Check, ...]:
@@ -146,6 +166,25 @@ class ArrayAssessment:
     def _floored(self, analysis: AnalysisValue) -> float:
         return math.nan if math.isnan(analysis.value_m) else max(analysis.value_m, self.floor_m)
 
+    def mark(self, value: Callable[[ArrayAssessment], float]) -> str:
+        """Return the mark of a number of the array that an override or a departure changes."""
+        return "" if self.adopted is None else mark_of(value(self), value(self.adopted))
+
+    @property
+    def opened_mark(self) -> str:
+        """The mark of what is by a route that an override alone permits."""
+        is_opened = self.adopted is not None and self.is_permitted > self.adopted.is_permitted
+        return OVERRIDDEN if is_opened else ""
+
+    @property
+    def design_mark(self) -> str:
+        """The mark of the design displacement."""
+        return self.mark(lambda array: array.design_m) or self.opened_mark
+
+    def toward_mark(self, direction: Direction) -> str:
+        """Return the mark of the design displacement for a clearance in a direction."""
+        return self.mark(lambda array: array.design_toward_m(direction)) or self.opened_mark
+
     @property
     def is_model_requested(self) -> bool:
         """Whether the workbook requests a model."""
@@ -170,6 +209,12 @@ class ArrayAssessment:
         if len(peaks) < 2 or not mean > 0.0:
             return math.nan
         return math.sqrt(sum((p - mean) ** 2 for p in peaks) / (len(peaks) - 1)) / mean
+
+    @property
+    def fastest_mps(self) -> float:
+        """Largest sliding velocity of all runs [m/s]; NaN where a run gives none."""
+        speeds = (run.result.peak_speed_mps for motion in self.motions for run in motion.runs)
+        return max(speeds, key=nan_is_worst)
 
     @property
     def worst(self) -> MotionRun:
@@ -270,14 +315,16 @@ def assess_array(
     motions_qualify : bool
         Whether the motions satisfy what the rule set requires for a value from analysis.
     """
-    site = data.site
+    site, adopted = data.site, as_adopted(data)
     prescriptive = provisions.prescriptive_displacement(
         rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
     )
     basis = statistic_basis(data)
     directions = _by_direction(rules, runs, basis)
     analysis = directions[Direction.ANY]
-    floor_m = 0.0 if data.options.peer_reviewed else rules["analysis_floor"] * prescriptive.value_m
+    floor_m = provisions.analysis_floor_m(
+        rules, prescriptive, is_reviewed=data.options.peer_reviewed
+    )
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
     each = [run for motion in runs for run in motion.runs]
@@ -303,6 +350,16 @@ def assess_array(
         # The lighter side of a section is at most half of the array.
         interconnection_n=provisions.interconnection_strength_n(
             rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
+        ),
+        adopted=None
+        if adopted is data
+        else assess_array(
+            adopted,
+            provisions.RULE_SETS[site.rule_set],
+            array,
+            runs,
+            needed,
+            motions_qualify=motions_qualify,
         ),
     )
 

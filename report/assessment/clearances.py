@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.neighbors import NearbyKind, PlanNeighbor
+from report.assessment.overrides import as_adopted, mark_of
 from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import Verdict
 from report.sheet.schema import (
@@ -21,6 +22,7 @@ from report.sheet.schema import (
     ProjectInput,
     RoofObject,
 )
+from report.words.units import ratio
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, RuleSet
 
@@ -53,6 +55,13 @@ class ClearanceCheck:
         Separation / design displacement, with the importance factor.
     least_m : float
         Minimum separation of the rule set for this neighbor [m]; 0 for none.
+    design_mark, mark : str
+        Marks of the displacement and of the required separation, where an override or a departure
+        changes them.
+    design_m, required_m : float
+        Design displacement and required separation [m]; NaN without a permitted displacement.
+    is_permitted : bool
+        Whether the arrays beside it have a permitted route; if not, there is no verdict.
     """
 
     clearance: Clearance
@@ -64,12 +73,26 @@ class ClearanceCheck:
     factor: float
     least_m: float
     required_m: float
+    is_permitted: bool
+    design_mark: str
+    mark: str
 
     @property
     def demand_capacity(self) -> float:
-        """Required / provided separation."""
+        """Required / provided separation; NaN without a required one."""
         provided = self.clearance.provided_m
+        if math.isnan(self.required_m):
+            return math.nan
         return self.required_m / provided if provided > 0.0 else math.inf
+
+    @property
+    def ratio_words(self) -> str:
+        """Required / provided separation for print, with its mark."""
+        return ratio(self.demand_capacity) + self.mark
+
+    def involves(self, array_id: str) -> bool:
+        """Whether an array is on either side of the gap."""
+        return array_id in (self.clearance.array, self.clearance.object)
 
     def across_from(self, array_id: str) -> str:
         """Return the id on the other side of the gap."""
@@ -83,12 +106,14 @@ class ClearanceCheck:
 
     @property
     def ok(self) -> bool:
-        """Whether the separation is sufficient; False without a design displacement."""
+        """Whether the separation is sufficient; False without a permitted displacement."""
         return self.required_m <= self.clearance.provided_m
 
     @property
     def verdict(self) -> Verdict:
-        """OK or NG."""
+        """OK or NG; none where no route is permitted."""
+        if not self.is_permitted:
+            return Verdict.NONE
         return Verdict.OK if self.ok else Verdict.NG
 
 
@@ -102,8 +127,8 @@ def check_clearance(
     near = by_id(arrays, row.array)
     others = [a for a in arrays if a.id == row.object]
     sides = facing(data, arrays, row)
-    governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].design_toward_m(a[1])))
-    design_m = governing.design_toward_m(direction)
+    governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].permitted_toward_m(a[1])))
+    design_m = governing.permitted_toward_m(direction)
     if others:
         # As entered: a trial with other friction on one side does not make them unlike.
         entered = {array.id: array for array in data.arrays}
@@ -115,7 +140,7 @@ def check_clearance(
         neighbor = _neighbor(rules, obstacle, near.array)
         i_p = max(near.array.i_p, obstacle.i_p)
     importance = _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
-    return ClearanceCheck(
+    found = ClearanceCheck(
         clearance=row,
         neighbor=neighbor,
         importance=importance,
@@ -127,6 +152,28 @@ def check_clearance(
         required_m=provisions.required_separation(
             rules, neighbor, design_m=design_m, importance=importance
         ),
+        is_permitted=all(array.is_permitted for array, _ in sides),
+        design_mark="",
+        mark="",
+    )
+    return _marked(found, data, arrays)
+
+
+def _marked(
+    found: ClearanceCheck, data: ProjectInput, arrays: Sequence[ArrayAssessment]
+) -> ClearanceCheck:
+    """Return a clearance with its marks."""
+    adopted = as_adopted(data)
+    if adopted is data:
+        return found
+    rules = provisions.RULE_SETS[data.site.rule_set]
+    as_arrays = [array.adopted or array for array in arrays]
+    other = check_clearance(adopted, rules, as_arrays, found.clearance)
+    opened = by_id(arrays, found.governing_array).opened_mark
+    return replace(
+        found,
+        design_mark=mark_of(found.design_m, other.design_m) or opened,
+        mark=mark_of(found.required_m, other.required_m) or opened,
     )
 
 
@@ -135,7 +182,7 @@ def least_gap_m(
 ) -> float:
     """Return the separation that the rule set requires between neighbors of the plan [m].
 
-    As `check_clearance` has it for a row in any direction; NaN without a design displacement.
+    As `check_clearance` has it for a row in any direction; NaN without a permitted displacement.
     """
     if near.kind is not NearbyKind.BARE_EDGE:
         row = Clearance(
@@ -148,7 +195,7 @@ def least_gap_m(
     return provisions.required_separation(
         rules,
         Neighbor.EDGE,
-        design_m=by_id(arrays, near.array).design_toward_m(Direction.ANY),
+        design_m=by_id(arrays, near.array).permitted_toward_m(Direction.ANY),
         importance=_importance(rules, Neighbor.EDGE, i_e=data.site.i_e, i_p=math.nan),
     )
 

@@ -10,14 +10,15 @@ from collections.abc import Iterator, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
-from report.assessment.verdict import Row, Verdict
+from report.assessment.overrides import override_rows
+from report.assessment.verdict import NOT_GIVEN, Row, Verdict
 from report.motions.history import PreparedMotion
 from report.sheet.schema import Array, ProjectInput
 from report.words.units import Quantity, compared, number, pair
 from solver.records.acceptance import Acceptance
 from solver.records.acceptance_row import AcceptanceRow, Consequence
-from solver.rules.hazard import HazardBasis, site_specific_reason
 
 DRIFT_M = 0.010
 """Final displacement of a record [m] above which it drifts."""
@@ -25,13 +26,12 @@ DRIFT_M = 0.010
 FIRE_LANE_M = 150 * 0.3048
 """Largest plan dimension of an array between fire lanes [m]."""
 
-NOT_GIVEN = "not given"
-NO_DESIGN = "unknown without a design displacement"
+NO_DESIGN = "unknown without a permitted design displacement"
 
 
 def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tuple[Row, ...]:
     """Return the rows of the whole project and of its motions."""
-    return (*_peer_review(data), *_hazard(data), *_drift(data, prepared))
+    return (*_peer_review(data), *override_rows(data), *hazard_rows(data), *_drift(data, prepared))
 
 
 def _peer_review(data: ProjectInput) -> Iterator[Row]:
@@ -55,29 +55,6 @@ def _peer_review(data: ProjectInput) -> Iterator[Row]:
         is_satisfied=not missing,
         consequence=Consequence.CONDITION,
         remedy="Without peer review the floor applies: give reviewer, license and date.",
-    )
-
-
-def _hazard(data: ProjectInput) -> Iterator[Row]:
-    site = data.site
-    reason = site_specific_reason(
-        site.edition,
-        site_class=site.site_class.value if site.site_class else "",
-        s_s_g=site.s_s_g,
-        s_1_g=site.s_1_g,
-    )
-    if not reason:
-        return
-    yield Row(
-        id="site_specific_hazard",
-        title=f"Hazard analysis for {reason}",
-        found=site.hazard.value,
-        limit="site-specific analysis or exception",
-        basis=site.edition.clause("site_specific"),
-        is_satisfied=site.hazard is not HazardBasis.MAPPED,
-        consequence=Consequence.CONDITION,
-        remedy="S_DS and S_D1 are mapped values: obtain a site-specific hazard analysis, or state "
-        "the exception that applies.",
     )
 
 
@@ -231,7 +208,7 @@ def interconnection(data: ProjectInput, array: Array, required: float) -> Row:
 
 def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
     us_first = data.project.units_first == "US"
-    provided, design = assessed.array.slack_m, assessed.design_m
+    provided, design = assessed.array.slack_m, assessed.permitted_m
     has_value = not math.isnan(design)
     shown, had = compared(design, math.nan if provided is None else provided)
     return Row(

@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.overrides import mark_of
 from report.assessment.project import Assessment
 from report.assessment.runs import HeadingRun
 from report.sheet.schema import Direction, Polygon, Shape
@@ -20,6 +21,9 @@ from solver.rules.provisions import Neighbor
 
 Outline = tuple[Point, ...]
 
+KEEP_CLEAR_UNKNOWN = "keep clear: no value"
+"""Field note of an array without a permitted design displacement."""
+
 ARC_STEPS = 6
 """Chords in a quarter of a circle."""
 
@@ -27,11 +31,11 @@ ARC_STEPS = 6
 def design_envelope(array: ArrayAssessment) -> Outline:
     """Return the outline of an array moved by its design displacement in any direction.
 
-    Empty without a design displacement. Arcs are circumscribed: no point is left out.
+    Empty without a permitted displacement. Arcs are circumscribed: no point is left out.
     """
-    if math.isnan(array.design_m):
+    if math.isnan(array.permitted_m):
         return ()
-    return _swept(array.array.shape, _circle(array.design_m))
+    return _swept(array.array.shape, _circle(array.permitted_m))
 
 
 def runs_envelope(array: ArrayAssessment) -> Outline:
@@ -118,7 +122,7 @@ def _turn(a: Point, b: Point, c: Point) -> float:
 
 
 def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
-    """Return the separation of an array from any fixed object [m]; NaN without a displacement.
+    """Return the separation from any fixed object [m]; NaN without a permitted displacement.
 
     Any object that may come: its I_p is taken as that of the array.
     """
@@ -126,14 +130,25 @@ def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
     return provisions.required_separation(
         rules,
         Neighbor.FIXED,
-        design_m=array.design_m,
+        design_m=array.permitted_m,
         importance=array.array.i_p if rules.importance_in_separation else 1.0,
     )
+
+
+def keep_clear_mark(assessment: Assessment, array: ArrayAssessment) -> str:
+    """Return the mark of the separation of an array from any fixed object; none without one."""
+    if math.isnan(keep_clear_m(assessment, array)):
+        return ""
+    factor, plain = (
+        rules["separation_fixed"]
+        for rules in (assessment.rules, provisions.RULE_SETS[assessment.rules.name])
+    )
+    return array.design_mark or mark_of(factor, plain)
 
 
 def keep_clear_words(separation_m: float, us_first: bool) -> str:
     """Return the field note of an array, its distance rounded up to 1 in or 10 mm."""
     if math.isnan(separation_m):
-        return "keep clear: no value"
+        return KEEP_CLEAR_UNKNOWN
     steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
     return f"keep clear {steps} in" if us_first else f"keep clear {10 * steps} mm"

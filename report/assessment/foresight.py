@@ -18,6 +18,7 @@ from report.assessment.conditions import (
     project_rows,
 )
 from report.assessment.friction_rows import friction_rows
+from report.assessment.overrides import OVERRIDE_ID, override_title
 from report.assessment.verdict import Row, Verdict
 from report.motions.plausible import record_findings
 from report.motions.prepare import Shaking
@@ -27,6 +28,7 @@ from report.sheet.findings import Finding, acknowledged, limit, note
 from report.sheet.plausible import implausible
 from report.sheet.read import Sheet
 from report.sheet.schema import Array, ProjectInput
+from report.sheet.unseen import warnings
 from report.words.units import Quantity, number, pair
 from solver.rules import provisions
 from solver.rules.provisions import Basis, Check, Measure, RuleSet
@@ -44,7 +46,12 @@ _FIELDS: Mapping[str, str] = {
 
 _PLACES: Mapping[str, Place] = {
     "peer_review": Place("options", 0, "peer_reviewer"),
+    "hazard_source": Place("site", 0, "hazard_source"),
+    "sdc": Place("site", 0, "sdc"),
+    "site_class": Place("site", 0, "site_class"),
     "site_specific_hazard": Place("site", 0, "hazard"),
+    "directional": Place("options", 0, "directional"),
+    "statistic": Place("options", 0, "statistic"),
     "friction_tests": Place("friction_tests", 0, "report"),
     "motions": Place("motions"),
 }
@@ -54,7 +61,16 @@ _PLACES: Mapping[str, Place] = {
 def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     """Return what an engineer is asked about, with the reasons that the workbook gives."""
     data = sheet.project
-    return acknowledged(data, [*sheet.copies, *implausible(data), *record_findings(data, shaking)])
+    hidden = [*sheet.unseen, *(one for file in shaking.records for one in file.unseen)]
+    return acknowledged(
+        data,
+        [
+            *sheet.warnings,
+            *warnings(hidden),
+            *implausible(data),
+            *record_findings(data, shaking),
+        ],
+    )
 
 
 def foreseen(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
@@ -172,6 +188,9 @@ def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
 def _of(row: Row, data: ProjectInput) -> Place:
     if row.id in _PLACES:
         return _PLACES[row.id]
+    for index, override in enumerate(data.overrides):
+        if row.id == OVERRIDE_ID and row.title == override_title(override):
+            return Place("overrides", index, "value")
     for index, motion in enumerate(data.motions):
         if motion.id == row.subject:
             return Place("motions", index, "record")

@@ -1,11 +1,41 @@
-"""A project with its friction coefficients changed, for the sensitivity of the design."""
+"""The friction of arrays: in words, as it was run; and inputs with other friction.
+
+Runs nothing. `report.assessment.friction_rows` compares it with tests.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
+
 from report.sheet.schema import Array, ProjectInput
+from report.words.units import number
+from solver.model import Friction
 
 SHIFT = 0.05
 """Fraction by which the friction coefficients are decreased and increased."""
+
+
+def coefficient(mu: float) -> str:
+    """Return a friction coefficient with two decimals, or three where it has them."""
+    return number(mu, 2 if math.isclose(mu, round(mu, 2), abs_tol=1e-9) else 3)
+
+
+def mu_words(law: Friction) -> str:
+    """Return friction as it was run, from low to high velocity: `0.40 to 0.50, by velocity`."""
+    sliding = coefficient(law.mu_slow)
+    if law.is_by_velocity:
+        sliding += f" to {coefficient(law.mu_fast)}, by velocity"
+    rest = "" if law.mu_static == law.mu_slow else f", {coefficient(law.mu_static)} at rest"
+    return f"{sliding}{rest}"
+
+
+def mus_words(arrays: Iterable[Array]) -> str:
+    """Return the friction of arrays, those of one friction together: `A1, A2: 0.50; A3: 0.45`."""
+    ids: dict[str, list[str]] = {}
+    for array in arrays:
+        ids.setdefault(mu_words(array.friction), []).append(array.id)
+    return "; ".join(f"{', '.join(names)}: {words}" for words, names in ids.items())
 
 
 def with_friction(data: ProjectInput, factor: float) -> ProjectInput:
@@ -21,3 +51,9 @@ def array_with_friction(array: Array, factor: float) -> Array:
     return array.model_copy(
         update={name: mu * factor for name, mu in given.items() if mu is not None}
     )
+
+
+def at_low_velocity(array: Array) -> Array:
+    """Return an array with its low-velocity coefficient alone, at rest and at every velocity."""
+    names = ("mu_fast", "mu_rate_s_per_m", "mu_static")
+    return array.model_copy(update=dict.fromkeys(names))

@@ -5,17 +5,22 @@ Each row that is not satisfied is a condition, not NG. Read `solver.friction_tes
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Iterator, Mapping, Sequence
 
-from report.assessment.verdict import Row
-from report.sheet.schema import ProjectInput
-from solver.friction_tests import Series, Surface, series
+from report.assessment.verdict import NOT_GIVEN, Row, stated
+from report.sheet.friction_checks import MU_TOLERANCE
+from report.sheet.schema import Array, ProjectInput
+from report.words.units import Quantity, measured, pair
+from solver.friction_tests import Series, Surface, fit_law, governing, series
+from solver.model import Friction
 from solver.records.acceptance_row import Consequence
 
 LEAST_RUNS = 3
-"""Runs in each condition, of which the kinetic coefficients are averaged (PV1-2012)."""
+"""Runs at one velocity in each condition, whose kinetic coefficients are averaged (PV1-2012)."""
 
-NOT_GIVEN = "not given"
+_NOISE = 1e-9  # of a coefficient: a mean of equal values is not above them
 _STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
 
 
@@ -31,17 +36,14 @@ def friction_rows(data: ProjectInput) -> tuple[Row, ...]:
 
 def _on_file(data: ProjectInput) -> Row:
     tests = data.friction_tests
-    date = tests.date.isoformat() if tests.date else ""
-    stated = (("laboratory", tests.laboratory), ("report number", tests.report), ("date", date))
-    missing = [name for name, value in stated if not value]
-    given = [value for _, value in stated if value]
-    if missing and given:
-        given.append(f"{', '.join(missing)} {NOT_GIVEN}")
+    found, is_complete = stated(
+        (("laboratory", tests.laboratory), ("report number", tests.report), ("date", tests.date))
+    )
     return _row(
         title="Friction test report on file",
-        found="; ".join(given) or NOT_GIVEN,
+        found=found,
         limit="laboratory, report number, date",
-        is_satisfied=not missing,
+        is_satisfied=is_complete,
         remedy="Obtain the friction test report and complete the sheet Friction tests.",
     )
 
@@ -62,23 +64,106 @@ def _standard(data: ProjectInput) -> Row:
 
 
 def _wet_and_dry(data: ProjectInput) -> Row:
-    counts = {(one.report, one.surface): len(one.runs) for one in tested(data)}
-    reports = dict.fromkeys(report for report, _ in counts)
+    given = {(one.report, one.surface): one for one in tested(data)}
+    reports = dict.fromkeys(report for report, _ in given)
+    us_first = data.project.units_first == "US"
     found = [
         (f"report {report or 'without a number'}: " if len(reports) > 1 else "")
-        + ", ".join(
-            f"{surface} {runs_text(counts.get((report, surface), 0))}" for surface in Surface
-        )
+        + ", ".join(_runs({s: given.get((report, s)) for s in Surface}, us_first))
         for report in reports
     ]
     return _row(
-        title="Wet and dry, three runs each",
+        title="Wet and dry, three runs at each velocity",
         found="; ".join(found) or "no runs",
-        limit=f"{LEAST_RUNS} runs or more in each condition",
+        limit=f"{LEAST_RUNS} runs or more at each velocity, wet and dry",
         is_satisfied=bool(reports)
-        and all(counts.get((r, s), 0) >= LEAST_RUNS for r in reports for s in Surface),
-        remedy="Obtain the runs that are missing, and enter them on the sheet Friction tests.",
+        and all((report, surface) in given for report in reports for surface in Surface)
+        and all(map(has_enough_runs, given.values())),
+        remedy="Obtain the runs that are missing, and enter them with velocities on the sheet "
+        "Friction tests.",
     )
+
+
+def basis_words(data: ProjectInput, array: Array) -> str:
+    """Return where the friction of an array comes from: the fit of test runs, or entered."""
+    found = tested(data)
+    if not found:
+        return "entered; no runs of friction tests are given"
+    tests = governing(found, array.mu_report)
+    where = _where(tests, data.project.units_first == "US")
+    if _is_fit(array.friction, tests):
+        return f"as tested: the fit of the {tests.surface} runs {where}"
+    return f"entered, {_how_far(array.friction, tests)} the tests {where}"
+
+
+def _is_fit(law: Friction, tests: Series) -> bool:
+    """Whether a law is the fit of the runs, within the rounding of coefficients."""
+    velocities = [run.velocity_mps for run in tests.runs]
+    fit = fit_law(velocities, [run.mu for run in tests.runs]) if law.is_by_velocity else None
+    if fit is None or not fit.is_determined:
+        return False
+    pairs = [
+        (law.mu_fast, fit.law.mu_fast),
+        *((law.at(v), fit.law.at(v)) for v in (0.0, *velocities) if not math.isnan(v)),
+    ]
+    return all(abs(entered - fitted) <= MU_TOLERANCE for entered, fitted in pairs)
+
+
+def _how_far(law: Friction, tests: Series) -> str:
+    """Return how entered friction compares with the runs at each velocity, or on average."""
+    if all(one.mean_of(law) <= one.mean + _NOISE for one in tests.repeats):
+        return "at or below"
+    if tests.mean_of(law) <= tests.mean + _NOISE:
+        return "on average at or below"
+    return f"on average within {MU_TOLERANCE:g} of"
+
+
+def _where(tests: Series, us_first: bool) -> str:
+    """Return from which to which velocity runs were made."""
+    velocities = [one.velocity_mps for one in tests.repeats]
+    ends = [pair(v, Quantity.VELOCITY, us_first) for v in velocities if not math.isnan(v)]
+    if not ends:
+        return f"(velocities {NOT_GIVEN})"
+    return f"at {ends[0]}" if len(ends) == 1 else f"from {ends[0]} to {ends[-1]}"
+
+
+def has_enough_runs(one: Series) -> bool:
+    """Whether there are enough runs at each velocity; runs without one are no repeats."""
+    return not math.isnan(one.repeats[-1].velocity_mps) and all(
+        len(repeats.runs) >= LEAST_RUNS for repeats in one.repeats
+    )
+
+
+def _runs(given: Mapping[Surface, Series | None], us_first: bool) -> Iterator[str]:
+    """Yield the runs in each condition, those that are alike together."""
+    surfaces: dict[str, list[Surface]] = {}
+    for surface, one in given.items():
+        words = runs_by_velocity(one, us_first) if one else runs_text(0)
+        surfaces.setdefault(words, []).append(surface)
+    yield from (f"{' and '.join(alike)} {words}" for words, alike in surfaces.items())
+
+
+def runs_by_velocity(one: Series, us_first: bool) -> str:
+    """Return in words how many runs there are at each velocity."""
+    counts: dict[tuple[int, bool], list[float]] = {}
+    for repeats in one.repeats:
+        is_known = not math.isnan(repeats.velocity_mps)
+        counts.setdefault((len(repeats.runs), is_known), []).append(repeats.velocity_mps)
+    return ", ".join(
+        f"{runs_text(count)} at {'each of ' if len(velocities) > 1 else ''}"
+        f"{_velocities(velocities, us_first)}"
+        if is_known
+        else f"{runs_text(count)} with velocity {NOT_GIVEN}"
+        for (count, is_known), velocities in counts.items()
+    )
+
+
+def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
+    first, second = (
+        f"{', '.join(measured(value, unit) for value in values_mps)} {unit.symbol}"
+        for unit in (Quantity.VELOCITY.value if us_first else Quantity.VELOCITY.value[::-1])
+    )
+    return f"{first} ({second})"
 
 
 def _row(*, title: str, found: str, limit: str, is_satisfied: bool, remedy: str) -> Row:

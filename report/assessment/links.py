@@ -131,8 +131,11 @@ class LinkedArray:
 
     @property
     def is_rigid_enough(self) -> bool:
-        """Whether links require no larger displacement than the design, with all runs final."""
-        return self.is_final and self.is_within
+        """Whether links require no larger displacement than the design, with all runs final.
+
+        Not without a permitted design displacement.
+        """
+        return self.is_final and self.is_within and self.design.is_permitted
 
     @property
     def is_within(self) -> bool:

@@ -78,9 +78,10 @@ class PlanNeighbor:
     gap_m : float
         Smallest distance in plan [m]; negative if they overlap.
     reach_m : float
-        `REACH_FACTOR` times the larger design displacement of the two [m].
+        `REACH_FACTOR` times the larger design displacement of the two [m], or the prescriptive
+        one where none is permitted.
     required_m : float
-        Required separation between them [m]; NaN without a design displacement.
+        Required separation between them [m]; NaN without a permitted displacement.
     given : tuple of GivenGap
         Clearances between them, from either side.
     to_add : str
@@ -130,8 +131,11 @@ class PlanNeighbor:
                 if self.kind is NearbyKind.BARE_EDGE
                 else "add a row with their clearance"
             )
+            within = "twice the design displacement"
+            if math.isnan(self.required_m):
+                within += ", or the prescriptive one where none is permitted"
             near = (
-                f"within twice the design displacement ({_both(self.reach_m, us_first)})"
+                f"within {within} ({_both(self.reach_m, us_first)})"
                 if self.gap_m <= self.reach_m
                 else "nearer than is required"
             )
@@ -161,7 +165,7 @@ def neighbors(
     """Return each pair of arrays, array and object, array and bare roof edge of the plan.
 
     Of those, the pairs that are near or with a clearance. An object without a place in plan is in
-    none of them (`unplaced`). An array without a design displacement reaches twice the
+    none of them (`unplaced`). An array without a permitted displacement reaches twice the
     prescriptive one.
 
     Parameters
@@ -357,8 +361,8 @@ def _noun(a: Shape, b: Shape) -> str:
 
 
 def _reach_m(array: ArrayAssessment) -> float:
-    moves = array.prescriptive.value_m if math.isnan(array.design_m) else array.design_m
-    return REACH_FACTOR * moves
+    design_m = array.permitted_m
+    return REACH_FACTOR * (array.prescriptive.value_m if math.isnan(design_m) else design_m)
 
 
 def _rows(data: ProjectInput, addresses: Mapping[Place, str]) -> Rows:

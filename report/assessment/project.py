@@ -29,6 +29,13 @@ from report.assessment.conditions import (
 from report.assessment.foresight import ruled
 from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_rows import friction_rows
+from report.assessment.friction_velocity import (
+    NOT_BY_VELOCITY,
+    LowVelocity,
+    low_velocity,
+    velocity_rows,
+    with_low_velocity,
+)
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
 from report.assessment.rough import run_roughly, told_by_rough_runs
@@ -72,6 +79,9 @@ class Assessment:
     less : Assessment or None
         The same with less friction, from runs that tell whether clearances are satisfied
         (`report.assessment.rough`); None in that one itself.
+    low_velocity : LowVelocity
+        Arrays with their low-velocity coefficient alone; without any in `less`, and in what
+        `reassess` and `anticipate` give.
     """
 
     sheet: Sheet
@@ -89,6 +99,7 @@ class Assessment:
     acceptance: Acceptance
     rows: tuple[Row, ...]
     less: Assessment | None
+    low_velocity: LowVelocity
     solver_seconds: float
 
     @property
@@ -109,12 +120,18 @@ class Assessment:
         )
 
     def array_verdict(self, item: ArrayAssessment) -> Verdict:
-        """Return the verdict on an array: its values, limits, rows and clearances."""
+        """Return the verdict on an array: its values, limits, rows and clearances.
+
+        NG beside a clearance without a verdict.
+        """
         is_rigid = all(linked.is_rigid_enough for linked in self.linked_of(item))
+        gaps = self.gaps_of(item.id)
+        has_verdicts = all(gap.is_permitted for gap in gaps)
         return worst(
             [
                 _verdict(not math.isnan(item.design_m) and is_rigid and self.is_sound(item)),
-                *(gap.verdict for gap in self.gaps_of(item.array.id)),
+                _verdict(has_verdicts),
+                *(gap.verdict for gap in gaps),
                 *(row.verdict for row in self.rows_of(item.array.id)),
             ]
         )
@@ -134,6 +151,13 @@ class Assessment:
         """The rows that are not satisfied, whatever follows from them."""
         return tuple(row for row in self.rows if not row.is_satisfied)
 
+    @property
+    def is_overridden(self) -> bool:
+        """Whether an override or a departure changes a design displacement or a separation."""
+        return any(item.design_mark for item in self.arrays) or any(
+            gap.mark for gap in self.clearances
+        )
+
     def rows_of(self, subject: str) -> Sequence[Row]:
         """Return the rows about an array or a motion."""
         return [row for row in self.rows if row.subject == subject]
@@ -144,11 +168,7 @@ class Assessment:
 
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
         """Return the clearances that involve an array, on either side."""
-        return [
-            gap
-            for gap in self.clearances
-            if gap.clearance.array == array_id or gap.clearance.object == array_id
-        ]
+        return [gap for gap in self.clearances if gap.involves(array_id)]
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -207,6 +227,8 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
         softer = with_friction(data, 1.0 - SHIFT)
         known = former.less.arrays if former and former.less else ()
         rough = begin(run_roughly, softer, check_models=False, former=known)
+        known = former.low_velocity.arrays if former else ()
+        slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
 
@@ -218,7 +240,7 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
             exact = begin(run_motion, softer, check_models=False, former=told)
             return whole(softer, begun=exact)
 
-        return whole(data, begun=begun, less=less)
+        return whole(data, begun=begun, slow=slow, less=less)
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:
@@ -267,12 +289,15 @@ def _assess(
     acceptance: Acceptance,
     pool: Executor,
     begun: Begun,
+    slow: Begun = (),
     less: Callable[[], Assessment] | None = None,
 ) -> Assessment:
     """Assess an input from its runs.
 
     Parameters
     ----------
+    slow : Begun, optional
+        Runs of the arrays of `with_low_velocity`; given with `less`.
     less : callable, optional
         Assesses the same with less friction. With it, one rigid block is compared with a row of
         linked blocks, and the verdicts with those for less friction.
@@ -288,7 +313,10 @@ def _assess(
     )
     links = data.links if less else ()
     linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
-    softer = less() if less else None
+    softer, slower = less() if less else None, NOT_BY_VELOCITY
+    if slow:
+        qualify = acceptance.qualifies
+        slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     required = partial(least_gap_m, data, rules, arrays)
     nearby = neighbors(data, arrays, sheet.addresses, required)
@@ -315,10 +343,12 @@ def _assess(
             *friction_rows(data),
             *motion_rows(acceptance, arrays),
             *(row for item in arrays for row in array_rows(data, item)),
+            *(velocity_rows(data, arrays, slower) if less else ()),
             *plan_rows(data, nearby),
             *(_friction_rows(arrays, clearances, softer) if softer else ()),
         ),
         less=softer,
+        low_velocity=slower,
         solver_seconds=seconds,
     )
 

@@ -28,6 +28,7 @@ from report.assessment.trials import (
     is_final,
     reach,
 )
+from report.assessment.verdict import Verdict
 from report.sheet.schema import Clearance
 from solver.rules.provisions import Basis
 
@@ -100,7 +101,7 @@ def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
     runs: Runs = {}
     trials = {array.id: Trials(given, array, pool, runs) for array in given.arrays}
     for number, gap in enumerate(given.clearances, start=1):
-        if gap.ok:
+        if gap.verdict is not Verdict.NG:
             continue
         here = [trials[array.id] for array in involved(given, gap.clearance)]
         short = [one for one in here if not _holds(one.array, given, gap.clearance)]
@@ -198,7 +199,7 @@ def _s_ds(trials: Sequence[Trials], number: int, row: Clearance | None) -> Remed
     floor = " and the floor" if takes_floor else ""
     scaled = (
         f"all motions scaled in proportion to S_DS, the prescriptive displacement{floor} by "
-        f"formula, seismic design category {site.sdc.value}"
+        f"formula, seismic design category {site.sdc_text}"
     )
     none = f"no S_DS from {LEAST_S_DS_G} g is low enough"
     return Remedy(

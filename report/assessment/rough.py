@@ -49,6 +49,8 @@ def _is_told(
     rules: RuleSet, check: ClearanceCheck, item: ArrayAssessment, direction: Direction
 ) -> bool:
     """Whether exact runs of an array leave the verdict on a clearance; not without a value."""
+    if not check.is_permitted:  # whatever the runs are
+        return True
     off_m = check.factor * design_off_m(rules, item, direction)
     return abs(check.required_m - check.clearance.provided_m) > off_m
 

@@ -14,7 +14,7 @@ from functools import partial
 
 from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
-from report.assessment.friction import array_with_friction
+from report.assessment.friction import array_with_friction, at_low_velocity
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun, motion_run, run_heading, scene_key
 from report.sheet.schema import Array, Clearance, ProjectInput
@@ -51,8 +51,7 @@ def with_mu(array: Array, mu: float) -> Array:
     """
     if array.mu > 0.0:
         return array_with_friction(array, mu / array.mu).model_copy(update={"mu": mu})
-    names = ("mu_fast", "mu_rate_s_per_m", "mu_static")
-    return array.model_copy(update={**dict.fromkeys(names), "mu": mu})
+    return at_low_velocity(array).model_copy(update={"mu": mu})
 
 
 def reach(

@@ -5,7 +5,7 @@ Which row leads to which verdict is stated where the row is made. Read `Row`, th
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -13,8 +13,12 @@ from solver.records.acceptance_row import Consequence
 
 
 class Verdict(StrEnum):
-    """Verdict on a project, an array or a clearance."""
+    """Verdict on a project, an array or a clearance.
 
+    NONE is of a clearance beside an array without a permitted route, whose own verdict is NG.
+    """
+
+    NONE = "none"
     OK = "OK"
     CONDITIONS = "OK with conditions"
     NG = "NG"
@@ -68,3 +72,17 @@ class Row:
 def worst(verdicts: Iterable[Verdict]) -> Verdict:
     """Return the most severe verdict; OK for none."""
     return max(verdicts, key=list(Verdict).index, default=Verdict.OK)
+
+
+NOT_GIVEN = "not given"
+
+
+def stated(parts: Sequence[tuple[str, object]]) -> tuple[str, bool]:
+    """Return what a workbook states of several parts and what it does not, and whether all."""
+    given = [str(value) for _, value in parts if value]
+    missing = [name for name, value in parts if not value]
+    if not given:
+        return NOT_GIVEN, False
+    return "; ".join(
+        given + ([f"{', '.join(missing)} {NOT_GIVEN}"] if missing else [])
+    ), not missing

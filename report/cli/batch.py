@@ -45,7 +45,7 @@ class Outcome:
     verdict : str
         Empty without a package.
     ratios : tuple of float
-        D/C of its clearances; NaN without a design displacement.
+        D/C of its clearances; NaN without a permitted displacement.
     package : str
         Path of the PDF.
     problems : tuple of str

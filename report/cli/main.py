@@ -1,8 +1,9 @@
 """The command line: every command by name. Only the modules of this folder print and catch.
 
 Heavy imports stay inside the commands so that `--help` is quick. Exit codes: 0 done, whatever the
-verdict; 3 with --fail-on-ng where it is not OK; 2 input error; 1 internal error (with the
-traceback) or failed verification checks. Read `report` for the way from workbook to package.
+verdict; 4 where `verify-package` could not compare or check all; 3 where a package differs, and
+with --fail-on-ng where the verdict is not OK; 2 input error; 1 internal error (with the traceback)
+or failed verification checks. Read `report` for the way from workbook to package.
 """
 
 from __future__ import annotations

@@ -43,6 +43,8 @@ def study(source: Path, out: Path | None, dry_run: bool, scheduler: str, quiet: 
     with input_errors(source):
         arrow()
         plan, beside = planned(source)
+        for cell, text in plan.warnings:
+            click.echo(plain(f"warning: {cell}: {text}"), err=True)
         if dry_run:
             _print_estimate(estimate(plan))
             return

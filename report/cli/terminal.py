@@ -54,8 +54,8 @@ def plain(text: object) -> str:
 SCHEMA_VERSION = 1
 """Raised where a key that `--json` prints changes its name or meaning."""
 
-INPUT_ERROR, NOT_OK = 2, 3
-"""Exit codes: an error in the input, and a verdict that is not OK where that is asked for."""
+INPUT_ERROR, NOT_OK, NOT_COMPARED = 2, 3, 4
+"""Exit codes: an error in the input; not OK where that is asked for; not all could be compared."""
 
 QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
 AS_JSON = click.option(

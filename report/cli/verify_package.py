@@ -16,6 +16,7 @@ import click
 from report.cli.report import SOURCE
 from report.cli.terminal import (
     AS_JSON,
+    NOT_COMPARED,
     NOT_OK,
     QUIET,
     Progress,
@@ -26,6 +27,9 @@ from report.cli.terminal import (
 from report.making import STEPS, make
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from report.proof.signatures import Signature
     from report.proof.verdict import Proof
 
 
@@ -38,8 +42,9 @@ if TYPE_CHECKING:
 def verify_package(file: Path, records: Path | None, quiet: bool, as_json: bool) -> None:
     """Compute a package again from the input inside it, and compare every sheet and number.
 
-    Exit codes: 0 the same; 3 it differs, and where; 2 it cannot be read. What was signed after the
-    package was written does not count.
+    Exit codes: 0 the same; 3 it differs, and where; 4 nothing differs, but drawings could not be
+    compared or a signature not be checked, and why; 2 it cannot be read. A signature that was put
+    on after the package was written is no difference.
     """
     from report.beside import beside
 
@@ -57,8 +62,10 @@ def verify_package(file: Path, records: Path | None, quiet: bool, as_json: bool)
         click.echo(written(proof))
     elif not quiet:
         _print(proof)
-    if not proof.is_same:
+    if proof.differences:
         sys.exit(NOT_OK)
+    if not proof.is_complete:
+        sys.exit(NOT_COMPARED)
 
 
 def _proof(
@@ -66,30 +73,63 @@ def _proof(
 ) -> Proof:
     from report.proof.package import open_package, take_out
     from report.proof.updates import appended
-    from report.proof.verdict import compared, failed
+    from report.proof.verdict import Written, compared, failed
+    from report.provenance.files import fingerprint
     from solver.model import InputError
 
     package = open_package(file)
     later = appended(package)
     workbook, former = take_out(package, folder / "input", records)
     try:
-        _, _, files, _ = make(
+        assessment, _, files, _ = make(
             workbook, folder / "out", former[0] if former else None, progress, second
         )
     except InputError as error:
         return failed(error.problems, later)
     progress("comparing")
-    return compared(package, files["calc-package.pdf"], later)
+    named = package.manifest.roofslip_version
+    short = fingerprint(assessment.sheet, assessment.shaking, named)
+    return compared(package, Written(files["calc-package.pdf"]), later, short)
 
 
 def _print(proof: Proof) -> None:
     if proof.versions:
-        click.echo(plain(f"Made by another version: {', '.join(proof.versions)}."))
-    if proof.is_same:
-        click.echo(f"Same: the input in the package gives this package, {proof.how}.")
-    else:
+        click.echo(plain(f"It names other versions than those here: {', '.join(proof.versions)}."))
+    if proof.differences:
         click.echo("Differs from what the input in the package gives:")
         for text in proof.differences:
             click.echo(f"  {plain(text)}")
-    for name in proof.signed:
-        click.echo(plain(f"Signed since: {name}. A PDF reader checks the certificate."))
+    elif proof.is_same:
+        click.echo(f"Same: the input in the package gives this package, {proof.how}.")
+    else:
+        click.echo(f"Nothing differs in what could be compared: {proof.how}.")
+    if proof.not_compared:
+        click.echo(plain(_redrawn(proof.not_compared)))
+    for signature in proof.signed:
+        click.echo(plain(_told(signature)))
+
+
+def _redrawn(names: Sequence[str]) -> str:
+    from report.proof.numbers import listed
+
+    return (
+        "Not compared, because they are not drawn as the software here draws them: "
+        f"{', '.join(listed(names))}. The other versions may be the reason, or a change to the "
+        "file: look at each sheet beside that of a package which `roofslip report` writes from the "
+        "attached input, or verify with the versions named."
+    )
+
+
+def _told(signature: Signature) -> str:
+    field = f"Signed since, in the field '{signature.field}'"
+    if not signature.is_checked:
+        return (
+            f"{field}: the signature was not checked; that needs the extra 'sign', which "
+            "./roofslip sign --help installs."
+        )
+    if signature.problem:
+        return f"{field}: the signature is not valid."
+    return (
+        f"{field}, by '{signature.signer}': the signature fits the file. Who issued the "
+        "certificate was not checked: a PDF reader does."
+    )

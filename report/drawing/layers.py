@@ -23,6 +23,7 @@ class Layer(Enum):
     OBJECT = ("OBJECT", 8, False)
     CLEARANCE = ("CLEARANCE", 3, False)
     CLEARANCE_NG = ("CLEARANCE-NG", 1, False)
+    CLEARANCE_NONE = ("CLEARANCE-NO-VERDICT", 2, False)
     DESIGN = ("ENVELOPE-DESIGN", 6, True)
     RUNS = ("ENVELOPE-RUNS", 30, False)
     NOTES = ("NOTES", 7, False)

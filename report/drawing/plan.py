@@ -9,15 +9,18 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.envelopes import (
     Outline,
     design_envelope,
     keep_clear_m,
+    keep_clear_mark,
     keep_clear_words,
     runs_envelope,
 )
 from report.assessment.neighbors import bare_edges
 from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
 from report.sheet.schema import ROOF, ObjectKind, RoofObject, Shape
 from report.sheet.shapes import Point, closest, label_point, mean
@@ -80,6 +83,13 @@ def _layer(item: RoofObject) -> Layer:
     return edges.get(item.kind, Layer.OBJECT)
 
 
+_LAYERS = {
+    Verdict.OK: Layer.CLEARANCE,
+    Verdict.NG: Layer.CLEARANCE_NG,
+    Verdict.NONE: Layer.CLEARANCE_NONE,
+}
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GapLine:
     """A clearance on the plan: its ends [m], and what it says in both systems of units."""
@@ -104,10 +114,10 @@ def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
         provided = pair(gap.clearance.provided_m, Quantity.SIZE, us_first, show_provided)
         required = "no value"
         if not math.isnan(gap.required_m):
-            required = pair(gap.required_m, Quantity.SIZE, us_first, show_required)
-        verdict = "OK" if gap.ok else "NG"
+            required = pair(gap.required_m, Quantity.SIZE, us_first, show_required) + _by(gap.mark)
+        verdict = gap.verdict.value if gap.is_permitted else "no verdict"
         yield GapLine(
-            layer=Layer.CLEARANCE if gap.ok else Layer.CLEARANCE_NG,
+            layer=_LAYERS[gap.verdict],
             name=f"{gap.clearance.array} to {gap.clearance.object}",
             ends=closest(near, far),
             words=f"{count}: provided {provided}, required {required}, {verdict}",
@@ -135,13 +145,21 @@ def _texts(assessment: Assessment, unit: Unit, height: float, us_first: bool) ->
 
 def _array_notes(assessment: Assessment, name: str, us_first: bool) -> Iterator[str]:
     array = next(array for array in assessment.arrays if array.id == name)
-    if math.isnan(array.design_m):
-        yield "design displacement: no value"
+    if math.isnan(array.permitted_m):
+        what = NOT_PERMITTED if array.has_unpermitted_value else "no value"
+        yield f"design displacement: {what}"
         return
-    yield f"design displacement {pair(array.design_m, Quantity.SIZE, us_first)}"
-    yield f"{keep_clear_words(keep_clear_m(assessment, array), us_first)}; no conduit"
+    design = pair(array.design_m, Quantity.SIZE, us_first)
+    yield f"design displacement {design}{_by(array.design_mark)}"
+    keep = keep_clear_words(keep_clear_m(assessment, array), us_first)
+    yield f"{keep}{_by(keep_clear_mark(assessment, array))}; no conduit"
     slope = number(math.degrees(array.array.slope_rad), 2).replace("−", "-")
     yield f"slope {slope} deg, downslope {array.array.downslope_deg:.0f} deg"
+
+
+def _by(mark: str) -> str:
+    """Return the mark of an override in words: the fonts of a CAD program may lack it."""
+    return " (overridden)" if mark else ""
 
 
 def _middle(points: Sequence[Point], unit: Unit) -> Point:

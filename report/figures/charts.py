@@ -150,11 +150,11 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labele
     axes.plot(
         [mean, mean], [row - 0.25, row + 0.25], color=ACCENT, linewidth=2.0, label=text("mean")
     )
-    design = array.design_m / unit.si
+    design = array.permitted_m / unit.si
     axes.plot(
         [design], [row], linestyle="", marker="D", markersize=6, color=INK, label=text("design")
     )
-    if math.isnan(array.design_m):
+    if math.isnan(design):
         axes.text(prescriptive / 2, row, "none", ha="center", va="center")
 
 
@@ -195,7 +195,8 @@ def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -
         axes.set_yticks(rows, names)
         axes.set_ylim(len(gaps) - 0.45, -0.55)
         for row, gap in zip(rows, gaps, strict=True):
-            text = "none: NG" if math.isnan(gap.required_m) else "OK" if gap.ok else "NG"
+            is_unknown = gap.is_permitted and math.isnan(gap.required_m)
+            text = f"none: {gap.verdict}" if is_unknown else gap.verdict.value
             reach = np.nanmax([provided[int(row)], required[int(row)]])
             axes.annotate(
                 text,

@@ -21,7 +21,7 @@ RADIUS_IN = 0.1
 
 def draw_gap(plan: PlanSheet, gap: Gap) -> None:
     """Draw a dimension line; a gap that is not satisfied is hatched."""
-    if not gap.check.ok:
+    if gap.is_ng:
         near, far = (plan.shapes[name] for name in gap.names)
         area = between(near, far)
         if area is not None:
@@ -34,16 +34,18 @@ def draw_callout(plan: PlanSheet, gap: Gap) -> None:
     """Label a clearance: number, provided and required separation; the number if tight."""
     provided, required = gap.check.clearance.provided_m, gap.check.required_m
     show_required, show_provided = compared(required, provided)
-    needed = "no value" if math.isnan(required) else plan.first(required, show_required)
+    needed = (
+        "no value" if math.isnan(required) else plan.first(required, show_required) + gap.check.mark
+    )
     lines = [f"provided {plan.first(provided, show_provided)}", f"required {needed}"]
     for shown in (lines, []) if plan.size.is_full else ([],):
         wide, tall = text_size(shown) if shown else (0.0, 2 * RADIUS_IN)
-        mark = 0.0 if gap.check.ok else ng_size()[0] + PAD_IN
+        mark = ng_size()[0] + PAD_IN if gap.is_ng else 0.0
         label = plan.paper.placer.place(
             wide + 2 * RADIUS_IN + mark,
             max(tall, 2 * RADIUS_IN),
             gap.middle,
-            most=plan.leader_in if shown or gap.check.ok else 4.0,
+            most=4.0 if gap.is_ng and not shown else plan.leader_in,
         )
         if label is not None:
             _draw_callout(plan, gap, label, shown, mark)

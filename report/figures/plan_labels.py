@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.envelopes import keep_clear_m, keep_clear_words
+from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
+from report.assessment.envelopes import keep_clear_m, keep_clear_mark, keep_clear_words
 from report.figures.base import tick_text
 from report.figures.labels import LINE_IN, Frame, centered, width_in
 from report.figures.paper_plan import text_size
@@ -86,15 +86,16 @@ def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
 def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]]:
     """Yield the lines of an array's label, then fewer where there is less room."""
     name, slope = tick_text(array.id), math.degrees(array.array.slope_rad)
-    if math.isnan(array.design_m):
-        yield [name, "no value"]
+    if math.isnan(array.permitted_m):
+        yield [name, f"Δ {NOT_PERMITTED}" if array.has_unpermitted_value else "no value"]
     elif plan.size.is_full:
-        moves = f"Δ {plan.both(array.design_m)}"
+        moves = f"Δ {plan.both(array.design_m)}{array.design_mark}"
         keep = keep_clear_words(keep_clear_m(plan.assessment, array), plan.us_first)
+        keep += keep_clear_mark(plan.assessment, array)
         yield [name, moves, keep, "no conduit", f"slope {number(slope, 2)}°"]
         yield [name, moves, keep]
-    if not math.isnan(array.design_m):
-        yield [name, f"Δ {plan.first(array.design_m)}"]
+    if not math.isnan(array.permitted_m):
+        yield [name, f"Δ {plan.first(array.design_m)}{array.design_mark}"]
     yield [name]
 
 

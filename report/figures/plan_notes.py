@@ -8,12 +8,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from report.assessment.envelopes import (
+    KEEP_CLEAR_UNKNOWN,
     design_envelope,
     keep_clear_m,
+    keep_clear_mark,
     keep_clear_words,
     runs_envelope,
 )
+from report.assessment.friction import mus_words
 from report.assessment.neighbors import bare_edges
+from report.assessment.overrides import MEANING
 from report.figures.plan_key import Key, Symbol
 from report.figures.plan_sheet import PlanSheet
 from report.sheet.schema import ObjectKind
@@ -35,7 +39,7 @@ def key_of(plan: PlanSheet) -> Key:
         Symbol.DESIGN: any(map(design_envelope, assessment.arrays)),
         Symbol.RUNS: any(map(runs_envelope, assessment.arrays)),
         Symbol.GAP: bool(plan.gaps),
-        Symbol.FAILED: any(not gap.check.ok for gap in plan.gaps),
+        Symbol.FAILED: any(gap.is_ng for gap in plan.gaps),
     }
     return Key(
         north_deg=assessment.project.roof.north_deg,
@@ -47,15 +51,28 @@ def key_of(plan: PlanSheet) -> Key:
 
 def _notes(plan: PlanSheet) -> Iterator[str]:
     yield "Δ: design displacement. It may occur in any direction."
+    yield f"μ as run: {mus_words(plan.assessment.project.arrays)}."
     distances: dict[str, list[str]] = {}
     for array in plan.assessment.arrays:
         words = keep_clear_words(keep_clear_m(plan.assessment, array), plan.us_first)
+        words += keep_clear_mark(plan.assessment, array)
         distances.setdefault(words, []).append(array.id)
     if len(distances) > 3:
         yield "Keep clear: no conduit or equipment within the distance stated, on all sides."
     for words, ids in distances.items() if len(distances) <= 3 else ():
         of = ", ".join(ids) if len(distances) > 1 else "all arrays"
-        yield f"{words.capitalize()} of {of}, on all sides: no conduit or equipment."
+        if words == KEEP_CLEAR_UNKNOWN:
+            yield f"{words.capitalize()} for {of}."
+        else:
+            yield f"{words.capitalize()} of {of}, on all sides: no conduit or equipment."
+    if _is_marked(plan):
+        yield f"{MEANING}; see the summary."
+    unknown = [str(gap.number) for gap in plan.gaps if not gap.check.is_permitted]
+    if unknown:
+        yield (
+            f"No verdict, because no route to a design displacement is permitted: clearance "
+            f"{_some(unknown)}."
+        )
     missing = [pair for pair in plan.assessment.neighbors if pair.is_missing]
     if missing:
         names = _some([f"{pair.array} to {pair.other}" for pair in missing])
@@ -67,6 +84,14 @@ def _notes(plan: PlanSheet) -> Iterator[str]:
         yield f"Not drawn, because a rectangle is not given: clearance {_some(unplaced)}."
     if plan.unnamed:
         yield f"Not labeled, for lack of space: {_some(plan.unnamed)}."
+
+
+def _is_marked(plan: PlanSheet) -> bool:
+    """Whether any number on the plan is overridden."""
+    assessment = plan.assessment
+    return assessment.is_overridden or any(
+        keep_clear_mark(assessment, array) for array in assessment.arrays
+    )
 
 
 def _some(names: Sequence[str]) -> str:

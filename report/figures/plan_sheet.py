@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
 from report.figures.base import GREY
 from report.figures.labels import Frame
 from report.figures.paper_plan import PlanPaper, text_size
@@ -66,6 +67,11 @@ class Gap:
     check: ClearanceCheck
     a: Point
     b: Point
+
+    @property
+    def is_ng(self) -> bool:
+        """Whether it is not satisfied."""
+        return self.check.verdict is Verdict.NG
 
     @property
     def names(self) -> tuple[str, str]:

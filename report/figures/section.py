@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Polygon
 
+from report.assessment.friction import mu_words
 from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, style, svg_text
 from report.kept import kept
 from report.sheet.schema import Array
@@ -88,7 +89,7 @@ def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
     axes.text(*top, f"W = {weight}", ha="left", va="bottom")
     axes.annotate("", center, top, arrowprops={**_ARROW, "color": ACCENT})
     axes.annotate(
-        f"μ = {_friction(array)}",
+        f"μ = {mu_words(array.friction)}",
         roof.at(1.95, 0.0),
         _below(roof, 1.75, 0.56),
         ha="center",
@@ -96,13 +97,6 @@ def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
         arrowprops={"arrowstyle": "-", "linewidth": 0.6, "color": INK},
     )
     _slope(axes, roof, array)
-
-
-def _friction(array: Array) -> str:
-    law = array.friction
-    if law.mu_fast == law.mu_slow:
-        return number(law.mu_slow, 3)
-    return f"{number(law.mu_slow, 3)} to {number(law.mu_fast, 3)}"
 
 
 def _below(roof: _Roof, s: float, depth: float) -> tuple[float, float]:

@@ -8,8 +8,8 @@ from itertools import groupby
 
 from report.manual.blocks import FAIL, Block, ManualSection
 from report.manual.known_errors import KNOWN_ERRORS
-from report.manual.shake_table import validation
 from report.pages.parts import Table, TableColumn, TableRow, Wide, verdict
+from report.words.validation import validation
 from solver.verification.evidence import Verification
 from solver.verification.features import FeatureStatus, statuses
 
@@ -26,7 +26,7 @@ def features(verification: Verification) -> ManualSection:
                     "equations are solved as specified. Validated: measured slip of a shake table "
                     "satisfies the acceptance of section 13. Both are computed from this run. "
                     "Automatic tests come with the program; this manual does not repeat them.",
-                    validation(verification),
+                    validation(verification.tables),
                 ),
                 tables=(_feature_table(verification),),
             ),

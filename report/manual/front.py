@@ -21,9 +21,9 @@ from report.manual.building import answer
 from report.manual.features import verified
 from report.manual.precision import floor
 from report.manual.rungs import answers
-from report.manual.shake_table import validation
 from report.manual.studies import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT, worst_mm
 from report.pages.parts import Table, TableColumn, TableRow, verdict
+from report.words.validation import validation
 from solver.verification.evidence import (
     CheckRow,
     Verification,
@@ -109,7 +109,7 @@ def _answers(verification: Verification) -> Iterator[tuple[str, str, str]]:
         yield "Roof motion of a recorded building, computed from its ground motion", result, "11"
     for quantity, result in answers(verification):
         yield quantity, result, "12"
-    yield "Comparison with a shake table", validation(verification), "13"
+    yield "Comparison with a shake table", validation(verification.tables), "13"
     yield "Features verified by checks of this run", verified(verification), "14"
     extent = "quick: fewer records, cases and settings" if verification.quick else "full"
     yield "Extent of this verification", f"{extent}; {verification.seconds:.0f} s in total", "2"

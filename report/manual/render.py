@@ -15,9 +15,9 @@ from report.manual.blocks import ManualSection, numbered
 from report.manual.front import extent, passed, verdict_line
 from report.manual.machine import Machine, this_machine
 from report.manual.sections import sections
-from report.manual.shake_table import validation
 from report.manual.table import verification_csv
 from report.typeset.pdf import TEMPLATES, lay_out
+from report.words.validation import validation
 from solver.verification.evidence import Verification
 
 
@@ -66,7 +66,7 @@ def manual_html(
         kind="quick" if verification.quick else "full",
         extent=extent(verification),
         verdict=verdict_line(verification),
-        validation=validation(verification),
+        validation=validation(verification.tables),
         checks=passed(verification.checks),
         machine=machine.line,
         libraries=", ".join(

@@ -9,6 +9,7 @@ from report.figures.shake_table import computed_against_measured
 from report.manual.blocks import FAIL, PASS, Block, Chart, ManualSection, joined
 from report.pages.parts import Picture, Table, TableColumn, TableRow, Wide, verdict
 from report.words.units import number
+from report.words.validation import NOT_VALIDATED, explained
 from solver.verification.evidence import Verification
 from solver.verification.shake_table import (
     LEAST_M,
@@ -20,8 +21,6 @@ from solver.verification.shake_table import (
     TableRun,
 )
 from solver.verification.table_tests import Data
-
-NOT_VALIDATED = "The sliding solution has not been validated against a shake table."
 
 
 def shake_table(verification: Verification) -> ManualSection:
@@ -35,18 +34,6 @@ def shake_table(verification: Verification) -> ManualSection:
             *(() if verification.tables else (_none(),)),
         ),
     )
-
-
-def validation(verification: Verification) -> str:
-    """Return in a sentence whether the sliding solution is validated."""
-    for table in verification.tables:
-        if table.validates:
-            return (
-                f"{len(table.runs)} tests of a shake table satisfy the acceptance of section 13. "
-                "They validate the sliding solution for slopes, friction coefficients and motions "
-                "like theirs, as far as the stated source is right."
-            )
-    return NOT_VALIDATED
 
 
 def _acceptance() -> tuple[str, ...]:
@@ -66,9 +53,7 @@ def _none() -> Block:
     return Block(
         title="Result",
         texts=(
-            f"No tests of a shake table were given to this run (option --table). {NOT_VALIDATED} "
-            "The checks of this manual show that the equations are solved correctly. They do not "
-            "show how well friction between a ballasted array and a roof membrane follows them.",
+            f"No tests of a shake table were given to this run (option --table). {explained(())}",
         ),
     )
 

@@ -18,6 +18,7 @@ from report.sheet.archive import OpenBook
 from report.sheet.fields import Fault, Place
 from report.sheet.motion_checks import LABELS
 from report.sheet.schema import AccelUnit, Baseline, MotionInput, Scaling
+from report.sheet.unseen import Unseen
 from report.words.units import G_MPS2
 from solver.formats import read_motion_file
 from solver.model import InputError
@@ -51,6 +52,8 @@ class RecordFile:
         to its last sample; otherwise NaN.
     size : int
         Of the file [bytes]; 0 for a pasted column.
+    unseen : tuple of Unseen
+        Of a pasted column: cells that the workbook keeps from sight.
     """
 
     motion_id: str
@@ -65,6 +68,7 @@ class RecordFile:
     notes: tuple[str, ...]
     hold_s: float
     size: int
+    unseen: tuple[Unseen, ...] = ()
 
     @property
     def is_file(self) -> bool:
@@ -269,4 +273,5 @@ def _file(row: MotionInput, field: str, component: Component, trimmed: int) -> R
         notes=(*component.notes, *([last] if trimmed else [])),
         hold_s=component.hold_s if is_whole else math.nan,
         size=component.size,
+        unseen=component.unseen,
     )

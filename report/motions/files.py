@@ -17,7 +17,9 @@ import numpy as np
 
 from report.motions.pasted import heading_on, read_column
 from report.sheet.archive import OpenBook
+from report.sheet.fields import Place
 from report.sheet.positions import CellPosition
+from report.sheet.unseen import Unseen, unseen
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 from solver.records.record import Record
@@ -48,6 +50,8 @@ class Component:
         Hold of the envelope [s], if the file says that it was generated; otherwise NaN.
     size : int
         Of the file [bytes]; 0 for a pasted column.
+    unseen : tuple of Unseen
+        Of a pasted column: cells that the workbook keeps from sight.
     """
 
     record: Record
@@ -56,6 +60,7 @@ class Component:
     notes: tuple[str, ...]
     hold_s: float
     size: int
+    unseen: tuple[Unseen, ...] = ()
 
 
 def read_component(
@@ -164,7 +169,7 @@ def _read_column(
     missing = [("time step", dt_s is None), ("units", not units)]
     if problems := [f"'{name}' is a pasted column; give its {w}" for w, is_so in missing if is_so]:
         raise InputError(problems)
-    record = read_column(book, name, heading, units, float(dt_s or 0.0))
+    record, cells = read_column(book, name, heading, units, float(dt_s or 0.0))
     data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()
     return Component(
         record=record,
@@ -173,4 +178,5 @@ def _read_column(
         notes=(),
         hold_s=math.nan,
         size=0,
+        unseen=unseen(book, ((Place("motions"), cell) for cell in cells)),
     )

@@ -54,8 +54,10 @@ def heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
 
 def read_column(
     book: OpenBook, name: str, heading: CellPosition, units: str, dt_s: float
-) -> Record:
-    """Return the record below a heading, in the units and at the time step of its motion.
+) -> tuple[Record, list[Found]]:
+    """Return the record below a heading, and the cells that it is read from.
+
+    It is in the units and at the time step of its motion.
 
     Raises
     ------
@@ -69,11 +71,13 @@ def read_column(
             " below the heading; clear it, or give the record as a file"
         )
     _check_units(book, heading, units)
-    values = _numbers(_filled(cells_below(book, heading)))
-    _check_times(book, heading, len(values), dt_s)
+    below = _filled(cells_below(book, heading))
+    values = _numbers(below, units)
+    times = _check_times(book, heading, len(values), dt_s)
     # 1 gal = 1 cm/s2; the solver's table has one name for each unit.
     units = "cm/s2" if units == "gal" else units
-    return record_from_values(name, values, units=units, dt_s=dt_s)
+    record = record_from_values(name, values, units=units, dt_s=dt_s)
+    return record, [found_at(book, heading), *below, *times]
 
 
 def _said(book: OpenBook, position: CellPosition) -> Heading:
@@ -107,15 +111,16 @@ class _Times(Source):
         return CellPosition(self.heading.sheet, row, self.heading.column).address
 
 
-def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float) -> None:
-    """Raise where a column of times contradicts the time step, or lacks samples."""
+def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float) -> list[Found]:
+    """Raise where a column of times contradicts the time step, or lacks samples; return it."""
     at = _heading_of_times(book, heading)
     if at is None or count < 2:
-        return
+        return []
     unit_s = _said(book, at).seconds
     if math.isnan(unit_s):
         raise InputError(f"{at.address} is '{_said(book, at).text}'; give times in s, ms or min")
-    t_s = unit_s * np.array(_numbers(cells_below(book, at)[:count]))
+    cells = cells_below(book, at)[:count]
+    t_s = unit_s * np.array(_numbers(cells, _said(book, at).unit or "s"))
     source = _Times(name=at.address, lines=[], units="", dt_s=math.nan, heading=at)
     even = _evened(source, t_s, unit_s)
     if even.notes:
@@ -127,6 +132,7 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
             f"{at.address} has times at a step of {even.dt_s:.6g} s, but the time step is"
             f" {dt_s:.6g} s; correct one of them"
         ) from error
+    return [found_at(book, at), *cells]
 
 
 def _evened(source: Source, t_s: Floats, unit_s: float) -> Sampled:
@@ -160,11 +166,11 @@ def _filled(cells: list[Found]) -> list[Found]:
     return cells[: last + 1]
 
 
-def _numbers(cells: list[Found]) -> list[float]:
+def _numbers(cells: list[Found], unit: str) -> list[float]:
     values, problems = [], []
     for cell in cells:
         try:
-            values.append(_number(cell))
+            values.append(_number(cell, unit))
         except CellError as error:
             problems.append(f"{cell.address} {error.problems[0]}")
     if len(problems) > MAX_TOLD:
@@ -174,8 +180,8 @@ def _numbers(cells: list[Found]) -> list[float]:
     return values
 
 
-def _number(cell: Found) -> float:
+def _number(cell: Found, unit: str) -> float:
     if cell.is_blank:
         raise CellError("is blank, beside or above values; fill it in, or delete its row")
     check_saved(cell)
-    return number(cell)
+    return number(cell, unit=unit)

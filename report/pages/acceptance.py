@@ -17,7 +17,7 @@ from report.typeset.equations import symbol
 from report.words.units import number
 from solver.records.acceptance import Acceptance, MotionStrength
 from solver.records.acceptance_row import AcceptanceRow, Consequence
-from solver.records.spectrum_acceptance import N_AC156, N_SLIDING, POINTS_HZ
+from solver.records.spectrum_acceptance import N_AC156, N_SETS, N_SLIDING, POINTS_HZ
 
 _COMPONENTS = ("x", "y", "z")
 _PAIRS = ("x-y", "x-z", "y-z")
@@ -82,9 +82,10 @@ def _notes(acceptance: Acceptance, spectra: Sequence[Spectra]) -> Sequence[str]:
         )
     if any("target" in row.title for row in rows):
         notes.append(
-            f"Spectra, 5 % damping, are compared at {len(POINTS_HZ)} points less than 1/6 octave "
-            f"apart: {N_SLIDING} from 0.1 to 1.3 Hz and {N_AC156} from there to 33.3 Hz, each set "
-            "at equal ratios, ends included." + _between(acceptance, spectra)
+            f"Spectra, 5 % damping, are compared at {len(POINTS_HZ)} points at most 1/24 octave "
+            f"apart: {N_SLIDING} from 0.1 to 1.3 Hz and {N_AC156} from there to 33.3 Hz, with 1.3 "
+            f"Hz in both. Points 1/6 octave apart are every {N_SETS}th of these: of the {N_SETS} "
+            "ways to begin, the worst is shown." + _between(acceptance, spectra)
         )
     else:
         notes.append("Spectra are not compared: no target is given.")

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
-from report.assessment.friction import SHIFT
+from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, MethodRun, Rivals
 from report.pages.parts import (
@@ -64,9 +64,9 @@ def _run(package: PackageData, rivals: Rivals) -> str:
     vertical = "with" if rivals.motion.motion.has_vertical else "without"
     return (
         f"Governing run: array {array.id} (slope {number(math.degrees(array.slope_rad), 2)}°, "
-        f"μ = {number(array.mu, 3)}) under motion {rivals.motion.motion.id}, {run.heading.name}, "
-        f"{vertical} vertical shaking. PRD {package.fmt.both(run.prd_m)}, model "
-        f"{int(run.solution.rung)} of {package.part('model')}, {run.model}."
+        f"μ = {mu_words(array.friction)}) under motion {rivals.motion.motion.id}, "
+        f"{run.heading.name}, {vertical} vertical shaking. PRD {package.fmt.both(run.prd_m)}, "
+        f"model {int(run.solution.rung)} of {package.part('model')}, {run.model}."
     )
 
 
@@ -173,18 +173,15 @@ def parameters(values: Mapping[str, float]) -> str:
 def _by_array(
     accuracy: Accuracy,
 ) -> Iterator[tuple[ArrayAssessment, ArrayAssessment, ArrayAssessment]]:
-    """Yield each array as given, with less and with more friction."""
+    """Yield each array as given, with less and with more friction.
+
+    Without a design value where no route is permitted.
+    """
     for given, *others in zip(
         accuracy.given.arrays, accuracy.less.arrays, accuracy.more.arrays, strict=True
     ):
-        less, more = (_if_permitted(given, other) for other in others)
-        yield given, less, more
-
-
-def _if_permitted(given: ArrayAssessment, other: ArrayAssessment) -> ArrayAssessment:
-    """Return an array with changed friction; without a design value if that closes its route."""
-    is_lost = given.is_permitted and not other.is_permitted
-    return replace(other, design_m=math.nan) if is_lost else other
+        less, more = (replace(other, design_m=other.permitted_m) for other in others)
+        yield replace(given, design_m=given.permitted_m), less, more
 
 
 def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
@@ -193,7 +190,7 @@ def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
         caption="Design displacement with changed friction, all motions rerun",
         columns=(
             TableColumn(head="Array", align="left", share=1.2),
-            TableColumn(head="μ", share=0.7),
+            TableColumn(head="μ", share=1.1),
             *fmt.columns(f"{_PERCENT} less"),
             *fmt.columns("As given"),
             *fmt.columns(f"{_PERCENT} more"),
@@ -204,7 +201,7 @@ def _friction_table(package: PackageData, accuracy: Accuracy) -> Table:
             TableRow(
                 cells=(
                     given.id,
-                    number(given.array.mu, 3),
+                    mu_words(given.array.friction),
                     *_design_cells(package, less),
                     *_design_cells(package, given),
                     *_design_cells(package, more),
@@ -256,7 +253,7 @@ def _sentence(
 ) -> str:
     start = f"Array {given.id}: "
     if any(math.isnan(array.design_m) for array in (given, more)):
-        return f"{start}no design displacement, so no sensitivity to friction is given."
+        return f"{start}no permitted design displacement, so no sensitivity to friction is given."
     ways = (
         f"with {_PERCENT} {word} friction the design displacement of "
         f"{_design(package, given)} {_becomes(package, given, other)}"

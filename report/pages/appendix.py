@@ -216,8 +216,9 @@ def _as_entered(row: EchoRow, unit: str) -> str:
     if _is_blank(row):
         return "" if row.value == "—" else row.value
     text = f"{row.typed} {unit}".rstrip()
-    is_plain = not row.typed.startswith("=") and row.value != IGNORED
-    return text if is_plain else f"{text}: {row.value}"
+    if row.typed.startswith("=") or row.value == IGNORED:
+        text = f"{text}: {row.value}"
+    return f"{text} ({row.unseen})" if row.unseen else text
 
 
 def _blanks(rows: Sequence[EchoRow], *, whole_column: bool = False) -> Iterator[str]:
@@ -288,7 +289,8 @@ _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
 
 def _notes(rows: Sequence[RecordFile]) -> Iterator[str]:
     for row in rows:
-        for note in row.notes:
+        hidden = (f"{u.words} on the sheet {u.sheet}: {u.kind}" for u in row.unseen)
+        for note in (*row.notes, *hidden):
             yield f"{row.motion_id} {row.component}: {note}"
 
 

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 
 from report.assessment.certainty import TOLERANCE, Certainty, Margin, Surface
+from report.assessment.friction import mu_words
+from report.assessment.trials import with_mu
 from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
 from report.words.letters import power_of_ten
 from report.words.units import Quantity, number
@@ -44,11 +46,6 @@ def pictures(package: PackageData, surface: Surface) -> Sequence[Picture]:
     )
 
 
-def coefficient(mu: float) -> str:
-    """Return a friction coefficient with two decimals, or three where it has them."""
-    return number(mu, 2 if math.isclose(mu, round(mu, 2), abs_tol=1e-9) else 3)
-
-
 def _exponent(value: float) -> int:
     return round(math.log10(value))
 
@@ -75,7 +72,7 @@ def _surface(package: PackageData, surface: Surface) -> str:
     here = float(surface.mean_m[row, column])
     lost = int((surface.mean_m != surface.mean_m).sum())
     sentences = [
-        f"Array {array.id} (μ = {coefficient(array.array.mu)}, slope "
+        f"Array {array.id} (μ = {mu_words(array.array.friction)}, slope "
         f"{number(math.degrees(array.array.slope_rad), 2)}°): the mean PRD on the grid is "
         f"{fmt.both(here)}; the runs of this package, in all headings, give "
         f"{fmt.both(array.analysis.mean_m)}."
@@ -107,15 +104,14 @@ def _steps(
     beside = []
     if column > 0:
         less = float(surface.mean_m[row, column - 1])
-        beside.append(
-            f"with μ = {number(float(surface.mus[column - 1]), 2)} it is {_times(less, here)}"
-        )
+        law = with_mu(surface.array.array, float(surface.mus[column - 1])).friction
+        beside.append(f"with μ = {mu_words(law)}: {_times(less, here)}")
     if row + 1 < surface.slopes_rad.size:
         steeper = float(surface.mean_m[row + 1, column])
         slope = math.degrees(float(surface.slopes_rad[row + 1]))
-        beside.append(f"with a slope of {number(slope, 1)}° {_times(steeper, here)}")
+        beside.append(f"with a slope of {number(slope, 1)}°: {_times(steeper, here)}")
     if beside:
-        text = ", ".join(beside)
+        text = "; ".join(beside)
         yield f"{text[0].upper()}{text[1:]}."
 
 
@@ -128,35 +124,41 @@ def _margin(package: PackageData, margins: Sequence[Margin]) -> str:
     if not margins:
         return "The workbook lists no clearances: there is no margin to state."
     have = [margin for margin in margins if margin.gap.ok and not math.isnan(margin.least_mu)]
-    without = sorted({margin.number for margin in margins} - {margin.number for margin in have})
+    without = {margin.number for margin in margins} - {margin.number for margin in have}
+    unknown = {margin.number for margin in margins if not margin.gap.is_permitted}
     sentences = []
     if have and not all(margin.is_beyond for margin in have):
         least = max(have, key=lambda margin: _share(margin))
-        mu = coefficient(least.array.array.mu)
+        friction = least.array.array.friction
         start = (
             f"The smallest margin of a satisfied clearance is that of No. {least.number}, "
             f"{least.gap.clearance.array} to {least.gap.clearance.object}: "
+            f"μ of {least.array.id}, {mu_words(friction)}, "
         )
         if least.least_mu == least.array.array.mu:
-            sentences.append(f"{start}0.01 less than the {mu} of {least.array.id} breaks it.")
+            slow = " at low velocity" if friction.is_by_velocity else ""
+            sentences.append(f"{start}may not be 0.01 less{slow}.")
         else:
-            sentences.append(
-                f"{start}μ of {least.array.id} may fall from {mu} to {number(least.least_mu, 2)}, "
-                f"{number(100.0 * (1.0 - _share(least)), 1)} % less."
-            )
+            percent = number(100.0 * (1.0 - _share(least)), 1)
+            sentences.append(f"{start}may be {percent} % less: {_least(least)}.")
     elif have:
         sentences.append(
             "With half of the given friction all clearances that are satisfied remain satisfied."
         )
-    if without:
-        names = ", ".join(map(str, without))
-        plural = "s" if len(without) > 1 else ""
-        verb = "are" if plural else "is"
+    if short := sorted(without - unknown):
+        verb = "is" if len(short) == 1 else "are"
         sentences.append(
-            f"Clearance{plural} {names} {verb} not satisfied as given; "
+            f"{_clearances(short)} {verb} not satisfied as given; "
             f"{package.part('clearances')} states what would do."
         )
+    if unknown:
+        verb = "has" if len(unknown) == 1 else "have"
+        sentences.append(f"{_clearances(sorted(unknown))} {verb} no verdict, and no margin.")
     return " ".join(sentences)
+
+
+def _clearances(numbers: Sequence[int]) -> str:
+    return f"Clearance{'s' if len(numbers) > 1 else ''} {', '.join(map(str, numbers))}"
 
 
 def _share(margin: Margin) -> float:
@@ -170,11 +172,11 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         caption="Least friction coefficient of each array with which each clearance is satisfied",
         columns=(
             TableColumn(head="No.", share=0.5),
-            TableColumn(head="From", align="left", share=1.0),
-            TableColumn(head="To", align="left", share=1.2),
-            TableColumn(head="Friction of", align="left", share=1.0),
-            TableColumn(head="μ", unit="given", share=0.8),
-            TableColumn(head="μ", unit="least", share=1.1),
+            TableColumn(head="From", align="left", share=0.8),
+            TableColumn(head="To", align="left", share=1.1),
+            TableColumn(head="Friction of", align="left", share=0.8),
+            TableColumn(head="μ", unit="given", share=1.6),
+            TableColumn(head="μ", unit="least", share=1.6),
             TableColumn(head="Change", unit="%", share=0.9),
             *fmt.columns("Required there", share=0.9),
             *fmt.columns("Provided", share=0.9),
@@ -201,17 +203,21 @@ def _alike(margins: Sequence[Margin]) -> str:
     )
 
 
+def _least(margin: Margin) -> str:
+    return mu_words(with_mu(margin.array.array, margin.least_mu).friction)
+
+
 def _margin_row(package: PackageData, margin: Margin) -> TableRow:
-    fmt, row, mu = package.fmt, margin.gap.clearance, margin.array.array.mu
+    fmt, row = package.fmt, margin.gap.clearance
     none = math.isnan(margin.least_mu)
-    least = "none" if none else coefficient(margin.least_mu)
+    least = "none" if none else _least(margin)
     return TableRow(
         cells=(
             str(margin.number),
             row.array,
             row.object,
             margin.array.id,
-            coefficient(mu),
+            mu_words(margin.array.array.friction),
             f"≤ {least}" if margin.is_beyond and not none else least,
             "—" if none else number(100.0 * (_share(margin) - 1.0), 1),
             *(("—", "—") if none else fmt.cells(margin.required_m)),

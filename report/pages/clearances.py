@@ -2,26 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.friction import mus_words
 from report.assessment.remedies import Remedy
-from report.assessment.verdict import Verdict
 from report.pages.parts import (
     PackageData,
     Table,
     TableColumn,
     TableRow,
+    joined,
     stamp,
 )
 from report.pages.remedies import table
 from report.sheet.schema import Array, Direction, ObjectKind
-from report.words.units import Quantity, compared, number, ratio
+from report.words.units import Quantity, compared, number
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 
 def clearance_table(package: PackageData, *, brief: bool) -> Table:
     """Return the clearances: required and provided separation."""
+    gaps = dict(enumerate(package.assessment.clearances, start=1))
+    return table_of(package, gaps, "Clearances: required and provided separation", brief=brief)
+
+
+def table_of(
+    package: PackageData, gaps: Mapping[int, ClearanceCheck], caption: str, *, brief: bool
+) -> Table:
+    """Return clearances, by their number in the workbook."""
     fmt = package.fmt
     factor = " × I" if package.assessment.rules.importance_in_separation else ""
     directions = (
@@ -39,7 +48,7 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
         )
     )
     return Table(
-        caption="Clearances: required and provided separation",
+        caption=caption,
         columns=(
             TableColumn(head="No.", share=0.42),
             TableColumn(head="From", align="left", share=0.9),
@@ -48,21 +57,23 @@ def clearance_table(package: PackageData, *, brief: bool) -> Table:
             *more,
             *fmt.columns("Required", share=0.8),
             *fmt.columns("Provided", share=0.8),
-            TableColumn(head="D/C", share=0.62),
-            TableColumn(head="Verdict", align="center", share=_verdict_share(package)),
+            TableColumn(head="D/C", share=0.75),
+            TableColumn(head="Verdict", align="center", share=0.95),
         ),
-        rows=tuple(
-            _clearance_row(package, count, gap, brief)
-            for count, gap in enumerate(package.assessment.clearances, start=1)
-        ),
+        rows=tuple(_clearance_row(package, count, gap, brief) for count, gap in gaps.items()),
+        notes=tuple(_without_verdict(package, gaps.values())),
         kind="" if brief else "compact",
     )
 
 
-def _verdict_share(package: PackageData) -> float:
-    """Return a width for the longest verdict on a clearance."""
-    verdicts = {gap.verdict for gap in package.assessment.clearances}
-    return 1.7 if Verdict.CONDITIONS in verdicts else 0.95
+def _without_verdict(package: PackageData, gaps: Iterable[ClearanceCheck]) -> Iterator[str]:
+    """Yield why clearances have no verdict, if any have none."""
+    names = [array.id for array in package.assessment.arrays if not array.is_permitted]
+    if not all(gap.is_permitted for gap in gaps):
+        yield (
+            f"Verdict none: no route to a design displacement is permitted for {', '.join(names)}; "
+            "the required separation is not known."
+        )
 
 
 def _by_direction(package: PackageData) -> bool:
@@ -75,12 +86,13 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
     fmt, row = package.fmt, gap.clearance
     key = SEPARATION_KEYS[gap.neighbor]
     least = package.mark("separation_edge_min_in") if gap.is_least_value else ""
+    marks = joined(least, gap.mark)
     required, provided = compared(gap.required_m, row.provided_m)
     more = (
         ()
         if brief
         else (
-            *fmt.cells(gap.design_m),
+            *fmt.cells(gap.design_m, mark=gap.design_mark),
             gap.governing_array,
             *([gap.governing_direction.value] if _by_direction(package) else []),
             number(gap.factor, 2) + package.mark(key),
@@ -95,9 +107,9 @@ def _clearance_row(package: PackageData, count: int, gap: ClearanceCheck, brief:
             row.object,
             gap.neighbor.value + where,
             *more,
-            *fmt.cells(gap.required_m, mark=least, show=required),
+            *fmt.cells(gap.required_m, mark=marks, show=required),
             *fmt.cells(row.provided_m, Quantity.SIZE, show=provided),
-            ratio(gap.demand_capacity),
+            gap.ratio_words,
             stamp(gap.verdict),
         ),
         kind=package.bar(count in package.changes.clearances),
@@ -109,6 +121,7 @@ def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str,
     notes = [
         "Displ. is the design displacement of the array in the next column "
         f"({package.part('comparison')}). " + _direction_note(package),
+        f"Friction coefficients as run: {mus_words(package.data.arrays)}.",
         "Between two arrays the larger of the two displacements governs.",
     ]
     parapets = _parapets(package)

@@ -7,12 +7,13 @@ from collections.abc import Iterator, Mapping
 from markupsafe import Markup
 
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.friction import mu_words
 from report.pages.front import verdict_sentence
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, nan_is_worst, stamp
 from report.pages.references import codes
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
 from report.words.counts import counted
-from report.words.units import number, ratio
+from report.words.units import number
 
 
 def cover(package: PackageData) -> Mapping[str, object]:
@@ -48,14 +49,15 @@ def _governing(package: PackageData) -> Iterator[tuple[str, str]]:
     design = package.fmt.both(array.design_m) + package.design_mark(array)
     yield (
         "Governing array",
-        f"{array.id}: design displacement {design}, governed by: {array.source}",
+        f"{array.id}: μ {mu_words(array.array.friction)}; design displacement {design}, governed "
+        f"by: {array.source}",
     )
     gap = governing_clearance(package)
     yield (
         "Governing clearance",
         "none given"
         if gap is None
-        else f"{gap.clearance.array} to {gap.clearance.object}: D/C {ratio(gap.demand_capacity)}",
+        else f"{gap.clearance.array} to {gap.clearance.object}: D/C {gap.ratio_words}",
     )
 
 

@@ -8,15 +8,23 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
+from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment, by_id
+from report.assessment.friction import mu_words
 from report.assessment.friction_rows import (
     LEAST_RUNS,
-    NOT_GIVEN,
+    basis_words,
     friction_rows,
+    has_enough_runs,
+    runs_by_velocity,
     runs_text,
     tested,
 )
-from report.pages.parts import PackageData, Picture, Table, TableColumn, TableRow, Wide
-from report.sheet.schema import Array, FrictionTests
+from report.assessment.friction_velocity import VELOCITY_ROW, velocity_check
+from report.assessment.verdict import NOT_GIVEN
+from report.pages.clearances import table_of
+from report.pages.parts import PackageData, Picture, Table, TableColumn, TableRow, Wide, stamp
+from report.sheet.friction_checks import MU_TOLERANCE
+from report.sheet.schema import Array, FrictionTests, ProjectInput
 from report.words.units import Quantity, number
 from solver.friction_tests import (
     FittedLaw,
@@ -44,6 +52,9 @@ def page(package: PackageData) -> Mapping[str, object]:
         "report": _report(package.data.friction_tests),
         "runs": _runs(package),
         "sentences": tuple(_sentences(package)),
+        "velocities": _velocities(package),
+        "alone": _alone(package),
+        "alone_gaps": _alone_gaps(package),
     }
 
 
@@ -130,6 +141,69 @@ def _series_rows(package: PackageData, one: Series) -> Iterator[TableRow]:
     )
 
 
+def _velocities(package: PackageData) -> Table:
+    fmt = package.fmt
+    return Table(
+        caption="Friction at the sliding velocities of all runs",
+        columns=(
+            TableColumn(head="Array", align="left", share=0.6),
+            TableColumn(head="μ", unit="as run", share=1.5),
+            *fmt.columns("Largest velocity", Quantity.VELOCITY, share=0.8),
+            *fmt.columns("Tested to", Quantity.VELOCITY, share=0.8),
+            TableColumn(head="μ beyond", unit="largest", share=0.9),
+            TableColumn(head="μ tested", unit="smallest", share=0.9),
+            TableColumn(head="Verdict", align="center", share=1.8),
+        ),
+        rows=tuple(_velocity_row(package, item) for item in package.assessment.arrays),
+        notes=(
+            "Beyond: at sliding velocities above those tested. Smallest tested: of the means at"
+            " each velocity, of the series that governs for the array; μ beyond may be"
+            f" {MU_TOLERANCE:g} larger, for rounding.",
+        ),
+        kind="compact",
+    )
+
+
+def _velocity_row(package: PackageData, item: ArrayAssessment) -> TableRow:
+    fmt, check = package.fmt, velocity_check(package.data, item)
+    tested_mps = math.nan if check is None else check.tests.velocity_mps
+    unknown = ("not given", "not given") if check else ("no runs", "no runs")
+    return TableRow(
+        cells=(
+            item.id,
+            mu_words(item.array.friction),
+            *fmt.cells(item.fastest_mps, Quantity.VELOCITY),
+            *(unknown if math.isnan(tested_mps) else fmt.cells(tested_mps, Quantity.VELOCITY)),
+            *(
+                (number(check.mu_beyond, 3), number(check.tests.least_mu, 3), stamp(check.verdict))
+                if check
+                else ("—", "—", "not compared")
+            ),
+        )
+    )
+
+
+def _alone(package: PackageData) -> Sequence[str]:
+    """Return the design displacements with the low-velocity coefficient alone."""
+    fmt, given = package.fmt, package.assessment
+    return [
+        f"Array {item.id} with μ = {mu_words(item.array.friction)} at every velocity, all motions"
+        f" rerun: design displacement {fmt.both(item.design_m)}"
+        f"{f' ({NOT_PERMITTED})' if item.has_unpermitted_value else ''} instead of"
+        f" {fmt.both(by_id(given.arrays, item.id).design_m)}."
+        for item in given.low_velocity.arrays
+    ]
+
+
+def _alone_gaps(package: PackageData) -> Table | None:
+    slow = package.assessment.low_velocity
+    if not slow.clearances:
+        return None
+    names = ", ".join(item.id for item in slow.arrays)
+    caption = f"Clearances with the low-velocity coefficient of {names} alone"
+    return table_of(package, slow.clearances, caption, brief=True)
+
+
 def _sentences(package: PackageData) -> Iterator[str]:
     found = tested(package.data)
     tests = package.data.friction_tests
@@ -142,18 +216,20 @@ def _sentences(package: PackageData) -> Iterator[str]:
             " are as entered and are not compared with tests."
         )
     for report in dict.fromkeys(one.report for one in found):
-        yield from _means([one for one in found if one.report == report], report, len(found))
+        yield from _means(package, [one for one in found if one.report == report], report)
     if found:
-        yield from (_array(array, found) for array in package.data.arrays)
+        yield from _compared(package.data, found)
     for one, fit in _fits(package):
         yield _fit(one, fit)
-    unsatisfied = [row.title for row in friction_rows(package.data) if not row.is_satisfied]
+    beyond = (row for row in package.assessment.rows if row.id == VELOCITY_ROW)
+    rows = (*friction_rows(package.data), *beyond)
+    unsatisfied = dict.fromkeys(row.title for row in rows if not row.is_satisfied)
     if unsatisfied:
         yield f"Conditions: not satisfied are {', '.join(f'“{title}”' for title in unsatisfied)}."
 
 
-def _means(found: Sequence[Series], report: str, total: int) -> Iterator[str]:
-    several = total > len(found)
+def _means(package: PackageData, found: Sequence[Series], report: str) -> Iterator[str]:
+    several = len(tested(package.data)) > len(found)
     place = f"Report {report or 'without a number'}: kinetic" if several else "Kinetic"
     least = min(found, key=lambda one: one.mean)
     means = ", ".join(
@@ -165,21 +241,30 @@ def _means(found: Sequence[Series], report: str, total: int) -> Iterator[str]:
     else:
         other = next(surface for surface in Surface if surface is not least.surface)
         yield f"{place} mean {means}; no {other} runs are given."
+    few: dict[str, list[str]] = {}
     for one in found:
-        if len(one.runs) < LEAST_RUNS:
-            yield (
-                f"{one.surface.value.capitalize()}: {runs_text(len(one.runs))} given,"
-                f" {LEAST_RUNS} required."
-            )
+        if not has_enough_runs(one):
+            few.setdefault(runs_by_velocity(one, package.fmt.us_first), []).append(one.surface)
+    for runs, surfaces in few.items():
+        those = " and ".join(surfaces).capitalize()
+        yield f"{those}: {runs}; {LEAST_RUNS} at each velocity are required."
 
 
-def _array(array: Array, found: Sequence[Series]) -> str:
+def _compared(data: ProjectInput, found: Sequence[Series]) -> Iterator[str]:
+    """Yield how the friction of each array compares with the tests, alike arrays together."""
+    ids: dict[str, list[str]] = {}
+    for array in data.arrays:
+        ids.setdefault(_array(data, array, found), []).append(array.id)
+    for text, names in ids.items():
+        yield f"Array{'s' if len(names) > 1 else ''} {', '.join(names)}: {text}"
+
+
+def _array(data: ProjectInput, array: Array, found: Sequence[Series]) -> str:
     one = governing(found, array.mu_report)
     used = one.mean_of(array.friction)
-    by_velocity = array.friction.mu_fast != array.friction.mu_slow
     what = (
         f"mean of μ(v) at the tested velocities {number(used, 3)}"
-        if by_velocity
+        if array.friction.is_by_velocity
         else (f"μ = {number(used, 3)}")
     )
     gap = round(round(used, 3) - round(one.mean, 3), 3)
@@ -188,8 +273,8 @@ def _array(array: Array, found: Sequence[Series]) -> str:
     )
     more = ", within the rounding of two decimals" if gap > 0.0 else ""
     return (
-        f"Array {array.id}: {what}, {compared} the tested mean {number(one.mean, 3)}"
-        f" ({one.surface}){more}."
+        f"{what}, {compared} the tested mean {number(one.mean, 3)}"
+        f" ({one.surface}){more}; {basis_words(data, array)}."
     )
 
 

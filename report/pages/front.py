@@ -9,7 +9,8 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.certainty import Certainty
-from report.assessment.friction_rows import tested
+from report.assessment.friction import mu_words
+from report.assessment.friction_rows import basis_words, tested
 from report.assessment.remedies import Remedy
 from report.assessment.spectra import Spectra, departures
 from report.assessment.verdict import Verdict
@@ -30,8 +31,10 @@ from report.pages.parts import (
 from report.pages.remedies import sentences
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
-from report.words.units import number, ratio
+from report.words.units import number
+from report.words.validation import explained
 from solver.model import Motion
+from solver.verification.shake_table import SHIPPED
 
 
 def sheet(package: PackageData) -> Mapping[str, str]:
@@ -87,7 +90,7 @@ def verdict_sentence(package: PackageData) -> str:
                 for array in package.assessment.arrays
             ],
         ),
-        ("clearance", [gap.ok for gap in package.assessment.clearances]),
+        ("clearance", [gap.verdict.is_permitted for gap in package.assessment.clearances]),
         ("limit", [check.ok for _, check in all_checks(package)]),
         ("requirement", [row.verdict.is_permitted for row in package.assessment.rows]),
     )
@@ -96,7 +99,15 @@ def verdict_sentence(package: PackageData) -> str:
         for name, oks in counts
         if False in oks
     ]
-    return f"Marked NG: {', '.join(failed)}."
+    return f"Marked NG: {', '.join(failed)}{_unknown(package)}."
+
+
+def _unknown(package: PackageData) -> str:
+    """Return how many clearances have no verdict, if any have none."""
+    gaps = package.assessment.clearances
+    if not (count := sum(not gap.is_permitted for gap in gaps)):
+        return ""
+    return f"; without a verdict: {count} of {len(gaps)} clearance{'s' if len(gaps) != 1 else ''}"
 
 
 def _satisfied(package: PackageData) -> str:
@@ -128,7 +139,7 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
             Markup("{} = {} g, SDC {}, {} = {}, risk category {}").format(
                 symbol("S_DS"),
                 number(site.s_ds, 3),
-                site.sdc.value,
+                site.sdc_text,
                 symbol("I_e"),
                 number(site.i_e, 2),
                 site.risk_category.value,
@@ -137,7 +148,7 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
         ),
         (
             "Prescriptive displacement",
-            package.fmt.both(array.prescriptive.value_m) + package.mark(key),
+            package.fmt.both(array.prescriptive.value_m) + package.prescriptive_mark(array),
             rules.values[key].clause,
         ),
         (
@@ -192,7 +203,7 @@ def _array_table(package: PackageData) -> Table:
         columns=(
             TableColumn(head="Array", align="left", share=1.2),
             TableColumn(head="Slope", unit="deg", share=0.8),
-            TableColumn(head="μ", share=0.7),
+            TableColumn(head="μ", share=1.0),
             *fmt.columns("Analysis"),
             *fmt.columns("Prescriptive"),
             *fmt.columns("Design"),
@@ -210,20 +221,20 @@ def _array_table(package: PackageData) -> Table:
 
 
 def _array_row(package: PackageData, array: ArrayAssessment) -> TableRow:
-    prescriptive = package.mark(package.prescriptive_key(array))
-    demands = [gap.demand_capacity for gap in package.assessment.gaps_of(array.id)]
-    largest = math.nan if any(map(math.isnan, demands)) else max(demands, default=math.nan)
+    gap = package.assessment.governing_clearance(array.id)
     return TableRow(
         cells=(
             array.id,
             number(math.degrees(array.array.slope_rad), 2),
-            number(array.array.mu, 2),
-            *package.fmt.cells(array.analysis.value_m),
-            *package.fmt.cells(array.prescriptive.value_m, mark=prescriptive),
+            mu_words(array.array.friction),
+            *package.fmt.cells(
+                array.analysis.value_m, mark=array.mark(lambda item: item.analysis.value_m)
+            ),
+            *package.fmt.cells(array.prescriptive.value_m, mark=package.prescriptive_mark(array)),
             *package.fmt.cells(array.design_m, mark=package.design_mark(array)),
             array.source,
             verdict(array.is_permitted and all(check.ok for check in array.limits)),
-            ratio(largest) if demands else "none given",
+            "none given" if gap is None else gap.ratio_words,
             stamp(package.assessment.array_verdict(array)),
         ),
         kind=package.bar(array.id in package.changes.arrays),
@@ -254,6 +265,8 @@ def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
         "routes": _routes(package),
         "angles": _angles(package, certainty),
         "failed": troubles(package),
+        "has_none": any(not gap.is_permitted for gap in package.assessment.clearances),
+        "validation": explained(SHIPPED),
         "sums": package.part("how-sure") if package.data.options.smaller_factors else "",
     }
 
@@ -340,8 +353,11 @@ def _friction(package: PackageData) -> str:
     single = (
         "a single coefficient μ for each array, at rest and while sliding, independent of velocity"
     )
-    by_velocity = [array.id for array in package.data.arrays if not array.friction.is_constant]
-    if not by_velocity:
+    others = [
+        f"{array.id}: {mu_words(array.friction)}, {basis_words(package.data, array)}"
+        for array in package.data.arrays
+        if not array.friction.is_constant
+    ]
+    if not others:
         return single
-    names = ", ".join(by_velocity)
-    return f"{single} (except {names}: velocity-dependent, as tested, see {package.part('model')})"
+    return f"{single} (except {'; '.join(others)}; see {package.part('model')})"

@@ -6,11 +6,13 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
+from report.assessment.friction import mu_words
 from report.assessment.runs import RUNGS
+from report.assessment.verdict import NOT_GIVEN
 from report.pages import friction_tests
 from report.pages.model import friction
 from report.pages.parts import PackageData, Table, TableColumn, TableRow
-from report.pages.site import NOT_GIVEN, s_ds_note, site_table
+from report.pages.site import s_ds_note, site_table
 from report.sheet.schema import Array, Polygon, RoofObject, Shape
 from report.words.units import Quantity, number
 from solver.rules.rulesets import LowProfileLength
@@ -21,7 +23,7 @@ def below(_: PackageData) -> tuple[tuple[str, str], ...]:
     return (
         ("inputs-site", "Site and seismic parameters"),
         ("inputs-arrays", "Arrays and objects"),
-        ("inputs-friction", "Friction as tested"),
+        ("inputs-friction", "Friction tests"),
     )
 
 
@@ -46,7 +48,7 @@ def _arrays(package: PackageData) -> Table:
             TableColumn(head="Slope", unit="deg", share=0.7),
             TableColumn(head="Slope", unit="%", share=0.7),
             TableColumn(head="Downslope", unit="deg in plan", share=1.0),
-            TableColumn(head="μ", share=0.7),
+            TableColumn(head="μ", share=1.1),
             TableColumn(head="Friction test report", align="left", share=2.6),
             TableColumn(head="Construction", align="left", share=2.2),
         ),
@@ -57,7 +59,7 @@ def _arrays(package: PackageData) -> Table:
                     number(math.degrees(array.slope_rad), 2),
                     number(100.0 * math.tan(array.slope_rad), 1),
                     number(array.downslope_deg, 0),
-                    number(array.mu, 3),
+                    mu_words(array.friction),
                     array.mu_report or NOT_GIVEN,
                     array.construction,
                 )
@@ -75,7 +77,7 @@ def _by_speed(package: PackageData) -> Iterator[str]:
     """Yield which arrays have velocity-dependent friction or a requested model."""
     for array in package.data.arrays:
         if not array.friction.is_constant:
-            yield f"Array {array.id}.{friction(array)}"
+            yield f"Array {array.id}.{friction(package, array)}"
         if array.model in RUNGS:
             where = package.part("model")
             yield f"Array {array.id}. Requested model: {array.model.value} ({where})."

@@ -8,11 +8,14 @@ from collections.abc import Iterator, Mapping
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.friction import mu_words
+from report.assessment.overrides import LOWERING
 from report.pages.front import verdict_sentence
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, stamp
+from report.pages.symbols import with_symbols
 from report.typeset.equations import symbol
 from report.words.counts import capitalized, counted, spelled
-from report.words.units import number, ratio
+from report.words.units import number
 from solver.records.acceptance_row import Consequence
 
 
@@ -46,7 +49,7 @@ def _analyzed(package: PackageData) -> Markup:
         f"{assessment.rules.name}"
     )
     return Markup("{} for {} = {} g and seismic design category {}.").format(
-        text, symbol("S_DS"), number(site.s_ds, 3), site.sdc.value
+        text, symbol("S_DS"), number(site.s_ds, 3), site.sdc_text
     )
 
 
@@ -54,10 +57,11 @@ def _arrays(package: PackageData) -> Table:
     return Table(
         caption="Results",
         columns=(
-            TableColumn(head="Array", align="left", share=1.0),
+            TableColumn(head="Array", align="left", share=0.7),
+            TableColumn(head="μ", share=0.8),
             *package.fmt.columns("Design displacement", share=1.0),
             TableColumn(head="Governed by", align="left", share=1.4),
-            TableColumn(head="Largest D/C", share=1.0),
+            TableColumn(head="Largest D/C", share=0.7),
             TableColumn(head="Clearance", align="left", share=1.4),
             TableColumn(head="Verdict", align="center", share=1.6),
         ),
@@ -71,9 +75,10 @@ def _array(package: PackageData, item: ArrayAssessment) -> tuple[str, ...]:
     gap = package.assessment.governing_clearance(item.id)
     return (
         item.id,
+        mu_words(item.array.friction),
         *package.fmt.cells(item.design_m, mark=package.design_mark(item)),
         item.source,
-        "—" if gap is None else ratio(gap.demand_capacity),
+        "—" if gap is None else gap.ratio_words,
         "none given" if gap is None else f"to {gap.across_from(item.id)}",
         stamp(package.assessment.array_verdict(item)),
     )
@@ -129,6 +134,16 @@ def _departures(package: PackageData) -> Iterator[str]:
         count = capitalized(counted(len(package.data.overrides), "number"))
         are = "is" if len(package.data.overrides) == 1 else "are"
         yield f"{count} of the rule set {are} overridden for this project ({where})."
+    lowered = [row for row in package.assessment.rows if row.id in LOWERING]
+    if lowered:
+        named = "; ".join(
+            f"{row.title[0].lower()}{row.title[1:]}: {row.found} (required: {row.limit})"
+            for row in lowered
+        )
+        yield with_symbols(
+            "This requires less than the rule set does, and needs the consent of the authority "
+            f"having jurisdiction: {named}."
+        )
     if options.directional:
         yield (
             "The clearances take the displacement in their own direction, a departure from the "
@@ -136,5 +151,8 @@ def _departures(package: PackageData) -> Iterator[str]:
         )
     if options.peer_reviewed:
         yield "The floor on the displacement from analysis is not applied: peer review is stated."
-    if any(math.isnan(item.design_m) for item in package.assessment.arrays):
-        yield "An array without a design displacement is NG: no clearance is shown to suffice."
+    if any(math.isnan(item.permitted_m) for item in package.assessment.arrays):
+        yield (
+            "An array without a permitted design displacement is NG: no clearance beside it is "
+            "shown to suffice."
+        )

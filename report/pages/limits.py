@@ -117,20 +117,20 @@ def requirements(package: PackageData) -> Table:
     return Table(
         caption="Requirements beside the numeric limits",
         columns=(
-            TableColumn(head="Item", align="left", share=0.8),
-            TableColumn(head="Requirement", align="left", share=2.6),
-            TableColumn(head="Found", align="left", share=2.5),
-            TableColumn(head="Required", align="left", share=2.0),
-            TableColumn(head="Basis", align="left", share=1.75),
-            TableColumn(head="Verdict", align="center", share=1.35),
+            TableColumn(head="Item", align="left", share=0.9),
+            TableColumn(head="Requirement", align="left", share=2.3),
+            TableColumn(head="Found", align="left", share=2.6),
+            TableColumn(head="Required", align="left", share=1.9),
+            TableColumn(head="Basis", align="left", share=1.5),
+            TableColumn(head="Verdict", align="center", share=1.8),
         ),
         rows=tuple(
             TableRow(
                 cells=(
                     row.subject or "Project",
                     with_symbols(row.title),
-                    row.found,
-                    row.limit,
+                    with_symbols(row.found),
+                    with_symbols(row.limit),
                     row.basis,
                     stamp(row.verdict),
                 )

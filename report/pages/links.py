@@ -19,7 +19,6 @@ from report.pages.parts import (
     statistic,
     verdict,
 )
-from report.sheet.schema import Direction
 from report.words.units import Quantity, number
 from solver.model import Status
 
@@ -45,6 +44,11 @@ def link_troubles(package: PackageData) -> Iterator[str]:
     """Yield in words for which arrays one rigid block is not adequate, and the remedy."""
     for linked in package.assessment.linked:
         yield from _unfinished(linked)
+        if not linked.design.is_permitted:
+            yield (
+                f"Array {linked.design.id}: there is no permitted design displacement to compare a "
+                "row of linked blocks with."
+            )
         if not linked.is_within and not math.isnan(linked.estimated_m):
             yield f"{_too_far(package, linked)} {_remedy(linked)}"
 
@@ -205,7 +209,8 @@ def _design_table(package: PackageData, matters: str) -> Table:
         notes=(
             f"Rigid and row: {', '.join(ways)} of the motions' PRDs; for the row, of the block "
             "with the largest PRD. OK where the design value with links exceeds the value used by "
-            f"no more than {matters}, whichever is larger, and every run ends at rest.",
+            f"no more than {matters}, whichever is larger, every run ends at rest, and the value "
+            "used is permitted.",
         ),
         kind="compact",
     )
@@ -218,7 +223,7 @@ def _design(package: PackageData, linked: LinkedArray) -> tuple[str, ...]:
         *fmt.cells(linked.rigid.value_m),
         *fmt.cells(linked.linked.value_m),
         _ratio(linked.ratio),
-        *fmt.cells(linked.design.design_toward_m(Direction.ANY)),
+        *fmt.cells(linked.design.permitted_m),
         *(("∞", "∞") if math.isinf(estimated) else fmt.cells(estimated)),
         verdict(linked.is_rigid_enough),
     )

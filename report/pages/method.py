@@ -145,7 +145,7 @@ def _yield_lines(array: ArrayAssessment) -> Sequence[Line]:
 def _friction_lines(array: ArrayAssessment) -> Sequence[Line]:
     """Return the friction coefficient as a function of velocity, where a test gave it."""
     law = array.array.friction
-    if law.mu_fast == law.mu_slow or law.rate_s_per_m == 0.0:
+    if not law.is_by_velocity:
         return ()
     slow, fast, rate = law.mu_slow, law.mu_fast, law.rate_s_per_m
     tenth = fast - (fast - slow) * math.exp(-0.1 * rate)
@@ -175,7 +175,7 @@ def prescriptive_line(package: PackageData, array: ArrayAssessment) -> Line:
         return Line(
             latex=r"\Delta_{MPV}=\Delta_{A,B,C}",
             reference=package.clause(key),
-            steps=((f"SDC {site.sdc.value}", fmt.both(value) + package.mark(key)),),
+            steps=((f"SDC {site.sdc_text}", fmt.both(value) + package.prescriptive_mark(array)),),
         )
     least = fmt.both(minimum) + package.mark("prescriptive_minimum_in")
     factor = f"{rules['prescriptive_factor_in']:g} in" + package.mark("prescriptive_factor_in")
@@ -192,7 +192,7 @@ def prescriptive_line(package: PackageData, array: ArrayAssessment) -> Line:
         steps=(
             (
                 Markup("{}{} × {}, not less than {}").format(factor, inside, bracket, least),
-                fmt.both(value) + package.mark(key),
+                fmt.both(value) + package.prescriptive_mark(array),
             ),
         ),
         note=f"The {array.prescriptive.governs} governs. The value is the same for every array.",
@@ -212,6 +212,7 @@ def design_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]
     largest = analysis.basis is Basis.LARGEST_FACTORED
     picked = analysis.largest_m if largest else analysis.mean_m
     floor = number(rules["analysis_floor"], 2) + package.mark("analysis_floor")
+    computed = array.mark(lambda item: item.analysis.value_m)
     return [
         Line(
             latex=r"\overline{\Delta}=\frac{1}{n}\sum_{i=1}^{n}\mathrm{PRD}_i",
@@ -235,7 +236,7 @@ def design_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]
                 else r"\Delta_{RHA}=k_a\,\overline{\Delta}"
             ),
             reference=package.clause("analysis_factor"),
-            steps=((f"{factor} × {fmt.both(picked)}", fmt.both(analysis.value_m)),),
+            steps=((f"{factor} × {fmt.both(picked)}", f"{fmt.both(analysis.value_m)}{computed}"),),
             note=f"Statistic: {statistic(analysis.basis)}.",
         ),
         Line(
@@ -246,7 +247,7 @@ def design_lines(package: PackageData, array: ArrayAssessment) -> Sequence[Line]
                     "peer reviewed: no floor"
                     if package.data.options.peer_reviewed
                     else f"{floor} × {fmt.both(array.prescriptive.value_m)}",
-                    fmt.both(package.floor_m(array)) + package.floor_mark,
+                    fmt.both(package.floor_m(array)) + package.floor_mark(array),
                 ),
             ),
         ),
@@ -339,8 +340,8 @@ def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
     return (
         f"To {_ARTICLES[gap.neighbor]} ({gap.governing_array}, "
         f"{gap.governing_direction.value}): {number(rules[key], 2)}{package.mark(key)}{inside} × "
-        f"{fmt.both(gap.design_m)}{least}",
-        fmt.both(gap.required_m) + feet,
+        f"{fmt.both(gap.design_m)}{gap.design_mark}{least}",
+        fmt.both(gap.required_m) + feet + gap.mark,
     )
 
 
@@ -356,7 +357,8 @@ def interconnection_line(package: PackageData, array: ArrayAssessment) -> Line:
             (
                 f"max({first} × {number(package.data.site.s_ds, 3)}, {second}) × "
                 f"{fmt.both(array.array.weight_n / 2.0, Quantity.WEIGHT)}",
-                fmt.both(array.interconnection_n, Quantity.WEIGHT),
+                fmt.both(array.interconnection_n, Quantity.WEIGHT)
+                + array.mark(lambda item: item.interconnection_n),
             ),
         ),
     )

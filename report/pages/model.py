@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.friction import mu_words
+from report.assessment.friction_rows import basis_words
 from report.assessment.runs import RUNGS, HeadingRun
 from report.pages import links
 from report.pages.accuracy import below_mm
@@ -162,7 +164,7 @@ def _table(package: PackageData) -> Table:
             TableColumn(head="Array", align="left", share=0.8),
             TableColumn(head="Model", align="left", share=2.1),
             TableColumn(head="Runs", share=1.0),
-            TableColumn(head="μ", share=0.9),
+            TableColumn(head="μ", unit="at rest", share=0.9),
             TableColumn(head="Demand", share=0.9),
             TableColumn(head="Reason", align="left", share=4.2),
             TableColumn(head="Error of PRD", align="left", share=1.6),
@@ -315,7 +317,7 @@ def _sentences(package: PackageData, array: ArrayAssessment) -> Iterator[str]:
     yield (
         f"Array {name}: the governing run is {worst.motion.id}, {worst.governing.heading.name}, "
         f"with PRD {package.fmt.both(worst.governing.prd_m)}. Minimum normal force "
-        f"{number(least, 2)} m g: {lifted}.{friction(array.array)}"
+        f"{number(least, 2)} m g: {lifted}.{friction(package, array.array)}"
     )
     is_bounded = array.array.friction.is_monotone
     if worst.governing.solution.rung is Rung.SPEED_FRICTION and not is_bounded:
@@ -327,15 +329,10 @@ def _sentences(package: PackageData, array: ArrayAssessment) -> Iterator[str]:
         )
 
 
-def friction(array: Array) -> str:
-    """Return velocity-dependent friction in words; nothing where there is one coefficient."""
+def friction(package: PackageData, array: Array) -> str:
+    """Return friction that is no single coefficient in words; otherwise nothing."""
     law = array.friction
     if law.is_constant:
         return ""
-    static = "" if law.mu_static == law.mu_slow else f", {number(law.mu_static, 3)} at rest"
-    if law.mu_fast == law.mu_slow or law.rate_s_per_m == 0.0:
-        return f" Tested friction: {number(law.mu_slow, 3)} sliding{static}."
-    return (
-        f" Tested friction: {number(law.mu_slow, 3)} at low velocity, {number(law.mu_fast, 3)} at "
-        f"high velocity, rate {number(law.rate_s_per_m, 1)} s/m{static}."
-    )
+    rate = f" (rate {number(law.rate_s_per_m, 1)} s/m)" if law.is_by_velocity else ""
+    return f" Friction: {mu_words(law)}{rate}; {basis_words(package.data, array)}."

@@ -14,8 +14,8 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.changes import NO_FORMER, Changes
-from report.assessment.clearances import ClearanceCheck
 from report.assessment.foresight import limit_value
+from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.provenance.files import fingerprint
@@ -24,7 +24,6 @@ from report.typeset.equations import data_uri
 from report.words.units import Quantity, Show, Unit, measured, pair
 from solver.model import DefectError
 from solver.rules.provisions import (
-    SEPARATION_KEYS,
     Basis,
     Check,
     PrescriptiveBasis,
@@ -231,9 +230,20 @@ def stamp(value: Verdict) -> Markup:
     return Markup('<b class="{}">{}</b>').format(value.name.lower(), value.value)
 
 
+UNVERIFIED = (
+    "Numbers marked † have not been compared with the text of the adopted document and shall be "
+    "verified against it"
+)
+
+
 def dagger(provision: Provision) -> str:
     """Return the marks of a number: † unverified, ‡ overridden."""
-    return ("" if provision.verified else "†") + ("‡" if provision.reason else "")
+    return ("" if provision.verified else "†") + (OVERRIDDEN if provision.reason else "")
+
+
+def joined(marks: str, more: str) -> str:
+    """Return marks, each once."""
+    return marks if more in marks else marks + more
 
 
 def check_value(check: Check, value: float, fmt: UnitFormat) -> str:
@@ -299,30 +309,32 @@ class PackageData:
         if math.isnan(array.design_m):
             return ""
         if array.governs is DesignBasis.PRESCRIPTIVE:
-            return self.mark(self.prescriptive_key(array))
-        return self.mark(
-            "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
-        )
+            return joined(self.mark(self.prescriptive_key(array)), array.design_mark)
+        key = "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
+        return joined(self.mark(key), array.design_mark)
+
+    def prescriptive_mark(self, array: ArrayAssessment) -> str:
+        """Return the marks of the prescriptive displacement."""
+        mark = array.mark(lambda item: item.prescriptive.value_m)
+        return joined(self.mark(self.prescriptive_key(array)), mark)
 
     def floor_m(self, array: ArrayAssessment) -> float:
         """Return the floor of an array for print [m]; NaN where peer review removes it."""
         return math.nan if self.data.options.peer_reviewed else array.floor_m
 
-    @property
-    def floor_mark(self) -> str:
-        """The marks of the floor, if there is one."""
-        return "" if self.data.options.peer_reviewed else self.mark("analysis_floor")
+    def floor_mark(self, array: ArrayAssessment) -> str:
+        """Return the marks of the floor of an array, if it has one."""
+        if self.data.options.peer_reviewed:
+            return ""
+        return joined(self.mark("analysis_floor"), array.mark(lambda item: item.floor_m))
 
     def direction_mark(self, array: ArrayAssessment, direction: Direction) -> str:
         """Return the marks of a design displacement in a direction."""
         value = array.directions[direction].value_m
         key = "analysis_floor" if array.floor_m > value else "analysis_factor"
-        return "" if math.isnan(value) else self.mark(key)
-
-    def separation_mark(self, gap: ClearanceCheck) -> str:
-        """Return the marks of the provision that gives a required separation."""
-        key = SEPARATION_KEYS[gap.neighbor]
-        return self.mark("separation_edge_min_in" if gap.is_least_value else key)
+        if math.isnan(value):
+            return ""
+        return joined(self.mark(key), array.toward_mark(direction))
 
 
 def shortened(text: str, most: int) -> str:

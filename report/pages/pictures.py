@@ -5,14 +5,18 @@ Gives each picture its caption; `report.figures` draws it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+
+from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Certainty
 from report.assessment.evidence import Plotted
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra, departures
+from report.assessment.verdict import Verdict
 from report.pages import accuracy, certainty, friction_tests, limits, section
 from report.pages.parts import PackageData, Picture
 from report.typeset.pdf import TEMPLATES
@@ -20,6 +24,7 @@ from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
 LEAST_PLAN_IN = 1.6  # a plan of less height shows nothing
+SHEET_IN = 8.8  # from the head of a sheet to its foot
 Pictures = Mapping[str, Sequence[Picture]]
 
 
@@ -103,16 +108,29 @@ def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[Pi
 
 
 def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
-    """Return what the tables and sentences of the summary leave of its sheet [in], at least."""
+    """Return what the tables and sentences of the summary leave of its last sheet [in]."""
     assessment, sentences = package.assessment, limits.troubles(package)
-    failed = sum(not gap.ok for gap in assessment.clearances)
+    failed = sum(gap.verdict is Verdict.NG for gap in assessment.clearances)
     # Their conditions take two lines.
     edges = sum("without" in gap.neighbor.value for gap in assessment.clearances)
     rows = len(assessment.arrays) + len(assessment.clearances)
     answers = 0.7 + 0.45 * failed if failed else 0.0
     troubles = 0.3 + 0.33 * len(sentences) if sentences else 0.0
     missed = 0.5 * len(departures(spectra))
-    return 5.1 - 0.2 * rows - 0.15 * edges - answers - troubles - missed
+    room = 5.1 - 0.2 * rows - 0.15 * edges - answers - troubles - missed
+    room -= _conditions_in(package) + sum(map(_wrapped_in, assessment.arrays))
+    return room % SHEET_IN
+
+
+def _conditions_in(package: PackageData) -> float:
+    """Return how tall the list of conditions is [in]."""
+    texts = [Markup(text).striptags() for text in limits.conditions(package)]
+    return 0.3 + sum(0.16 * math.ceil(len(text) / 110) for text in texts) if texts else 0.0
+
+
+def _wrapped_in(array: ArrayAssessment) -> float:
+    """Return what friction that depends on velocity adds to the row of an array [in]."""
+    return 0.0 if array.array.friction.is_constant else 0.3
 
 
 def draw_plotted(package: PackageData, shown: Plotted) -> Pictures:

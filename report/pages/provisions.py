@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from markupsafe import Markup, escape
 
 from report.pages.parts import (
+    UNVERIFIED,
     PackageData,
     Table,
     TableColumn,
@@ -47,6 +48,7 @@ def provisions(package: PackageData) -> Mapping[str, object]:
             ),
             kind="compact",
         ),
+        "unverified": UNVERIFIED,
         "departure": _departure(package),
         "overrides": Table(
             caption="Overridden for this project",

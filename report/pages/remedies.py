@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
+from report.assessment.friction import mu_words
 from report.assessment.remedies import Remedy, RemedyKind
-from report.assessment.trials import involved
-from report.pages.certainty import coefficient
+from report.assessment.trials import with_mu
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
 from report.pages.symbols import with_symbols
 from report.words.units import Quantity, compared, no_less, number, pair
@@ -33,7 +33,7 @@ def _sentence(package: PackageData, remedies: Sequence[Remedy]) -> str:
         start = f"Array {first.array} would have final values"
     frictions = [remedy for remedy in remedies if remedy.kind is RemedyKind.FRICTION]
     others = [remedy for remedy in remedies if remedy.kind is not RemedyKind.FRICTION]
-    enough = [_friction(frictions)] if all(remedy.exists for remedy in frictions) else []
+    enough = [_friction(package, frictions)] if all(remedy.exists for remedy in frictions) else []
     enough += [_other(package, remedy) for remedy in others if remedy.exists]
     reasons = {
         f"No {remedy.kind.value} would do: {remedy.basis}."
@@ -41,17 +41,7 @@ def _sentence(package: PackageData, remedies: Sequence[Remedy]) -> str:
         if not remedy.exists
     }
     words = [f"{start} with {_any_of(enough)}."] if enough else [f"{start} by none of these."]
-    return " ".join([*words, *sorted(reasons), *_not_permitted(package, first)])
-
-
-def _not_permitted(package: PackageData, remedy: Remedy) -> Sequence[str]:
-    """Return which arrays of a clearance have no permitted route, which this does not change."""
-    if not remedy.clearance:
-        return []
-    given = package.assessment
-    row = given.clearances[remedy.clearance - 1].clearance
-    names = [array.id for array in involved(given, row) if not array.is_permitted]
-    return [f"No route is permitted for {' and '.join(names)} as given."] if names else []
+    return " ".join([*words, *sorted(reasons)])
 
 
 def _any_of(texts: Sequence[str]) -> str:
@@ -59,11 +49,17 @@ def _any_of(texts: Sequence[str]) -> str:
     return texts[0] if len(texts) == 1 else f"{', with '.join(texts[:-1])}, or with {texts[-1]}"
 
 
-def _friction(remedies: Sequence[Remedy]) -> str:
+def _friction(package: PackageData, remedies: Sequence[Remedy]) -> str:
     return "μ of at least " + " and ".join(
-        f"{number(one.value, 2)} for {one.array} (given {coefficient(one.given)})"
+        f"{_law(package, one, one.value)} for {one.array} (given {_law(package, one, one.given)})"
         for one in remedies
     )
+
+
+def _law(package: PackageData, remedy: Remedy, mu: float) -> str:
+    """Return the friction of an array as run with a low-velocity coefficient."""
+    array = next(array for array in package.data.arrays if array.id == remedy.array)
+    return mu_words(with_mu(array, mu).friction)
 
 
 def _other(package: PackageData, remedy: Remedy) -> str:
@@ -148,7 +144,7 @@ def _given(package: PackageData, remedy: Remedy) -> str:
         return _separations(package, remedy)[1]
     if remedy.kind is RemedyKind.S_DS:
         return f"{number(remedy.given, 3)} g"
-    return coefficient(remedy.given)
+    return _law(package, remedy, remedy.given)
 
 
 def _value(package: PackageData, remedy: Remedy) -> str:
@@ -156,7 +152,7 @@ def _value(package: PackageData, remedy: Remedy) -> str:
         return f"≥ {_separations(package, remedy)[0]}"
     if remedy.kind is RemedyKind.S_DS:
         return f"≤ {number(remedy.value, 2)} g"
-    return f"≥ {number(remedy.value, 2)}"
+    return f"≥ {_law(package, remedy, remedy.value)}"
 
 
 def _verified(remedy: Remedy) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
+from report.assessment.friction import mu_words
 from report.assessment.project import run_warnings
 from report.assessment.runs import MotionRun
 from report.pages.limits import analysis_faults, check_table
@@ -59,7 +60,7 @@ def _facts(assessed: ArrayAssessment) -> str:
     array = assessed.array
     return (
         f"Slope {number(math.degrees(array.slope_rad), 2)}° "
-        f"({number(100.0 * math.tan(array.slope_rad), 1)} %), μ = {number(array.mu, 3)}, "
+        f"({number(100.0 * math.tan(array.slope_rad), 1)} %), μ = {mu_words(array.friction)}, "
         f"{array.construction}."
     )
 
@@ -199,7 +200,7 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
             "computed_m",
             f"Analysis: {statistic(analysis.basis)}, {factor}",
             analysis.value_m,
-            "",
+            array.mark(_analysis_m),
             "",
             [way.value_m for way in ways],
         ),
@@ -207,7 +208,7 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
             "floor_m",
             f"Floor: {_floor_words(package, floor)}",
             package.floor_m(array),
-            package.floor_mark,
+            package.floor_mark(array),
             "",
             [package.floor_m(array)] * len(ways),
         ),
@@ -220,18 +221,28 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Sequ
             toward,
         ),
     )
+    marks = {"design_m": [array.toward_mark(direction) for direction in _WAYS]}
     return [
         TableRow(
             cells=(
                 Wide(label, 1 + runs),
                 *package.fmt.cells(value, mark=mark),
-                *(package.fmt.cells(excursion)[0] for excursion in excursions),
+                *(
+                    package.fmt.cells(excursion)[0] + toward
+                    for excursion, toward in zip(
+                        excursions, marks.get(key, [""] * len(ways)), strict=True
+                    )
+                ),
                 Wide(words, 5),
             ),
             kind=package.bar((array.id, key) in package.changes.values, "total"),
         )
         for key, label, value, mark, words, excursions in lines
     ]
+
+
+def _analysis_m(array: ArrayAssessment) -> float:
+    return array.analysis.value_m
 
 
 def _floor_words(package: PackageData, clause: str) -> str:
@@ -283,12 +294,10 @@ def _ratio_row(package: PackageData, array: ArrayAssessment) -> TableRow:
     return TableRow(
         cells=(
             array.id,
-            *fmt.cells(
-                array.prescriptive.value_m, mark=package.mark(package.prescriptive_key(array))
-            ),
+            *fmt.cells(array.prescriptive.value_m, mark=package.prescriptive_mark(array)),
             *fmt.cells(array.analysis.mean_m),
-            *fmt.cells(array.analysis.value_m),
-            *fmt.cells(package.floor_m(array), mark=package.floor_mark),
+            *fmt.cells(array.analysis.value_m, mark=array.mark(_analysis_m)),
+            *fmt.cells(package.floor_m(array), mark=package.floor_mark(array)),
             *fmt.cells(array.design_m, mark=package.design_mark(array)),
             *(NO_VALUE if math.isnan(share) else number(share, 2) for share in shares),
             array.source,

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
+from report.assessment.verdict import NOT_GIVEN
 from report.pages.parts import PackageData, Table, TableColumn, TableRow
 from report.sheet.schema import RiskCategory, Site
 from report.typeset.equations import symbol
 from report.words.units import Quantity, number
 from solver.building.periods import approximate_period_s
 from solver.rules import hazard
-from solver.rules.hazard import ComponentForce, component_force
+from solver.rules.hazard import ComponentForce, HazardBasis, component_force
 
-NOT_GIVEN = "not given"
 GIVEN, COMPUTED, ASSUMED = "input", "computed", "assumed"
 
 
@@ -166,8 +166,9 @@ def _categories(site: Site) -> Iterator[Parameter]:
     controlling = hazard.controlling_sdc(
         s_ds_g=site.s_ds, s_d1_g=site.s_d1, s_1_g=site.s_1_g, is_essential=is_essential
     )
-    yield Parameter("Controlling SDC of these", "", controlling, clause("sdc"), COMPUTED)
-    yield Parameter("Seismic design category used", "SDC", site.sdc.value, clause("sdc"))
+    shown = controlling + site.sdc_mark
+    yield Parameter("Controlling SDC of these", "", shown, clause("sdc"), COMPUTED)
+    yield Parameter("Seismic design category used", "SDC", site.sdc_text, clause("sdc"))
 
 
 def _near_fault(site: Site, is_essential: bool) -> str:
@@ -215,6 +216,8 @@ def _hazard(site: Site) -> Iterator[Parameter]:
     date = NOT_GIVEN if site.hazard_date is None else site.hazard_date.isoformat()
     yield Parameter("Hazard basis", "", site.hazard.value, site.edition.clause("site_specific"))
     yield Parameter("Hazard source", "", site.hazard_source or NOT_GIVEN, "")
+    if site.hazard is HazardBasis.SITE_SPECIFIC:
+        yield Parameter("Hazard report number", "", site.hazard_report or NOT_GIVEN, "")
     yield Parameter("Date of the hazard values", "", date, "")
 
 

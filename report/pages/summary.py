@@ -10,7 +10,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.foresight import findings, limit_words
+from report.assessment.overrides import MEANING
 from report.assessment.verdict import Verdict
 from report.pages.registry import package_data
 from report.sheet.findings import Level, located
@@ -49,6 +51,8 @@ def summary(assessment: Assessment) -> Iterator[str]:
     for row in rows:
         cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
         yield "  ".join(cells).rstrip()
+    if assessment.is_overridden:
+        yield MEANING
     for line in attention(assessment):
         yield f"{line.level}: {line.text}"
     yield f"verdict: {assessment.verdict.value}"
@@ -70,8 +74,10 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
         "computed_m": _finite(item.analysis.value_m),
         "prescriptive_m": item.prescriptive.value_m,
         "design_m": _finite(item.design_m),
+        "design_is_overridden": bool(item.design_mark),
         "governing_clearance": gap.across_from(item.id) if gap else None,
         "demand_capacity": _finite(gap.demand_capacity) if gap else None,
+        "required_is_overridden": bool(gap and gap.mark),
         "verdict": assessment.array_verdict(item).value,
         "causes": _causes(assessment, item),
     }
@@ -84,17 +90,18 @@ def _finite(value: float) -> float | None:
 def _row(assessment: Assessment, item: ArrayAssessment) -> tuple[str, ...]:
     us_first = assessment.project.project.units_first == "US"
 
-    def shown(value_m: float) -> str:
+    def shown(value_m: float, mark: str) -> str:
         is_none = math.isnan(value_m)
-        return "none" if is_none else pair(value_m, Quantity.DISPLACEMENT, us_first)
+        return "none" if is_none else pair(value_m, Quantity.DISPLACEMENT, us_first) + mark
 
     gap = assessment.governing_clearance(item.id)
-    clearance = (f"to {gap.across_from(item.id)}", ratio(gap.demand_capacity)) if gap else ()
+    clearance = (f"to {gap.across_from(item.id)}", gap.ratio_words) if gap else ()
     return (
         item.id,
-        shown(item.analysis.value_m),
-        shown(item.prescriptive.value_m),
-        shown(item.design_m),
+        shown(item.analysis.value_m, item.mark(lambda array: array.analysis.value_m)),
+        shown(item.prescriptive.value_m, item.mark(lambda array: array.prescriptive.value_m)),
+        shown(item.design_m, item.design_mark)
+        + (f", {NOT_PERMITTED}" if item.has_unpermitted_value else ""),
         *(clearance or ("none given", "")),
         _verdict(assessment, item, gap),
     )
@@ -118,7 +125,6 @@ def _causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     if verdict is not Verdict.NG:
         return causes
     statuses = {run.result.status for motion in item.motions for run in motion.runs}
-    gaps = [gap for gap in assessment.gaps_of(item.id) if not gap.ok]
     on_motions = item.governs is not item.governs.PRESCRIPTIVE
     return [
         *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
@@ -127,9 +133,14 @@ def _causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
         *([] if item.is_model_enough else ["requested model"]),
         *([] if item.tipping.is_ok else ["tipping"]),
         *(["one rigid block"] if _is_not_rigid(assessment, item) else []),
-        *(f"clearance to {gap.across_from(item.id)}" for gap in gaps),
+        *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
         *causes,
     ]
+
+
+def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
+    words = f"clearance to {gap.across_from(item.id)}"
+    return words if gap.is_permitted else f"{words}, no verdict"
 
 
 def _is_not_rigid(assessment: Assessment, item: ArrayAssessment) -> bool:
@@ -148,7 +159,7 @@ def attention(assessment: Assessment) -> Iterator[Line]:
     for item in assessment.arrays:
         for check in (check for check in item.limits if not check.ok):
             yield Line("NG", f"array {item.id}, {limit_words(check, us_first)}")
-    for gap in (gap for gap in assessment.clearances if not gap.ok):
+    for gap in (gap for gap in assessment.clearances if gap.verdict is Verdict.NG):
         yield Line("NG", _short(gap, us_first))
     for row in assessment.conditions:
         where = f"{row.subject}, " if row.subject else ""
@@ -189,7 +200,7 @@ def _short(gap: ClearanceCheck, us_first: bool) -> str:
     if math.isnan(gap.required_m):
         return f"{name}; there is no design displacement of {gap.governing_array} to compare with"
     required = pair(gap.required_m, Quantity.SIZE, us_first, shown)
-    return f"{name}; {required} required (D/C {ratio(gap.demand_capacity)}); provide {enough}"
+    return f"{name}; {required}{gap.mark} required (D/C {gap.ratio_words}); provide {enough}"
 
 
 def _lowered(text: str) -> str:

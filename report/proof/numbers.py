@@ -1,4 +1,4 @@
-"""Results compared as numbers, and sheets as words. Knows neither PDF nor package."""
+"""JSON from a stranger, compared as numbers, and sheets as words. Knows neither PDF nor package."""
 
 from __future__ import annotations
 
@@ -8,34 +8,68 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from pydantic_core import from_json
+
+from solver.model import InputError
+
 MOST = 5
 """Differences told of one sheet or file; the others are counted."""
 
 _LONGEST = 60
-_OWN = ("roofslip_version",)
-"""Keys that name the version, which is told apart."""
+_DIGITS = 20
 
 
-def number_differences(claimed: bytes, computed: bytes, tolerance: float) -> list[str]:
-    """Return where two results.json differ, and by how much.
+def parsed(content: bytes, name: str) -> Any:
+    """Return JSON as data.
+
+    Raises
+    ------
+    InputError
+        If it is none, is nested too deep, names a key twice, or has a number beyond any of ours.
+    """
+    try:
+        from_json(content, allow_inf_nan=False)  # it counts how deep, `json` ends in a traceback
+        return json.loads(content, object_pairs_hook=_unlike, parse_int=_whole, parse_float=_finite)
+    except ValueError as error:
+        raise InputError(f"{name} is damaged: {error}") from error
+
+
+def _unlike(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object of JSON; of a key given twice one program reads the first, one the last."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f"the key {_short(twice)} is given twice")
+    return found
+
+
+def _whole(digits: str) -> int:
+    if len(digits) > _DIGITS:
+        raise ValueError(f"{_short(digits)} is larger than any number of a package")
+    return int(digits)
+
+
+def _finite(digits: str) -> float:
+    if math.isinf(float(digits)):
+        raise ValueError(f"{_short(digits)} is larger than any number of a package")
+    return float(digits)
+
+
+def number_differences(claimed: Any, computed: Any, tolerance: float) -> list[str]:
+    """Return where two documents of JSON differ, and by how much.
 
     Parameters
     ----------
     tolerance : float
         Relative, of every number.
     """
-    try:
-        claims = json.loads(claimed)
-    except ValueError:
-        return ["results.json cannot be read"]
-    return [*_walk("", claims, json.loads(computed), tolerance)]
+    return [*_walk("", claimed, computed, tolerance)]
 
 
 def _walk(place: str, one: Any, two: Any, tolerance: float) -> Iterator[str]:
     if isinstance(one, dict) and isinstance(two, dict):
         for key in dict.fromkeys((*one, *two)):
-            if key in _OWN:
-                continue
             below = f"{place}.{key}".lstrip(".")
             if key in one and key in two:
                 yield from _walk(below, one[key], two[key], tolerance)
@@ -71,9 +105,9 @@ def _by(one: Any, two: Any) -> str:
 
 
 def word_differences(claimed: str, computed: str) -> list[str]:
-    """Return where the words and numbers of a sheet differ; line breaks do not count."""
+    """Return where the words and numbers of a sheet differ; blanks and line breaks do not count."""
     one, two = claimed.split(), computed.split()
-    if one == two:
+    if "".join(one) == "".join(two):
         return []
     matcher = difflib.SequenceMatcher(None, one, two, autojunk=False)
     return [

@@ -12,17 +12,19 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import TypeVar
+from typing import Annotated, Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
 from pypdf import PdfReader
 
 from report.motions.files import MAX_BYTES as MAX_RECORD
+from report.proof.numbers import parsed
 from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION
 from report.sheet.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
 from solver.model import InputError
 
 _T = TypeVar("_T")
+_Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
 _END = re.compile(rb"startxref\s+\d+\s+%%EOF[\r\n]*")
 _LONGEST_NAME = 255
 
@@ -36,7 +38,7 @@ class Listed(_Part):
 
     path: str
     name: str
-    sha256: str
+    sha256: _Sha256
     kind: str
 
 
@@ -49,7 +51,7 @@ class Manifest(_Part):
     has_records: bool
     files: tuple[Listed, ...]
     environment: dict[str, str]
-    sbom_sha256: str
+    sbom_sha256: _Sha256
 
     def of_kind(self, kind: str) -> tuple[Listed, ...]:
         """Return the files of a kind: workbook, record, former or results."""
@@ -82,9 +84,14 @@ class Package:
     pdf: PdfReader
 
     @property
-    def results(self) -> bytes:
+    def listing(self) -> Any:
+        """The manifest as JSON."""
+        return parsed(self.files[MANIFEST], MANIFEST)
+
+    @property
+    def results(self) -> Any:
         """The attached results.json; empty if there is none."""
-        return self.files.get(RESULTS, b"")
+        return parsed(self.files.get(RESULTS, b"{}"), RESULTS)
 
 
 def open_package(path: Path) -> Package:
@@ -107,6 +114,8 @@ def open_package(path: Path) -> Package:
             f"holds no {MANIFEST}: it is no package of `roofslip report`, or was written by version"
             " 0.1, which did not attach the input"
         )
+    for name in {MANIFEST, RESULTS} & files.keys():
+        parsed(files[name], name)
     manifest = _manifest(files[MANIFEST])
     return Package(path=path, data=data, first=first, manifest=manifest, files=files, pdf=pdf)
 
@@ -164,7 +173,9 @@ def _manifest(content: bytes) -> Manifest:
     try:
         manifest = Manifest.model_validate_json(content)
     except ValidationError as error:
-        raise InputError(f"{MANIFEST} is damaged: {error.errors()[0]['msg']}") from error
+        first = error.errors()[0]
+        place = "".join(f"{step}: " for step in first["loc"])
+        raise InputError(f"{MANIFEST} is damaged: {place}{first['msg']}") from error
     if manifest.schema_version != SCHEMA_VERSION:
         raise InputError(
             f"{MANIFEST} has the schema_version {manifest.schema_version}; this version reads"

@@ -1,6 +1,6 @@
 """What was appended to a package after it was written: signatures, and nothing else, may be.
 
-Checks what an update changes, not who signed: a PDF reader checks certificates. Read `appended`.
+Checks what an update changes; `report.proof.signatures` checks what it says of it. Read `appended`.
 """
 
 from __future__ import annotations
@@ -13,11 +13,16 @@ from typing import Any
 from pypdf import PdfReader
 from pypdf.generic import ArrayObject, DictionaryObject, IndirectObject
 
-from report.proof.objects import MISSING, differences
+from report.proof.metadata import PRODUCER, facts
+from report.proof.objects import MISSING, differences, resolved
 from report.proof.package import Package, guarded, reader
+from report.proof.signatures import Signature, checked
 
 _SIGNED = {"/V", "/AP", "/F", "/Lock"}
 """What signing may add to a signature field or change in it."""
+
+_INVISIBLE = {"/Type", "/Subtype", "/FT", "/T", "/Rect", "/P", *_SIGNED}
+"""What a signature field may have that was added and shows on no sheet."""
 
 _FORM = {"/SigFlags", "/Fields"}
 _WRITING = {"document /Info /ModDate", "document /Info /Producer"}
@@ -26,9 +31,9 @@ _HEX = re.compile(rb"<[0-9A-Fa-f\s]*>")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Appended:
-    """Signatures of a package by the name of their fields, and what else was appended."""
+    """Signatures of a package, and what else was appended."""
 
-    signed: Sequence[str]
+    signed: Sequence[Signature]
     others: Sequence[str]
 
 
@@ -47,22 +52,20 @@ def appended(package: Package) -> Appended:
     others = guarded(lambda: [f"appended: {place}" for place in _changes(first, last)])
     if not _is_covered(package, signatures):
         others.append("appended: bytes that no signature covers")
-    return Appended(signed=tuple(signatures), others=tuple(others))
+    signed = tuple(checked(package.data, list(signatures)))
+    others += [f"signature '{one.field}': {one.problem}" for one in signed if one.problem]
+    return Appended(signed=signed, others=tuple(others))
 
 
 def _fields(pdf: PdfReader) -> Sequence[Any]:
-    form = _resolved(pdf.root_object.get("/AcroForm", {}))
-    return list(_resolved(form.get("/Fields", ())))
+    form = resolved(pdf.root_object.get("/AcroForm", {}))
+    return list(resolved(form.get("/Fields", ())))
 
 
 def _signatures(pdf: PdfReader) -> Iterator[tuple[str, Any]]:
-    for field in map(_resolved, _fields(pdf)):
+    for field in map(resolved, _fields(pdf)):
         if field.get("/FT") == "/Sig" and "/V" in field:
             yield str(field.get("/T", "")), field["/V"]
-
-
-def _resolved(item: Any) -> Any:
-    return item.get_object() if isinstance(item, IndirectObject) else item
 
 
 def _is_covered(package: Package, signatures: dict[str, Any]) -> bool:
@@ -89,7 +92,7 @@ def _changes(first: PdfReader, last: PdfReader) -> Iterator[str]:
     yield from differences(first, last, _is_signing)
     old = {_number(field) for field in _fields(first)}
     for field in _fields(last):
-        if _number(field) not in old and not _is_hidden(_resolved(field)):
+        if _number(field) not in old and not _is_hidden(resolved(field)):
             yield "a field that shows on a sheet"
 
 
@@ -102,7 +105,7 @@ def _is_signing(place: str, one: Any, two: Any) -> bool:
     if place == "document /AcroForm":
         return two is not MISSING and _same_but(one, two, _FORM)
     if place == "document /Metadata":
-        return two is not MISSING and _titles(one) == _titles(two)
+        return two is not MISSING and _stated(one) == _stated(two)
     return place == "document /Extensions" or place in _WRITING
 
 
@@ -123,10 +126,11 @@ def _plain(item: Any) -> Any:
 
 def _is_hidden(item: Any) -> bool:
     """Whether what was added to a sheet is signature fields without any area."""
-    fields = [_resolved(field) for field in (item if isinstance(item, ArrayObject) else [item])]
+    fields = [resolved(field) for field in (item if isinstance(item, ArrayObject) else [item])]
     return all(
         isinstance(field, DictionaryObject)
         and field.get("/FT") == "/Sig"
+        and field.keys() <= _INVISIBLE
         and _area(field.get("/Rect", (0, 0, 1, 1))) == 0.0
         for field in fields
     )
@@ -137,9 +141,9 @@ def _area(rectangle: Sequence[Any]) -> float:
     return abs((right - left) * (top - bottom))
 
 
-def _titles(metadata: Any) -> list[bytes]:
-    """Return what the metadata of a document say about it beside dates and programs."""
-    return re.findall(rb"<rdf:li[^>]*>([^<]*)</rdf:li>", metadata.get_data())
+def _stated(metadata: Any) -> set[tuple[str, str]]:
+    """Return what the metadata of a document state beside the program that wrote them."""
+    return {(name, value) for name, value in facts(metadata) if name != PRODUCER}
 
 
 def _number(field: Any) -> int:

@@ -58,10 +58,16 @@ class Source:
         }
 
 
-def fingerprint(sheet: Sheet, shaking: Shaking) -> str:
-    """Return the hash of workbook, records and version that the foot of every sheet shows."""
+def fingerprint(sheet: Sheet, shaking: Shaking, program: str = "") -> str:
+    """Return the hash of workbook, records and version that the foot of every sheet shows.
+
+    Parameters
+    ----------
+    program : str, optional
+        Another version than the one here.
+    """
     lines = [
-        version("roofslip"),
+        program or version("roofslip"),
         sheet.sha256,
         *(f"{row.motion_id} {row.component} {row.sha256}" for row in shaking.records),
     ]

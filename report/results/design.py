@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict, worst
 from report.results.directions import PeakRanges
@@ -47,13 +48,15 @@ def write_design(
     Parameters
     ----------
     results : mapping of str to sequence of str
-        For each array, the cells that hold OK or NG: its clearances and its row of linked blocks.
+        For each array, the cells that hold OK, NG or none: its clearances and its row of linked
+        blocks.
     """
     sheet = pages.sheet(
         "Design",
         "Design displacement",
         f"{assessment.rules.name}. From the sheets Peaks, any direction, and Inputs. Other "
-        "requirements, those that need other runs or the plan, are those of the report.",
+        "requirements, those that need other runs or the plan, are those of the report."
+        + (f" {MEANING}." if assessment.is_overridden else ""),
     )
     write_headings(pages, sheet, 3, _HEADINGS)
     for row, item in enumerate(assessment.arrays, start=4):
@@ -98,6 +101,7 @@ def _verdict(r: int, results: Sequence[str]) -> str:
     """Return the formula of the verdict on an array."""
     short = [f"AND(ISNUMBER(V{r}),V{r}<N{r})", f"AND(ISNUMBER(Y{r}),Y{r}<X{r})"]
     failed = [f"ISTEXT(N{r})", *short, _any([f"U{r}", *results], Verdict.NG)]
+    failed += [_any(results, Verdict.NONE)] if results else []
     open_ = [f"ISTEXT(V{r})", f"ISTEXT(Y{r})", _any([f"U{r}"], Verdict.CONDITIONS)]
     return (
         f"=IF(OR({','.join(failed)}),{_quoted(Verdict.NG)},"
@@ -124,18 +128,31 @@ def _write_row(
     if rules.importance_in_separation:
         sheet.write_number(row, 3, 1.0, pages.numbers[2])
     sheet.write_number(row, 4, typed(prescriptive.minimum_m / INCH_M), pages.typed[1])
+    marks = _marks(item)
     for column, formula, value, decimals in _formulas(assessment, item, peaks, inputs, r):
-        sheet.write_formula(row, column, formula, pages.numbers[decimals], value)
+        shown = pages.marked(pages.numbers[decimals], marks.get(column, ""))
+        sheet.write_formula(row, column, formula, shown, value)
     sheet.write_formula(row, 19, _statistic(r, inputs), pages.plain, item.analysis.basis.value)
     if math.isnan(item.design_m):
         sheet.write_formula(row, 13, _design(item, r), pages.plain, "none")
         for column in (14, 15, 16):
             sheet.write_string(row, column, "none")
     else:
-        sheet.write_number(row, 16, item.design_m / INCH_M, pages.numbers[2])
+        shown = pages.marked(pages.numbers[2], item.design_mark)
+        sheet.write_number(row, 16, item.design_m / INCH_M, shown)
     if math.isnan(item.analysis.mean_m):
         for column in (7, 8):
             sheet.write_string(row, column, "none")
+
+
+def _marks(item: ArrayAssessment) -> Mapping[int, str]:
+    """Return the marks of the numbers that an override or a departure changes, by column."""
+    return {
+        5: item.mark(lambda array: array.prescriptive.value_m),
+        10: item.mark(lambda array: array.analysis.value_m),
+        12: item.mark(lambda array: array.floor_m),
+        **dict.fromkeys((13, 14, 15), item.design_mark),
+    }
 
 
 def _formulas(
@@ -228,7 +245,8 @@ def _write_requirements(
     _write_given(pages, sheet, row, 22, item.array.weight_n, pound, 0)
     strength = f"MAX({inputs['interconnection_sds']}*B{r},{inputs['interconnection_min']})"
     required = item.interconnection_n / pound
-    sheet.write_formula(row, 23, f"={strength}*W{r}/2", pages.numbers[0], required)
+    shown = pages.marked(pages.numbers[0], item.mark(lambda array: array.interconnection_n))
+    sheet.write_formula(row, 23, f"={strength}*W{r}/2", shown, required)
     _write_given(pages, sheet, row, 24, item.array.interconnection_n, pound, 0)
 
 

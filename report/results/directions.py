@@ -107,6 +107,7 @@ def _write_row(
     design_row: int,
 ) -> None:
     analysis, design = item.directions[direction], item.directional_m(direction)
+    mark = item.toward_mark(direction)
     sheet.write_string(row, 0, item.id)
     sheet.write_string(row, 1, direction.value)
     formulas: list[_Formula] = []
@@ -119,9 +120,11 @@ def _write_row(
         sheet.write_string(row, 7, "none")
     else:
         formulas += _of_design(item.route, design, row + 1, design_row)
-        sheet.write_number(row, 8, design / INCH_M, pages.numbers[2])
+        sheet.write_number(row, 8, design / INCH_M, pages.marked(pages.numbers[2], mark))
     for column, formula, value in formulas:
-        sheet.write_formula(row, column, formula, pages.numbers[4 if column == 9 else 2], value)
+        plain = pages.numbers[4 if column == 9 else 2]
+        shown = pages.marked(plain, mark if column == 7 else "")
+        sheet.write_formula(row, column, formula, shown, value)
 
 
 _Formula = tuple[int, str, float]

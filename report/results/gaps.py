@@ -12,7 +12,9 @@ from collections.abc import Mapping, Sequence
 from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.clearances import ClearanceCheck, facing
+from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
 from report.results.directions import DirectionCells
 from report.results.inputs import InputCells
 from report.results.sheets import Pages, typed, write_headings
@@ -47,7 +49,8 @@ def write_clearances(
         "Clearances",
         "Clearances",
         f"{assessment.rules.name}. From the sheet Design; between two arrays the larger "
-        "displacement governs. The factor includes I_e or I_p if the rule set applies it here.",
+        "displacement governs. The factor includes I_e or I_p if the rule set applies it here."
+        + (f" {MEANING}." if assessment.is_overridden else ""),
     )
     write_headings(pages, sheet, 3, _HEADINGS)
     for row, item in enumerate(assessment.clearances, start=4):
@@ -77,25 +80,31 @@ def _write_row(
         # Text, "none", is larger than any number: an array without a value governs.
         largest = f'IF(OR(ISTEXT({cells[0]}),ISTEXT({cells[1]})),"none",MAX({",".join(cells)}))'
         name = f"IF({cells[1]}>{cells[0]},{names[1]},{names[0]})"
-    sheet.write_formula(row, 4, f"={name}", pages.plain, governing)
+    if item.is_permitted:
+        sheet.write_formula(row, 4, f"={name}", pages.plain, governing)
+    else:  # which route is permitted is no formula
+        largest = '"none"'
+        sheet.write_string(row, 4, governing)
     sheet.write_number(row, 7, typed(item.least_m / INCH_M), pages.typed[1])
     sheet.write_number(row, 10, typed(clearance.provided_m / INCH_M), pages.typed[1])
     inch = INCH_M
-    for column, formula, value, decimals in (
-        (5, f"={largest}", item.design_m / inch, 2),
-        (8, f'=IF(ISTEXT(F{r}),"none",MAX(F{r}*G{r},H{r}))', item.required_m / inch, 2),
-        (9, f'=IF(ISTEXT(I{r}),"none",I{r}*25.4)', item.required_m * 1e3, 1),
+    required = f'=IF(ISTEXT(F{r}),"none",MAX(F{r}*G{r},H{r}))'
+    for column, formula, value, decimals, mark in (
+        (5, f"={largest}", item.design_m / inch, 2, item.design_mark),
+        (8, required, item.required_m / inch, 2, item.mark),
+        (9, f'=IF(ISTEXT(I{r}),"none",I{r}*25.4)', item.required_m * 1e3, 1, item.mark),
     ):
-        sheet.write_formula(
-            row, column, formula, pages.numbers[decimals], value if has_value else "none"
-        )
-    shown = item.demand_capacity if math.isfinite(item.demand_capacity) else "none"
+        shown = pages.marked(pages.numbers[decimals], mark)
+        sheet.write_formula(row, column, formula, shown, value if has_value else "none")
+    found = item.demand_capacity if math.isfinite(item.demand_capacity) else "none"
     ratio = f'=IF(ISTEXT(I{r}),"none",IF(K{r}>0,I{r}/K{r},"none"))'
-    sheet.write_formula(row, 11, ratio, pages.numbers[3], shown)
-    result = f'=IF(ISTEXT(I{r}),"NG",IF(I{r}<=K{r},"OK","NG"))'
-    sheet.write_formula(row, 12, result, pages.plain, "OK" if item.ok else "NG")
+    sheet.write_formula(row, 11, ratio, pages.marked(pages.numbers[3], item.mark), found)
+    unknown = Verdict.NG if item.is_permitted else Verdict.NONE
+    result = f'=IF(ISTEXT(I{r}),"{unknown}",IF(I{r}<=K{r},"OK","NG"))'
+    sheet.write_formula(row, 12, result, pages.plain, item.verdict.value)
     if has_value:
-        sheet.write_number(row, 13, item.required_m / inch, pages.numbers[2])
+        shown = pages.marked(pages.numbers[2], item.mark)
+        sheet.write_number(row, 13, item.required_m / inch, shown)
         difference = f'=IF(ISTEXT(I{r}),"none",I{r}-N{r})'
         sheet.write_formula(row, 14, difference, pages.numbers[4], 0.0)
 
@@ -111,7 +120,9 @@ def _write_factor(
     """Write the factor: that of the rule set times I_e at edges, the larger I_p elsewhere."""
     rules, r = assessment.rules, row + 1
     sheet.write_formula(row, 6, f"=P{r}*Q{r}", pages.numbers[2], item.factor)
-    sheet.write_number(row, 15, typed(rules[SEPARATION_KEYS[item.neighbor]]), pages.typed[2])
+    given = rules.values[SEPARATION_KEYS[item.neighbor]]
+    shown = pages.marked(pages.typed[2], given.reason)
+    sheet.write_number(row, 15, typed(given.value), shown)
     if rules.importance_in_separation and item.neighbor.is_edge:
         sheet.write_formula(row, 16, f"={inputs['i_e']}", pages.numbers[2], item.importance)
     else:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.results.sheets import Pages, typed, write_headings
 from report.sheet.fields import YesNo
@@ -31,13 +32,16 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
     sheet.set_column(0, 0, 34)
     sheet.set_column(1, 1, 16)
     sheet.set_column(2, 2, 70)
+    changed = {row.provision for row in assessment.project.overrides}
     cells = {}
     for row, (key, label, value, use) in enumerate(_inputs(assessment), start=_FIRST_ROW):
         sheet.write_string(row, 0, label)
         if isinstance(value, str):
             sheet.write_string(row, 1, value, pages.typed_text)
         else:
-            sheet.write_number(row, 1, typed(value), pages.typed[_decimals(key)])
+            mark = OVERRIDDEN if _PROVISIONS.get(key) in changed else ""
+            shown = pages.marked(pages.typed[_decimals(key)], mark)
+            sheet.write_number(row, 1, typed(value), shown)
         sheet.write_string(row, 2, use)
         cells[key] = f"Inputs!$B${row + 1}"
         if key in _CHOICES:
@@ -46,6 +50,16 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
             )
     return cells
 
+
+_PROVISIONS: Mapping[str, str] = {
+    "factor": "analysis_factor",
+    "floor": "analysis_floor",
+    "mean_motions": "analysis_mean_motions",
+    "largest_motions": "analysis_min_motions",
+    "interconnection_sds": "interconnection_sds",
+    "interconnection_min": "interconnection_min",
+}
+"""The provision of each input that is one."""
 
 _CHOICES: Mapping[str, tuple[str, ...]] = {
     "statistic": tuple(Statistic),

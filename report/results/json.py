@@ -16,6 +16,7 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.evidence import Evidence
 from report.assessment.foresight import findings
+from report.assessment.friction import mu_words
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
 from report.assessment.runs import HeadingRun, MotionRun
@@ -45,6 +46,7 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
         "motions": [_motion(*pair) for pair in zip(shaking.motions, shaking.prepared, strict=True)],
         "input": project.model_dump(mode="json"),
         "s_ds_g": project.site.s_ds,
+        "sdc_is_confirmed": not project.site.sdc_lacks,
         "rule_set": assessment.rules.name,
         "verdict": assessment.verdict,
         "warnings": list(assessment.warnings),
@@ -53,6 +55,10 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
         "requirements": [asdict(row) | {"verdict": row.verdict} for row in assessment.rows],
         "arrays": [_array(assessment, item) for item in assessment.arrays],
         "clearances": [_clearance(item) for item in assessment.clearances],
+        "low_velocity": {
+            "arrays": [_alone(item) for item in assessment.low_velocity.arrays],
+            "clearances": [_clearance(gap) for gap in assessment.low_velocity.clearances.values()],
+        },
         "linked": [_linked(item) for item in assessment.linked],
         "acceptance": [acceptance(row) for row in assessment.acceptance.rows],
         "neighbors": [neighbor(item) for item in assessment.neighbors],
@@ -125,11 +131,13 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
         "slope_rad": item.array.slope_rad,
         "mu": item.array.mu,
         "friction": asdict(item.array.friction),
+        "friction_as_run": mu_words(item.array.friction),
         **_design(item),
         "model_asked_for": item.array.model,
         "model_is_enough": item.is_model_enough,
         "directions": {direction: _direction(item, direction) for direction in item.directions},
         "peaks": [_peaks(motion) for motion in item.motions],
+        "peak_speed_mps": item.fastest_mps,
         "interconnection_n": item.interconnection_n,
         "tipping": _tipping(item.tipping),
         "uplift": _uplift(item.uplift),
@@ -152,9 +160,15 @@ def _design(item: ArrayAssessment) -> dict[str, Any]:
         "prescriptive_governs": item.prescriptive.governs,
         "floor_m": item.floor_m,
         "design_m": item.design_m,
+        "design_is_overridden": bool(item.design_mark),
         "design_governs": item.governs,
         "design_permitted": item.is_permitted,
     }
+
+
+def _alone(item: ArrayAssessment) -> dict[str, Any]:
+    """Return an array with its low-velocity coefficient alone."""
+    return {"id": item.id, "mu": item.array.mu, **_design(item)}
 
 
 def _direction(item: ArrayAssessment, direction: Direction) -> dict[str, Any]:
@@ -222,6 +236,7 @@ def _clearance(item: ClearanceCheck) -> dict[str, Any]:
         "importance": item.importance,
         "factor": item.factor,
         "required_m": item.required_m,
+        "required_is_overridden": bool(item.mark),
         "provided_m": item.clearance.provided_m,
         "demand_capacity": item.demand_capacity,
         "verdict": item.verdict,
@@ -269,6 +284,7 @@ def _check(check: Check) -> dict[str, Any]:
         f"found{unit}": check.value,
         f"limit{unit}": check.limit,
         "clause": check.provision.clause,
+        "is_overridden": bool(check.provision.reason),
         "ok": check.ok,
     }
 

@@ -155,7 +155,7 @@ def _write_row(
     ):
         _write(pages, sheet, row, column, formula, value, 4 if column == 16 else 3)
     sheet.write_number(row, 15, estimated / inch, pages.numbers[3])
-    if linked_array.is_final:
+    if linked_array.is_final and design.is_permitted:
         verdict = "OK" if linked_array.is_rigid_enough else "NG"
         sheet.write_formula(row, 14, f'=IF(L{r}<=M{r}+N{r},"OK","NG")', pages.plain, verdict)
     else:

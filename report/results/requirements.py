@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.assessment.verdict import Row, Verdict
 from report.results.sheets import Pages, write_headings
@@ -52,7 +53,7 @@ def _limit(item: str, check: Check) -> tuple[str, ...]:
         item,
         check.title,
         f"{check.value:.6g}{unit}",
-        f"{sign} {check.limit:.6g}{unit}",
+        f"{sign} {check.limit:.6g}{unit}{OVERRIDDEN if check.provision.reason else ''}",
         check.provision.clause,
         word.value,
         "",

@@ -5,9 +5,11 @@ Owns no content: see `report.results.xlsx`.
 
 from __future__ import annotations
 
+from xlsxwriter.format import Format
 from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
+from report.assessment.overrides import OVERRIDDEN
 from report.sheet.schema import Direction
 
 DIRECTION_HEADINGS = {
@@ -55,10 +57,17 @@ class Pages:
         self.plain = workbook.add_format({})
         self.typed_text = workbook.add_format({"bg_color": _INPUT_FILL, "border": 4})
         self.numbers = {d: workbook.add_format({"num_format": _format(d)}) for d in _DECIMALS}
-        self.typed = {
-            d: workbook.add_format({"num_format": _format(d), "bg_color": _INPUT_FILL, "border": 4})
-            for d in _DECIMALS
+        fill = {"bg_color": _INPUT_FILL, "border": 4}
+        self.typed = {d: workbook.add_format({"num_format": _format(d)} | fill) for d in _DECIMALS}
+        self._marked = {
+            id(plain): workbook.add_format({"num_format": f'{_format(d)}"{OVERRIDDEN}"'} | more)
+            for formats, more in ((self.numbers, {}), (self.typed, fill))
+            for d, plain in formats.items()
         }
+
+    def marked(self, plain: Format, mark: str) -> Format:
+        """Return the format of a number with its mark, which leaves it a number."""
+        return self._marked[id(plain)] if mark else plain
 
     def sheet(self, name: str, title: str, note: str) -> Worksheet:
         """Return a sheet with its heading written."""

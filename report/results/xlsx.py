@@ -92,6 +92,7 @@ def _runs_table(assessment: Assessment) -> pd.DataFrame:
             },
             "Time of PRD [s]": run.result.t_prd_s,
             "Stops": run.result.n_stops,
+            "Largest velocity [in/s]": run.result.peak_speed_mps / INCH_M,
             "Minimum N/(m g)": run.result.n_min_g,
             "Friction demand": run.solution.friction_demand,
             "Model": f"{int(run.solution.rung)}, {run.solution.rung.title}",

@@ -43,6 +43,7 @@ OTHER_KINDS = {
     ".csv": "a text file",
     ".numbers": "a Numbers sheet",
 }
+_WORKBOOK = "xl/workbook.xml"
 SAVE_AS = "save it as .xlsx (Excel Workbook)"
 REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
 
@@ -58,16 +59,26 @@ class OpenBook:
         Of the file.
     book : Workbook
     scans : mapping of sheet title to Scan
+    calculation : mapping of str to str
+        How it was calculated when it was saved, as the file says it.
     """
 
     path: Path
     sha256: str
     book: Workbook
     scans: Mapping[str, Scan]
+    calculation: Mapping[str, str]
 
     def __reduce__(self) -> tuple[Callable[[], OpenBook], tuple[()]]:
         """Reach another process without cells: nothing is read from them once motions run."""
-        empty = partial(OpenBook, path=self.path, sha256=self.sha256, book=Workbook(), scans={})
+        empty = partial(
+            OpenBook,
+            path=self.path,
+            sha256=self.sha256,
+            book=Workbook(),
+            scans={},
+            calculation=self.calculation,
+        )
         return empty, ()
 
     def extent(self, title: str) -> Extent:
@@ -92,11 +103,18 @@ def open_book(path: Path) -> OpenBook:
     with _zip(data) as archive:
         _check_sizes(archive)
         _check_kind(archive)
-        scans = _scans_by_title(archive)
+        parts = scan_parts({name: _content(archive, name) for name in archive.namelist()})
+        scans = _scans_by_title(archive, parts)
     book = _load(data)
     if book.sheetnames != list(scans):
         raise InputError(f"its sheets cannot all be read; {REOPEN}")
-    return OpenBook(path=path, sha256=hashlib.sha256(data).hexdigest(), book=book, scans=scans)
+    return OpenBook(
+        path=path,
+        sha256=hashlib.sha256(data).hexdigest(),
+        book=book,
+        scans=scans,
+        calculation=parts[_WORKBOOK].calculation,
+    )
 
 
 def _located(path: Path) -> Path:
@@ -163,9 +181,9 @@ def _check_kind(archive: zipfile.ZipFile) -> None:
         raise InputError(f"a binary Excel workbook (.xlsb) by its content; {SAVE_AS}")
     if "mimetype" in names and "content.xml" in names:
         raise InputError(f"an OpenDocument sheet (.ods) by its content; {SAVE_AS}")
-    if not {"[Content_Types].xml", "xl/workbook.xml"} <= names:
+    if not {"[Content_Types].xml", _WORKBOOK} <= names:
         raise InputError(f"a zip archive, but not a workbook; {SAVE_AS}")
-    if b"http://purl.oclc.org/ooxml/" in _content(archive, "xl/workbook.xml"):
+    if b"http://purl.oclc.org/ooxml/" in _content(archive, _WORKBOOK):
         raise InputError(
             "a Strict Open XML workbook; save it as Excel Workbook (.xlsx), not Strict"
         )
@@ -182,12 +200,11 @@ def _content(archive: zipfile.ZipFile, name: str) -> bytes:
         raise InputError(f"damaged at {name} ({error}); {REOPEN}") from error
 
 
-def _scans_by_title(archive: zipfile.ZipFile) -> dict[str, Scan]:
-    """Scan all parts; return those of the sheets.
+def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict[str, Scan]:
+    """Return the scans of the sheets among those of all parts.
 
     A sheet whose part openpyxl would skip is an error: its rows would be lost without a word.
     """
-    scans = scan_parts({name: _content(archive, name) for name in archive.namelist()})
     found = {}
     for title, part in sheet_parts(archive):
         if part not in scans:
@@ -204,7 +221,7 @@ def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
     targets = {item.get("Id"): _part(item.get("Target", "")) for item in relations}
     listed = [
         (element.get("name", ""), targets.get(element.get(REL), ""))
-        for element in _tree(archive, "xl/workbook.xml").iter()
+        for element in _tree(archive, _WORKBOOK).iter()
         if element.tag.rpartition("}")[2] == "sheet"
     ]
     repeated = [

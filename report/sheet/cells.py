@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import date, datetime, time, timedelta
 from enum import StrEnum
@@ -18,6 +19,8 @@ from pydantic import ValidationError
 
 from report.sheet import formerly
 from report.sheet.fields import Entry, Frozen, YesNo, adapter
+from report.sheet.number_format import is_percentage, misleading
+from report.words.units import Quantity
 from solver.model import InputError
 
 SHOWN = 60
@@ -27,7 +30,6 @@ _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
 _WITH_UNIT = re.compile(
     r"[+-]?[0-9]+\.?[0-9]*\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
 )
-_QUOTED = re.compile(r'"[^"]*"|\\.|\[[^\]]*\]')
 # With those that separate lines or change the direction of a text, which no font has.
 _CONTROL = re.compile(
     r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
@@ -98,7 +100,46 @@ def plain(value: object) -> str:
             return str(value)
 
 
-def read_cell(cell: Found, entry: Entry, model: type[Frozen], unit: str, si: float) -> Any:
+SI_SYMBOLS = {
+    Quantity.SIZE: "m",
+    Quantity.PLAN: "m",
+    Quantity.WEIGHT: "N",
+    Quantity.STIFFNESS: "N/m",
+    Quantity.VELOCITY: "m/s",
+    Quantity.PRESSURE: "Pa",
+}
+
+
+def as_used(value: object, entry: Entry, unit: str) -> str:
+    """Return a field's value for the echo, with its unit: that of SI where it can be chosen."""
+    unit = SI_SYMBOLS[entry.quantity] if entry.quantity else unit
+    if isinstance(value, bool):
+        return str(YesNo.YES if value else YesNo.NO)
+    if isinstance(value, float):
+        return f"{value:.6g} {unit}".rstrip()
+    return "" if value is None else plain(value)
+
+
+def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]) -> str:
+    """Return what another cell states of the unit of a number; empty for nothing.
+
+    Parameters
+    ----------
+    entry : Entry
+        The field of the number.
+    row, cells : mapping
+        What was read of its row so far, and the cells of the row, by field.
+    """
+    if entry.cell.unit_from is None:
+        return ""
+    name, unit_of = entry.cell.unit_from
+    text = row[name] if name in row else cells[name].value if name in cells else None
+    return "" if text is None else unit_of(plain(text).strip())
+
+
+def read_cell(
+    cell: Found, entry: Entry, model: type[Frozen], unit: str, si: float, shown: str = ""
+) -> Any:
     """Return a field's value in SI from a cell that is not blank.
 
     Parameters
@@ -110,6 +151,8 @@ def read_cell(cell: Found, entry: Entry, model: type[Frozen], unit: str, si: flo
         Unit of the number in the cell, for messages.
     si : float
         Size of that unit in SI.
+    shown : str
+        What another cell says of the unit of a number that has none of its own.
 
     Raises
     ------
@@ -117,7 +160,7 @@ def read_cell(cell: Found, entry: Entry, model: type[Frozen], unit: str, si: flo
     """
     check_saved(cell)
     wanted = wish(entry, unit, si)
-    value = _converted(cell, entry, wanted)
+    value = _converted(cell, entry, wanted, unit or shown)
     if isinstance(value, float):
         value *= si
     if isinstance(value, float | int) and not abs(value) <= LARGEST:
@@ -188,9 +231,9 @@ def cut(text: str, most: int = SHOWN) -> str:
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
-def _converted(cell: Found, entry: Entry, wanted: str) -> Any:
+def _converted(cell: Found, entry: Entry, wanted: str, unit: str) -> Any:
     if entry.kind in (int, float):
-        value = number(cell, wanted)
+        value = number(cell, wanted, unit)
         return int(value) if entry.kind is int and value.is_integer() else value
     if entry.kind is date:
         return _date(cell, wanted)
@@ -199,8 +242,10 @@ def _converted(cell: Found, entry: Entry, wanted: str) -> Any:
     return _text(cell)
 
 
-def number(cell: Found, wanted: str = "give a number") -> float:
+def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
     """Return the number in a cell, in the cell's unit; numeric text is accepted.
+
+    The number format may name that unit, and no other one.
 
     Raises
     ------
@@ -216,10 +261,15 @@ def number(cell: Found, wanted: str = "give a number") -> float:
     # Whole numbers of any length are read as such; `float` has no value for 400 digits.
     if not abs(value) <= sys.float_info.max:
         raise CellError(f"is {_quoted(value)}; {wanted}")
-    if "%" in _QUOTED.sub("", cell.number_format):
+    if is_percentage(cell.number_format):
         raise CellError(
             f"is a percentage ({100 * value:g}%, which Excel holds as {value:g}); {wanted},"
             " formatted as a number"
+        )
+    if how := misleading(cell.number_format, unit):
+        raise CellError(
+            f"is {plain(value)}, shown {how} by its number format ({cut(cell.number_format)});"
+            f" {wanted}, formatted as a number"
         )
     return float(value)
 

@@ -69,6 +69,9 @@ class Cell:
         In words, where it is required unless something else is given; empty for all others.
     usual : (float, float)
         Range beyond which a number is marked, in the unit of `example`; None for the allowed one.
+    unit_from : (str, callable)
+        Field that states the unit of a number without one of its own, and what its text says of it;
+        None if there is no such field.
     is_rare : bool
         Whether its column belongs to those that are folded at the right of a table.
     """
@@ -79,6 +82,7 @@ class Cell:
     unit: Quantity | str = ""
     need: str = ""
     usual: tuple[float, float] | None = None
+    unit_from: tuple[str, Callable[[str], str]] | None = None
     is_rare: bool = False
 
 

@@ -29,8 +29,8 @@ FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {
 }
 """Earlier names of a field, which defined names of cells end with."""
 
-ADDED: frozenset[tuple[str, str]] = frozenset(
-    (section, field)
+ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
+    frozenset((section, field) for field in fields.split())
     for section, fields in (
         (
             "site",
@@ -42,10 +42,11 @@ ADDED: frozenset[tuple[str, str]] = frozenset(
             "peer_reviewer peer_license peer_date directional directional_reason"
             " directional_reviewer directional_license directional_date smaller_events",
         ),
+        ("site", "hazard_report"),
     )
-    for field in fields.split()
 )
-"""Single cells that workbooks of 0.1 do not have; a workbook without any of its section is one."""
+"""Single cells that earlier workbooks do not have, those of one version together; a workbook
+without any of a group is of an earlier version."""
 
 CHOICES: dict[str, str] = {}
 """Earlier choices, in lowercase, with the present ones."""

@@ -221,7 +221,8 @@ def _fold(sheet: Worksheet, columns: Sequence[Column], rows: Sequence[Frozen]) -
         dimension = sheet.column_dimensions[get_column_letter(count)]
         dimension.outlineLevel = 1
         dimension.hidden = not used or column.entry is None
-    if folded:
+    # LibreOffice would close an open group that is said to be collapsed.
+    if folded and not used:
         after = sheet.column_dimensions[get_column_letter(folded[-1][0] + 1)]
         after.collapsed = True
 

@@ -5,6 +5,8 @@ Never uses positions or styles, which users change. `cells` converts the content
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from report.sheet import formerly
 from report.sheet.archive import OpenBook
 from report.sheet.fields import Entry, Section, entries
@@ -48,28 +50,29 @@ def find_unit_cell(
 
 
 def added_later(book: OpenBook, section: Section) -> tuple[Entry, ...]:
-    """Return the fields that a block lacks because its workbook is of 0.1, which had none of them.
+    """Return the fields that a block lacks because its workbook is of a version before them.
 
-    A workbook that has some of them has lost the others.
+    A workbook that has some of those that came together has lost the others.
     """
-    fields = tuple(
-        entry for entry in entries(section.model) if (section.key, entry.name) in formerly.ADDED
+    groups = (
+        [entry for entry in entries(section.model) if (section.key, entry.name) in added]
+        for added in formerly.ADDED
     )
-    has_any = any(
+    return tuple(entry for group in groups if not _has_any(book, section, group) for entry in group)
+
+
+def _has_any(book: OpenBook, section: Section, fields: Sequence[Entry]) -> bool:
+    return any(
         _field_named(book, section, entry) or _beside_label(book, section, entry)
         for entry in fields
     )
-    return () if has_any else fields
 
 
 def is_absent(book: OpenBook, section: Section) -> bool:
     """Whether a workbook has neither names nor labels of a section."""
     if section.is_table:
         return sheet_titled(book, section.sheet) is None and table_area(book, section) is None
-    return not any(
-        _field_named(book, section, entry) or _beside_label(book, section, entry)
-        for entry in entries(section.model)
-    )
+    return not _has_any(book, section, entries(section.model))
 
 
 def _fields(section: Section, entry: Entry) -> tuple[str, ...]:

@@ -23,6 +23,7 @@ from report.sheet.positions import (
     heading_parts,
     label_key,
     labels_of,
+    merged_line,
     scanned,
     sheet_titled,
     sheets_of,
@@ -37,11 +38,21 @@ _Place = tuple[Worksheet, int, int, int, range]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FieldColumn:
-    """A column of a table: its number, and the unit in its heading."""
+    """A column of a table, and the unit in its heading.
+
+    Attributes
+    ----------
+    number : int
+    unit : str
+    si : float
+    heading : CellPosition
+        The cell that states the unit.
+    """
 
     number: int
     unit: str
     si: float
+    heading: CellPosition
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -250,7 +261,7 @@ def _column(position: CellPosition, entry: Entry, unit: str) -> FieldColumn:
         symbol, si = unit_size(entry, unit)
     except InputError as error:
         raise InputError(f"{position.address}: {error.problems[0]}") from error
-    return FieldColumn(number=position.column, unit=symbol, si=si)
+    return FieldColumn(number=position.column, unit=symbol, si=si, heading=position)
 
 
 def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
@@ -268,7 +279,7 @@ def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -
     for area in sorted(sheet.merged_cells.ranges, key=str):
         reaches = any(area.min_col <= column <= area.max_col for column in columns)
         if reaches and area.min_row <= last_row and area.max_row >= top:
-            problems.append(f"{sheet.title}!{area.coord}: cells are merged; unmerge them")
+            problems.append(merged_line(sheet.title, area.coord))
     return problems
 
 

@@ -65,6 +65,7 @@ class _Sheet:
     cells: dict[int, dict[int, _Element]] = field(default_factory=dict)
     formulas: dict[tuple[int, int], Mapping[str, str]] = field(default_factory=dict)
     styles: list[tuple[int, int, str]] = field(default_factory=list)
+    columns: list[tuple[range, int, int]] = field(default_factory=list)
 
     def style(self, row: int, column: int) -> str:
         """Return the style of a cell that is not there: that of its row, or of its column."""
@@ -168,9 +169,11 @@ class _Scan:
             self._open.append((name, attributes, at, _tag_end(self._data, at)))
         if local == "row":
             self._row = int(attributes["r"])
-        elif local == "col" and "style" in attributes:
+        elif local == "col":
             low, high = int(attributes["min"]), int(attributes["max"])
-            self.sheet.styles.append((low, high, attributes["style"]))
+            self.sheet.columns.append((range(low, high + 1), at, _tag_end(self._data, at)))
+            if "style" in attributes:
+                self.sheet.styles.append((low, high, attributes["style"]))
         elif local == "f" and self._open:
             row, column = coordinate_to_tuple(self._open[-1][1]["r"])
             self.sheet.formulas[row, column] = attributes
@@ -208,7 +211,8 @@ def _spliced(
     title: str, data: bytes, sheet: _Sheet, cells: Mapping[tuple[int, int], Value]
 ) -> bytes:
     """Return the bytes of a sheet with other contents of cells, by row and column."""
-    edits: list[tuple[int, int, bytes]] = []
+    filled = {column for (_, column), value in cells.items() if value is not None}
+    edits = list(_shown(data, sheet, filled))
     for row in sorted({row for row, _ in cells}):
         values = {column: value for (at, column), value in cells.items() if at == row}
         for column in values:
@@ -221,6 +225,22 @@ def _spliced(
         out += [data[at:start], content]
         at = end
     return b"".join([*out, data[at:]])
+
+
+def _shown(data: bytes, sheet: _Sheet, filled: set[int]) -> Iterator[tuple[int, int, bytes]]:
+    """Yield start, end and new bytes of columns that are hidden, folded groups also, and filled."""
+    hidden = [
+        columns
+        for columns, start, end in sheet.columns
+        if re.search(rb'\shidden="(?:1|true)"', data[start:end]) and filled.intersection(columns)
+    ]
+    for columns, start, end in sheet.columns:
+        tag = data[start:end]
+        if columns in hidden:
+            yield start, end, re.sub(rb'\s(?:hidden|collapsed)="\w+"', b"", tag)
+        elif any(columns.start == other.stop for other in hidden):
+            # Where a group ends, its mark would fold it again.
+            yield start, end, re.sub(rb'\scollapsed="\w+"', b"", tag)
 
 
 def _is_needed_elsewhere(

@@ -21,6 +21,7 @@ from report.sheet.schema import (
     Site,
 )
 from report.sheet.shapes import closest, gap_m
+from report.sheet.site_checks import ROUNDING_OF_COEFFICIENTS
 from report.sheet.usual import spoken, unusual
 from report.words.units import PRESSURES, Quantity, pair
 from solver.rules.rulesets import usual
@@ -28,9 +29,6 @@ from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
 LEAST_PRESSURE_PA, MOST_PRESSURE_PA = 1.0 * PRESSURES["psf"], 30.0 * PRESSURES["psf"]
 """Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf."""
-
-ROUNDING_OF_COEFFICIENTS = 0.0051
-"""Difference of a site coefficient from its table that is rounding: to two decimals."""
 
 MOST_ASKEW_DEG = 60.0
 """Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
@@ -79,7 +77,10 @@ def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
 
 
 def _site_coefficients(site: Site) -> Iterator[Finding]:
-    """Yield coefficients that are not those of the table for the site class."""
+    """Yield coefficients that are not those of the table for the site class.
+
+    Less is an error, except with a site-specific analysis (`site_checks`).
+    """
     for table, field, given, mapped, mapped_g in (
         (F_A, "f_a", site.f_a, "S_S", site.s_s_g),
         (F_V, "f_v", site.f_v, "S_1", site.s_1_g),
@@ -90,14 +91,12 @@ def _site_coefficients(site: Site) -> Iterator[Finding]:
         tabulated = site_coefficient(table, str(site.site_class), mapped_g)
         if math.isnan(tabulated) or abs(given - tabulated) <= ROUNDING_OF_COEFFICIENTS:
             continue
-        is_less = given < tabulated
         text = (
-            f"{table.symbol} is {given:g}, {'less' if is_less else 'more'} than {tabulated:.4g} in"
-            f" {table.clause} for site class {site.site_class} and {mapped} {mapped_g:g} g; correct"
-            f" {table.symbol}, {mapped} or the site class"
+            f"{table.symbol} is {given:g}, {'less' if given < tabulated else 'more'} than"
+            f" {tabulated:.4g} in {table.clause} for site class {site.site_class} and {mapped}"
+            f" {mapped_g:g} g"
         )
-        place = Place("site", 0, field)
-        yield warning(table.symbol, place, text) if is_less else note(place, text)
+        yield note(Place("site", 0, field), text)
 
 
 def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from openpyxl import Workbook
+from openpyxl.cell.cell import MergedCell
 from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.worksheet import Worksheet
 
@@ -59,6 +60,28 @@ def found_at(book: OpenBook, position: CellPosition) -> Found:
         is_error=cell.data_type == "e",
         number_format=str(cell.number_format),
     )
+
+
+def check_uncovered(book: OpenBook, *positions: CellPosition) -> None:
+    """Raise for each cell that a merged one covers: what was typed there is lost.
+
+    Raises
+    ------
+    InputError
+    """
+    lines = []
+    for at in positions:
+        sheet = book.book[at.sheet]
+        if isinstance(sheet.cell(at.row, at.column), MergedCell):
+            areas = (area.coord for area in sheet.merged_cells.ranges if at.cell in area)
+            lines.append(merged_line(at.sheet, next(areas, at.cell)))
+    if lines:
+        raise InputError(list(dict.fromkeys(lines)))
+
+
+def merged_line(title: str, area: str) -> str:
+    """Return the error for merged cells."""
+    return f"{title}!{area}: cells are merged; unmerge them"
 
 
 def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:

@@ -7,16 +7,25 @@ Combines opening (`archive`), finding (`locate`), converting (`cells`) and check
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from report.sheet.archive import OpenBook, open_book
-from report.sheet.cells import CellError, Found, plain, read_cell, wish_for_missing
+from report.sheet.calculated import not_calculated
+from report.sheet.cells import (
+    CellError,
+    Found,
+    as_used,
+    plain,
+    read_cell,
+    stated_unit,
+    wish_for_missing,
+)
 from report.sheet.checks import faults
 from report.sheet.copies import copies
-from report.sheet.fields import Entry, Fault, Place, Section, YesNo, entries
+from report.sheet.fields import Entry, Fault, Place, Section, entries
 from report.sheet.findings import Finding
 from report.sheet.locate import (
     added_later,
@@ -25,19 +34,16 @@ from report.sheet.locate import (
     is_absent,
 )
 from report.sheet.locate_tables import FieldColumn, TableFound, find_table
-from report.sheet.positions import FRESH, CellPosition, found_at, unit_size
+from report.sheet.positions import (
+    FRESH,
+    CellPosition,
+    check_uncovered,
+    found_at,
+    unit_size,
+)
 from report.sheet.schema import SECTIONS, ProjectInput
-from report.words.units import Quantity
+from report.sheet.unseen import Unseen, by_cell, unseen
 from solver.model import InputError
-
-SI_SYMBOLS = {
-    Quantity.SIZE: "m",
-    Quantity.PLAN: "m",
-    Quantity.WEIGHT: "N",
-    Quantity.STIFFNESS: "N/m",
-    Quantity.VELOCITY: "m/s",
-    Quantity.PRESSURE: "Pa",
-}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,6 +57,8 @@ class EchoRow:
         As typed; for a formula, with its value when the workbook was saved.
     value : str
         As used; in SI if the unit can be chosen.
+    unseen : str
+        How the workbook keeps the cell from sight, such as `hidden`; empty if it does not.
     """
 
     sheet: str
@@ -59,6 +67,12 @@ class EchoRow:
     typed: str
     unit: str
     value: str
+    unseen: str = ""
+
+    @property
+    def address(self) -> str:
+        """Its address: `Arrays!D7`."""
+        return f"{self.sheet}!{self.cell}"
 
 
 _STUDY = "Study"
@@ -88,8 +102,11 @@ class Sheet:
     addresses : mapping of Place to str
     unfound : frozenset of str
         Sections that could not be found.
-    copies : tuple of Finding
-        A warning for each sheet that is ignored beside one like it.
+    unseen : tuple of Unseen
+        What is read and kept from sight.
+    warnings : tuple of Finding
+        On the workbook as a whole: for each sheet that is ignored beside one like it, and for
+        values that may be former ones.
     """
 
     path: Path
@@ -100,7 +117,8 @@ class Sheet:
     problems: tuple[tuple[Place, str], ...]
     addresses: Mapping[Place, str]
     unfound: frozenset[str]
-    copies: tuple[Finding, ...]
+    unseen: tuple[Unseen, ...]
+    warnings: tuple[Finding, ...]
 
     @cached_property
     def project(self) -> ProjectInput:
@@ -145,16 +163,22 @@ def read(path: Path) -> Sheet:
         raise InputError(f"{_STUDY}: this is the workbook of a study; run roofslip study on it")
     gathered = gather(book, SECTIONS)
     gathered.take(faults(gathered.draft, gathered.where))
+    hidden = unseen(book, gathered.used)
+    marks = by_cell(hidden)
     return Sheet(
         path=book.path,
         sha256=book.sha256,
         book=book,
         draft=gathered.draft,
-        echo=tuple(gathered.echo),
+        echo=tuple(replace(row, unseen=marks.get(row.address, "")) for row in gathered.echo),
         problems=tuple(gathered.problems),
         addresses=gathered.addresses,
         unfound=frozenset(gathered.unfound),
-        copies=tuple(copies(book, gathered.addresses)),
+        unseen=hidden,
+        warnings=(
+            *copies(book, gathered.addresses),
+            *not_calculated(book, gathered.used, Place(SECTIONS[0].key)),
+        ),
     )
 
 
@@ -207,10 +231,16 @@ class Gathered:
     problems: list[tuple[Place, str]] = field(default_factory=list)
     addresses: dict[Place, str] = field(default_factory=dict)
     unfound: set[str] = field(default_factory=set)
+    used: list[tuple[Place, Found]] = field(default_factory=list)
 
     def where(self, place: Place) -> str:
         """Return the address of a place."""
         return _where(place, self.addresses)
+
+    def use(self, place: Place, cell: Found) -> None:
+        """Note that the content of a cell is read."""
+        if not cell.is_blank:
+            self.used.append((place, cell))
 
     def add(self, place: Place, lines: Iterable[str]) -> None:
         """Add finished lines."""
@@ -257,21 +287,27 @@ def _read_block(book: OpenBook, section: Section, gathered: Gathered) -> None:
         except InputError as error:
             gathered.add(place, error.problems)
             continue
-        _read_field(section, entry, place, found_at(book, position), column, row, gathered)
+        cell = found_at(book, position)
+        if not cell.is_blank and column.heading != position:
+            gathered.use(place, found_at(book, column.heading))
+        _read_field(section, entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
 
 
 def _block_column(
     book: OpenBook, section: Section, entry: Entry, position: CellPosition
 ) -> FieldColumn:
     if entry.kind not in (int, float):
-        return FieldColumn(number=position.column, unit="", si=1.0)
-    unit = found_at(book, find_unit_cell(book, section, entry, position))
+        check_uncovered(book, position)
+        return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
+    at = find_unit_cell(book, section, entry, position)
+    check_uncovered(book, position, at)
+    unit = found_at(book, at)
     text = "" if unit.value is None else plain(unit.value).strip()
     try:
         symbol, si = unit_size(entry, text)
     except InputError as error:
         raise InputError(f"{unit.address}: {error.problems[0]}") from error
-    return FieldColumn(number=position.column, unit=symbol, si=si)
+    return FieldColumn(number=position.column, unit=symbol, si=si, heading=at)
 
 
 def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: Gathered) -> None:
@@ -286,6 +322,10 @@ def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: G
         }
         if not all(cell.is_blank for cell in cells.values()):
             _read_row(section, table, cells, gathered)
+    read = {place.field for place, _ in gathered.used if place.section == section.key}
+    for name, column in table.columns.items():
+        if name in read:
+            gathered.use(Place(section.key), found_at(book, column.heading))
 
 
 def _read_row(
@@ -300,7 +340,8 @@ def _read_row(
         elif entry.name in cells:
             place, cell = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
             gathered.addresses[place] = cell.address
-            _read_field(section, entry, place, cell, table.columns[entry.name], row, gathered)
+            column, stated = table.columns[entry.name], stated_unit(entry, row, cells)
+            _read_field(section, entry, place, cell, column, stated, row, gathered)
 
 
 def _read_field(
@@ -309,27 +350,29 @@ def _read_field(
     place: Place,
     cell: Found,
     column: FieldColumn,
+    stated: str,
     row: dict[str, Any],
     gathered: Gathered,
 ) -> None:
+    gathered.use(place, cell)
     try:
-        row[entry.name] = _value(section, entry, cell, column)
+        row[entry.name] = _value(section, entry, cell, column, stated)
     except CellError as error:
         gathered.add(place, [f"{cell.address}: {entry.spoken} {error.problems[0]}"])
         return
     gathered.echo.append(_echoed(entry, cell, column, row[entry.name]))
 
 
-def _value(section: Section, entry: Entry, cell: Found, column: FieldColumn) -> Any:
+def _value(section: Section, entry: Entry, cell: Found, column: FieldColumn, stated: str) -> Any:
     if not cell.is_blank:
-        return read_cell(cell, entry, section.model, column.unit, column.si)
+        return read_cell(cell, entry, section.model, column.unit, column.si, stated)
     if entry.is_required:
         raise CellError(f"is missing; {wish_for_missing(entry, column.unit, column.si)}")
     return entry.default
 
 
 def _echoed(entry: Entry, cell: Found, column: FieldColumn, value: Any) -> EchoRow:
-    shown = _shown(value, SI_SYMBOLS[entry.quantity] if entry.quantity else column.unit)
+    shown = as_used(value, entry, column.unit)
     if cell.is_blank and shown:
         shown += " (default)"
     return EchoRow(
@@ -340,14 +383,6 @@ def _echoed(entry: Entry, cell: Found, column: FieldColumn, value: Any) -> EchoR
         unit=column.unit,
         value=shown or "—",
     )
-
-
-def _shown(value: Any, unit: str) -> str:
-    if isinstance(value, bool):
-        return str(YesNo.YES if value else YesNo.NO)
-    if isinstance(value, float):
-        return f"{value:.6g} {unit}".rstrip()
-    return "" if value is None else plain(value)
 
 
 def _ignored(book: OpenBook, position: CellPosition) -> EchoRow:

@@ -1,7 +1,7 @@
 """Scans the XML of a workbook's parts before openpyxl makes objects of them.
 
-Bounds what they would cost, and gathers what openpyxl does not keep: formulas beside values, and
-the cell that sets the extent of a sheet. Read `archive` first.
+Bounds what they would cost, and gathers what openpyxl does not keep: formulas beside values, the
+cell that sets the extent of a sheet, and how the workbook was calculated. Read `archive` first.
 """
 
 from __future__ import annotations
@@ -76,11 +76,15 @@ class Budget:
 
 @dataclass(slots=True)
 class Scan(ContentHandler):
-    """The extent of values in a part, and its formulas by cell: each with the cell it is of."""
+    """The extent of values in a part, and its formulas by cell: each with the cell it is of.
+
+    Of the part of the workbook also how it was calculated (ECMA-376-1, 18.2.2).
+    """
 
     budget: Budget
     extent: Extent = field(default_factory=Extent)
     formulas: dict[str, tuple[str, str]] = field(default_factory=dict)
+    calculation: dict[str, str] = field(default_factory=dict)
     _shared: dict[str, tuple[str, str]] = field(default_factory=dict)
     _formula: Mapping[str, str] | None = None
     _text: list[str] = field(default_factory=list)
@@ -106,6 +110,8 @@ class Scan(ContentHandler):
                 self.extent.grow(self._row, self._column)
             case "mergeCell" | "hyperlink":
                 self._spread(attrs.get("ref"))
+            case "calcPr":
+                self.calculation = dict(attrs)
 
     def characters(self, content: str) -> None:
         """Gather the text of a formula."""

@@ -5,12 +5,14 @@ Each fault names the cell to change. Read `site_faults`; `checks` calls it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
-from report.sheet.schema import RiskCategory, SiteClass, edition_of
+from report.sheet.schema import RiskCategory, edition_of, site_class_or_default
 from solver.rules import hazard
-from solver.rules.hazard import Edition, SeismicParameters
+from solver.rules.hazard import Edition, HazardBasis, SeismicParameters
+from solver.rules.site_coefficients import F_A, F_V, CoefficientTable, site_coefficient
 
 LEAST_I_E = {
     RiskCategory.I: 1.0,
@@ -18,9 +20,13 @@ LEAST_I_E = {
     RiskCategory.III: 1.25,
     RiskCategory.IV: 1.5,
 }
-# Difference allowed between a value from a permit sheet, rounded to three decimals or truncated to
-# two, and the same from other cells.
+# Difference allowed between a value and the same from other cells: it is typed as a permit sheet
+# or a hazard tool prints it, rounded to two decimals or more.
 AGREES_G = 0.0051
+ROUNDING_OF_COEFFICIENTS = 0.0051
+"""Difference of a site coefficient from its table that is rounding: to two decimals."""
+
+_Chain = tuple[tuple[str, str], ...]
 
 # Names at the short period and at 1 s: mapped, coefficient, maximum considered, design.
 _CHAINS = (
@@ -38,9 +44,10 @@ def site_faults(draft: Draft, where: Where) -> Iterator[Fault]:
             continue
         yield from _edition(row, edition)
         yield from _missing_s_ds(row, edition)
-        for chain in _CHAINS:
+        yield from _site_class(row, edition)
+        for chain, table in zip(_CHAINS, (F_A, F_V), strict=True):
             yield from _agreement(row, edition, chain)
-        yield from _default_site_class(row, edition)
+            yield from _below_table(row, edition, chain, table)
         yield from _sdc(row)
 
 
@@ -100,9 +107,7 @@ def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Fault]:
     yield Fault(Place("site", 0, field), f"{label} is missing; {wanted}")
 
 
-def _agreement(
-    row: DraftRow, edition: Edition, chain: tuple[tuple[str, str], ...]
-) -> Iterator[Fault]:
+def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Fault]:
     """Yield a value that differs from the same derived from other cells of its chain."""
     mapped, coefficient, maximum, design = (row.get(name) for name, _ in chain)
     (_, mapped_label), (_, factor_label), (maximum_name, maximum_label) = chain[:3]
@@ -126,17 +131,61 @@ def _design(maximum_g: float | None) -> float | None:
     return None if maximum_g is None else 2.0 / 3.0 * maximum_g
 
 
-def _default_site_class(row: DraftRow, edition: Edition) -> Iterator[Fault]:
-    f_a, site_class = row.get("f_a"), row.get("site_class")
-    least = hazard.LEAST_F_A_BY_DEFAULT
-    if f_a is None or site_class is not SiteClass.D_DEFAULT or f_a >= least:
+def _site_class(row: DraftRow, edition: Edition) -> Iterator[Fault]:
+    site_class = row.get("site_class")
+    if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
+        text = f"site class is '{site_class}', which {edition.name} does not have; give one of"
+        yield Fault(Place("site", 0, "site_class"), f"{text} {', '.join(F_A.rows)}")
+
+
+def _below_table(
+    row: DraftRow, edition: Edition, chain: _Chain, table: CoefficientTable
+) -> Iterator[Fault]:
+    """Yield what is below that of the mapped value, the site class and the table of its edition.
+
+    A given coefficient is compared with the table, and `_agreement` compares the rest with it.
+    """
+    (mapped, symbol), (coefficient, factor), maximum, design = chain
+    mapped_g, given = row.get(mapped), row.get(coefficient)
+    tabulated = _tabulated(row, edition, mapped_g, table)
+    if mapped_g is None or coefficient not in row or math.isnan(tabulated):
         return
-    if edition.has_site_coefficients:
-        yield Fault(
-            Place("site", 0, "f_a"),
-            f"F_a is {f_a:g}; give at least {least:g} for site class '{site_class}' ({edition.name}"
-            " 11.4.4)",
-        )
+    of_class = f"for site class '{site_class_or_default(row['site_class'])}'"
+    of_class += "" if row["site_class"] else ", assumed because none is given"
+    if given is not None:
+        if given < tabulated - ROUNDING_OF_COEFFICIENTS:
+            text = f"{factor} is {given:g}; give at least {tabulated:.4g} {of_class} and {symbol}"
+            yield _or_study(coefficient, f"{text} of {mapped_g:g} g", table)
+        return
+    for (name, label), share, words in ((maximum, 1.0, ""), (design, 2.0 / 3.0, "2/3 ")):
+        value, least = row.get(name), share * tabulated * mapped_g
+        if value is not None and value < least - AGREES_G:
+            text = (
+                f"{label} is {value:g} g; give at least {math.ceil(1e3 * least) / 1e3:g} g, which"
+            )
+            text += f" is {words}{factor} {symbol} with {factor} of {tabulated:.4g}"
+            yield _or_study(name, f"{text} {of_class}", table)
+
+
+def _tabulated(
+    row: DraftRow, edition: Edition, mapped_g: float | None, table: CoefficientTable
+) -> float:
+    """Return the coefficient of a table; NaN where it has none or a site-specific one may be less.
+
+    Where a table has none, a site-specific analysis is a requirement of the package.
+    """
+    if edition.name != table.edition or mapped_g is None or "site_class" not in row:
+        return math.nan
+    site_class = site_class_or_default(row["site_class"])
+    is_studied = row.get("hazard") in (None, HazardBasis.SITE_SPECIFIC)
+    has_none = is_studied or site_class not in table.rows
+    return math.nan if has_none else site_coefficient(table, site_class, mapped_g)
+
+
+def _or_study(field: str, text: str, table: CoefficientTable) -> Fault:
+    """Return a value below its table, with the way out."""
+    out = f"or select the hazard basis '{HazardBasis.SITE_SPECIFIC}' and give its report"
+    return Fault(Place("site", 0, field), f"{text} ({table.clause}†), {out}")
 
 
 def _sdc(row: DraftRow) -> Iterator[Fault]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Table, TableColumn, TableRow
@@ -12,7 +12,8 @@ from report.study.page_parts import axis, chart, level, on_building
 from report.study.results import ArrayResult, StudyResults
 from report.study.schema import NoValue, Sampling
 from report.study.tables import length_unit
-from report.study.words import NO_NUMBER, both, percent
+from report.study.words import NO_NUMBER, both, chance_words
+from report.words.units import digits_down, digits_up
 from solver.studies.fragility import CONFIDENCE
 from solver.studies.uncertainty import HIGH, LOW, Chance
 
@@ -41,15 +42,15 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
 def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, str]:
     plan, counts = one.plan, one.states[0].fragility
     no_value = results.plan.input.study.no_value
-    lost = "an exceedance" if no_value is NoValue.EXCEEDANCE else "censored"
+    lost = "an exceedance" if no_value is NoValue.EXCEEDANCE else f"censored; {counts.censored} are"
     return (
         f"Array {plan.array.id}: mat {plan.array.mat}, μ = {plan.mu:g}, slope "
         f"{plan.array.slope_deg:g}°, clearance {both(results, plan.array.clearance_m)}"
         f"{f' to {plan.array.reaches}' if plan.array.reaches else ''}.",
-        f"Incremental dynamic analysis at {counts.levels.size} intensities under "
-        f"{int(counts.counted.max())} motions; lognormal by maximum likelihood (Baker 2015), with "
-        f"{100 * CONFIDENCE:g}\u00a0% confidence by bootstrap over the motions. A run without a "
-        f"value is {lost}; {counts.censored} are censored.",
+        "Incremental dynamic analysis of the PRD, not of the design displacement: "
+        f"{counts.levels.size} intensities, {int(counts.counted.max())} motions; lognormal by "
+        f"maximum likelihood (Baker 2015), {100 * CONFIDENCE:g}\u00a0% confidence by bootstrap "
+        f"over the motions. A run without a value is {lost}.",
     )
 
 
@@ -81,8 +82,8 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
                     state.name,
                     state.words,
                     both(results, state.limit_m) if state.limit_m else "0",
-                    *_three(state.fragility.fitted.theta, state.fragility.theta_range),
-                    *_three(state.fragility.fitted.beta, state.fragility.beta_range),
+                    *_three(state.fragility.fitted.theta, state.fragility.theta_range, digits_down),
+                    *_three(state.fragility.fitted.beta, state.fragility.beta_range, digits_up),
                 )
             )
             for state in one.states
@@ -90,10 +91,14 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
     )
 
 
-def _three(value: float, interval: tuple[float, float]) -> tuple[str, str]:
+def _three(
+    value: float, interval: tuple[float, float], show: Callable[[float, int], str]
+) -> tuple[str, str]:
+    """Return a value rounded to the safe side, and its interval, rounded outward."""
     if math.isnan(value):
         return "none", "none"
-    return f"{value:.3g}", f"{interval[0]:.3g} to {interval[1]:.3g}"
+    low, high = interval
+    return show(value, 3), f"{digits_down(low, 3)} to {digits_up(high, 3)}"
 
 
 def _chances(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Block]:
@@ -115,10 +120,9 @@ def _chance(results: StudyResults, one: ArrayResult, chance: Chance) -> str:
     return (
         f"At {level(results, float(study.site_intensity or math.nan))} the clearance of "
         f"{both(results, one.plan.array.clearance_m)} is exceeded with a chance of "
-        f"{percent(chance.value)} ({percent(chance.low)} to {percent(chance.high)} with "
-        f"{100 * CONFIDENCE:g}\u00a0% confidence, by bootstrap over the "
-        f"{len(results.plan.motions.motions[0])} motions): {how}, each under every motion, "
-        f"{chance.runs:,} pairs. {_without(chance.without_value)}"
+        f"{chance_words(chance)}; the interval has {100 * CONFIDENCE:g}\u00a0% confidence, by "
+        f"bootstrap over the {len(results.plan.motions.motions[0])} motions: {how}, each under "
+        f"every motion, {chance.runs:,} pairs. {_without(chance.without_value)}"
     )
 
 

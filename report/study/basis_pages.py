@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from report.manual.blocks import Block, ManualSection
+from report.manual.blocks import Block, ManualSection, joined
 from report.pages.parts import Table, TableColumn, TableRow
 from report.pages.symbols import with_symbols
 from report.study.results import StudyResults
+from report.study.spread import FREQ_HZ
+from report.words.units import digits_up
+from report.words.validation import explained
+from solver.verification.shake_table import SHIPPED
 
 
 def basis(results: StudyResults) -> ManualSection:
     """Return the section on how the study was run."""
-    tables = (_models(results), *_mats(results), _motions(results))
+    tables = (_models(results), *_mats(results), _motions(results), *_warnings(results))
     block = Block(texts=_how(results), tables=tables)
     return ManualSection(id="basis", title="Basis", blocks=(block,))
 
@@ -53,6 +57,7 @@ def _models(results: StudyResults) -> Table:
             TableRow(cells=(title, f"{count:,}", f"{100.0 * count / manifest['rows']:.1f} %"))
             for title, count in manifest["models"].items()
         ),
+        kind="compact",
     )
 
 
@@ -81,6 +86,7 @@ def _mats(results: StudyResults) -> Iterator[Table]:
             )
             for mat in given.mats
         ),
+        kind="compact",
     )
 
 
@@ -107,7 +113,20 @@ def _motions(results: StudyResults) -> Table:
             )
             for motion in results.plan.motions.motions[0]
         ),
+        kind="compact",
     )
+
+
+def _warnings(results: StudyResults) -> Iterator[Table]:
+    if results.plan.warnings:
+        yield Table(
+            caption="Warnings on the workbook",
+            columns=(
+                TableColumn(head="Cell", align="left", share=1.2),
+                TableColumn(head="Warning", align="left", share=6.0),
+            ),
+            rows=tuple(TableRow(cells=(cell, f"{text}.")) for cell, text in results.plan.warnings),
+        )
 
 
 def _lost_words(lost: int, runs: int) -> str:
@@ -127,10 +146,13 @@ def limits(results: StudyResults) -> ManualSection:
     items = [
         "Every array is one rigid block with one friction coefficient; velocity-dependent friction "
         "and rows of linked blocks are not part of a study.",
+        "A study does not check whether its motions satisfy the requirements of the rule set; a "
+        "calculation package does.",
         "The motions are scaled linearly to each intensity; their spectra are not conditioned on "
         "it.",
         f"The statistics are those of {len(results.plan.motions.motions[0])} motions. With few "
         f"motions the 84th percentile and the dispersion are uncertain{shown}.",
+        *_record_spread(results),
         "Values between the cases are interpolated linearly; values beyond them are not given.",
     ]
     if given.study.site_intensity:
@@ -138,4 +160,28 @@ def limits(results: StudyResults) -> ManualSection:
             "The chance of exceedance is for the stated distribution of intensity: it is not a "
             "rate in years."
         )
+    items.append(explained(SHIPPED))
     return ManualSection(id="limits", title="Limits", blocks=(Block(items=items),))
+
+
+def _record_spread(results: StudyResults) -> Iterator[str]:
+    """Yield how much the spectra of the motions differ, and what follows where they hardly do."""
+    spread, count = results.spread, len(results.plan.motions.motions[0])
+    if not spread.is_known:
+        return
+    text = (
+        f"The spectra of the {count} motions differ by a standard deviation of ln Sa of "
+        f"{digits_up(spread.median, 2)} in the median and {digits_up(spread.largest, 2)} at most "
+        f"(damping 5\u00a0%, all components at the roof, {FREQ_HZ.size} frequencies from "
+        f"{FREQ_HZ[0]:.3g} to {FREQ_HZ[-1]:.3g} Hz)."
+    )
+    if spread.is_one_spectrum:
+        lacking = ["the 84th percentile"]
+        lacking += ["the dispersions β"] if results.arrays else []
+        lacking += ["the chances"] if any(one.chances for one in results.arrays) else []
+        text += (
+            " They are nearly one spectrum, with almost no record-to-record spread: "
+            f"{joined(lacking)} do{'es' if len(lacking) == 1 else ''} not contain how much the "
+            "spectra of recorded earthquakes differ."
+        )
+    yield text

@@ -16,6 +16,7 @@ from xml.etree import ElementTree as ET
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.words import both
+from report.words.units import digits_down, digits_up, round_up
 from solver.studies.fragility import Fragility
 
 DEMANDS: Mapping[Intensity, tuple[str, str]] = {
@@ -81,7 +82,7 @@ def _library(results: StudyResults, known: list[ArrayResult]) -> str:
         cells: list[object] = []
         for _, state in known_states(one):
             f = state.fragility.fitted
-            cells += ["lognormal", f"{f.theta:.6g}", f"{f.beta:.6g}", ""]
+            cells += ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), ""]
         cells += [""] * (len(states) - len(cells))
         writer.writerow([component_id(results, one), 0, demand, unit, 0, 0, *cells])
     return text.getvalue()
@@ -110,7 +111,8 @@ def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
         "Comments": (
             f"Mat {array.mat}, friction coefficient {one.plan.mu:g}, slope {array.slope_deg:g} "
             "deg, "
-            f"clearance {both(results, array.clearance_m)}. Study "
+            f"clearance {both(results, array.clearance_m)}. Limit states are on the peak relative "
+            "displacement of a motion, not on a design displacement. Study "
             f"{results.manifest['identity'][:16]}."
         ),
         "SuggestedComponentBlockSize": "1 EA",
@@ -168,7 +170,7 @@ def _nrml(results: StudyResults) -> bytes:
         levels.text = " ".join(f"{x:g}" for x in one.states[0].fragility.levels)
         for state in one.states:
             chances = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
-            chances.text = " ".join(f"{p:.6f}" for p in chances_of(state.fragility))
+            chances.text = " ".join(f"{round_up(p, 6):.6f}" for p in chances_of(state.fragility))
     ET.indent(root)
     return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
 

@@ -5,11 +5,12 @@ Computes only the layout; legible in black and white. Read `curves` first.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 
 from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
@@ -29,8 +30,17 @@ def curves(
     *,
     along: str,
     limits: Sequence[tuple[str, Floats]] = (),
+    beside: Sequence[Floats] = (),
 ) -> str:
-    """Return PRD [m] against an axis, a line for each member of a family, and reference lines."""
+    """Return a displacement [m] against an axis, a line for each member of a family.
+
+    Parameters
+    ----------
+    limits : sequence of (str, array)
+        Reference lines, thick.
+    beside : sequence of array
+        Mean PRD of each member [m], in thin lines.
+    """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.6))
         axes = figure.add_axes((0.085, 0.285, 0.9, 0.69))
@@ -45,9 +55,12 @@ def curves(
                 color=INK if count % 2 == 0 else ACCENT,
                 label=label,
             )
+        for count, prd_m in enumerate(v for v in beside if not np.isnan(v).all()):
+            label = "_" if count else "mean PRD"  # an underscore: not in the legend
+            axes.plot(x, prd_m / unit.si, color=GREY, linewidth=0.6, label=label, zorder=1.5)
         for label, prd_m in limits:
             axes.plot(x, prd_m / unit.si, color=GREY, linewidth=2.0, label=label)
-        _finish(axes, x, along, f"PRD [{unit.symbol}]")
+        _finish(axes, x, along, f"Displacement [{unit.symbol}]")
         return svg_text(figure)
 
 
@@ -69,37 +82,82 @@ def _finish(axes: Axes, x: Floats, along: str, up: str) -> None:
 
 
 def contours(
-    x: Floats, y: Floats, prd_m: Floats, unit: Unit, *, along: str, up: str, allowed_m: float
+    x: Floats,
+    slopes_deg: Floats,
+    design_m: Floats,
+    mean_m: Floats,
+    unit: Unit,
+    *,
+    along: str,
+    allowed_m: float,
 ) -> str:
-    """Return contours of PRD [m] on a sheet of its own, the allowed PRD thick.
+    """Return contours of displacements on a sheet of its own, the allowed one thick.
 
     Parameters
     ----------
-    prd_m : array, shape (y, x)
-        NaN for none.
+    design_m, mean_m : array, shape (slopes, x)
+        Design displacement, and the mean PRD, whose contours are thin [m]; NaN for none.
     allowed_m : float
         NaN for none.
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 7.6))
         axes = figure.add_axes((0.085, 0.06, 0.9, 0.925))
-        shown = prd_m / unit.si
-        levels = [v for v in _levels(unit) if np.nanmin(shown) < v < np.nanmax(shown)]
-        if levels:
-            drawn = axes.contour(x, y, shown, levels, colors=INK, linewidths=0.8)
-            axes.clabel(drawn, fmt=lambda value: f"{value:g} {unit.symbol}", inline_spacing=2)
+        grid, levels = (x, slopes_deg), _levels(unit)
         allowed = allowed_m / unit.si
-        if np.nanmin(shown) < allowed < np.nanmax(shown):
-            thick = axes.contour(x, y, shown, [allowed], colors=ACCENT, linewidths=2.2)
-            axes.clabel(thick, fmt=lambda value: f"{value:g} {unit.symbol}", inline_spacing=2)
+        others = [value for value in levels if value != round(allowed, 6)]
         axes.set_xlim(x[0], x[-1])
-        axes.set_ylim(y[0], y[-1])
+        axes.set_ylim(slopes_deg[0], slopes_deg[-1])
+        thin = {"colors": GREY, "linewidths": 0.5, "linestyles": ":"}
+        _contour(axes, grid, mean_m, levels, unit, height=0.1, **thin)
+        _contour(axes, grid, design_m, others, unit, height=0.6, colors=INK, linewidths=0.8)
+        thick = {"colors": ACCENT, "linewidths": 2.2}
+        _contour(axes, grid, design_m, (allowed,), unit, height=0.85, **thick)
         axes.set_xlabel(along)
-        axes.set_ylabel(up)
+        axes.set_ylabel("Slope [deg]")
         axes.grid(True)
         axes.set_axisbelow(True)
         bare(axes)
         return svg_text(figure)
+
+
+def _contour(
+    axes: Axes,
+    grid: tuple[Floats, Floats],
+    lengths_m: Floats,
+    levels: Sequence[float],
+    unit: Unit,
+    *,
+    height: float,
+    **look: Any,
+) -> None:
+    """Draw the contours that a sheet has, with their labels from a share of its height on."""
+    shown = lengths_m / unit.si
+    if np.isnan(shown).all():
+        return
+    found = [v for v in levels if np.nanmin(shown) < v < np.nanmax(shown)]
+    if found:
+        drawn = axes.contour(*grid, shown, found, **look)
+        axes.clabel(
+            drawn,
+            fmt=lambda value: f"{value:g} {unit.symbol}",
+            inline_spacing=2,
+            manual=list(_places(drawn, grid, height)),
+        )
+
+
+def _places(
+    drawn: QuadContourSet, grid: tuple[Floats, Floats], height: float
+) -> Iterator[tuple[float, float]]:
+    """Yield where the labels of contours are: three heights in turn, and none beyond the edge."""
+    low, span = np.array([v[0] for v in grid]), np.array([np.ptp(v) for v in grid])
+    for count, parts in enumerate(drawn.allsegs):
+        shares = (max(parts, key=len) - low) / span
+        inside = shares[(shares[:, 0] > 0.04) & (shares[:, 0] < 0.96)]
+        if inside.size:
+            nearest = np.abs(inside[:, 1] - height - 0.1 * (count % 3)).argmin()
+            x, y = low + span * inside[nearest]
+            yield float(x), float(y)
 
 
 def _levels(unit: Unit) -> tuple[float, ...]:

@@ -3,12 +3,32 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
-from report.manual.blocks import Chart
+from report.manual.blocks import Chart, joined
 from report.pages.parts import Picture
 from report.study.results import StudyResults
 from report.study.tables import length_unit
-from report.words.units import measured
+from report.words.units import measured, no_less
+
+MOST_LINES = 8
+"""Lines of a chart."""
+MOST_FRICTIONS = 4
+"""Friction coefficients with pages of their own; a grid of more is drawn over friction."""
+MOST_CUTS = 3
+
+
+def some(values: Sequence[float], most: int) -> list[int]:
+    """Return indices of at most `most` values, evenly spaced, the last one included."""
+    step = max(1, math.ceil(len(values) / most))
+    return list(range((len(values) - 1) % step, len(values), step))
+
+
+def friction_name(results: StudyResults, mu: float) -> str:
+    """Return μ = 0.5 (EPDM)."""
+    given = results.plan.input
+    names = [mat.id for mat in given.mats if given.friction(mat.id).center == mu]
+    return f"μ = {mu:g}" + (f" ({joined(names)})" if names else "")
 
 
 def on_building(results: StudyResults, building: int) -> str:
@@ -31,6 +51,11 @@ def level(results: StudyResults, value: float) -> str:
 def length(results: StudyResults, value_m: float) -> str:
     """Return a length in the unit of the study, "none" for no value."""
     return "none" if math.isnan(value_m) else measured(value_m, length_unit(results))
+
+
+def design_length(results: StudyResults, value_m: float) -> str:
+    """Return a length that is designed for, rounded up; "none" for no value."""
+    return "none" if math.isnan(value_m) else no_less(value_m, length_unit(results))
 
 
 def chart(name: str, svg: str, caption: str) -> Chart:

@@ -8,9 +8,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from report.sheet.fields import Fault, Place
+from report.study.design import DesignRule, design_rule
 from report.study.motions import StudyMotions
 from report.study.read import StudyInput, StudySheet
 from report.study.schema import MOST_CASES, MOST_RUNS, Sampling, StudyArray
@@ -61,12 +63,15 @@ class StudyPlan:
     campaign : Campaign
         The first cases are the grid of building, slope, friction and intensity.
     arrays : tuple of ArrayPlan
+    warnings : tuple of (str, str)
+        Cell and text of each warning on the workbook.
     """
 
     input: StudyInput
     motions: StudyMotions
     campaign: Campaign
     arrays: tuple[ArrayPlan, ...]
+    warnings: tuple[tuple[str, str], ...]
 
     @property
     def shape(self) -> tuple[int, int, int, int]:
@@ -78,6 +83,11 @@ class StudyPlan:
             len(given.mus),
             len(given.intensities),
         )
+
+    @cached_property
+    def design_rule(self) -> DesignRule:
+        """How the design displacement follows from the PRDs of the motions."""
+        return design_rule(self.input, len(self.motions.motions[0]))
 
     @property
     def about(self) -> dict[str, Any]:
@@ -122,7 +132,14 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
         start += sum(map(len, parts))
     campaign = Campaign(motions=motions.motions, cases=joined(blocks))
     sheet.refuse(list(_too_many(campaign)))
-    return StudyPlan(input=given, motions=motions, campaign=campaign, arrays=tuple(arrays))
+    hidden = (one for file in motions.files for one in file.unseen)
+    return StudyPlan(
+        input=given,
+        motions=motions,
+        campaign=campaign,
+        arrays=tuple(arrays),
+        warnings=tuple(sheet.warnings(hidden)),
+    )
 
 
 def _too_many(campaign: Campaign) -> Iterator[Fault]:

@@ -5,7 +5,7 @@ Runs nothing and reads no records (`motions` does). Read `read_study`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,10 +14,12 @@ from typing import Any
 import numpy as np
 
 from report.sheet.archive import OpenBook, open_book
+from report.sheet.calculated import not_calculated
 from report.sheet.fields import Draft, Fault, Place
 from report.sheet.locate import is_absent
 from report.sheet.read import Gathered, gather, ordered
 from report.sheet.schema import RecordedAt
+from report.sheet.unseen import Unseen, unseen, warnings
 from report.study.schema import (
     MOST_CASES,
     MOST_VALUES,
@@ -101,11 +103,23 @@ class StudySheet:
     input : StudyInput
     gathered : Gathered
         For the addresses of the cells.
+    unseen : tuple of Unseen
+        What is read and kept from sight.
     """
 
     book: OpenBook
     input: StudyInput
     gathered: Gathered
+    unseen: tuple[Unseen, ...]
+
+    def warnings(self, others: Iterable[Unseen] = ()) -> Iterator[tuple[str, str]]:
+        """Yield cell and text of each warning, with those on what else is kept from sight."""
+        found = [
+            *warnings([*self.unseen, *others]),
+            *not_calculated(self.book, self.gathered.used, Place(STUDY.key)),
+        ]
+        for finding in found:
+            yield finding.cell or self.gathered.where(finding.place), finding.text
 
     def refuse(self, faults: Sequence[Fault]) -> None:
         """Raise faults with their cells, if there are any."""
@@ -133,7 +147,10 @@ def read_study(path: Path) -> StudySheet:
         for section in SECTIONS
     }
     return StudySheet(
-        book=book, input=StudyInput(**{**rows, "study": rows["study"][0]}), gathered=gathered
+        book=book,
+        input=StudyInput(**{**rows, "study": rows["study"][0]}),
+        gathered=gathered,
+        unseen=unseen(book, gathered.used),
     )
 
 

@@ -17,14 +17,20 @@ from numpy.typing import NDArray
 from report.study.parts import Done, peaks, read_part
 from report.study.plan import ArrayPlan, StudyPlan
 from report.study.schema import NoValue
-from report.words.units import G_MPS2
+from report.study.spread import Spread, spectral_spread
+from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
 from solver.studies.curves import Statistics, largest_slope, least_friction, statistics
 from solver.studies.fit import Fit, fit_prd
 from solver.studies.fragility import Fragility, fragility
 from solver.studies.uncertainty import Bar, Chance, exceedance, tornado
 
-STATISTICS = ("mean", "84th percentile", "largest")
+MEAN = "mean PRD"
+STATISTICS = (MEAN, "84th percentile of the PRD", "largest PRD")
+"""Beside the design displacement."""
+
+FRICTION_DECIMALS, SLOPE_DECIMALS = 2, 1
+"""Decimals of answers [deg for slopes]: rounded to the safe side."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,6 +85,10 @@ class StudyResults:
         Of the finished runs.
     curves : Statistics
         Of shape (buildings, slopes, frictions, intensities).
+    analysis_m, design_m : array
+        Value from analysis, and design displacement, of the same shape [m]; NaN for none.
+    spread : Spread
+        Of the motions' spectra.
     ppa_g : array, shape (buildings,)
         Mean peak horizontal acceleration at the roof for an intensity of 1 [g].
     fits : tuple of Fit or str
@@ -89,36 +99,66 @@ class StudyResults:
     plan: StudyPlan
     manifest: Mapping[str, Any]
     curves: Statistics
+    analysis_m: Floats
+    design_m: Floats
+    spread: Spread
     ppa_g: Floats
     fits: tuple[Fit | str, ...]
     arrays: tuple[ArrayResult, ...]
 
-    def statistic(self, name: str) -> Floats:
-        """Return a statistic of the grid by its name."""
+    @property
+    def displacements(self) -> Mapping[str, Floats]:
+        """The design displacement, and beside it the statistics of the PRD, by name."""
         c = self.curves
-        return dict(zip(STATISTICS, (c.mean_m, c.p84_m, c.largest_m), strict=True))[name]
+        beside = zip(STATISTICS, (c.mean_m, c.p84_m, c.largest_m), strict=True)
+        return {self.plan.design_rule.name: self.design_m, **dict(beside)}
+
+    @property
+    def leading(self) -> str:
+        """Name of the displacement of curves and answers: the mean where none is for design."""
+        rule = self.plan.design_rule
+        return rule.name if rule.has_value else MEAN
 
     def least_frictions(self, building: int, name: str, allowed_m: float) -> Floats:
-        """Return the least friction by slope and intensity; NaN for none of the study."""
-        values, mus = self.statistic(name)[building], np.array(self.plan.input.mus)
+        """Return the least friction by slope and intensity, rounded up; NaN for none of the study.
+
+        From it on, no friction of the study has a displacement above the allowed one.
+        """
+        values, mus = self.displacements[name][building], np.array(self.plan.input.mus)
         slopes, _, levels = values.shape
         return np.array(
             [
-                [least_friction(mus, values[s, :, x], allowed_m) for x in range(levels)]
+                [_up(least_friction(mus, values[s, :, x], allowed_m), mus) for x in range(levels)]
                 for s in range(slopes)
             ]
         )
 
     def largest_slopes(self, building: int, name: str, allowed_m: float) -> Floats:
-        """Return the largest slope [deg] by friction and intensity; NaN for none of the study."""
-        values, slopes = self.statistic(name)[building], np.array(self.plan.input.slopes_deg)
+        """Return the largest slope [deg], rounded down, by friction and intensity; NaN for none.
+
+        Up to it, no slope of the study has a displacement above the allowed one.
+        """
+        values, slopes = self.displacements[name][building], np.array(self.plan.input.slopes_deg)
         _, mus, levels = values.shape
         return np.array(
             [
-                [largest_slope(slopes, values[:, m, x], allowed_m) for x in range(levels)]
+                [
+                    _down(largest_slope(slopes, values[:, m, x], allowed_m), slopes)
+                    for x in range(levels)
+                ]
                 for m in range(mus)
             ]
         )
+
+
+def _up(mu: float, mus: Floats) -> float:
+    """Return a friction rounded up, unless it is one of the study or none is between."""
+    return mu if mu in mus else min(round_up(mu, FRICTION_DECIMALS), float(mus[-1]))
+
+
+def _down(slope: float, slopes: Floats) -> float:
+    """Return a slope rounded down, unless it is one of the study or none is between."""
+    return slope if slope in slopes else max(round_down(slope, SLOPE_DECIMALS), float(slopes[0]))
 
 
 def results_of(
@@ -149,12 +189,16 @@ def results_of(
             for motions in plan.motions.motions
         ]
     )
+    analysis = plan.design_rule.analysis_m(curves)
     return StudyResults(
         plan=plan,
         manifest=manifest,
         curves=curves,
+        analysis_m=analysis,
+        design_m=plan.design_rule.design_m(curves),
+        spread=spectral_spread(plan.motions.motions),
         ppa_g=ppa,
-        fits=tuple(_fit(plan, curves.mean_m[b], float(ppa[b])) for b in range(plan.shape[0])),
+        fits=tuple(_fit(plan, analysis[b], float(ppa[b])) for b in range(plan.shape[0])),
         arrays=tuple(
             _array(plan, array, prd, slip, on_grid, number)
             for number, array in enumerate(plan.arrays)
@@ -162,13 +206,15 @@ def results_of(
     )
 
 
-def _fit(plan: StudyPlan, mean_m: Floats, ppa_g: float) -> Fit | str:
+def _fit(plan: StudyPlan, analysis_m: Floats, ppa_g: float) -> Fit | str:
     given = plan.input
+    if not plan.design_rule.has_value:
+        return "the motions are too few for a value from analysis"
     slopes, mus, levels = np.meshgrid(
         np.radians(given.slopes_deg), given.mus, given.intensities, indexing="ij"
     )
     try:
-        return fit_prd(slopes.ravel(), mus.ravel(), levels.ravel(), mean_m.ravel(), ppa_g=ppa_g)
+        return fit_prd(slopes.ravel(), mus.ravel(), levels.ravel(), analysis_m.ravel(), ppa_g=ppa_g)
     except InputError as error:
         return error.problems[0]
 

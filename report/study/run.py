@@ -119,6 +119,7 @@ def run_study(
         begin(folder, manifest)
         run_missing(folder, campaign, identity, names, missing, on_done)
     full = finished(folder, manifest, list(done.values()))
+    full["design_displacement"] = plan.design_rule.about
     write_whole(out / NAME, json.dumps(full, indent=1).encode() + b"\n")
     progress("computing the curves")
     return results_of(plan, folder, done, full)

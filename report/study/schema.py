@@ -190,6 +190,7 @@ class Study(Frozen):
             "Intensity at the site",
             "Median; gives the chance that a clearance is exceeded. Blank for none.",
             1.0,
+            unit_from=("intensity", lambda text: Intensity(text).unit if text else ""),
         ),
     ] = None
     intensity_beta: Annotated[

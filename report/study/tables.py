@@ -14,7 +14,9 @@ from typing import Any
 
 import xlsxwriter
 
-from report.study.results import STATISTICS, StudyResults
+from report.pages.parts import UNVERIFIED
+from report.study.results import StudyResults
+from report.study.words import analysis_words, design_words
 from report.words.units import Quantity, Unit
 from solver.studies.fit import Fit
 
@@ -28,18 +30,19 @@ def curves_csv(results: StudyResults) -> bytes:
     writer = csv.writer(text, lineterminator="\n")
     measure = given.study.intensity
     writer.writerow(
-        ["building", "slope_deg", "mu", f"intensity ({measure.value})", "mean_prd_m", "p84_prd_m",
+        ["building", "slope_deg", "mu", f"intensity ({measure.value})",
+         f"{plan.design_rule.name.replace(' ', '_')}_m", "mean_prd_m", "p84_prd_m",
          "largest_prd_m", "motions_without_value"]
     )  # fmt: skip
-    c = results.curves
+    lost = results.curves.without_value
     for b, building in enumerate(plan.motions.buildings):
         for s, slope in enumerate(given.slopes_deg):
             for m, mu in enumerate(given.mus):
                 for x, level in enumerate(given.intensities):
                     at = b, s, m, x
-                    values = [c.mean_m[at], c.p84_m[at], c.largest_m[at]]
-                    shown = ["" if math.isnan(v) else repr(float(v)) for v in values]
-                    writer.writerow([building, slope, mu, level, *shown, int(c.without_value[at])])
+                    values = [float(lengths[at]) for lengths in results.displacements.values()]
+                    shown = ["" if math.isnan(v) else repr(v) for v in values]
+                    writer.writerow([building, slope, mu, level, *shown, int(lost[at])])
     return text.getvalue().encode()
 
 
@@ -92,34 +95,42 @@ def _about(results: StudyResults) -> Iterator[Row]:
     yield "Identity of the manifest", manifest["identity"]
     yield from manifest["program"].items()
     yield "Agreement of a repetition", manifest["agreement"]
+    yield "Design displacement", design_words(results)
+    yield "Marks", UNVERIFIED
 
 
 def _curve_head(results: StudyResults, unit: Unit) -> Row:
     measure = results.plan.input.study.intensity.value
-    lengths = [f"PRD, {name} [{unit.symbol}]" for name in STATISTICS]
+    lengths = [f"{name[:1].upper()}{name[1:]} [{unit.symbol}]" for name in results.displacements]
     return ("Building", "Slope [deg]", "Friction", measure, *lengths, "Motions without a value")
 
 
 def _curves(results: StudyResults, unit: Unit) -> Iterator[Row]:
-    given, c = results.plan.input, results.curves
+    given, lost = results.plan.input, results.curves.without_value
     for b, building in enumerate(results.plan.motions.buildings):
         for s, slope in enumerate(given.slopes_deg):
             for m, mu in enumerate(given.mus):
                 for x, level in enumerate(given.intensities):
                     at = b, s, m, x
-                    lengths = (float(v[at]) / unit.si for v in (c.mean_m, c.p84_m, c.largest_m))
-                    yield building, slope, mu, level, *lengths, int(c.without_value[at])
+                    lengths = (float(v[at]) / unit.si for v in results.displacements.values())
+                    yield building, slope, mu, level, *lengths, int(lost[at])
 
 
 def _least_head(results: StudyResults) -> Row:
     measure = results.plan.input.study.intensity.value
-    return ("Building", "Statistic", "Slope [deg]", measure, "Least friction")
+    return (
+        "Building",
+        "Displacement",
+        "Slope [deg]",
+        measure,
+        "Least friction",
+    )
 
 
 def _least(results: StudyResults) -> Iterator[Row]:
     given = results.plan.input
     for b, building in enumerate(results.plan.motions.buildings):
-        for name in STATISTICS if given.study.allowed_m else ():
+        for name in results.displacements if given.study.allowed_m else ():
             values = results.least_frictions(b, name, float(given.study.allowed_m or 0.0))
             for s, slope in enumerate(given.slopes_deg):
                 for x, level in enumerate(given.intensities):
@@ -128,13 +139,19 @@ def _least(results: StudyResults) -> Iterator[Row]:
 
 def _slope_head(results: StudyResults) -> Row:
     measure = results.plan.input.study.intensity.value
-    return ("Building", "Statistic", "Friction", measure, "Largest slope [deg]")
+    return (
+        "Building",
+        "Displacement",
+        "Friction",
+        measure,
+        "Largest slope [deg]",
+    )
 
 
 def _slopes(results: StudyResults) -> Iterator[Row]:
     given = results.plan.input
     for b, building in enumerate(results.plan.motions.buildings):
-        for name in STATISTICS if given.study.allowed_m else ():
+        for name in results.displacements if given.study.allowed_m else ():
             values = results.largest_slopes(b, name, float(given.study.allowed_m or 0.0))
             for m, mu in enumerate(given.mus):
                 for x, level in enumerate(given.intensities):
@@ -142,8 +159,9 @@ def _slopes(results: StudyResults) -> Iterator[Row]:
 
 
 _FRAGILITY = (
-    "Building", "Array", "Limit state", "Exceeded when", "Limit on PRD", "Unit", "Median theta",
-    "theta, 5 %", "theta, 95 %", "Dispersion beta", "beta, 5 %", "beta, 95 %", "Censored runs",
+    "Building", "Array", "Limit state", "Exceeded when", "Limit on PRD of a motion", "Unit",
+    "Median theta", "theta, 5 %", "theta, 95 %", "Dispersion beta", "beta, 5 %", "beta, 95 %",
+    "Censored runs",
 )  # fmt: skip
 
 
@@ -193,12 +211,13 @@ def _formula(results: StudyResults) -> Iterator[Row]:
         if not isinstance(fit, Fit):
             yield building, "none", fit
             continue
+        yield building, "fitted, Δ_RHA", f"value from analysis: {analysis_words(results)}, in m"
         for number, value in enumerate(fit.coefficients):
             yield building, f"b{number}", value
         yield building, "p [g]", fit.ppa_g
-        yield building, "standard deviation of ln(exact / fitted)", fit.sigma_ln
-        yield building, "least exact / fitted", fit.least_ratio
-        yield building, "greatest exact / fitted", fit.greatest_ratio
+        yield building, "standard deviation of ln(computed / formula)", fit.sigma_ln
+        yield building, "least computed / formula", fit.least_ratio
+        yield building, "greatest computed / formula", fit.greatest_ratio
         yield building, "cases", fit.cases
         for name, (low, high) in fit.domain.items():
             yield building, f"{name}, from", low

@@ -257,7 +257,7 @@ def _value(row: Sequence[_Cell], column: int, kind: str, problems: list[str]) ->
     cell, wanted = row[column], f"give a number greater than 0 [{_SHOWN[kind]}]"
     try:
         check_saved(cell.content)
-        value = number(cell.content, wanted)
+        value = number(cell.content, wanted, _SHOWN[kind])
     except CellError as error:
         problems.append(f"{cell.place}: {kind} {error.problems[0]}")
         return float("nan")

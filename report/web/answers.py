@@ -9,15 +9,16 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.pages.front import verdict_sentence
 from report.pages.registry import package_data
 from report.pages.summary import attention
 from report.web.plan import NO_VALUE, plan
-from report.words.units import Quantity, Show, compared, measured, pair, ratio
+from report.words.units import Quantity, Show, compared, measured, pair
 
 ONE_AXIS, FULL = "one axis", "full"
 
@@ -33,7 +34,8 @@ def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
     shown = _Shown(assessment, is_provisional)
     return {
         "model": ONE_AXIS if is_provisional else FULL,
-        "model_text": _PROVISIONAL if is_provisional else _whole(assessment),
+        "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
+        + (f" {MEANING}." if assessment.is_overridden else ""),
         "is_provisional": is_provisional,
         "verdict": shown.verdict(assessment.verdict),
         "verdict_text": None if is_provisional else verdict_sentence(package_data(assessment)),
@@ -61,6 +63,10 @@ class _Shown:
         if math.isnan(item.design_m):
             return ""
         return item.governs.value if self._is_provisional else item.source
+
+    def is_refused(self, item: ArrayAssessment) -> bool:
+        """Whether a design displacement is not permitted; while provisional, that is not known."""
+        return item.has_unpermitted_value and not self._is_provisional
 
     def length(self, value_m: float) -> str:
         """Return a displacement in both systems of units, or that there is none."""
@@ -99,8 +105,12 @@ def _array(shown: _Shown, item: ArrayAssessment) -> Mapping[str, Any]:
     return {
         "id": item.id,
         **{f"{name}_m": finite(value) for name, value in values.items()},
-        **{name: shown.length(value) for name, value in values.items()},
-        **{f"{name}_short": shown.short(value) for name, value in values.items()},
+        **{name: shown.length(value) + _mark(item, name) for name, value in values.items()},
+        **{
+            f"{name}_short": shown.short(value) + _mark(item, name)
+            for name, value in values.items()
+        },
+        **({"design_m": None, "design_short": NOT_PERMITTED} if shown.is_refused(item) else {}),
         "source": shown.source(item),
         "verdict": shown.verdict(shown.assessment.array_verdict(item)),
         "bars": [
@@ -113,6 +123,14 @@ def _array(shown: _Shown, item: ArrayAssessment) -> Mapping[str, Any]:
             for run in item.motions
         ],
     }
+
+
+def _mark(item: ArrayAssessment, name: str) -> str:
+    """Return the mark of a number of an array that an override or a departure changes."""
+    if math.isnan(item.design_m):
+        return ""
+    prescriptive = item.mark(lambda array: array.prescriptive.value_m)
+    return {"design": item.design_mark, "prescriptive": prescriptive}.get(name, "")
 
 
 def _clearance(shown: _Shown, gap: ClearanceCheck) -> Mapping[str, Any]:
@@ -128,10 +146,10 @@ def _clearance(shown: _Shown, gap: ClearanceCheck) -> Mapping[str, Any]:
         "ratio": finite(gap.demand_capacity),
         "provided": pair(row.provided_m, Quantity.SIZE, shown.us_first, provided),
         "required": NO_VALUE if has_none
-        else pair(gap.required_m, Quantity.SIZE, shown.us_first, required),
+        else pair(gap.required_m, Quantity.SIZE, shown.us_first, required) + gap.mark,
         "provided_short": shown.short(row.provided_m, provided),
-        "required_short": shown.short(gap.required_m, required),
-        "ratio_text": NO_VALUE if has_none else ratio(gap.demand_capacity),
+        "required_short": shown.short(gap.required_m, required) + gap.mark,
+        "ratio_text": NO_VALUE if has_none else gap.ratio_words,
         "verdict": shown.verdict(gap.verdict),
     }  # fmt: skip
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
+from report.assessment.friction import mu_words
 from report.sheet.cells import cut
 from report.sheet.fields import Place
 from report.sheet.read import Sheet
@@ -45,7 +46,7 @@ def shown(given: Opened) -> Mapping[str, str]:
     """Return what the values amount to: those of the workbook as changed."""
     data = given.sheet.project
     return {
-        "friction": _grouped(data.arrays, _mu),
+        "friction": _grouped(data.arrays, lambda array: mu_words(array.friction)),
         "slope": _grouped(data.arrays, lambda a: f"{number(math.degrees(a.slope_rad), 2)}°"),
         "intensity": _factors(given.shaking.motions),
         "s_ds": f"{number(data.site.s_ds, 3)} g",
@@ -151,7 +152,9 @@ def _is_offered(sheet: Sheet, name: str) -> bool:
 def _cells_of(sheet: Sheet, name: str) -> Sequence[Place]:
     motions = range(len(sheet.draft["motions"]))
     site = sheet.draft["site"][0]
-    s_ds = [Place("site", 0, field) for field in SHORT_PERIOD if site.get(field) is not None]
+    *given, design = SHORT_PERIOD
+    s_ds = [Place("site", 0, name) for name in given if site.get(name) is not None]
+    s_ds.append(Place("site", 0, design))
     scaling = [Place("motions", i, field) for i in motions for field in ("scaling", "scale_value")]
     arrays = enumerate(sheet.draft["arrays"])
     return {
@@ -216,11 +219,6 @@ def _grouped(arrays: Sequence[Array], text_of: Any) -> str:
     if len(groups) == 1:
         return next(iter(groups))
     return "; ".join(f"{text} ({', '.join(names)})" for text, names in groups.items())
-
-
-def _mu(array: Array) -> str:
-    mus = dict.fromkeys(number(mu, 3) for name in MUS if (mu := getattr(array, name)) is not None)
-    return " to ".join((min(mus), max(mus))) if len(mus) > 1 else next(iter(mus))
 
 
 def _factors(motions: Sequence[Motion]) -> str:

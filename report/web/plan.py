@@ -92,7 +92,7 @@ def _gaps(assessment: Assessment, show: ShowVerdict) -> Iterator[Mapping[str, An
             "provided": f"{show_provided(provided, unit)} {unit.symbol}",
             "required": NO_VALUE
             if math.isnan(required)
-            else f"{show_required(required, unit)} {unit.symbol}",
+            else f"{show_required(required, unit)} {unit.symbol}{check.mark}",
             "verdict": show(check.verdict),
         }
 

@@ -21,7 +21,7 @@ Values = Mapping[str, float | str]
 
 MUS = ("mu", "mu_fast", "mu_static")
 SHORT_PERIOD = ("s_s_g", "s_ms_g", "s_ds_g")
-"""From mapped to design values: each follows from the one before, and all are multiplied alike."""
+"""From mapped to design values: each follows from the one before."""
 
 _MU_DIGITS, _SLOPE_DIGITS, _PLAN_DIGITS = 4, 4, 6
 
@@ -85,8 +85,13 @@ def _slope(sheet: Sheet, turn_deg: float) -> Iterator[tuple[Place, Typed]]:
 
 
 def _s_ds(sheet: Sheet, factor: float) -> Iterator[tuple[Place, Typed]]:
-    for place, value in _given(sheet, "site", SHORT_PERIOD):
+    """Multiply S_DS, and S_MS if given, without S_S: another S_S has another site coefficient."""
+    mapped, maximum, design = SHORT_PERIOD
+    for place, _ in _given(sheet, "site", (mapped,)):
+        yield place, None
+    for place, value in _given(sheet, "site", (maximum,)):
         yield place, _rounded(value * factor)
+    yield Place("site", 0, design), _rounded(sheet.project.site.s_ds * factor)
 
 
 def _intensity(

@@ -106,19 +106,47 @@ def measured(value_si: float, unit: Unit) -> str:
 
 def no_less(value_si: float, unit: Unit) -> str:
     """Return a value in a unit, rounded up."""
-    return _rounded(math.ceil, -_NOISE, value_si, unit)
+    return number(round_up(value_si / unit.si, unit.decimals), unit.decimals)
 
 
 def no_more(value_si: float, unit: Unit) -> str:
     """Return a value in a unit, rounded down."""
-    return _rounded(math.floor, _NOISE, value_si, unit)
+    return number(round_down(value_si / unit.si, unit.decimals), unit.decimals)
 
 
-def _rounded(to_whole: Callable[[float], int], noise: float, value_si: float, unit: Unit) -> str:
-    if not math.isfinite(value_si):
-        return measured(value_si, unit)
-    per_digit = 10.0**unit.decimals
-    return number(to_whole(value_si / unit.si * per_digit + noise) / per_digit, unit.decimals)
+def digits_up(value: float, digits: int) -> str:
+    """Return a number with significant digits, rounded up."""
+    decimals = _decimals(value, digits)
+    return number(round_up(value, decimals), decimals)
+
+
+def digits_down(value: float, digits: int) -> str:
+    """Return a number with significant digits, rounded down."""
+    decimals = _decimals(value, digits)
+    return number(round_down(value, decimals), decimals)
+
+
+def _decimals(value: float, digits: int) -> int:
+    """Return the decimals that show so many digits of a number."""
+    has_digits = math.isfinite(value) and value != 0.0
+    return max(digits - 1 - math.floor(math.log10(abs(value))), 0) if has_digits else 0
+
+
+def round_up(value: float, decimals: int) -> float:
+    """Return a number rounded up, but for rounding error."""
+    return _rounded(math.ceil, -_NOISE, value, decimals)
+
+
+def round_down(value: float, decimals: int) -> float:
+    """Return a number rounded down, but for rounding error."""
+    return _rounded(math.floor, _NOISE, value, decimals)
+
+
+def _rounded(to_whole: Callable[[float], int], noise: float, value: float, decimals: int) -> float:
+    if not math.isfinite(value):
+        return value
+    per_digit = 10.0**decimals
+    return to_whole(value * per_digit + noise) / per_digit
 
 
 def compared(required_si: float, provided_si: float) -> tuple[Show, Show]:

@@ -192,29 +192,32 @@ def _onset(q_0, q_1, tau, dt):
 def _move(w, q_0, q_1, tau, dt, rate):
     """Continue sliding from tau to the end of the interval, or until the speed is zero.
 
-    Returns the time reached, the distance and the final speed, which is 0 only if the block stops.
+    Returns the time reached, the distance, the final speed, which is 0 only if the block stops, and
+    the speed where it is largest on the way; 0 if it is largest at an end.
     """
     r = (q_1 - q_0) * rate
     q, h = q_0 + r * tau, dt - tau
     if w == 0.0:
         q = max(q, 0.0)  # at an onset the push is not negative, except for rounding error
+    peak = w - 0.5 * q * q / r if q > 0.0 > q + r * h else 0.0
     step = _first_stop(w, q, r, h) if w > 0.0 or r < 0.0 else -1.0
     if step < 0.0:
-        return dt, h * (w + h * (0.5 * q + h * (r * SIXTH))), w + h * (q + 0.5 * r * h)
+        return dt, h * (w + h * (0.5 * q + h * (r * SIXTH))), w + h * (q + 0.5 * r * h), peak
     # Time must advance even if the step is smaller than the rounding error of tau.
     reached = tau + step if tau + step > tau else tau * (1.0 + 2.3e-16) + TINY
-    return reached, step * (w + step * (0.5 * q + step * (r * SIXTH))), 0.0
+    return reached, step * (w + step * (0.5 * q + step * (r * SIXTH))), 0.0, peak
 
 
 @njit(cache=True, forceinline=True)
-def _slide_on(c, ax, az, w, i, last, dt):
+def _slide_on(c, ax, az, w, w_max, i, last, dt):
     """Slide through whole intervals, up to the first one in which the speed may become zero.
 
     If the speed is positive at the end of an interval, and would be at its middle under the first
     push alone, it does not reach zero in the interval. The sum of the cubic distances telescopes:
     dt (sum of w + half its change) + dt^2 / 12 (q first - q last).
 
-    Returns the sample reached, the distance and the speed there.
+    Returns the sample reached, the distance, the speed there, and the largest speed so far: the
+    larger of `w_max` and those on the way.
     """
     half = 0.5 * dt
     c = (c[0] * half, c[1] * half, c[2] * half)  # q dt / 2 from here on
@@ -223,21 +226,26 @@ def _slide_on(c, ax, az, w, i, last, dt):
     while i < last:
         # The gain in speed is summed from zero every CHUNK samples, to keep its low-order digits.
         q_first, gained, total, end = q, 0.0, 0.0, min(i + CHUNK, last)
-        start = i
+        start, top = i, w_max - w
         while i < end:
             q_next = _push(c, ax, az, i + 1)
             middle = gained + q
             more = gained + (q + q_next)  # not middle + q_next, which would wait for one more sum
             if min(middle, more) <= -w:
                 break
+            # `middle` bounds the gain while the push falls to zero; it is rarely above the largest.
+            if middle > top:
+                rises, falls = max(q, 0.0), max(q - q_next, TINY)  # q > 0, except for rounding
+                top = max(top, more if q_next > 0.0 else gained + rises * rises / falls)
             total += gained
             gained, q = more, q_next
             i += 1
         way += dt * ((i - start) * w + (total + 0.5 * gained) + (q_first - q) * SIXTH)
+        w_max = max(w_max, w + top)
         w += gained
         if i < end:
             break
-    return i, way, w
+    return i, way, w, w_max
 
 
 @njit(cache=True, forceinline=True)
@@ -270,13 +278,13 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
     -------
     tuple
         s at its largest, s at its least, s at the end, s' at the end, time of the largest |s|,
-        number of stops, number of events.
+        number of stops, largest |s'|, number of events.
     """
     c_down, c_up = sn - mu * cs, -sn - mu * cs
     down = (c_down * g, c_down * scale, (cs + mu * sn) * scale)
     up = (c_up * g, c_up * scale, (mu * sn - cs) * scale)
     c, sigma, band = down, DOWN, _resting_band(down, up)
-    s = w = s_max = s_min = t_max = t_min = 0.0
+    s = w = s_max = s_min = t_max = t_min = w_max = 0.0
     i = n_stops = n_events = 0
     last, rate = ax.size - 1, 1.0 / dt
     while i < last:
@@ -295,7 +303,7 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
             w, i = 0.5 * q_1 * h, first
         while i < last:
             if w > 0.0:
-                i, way, w = _slide_on(c, ax, az, w, i, last, dt)
+                i, way, w, w_max = _slide_on(c, ax, az, w, max(w_max, w), i, last, dt)
                 s += sigma * way
                 if i == last:
                     break
@@ -311,8 +319,8 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
                     i += 1
                     break  # at rest to the end of the interval
                 n_events = _note(events, n_events, i * dt + tau, sigma, s)
-            tau, way, w = _move(w, q_0, q_1, tau, dt, rate)
-            s += sigma * way
+            tau, way, w, peak = _move(w, q_0, q_1, tau, dt, rate)
+            s, w_max = s + sigma * way, max(w_max, peak, w)
             if w > 0.0:
                 i, tau = i + 1, 0.0
             else:
@@ -324,7 +332,7 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
     t_max, t_min = last * dt if s > s_max else t_max, last * dt if s < s_min else t_min
     s_max, s_min = max(s_max, s), min(s_min, s)
     t_peak = t_max if s_max >= -s_min else t_min
-    return s_max, s_min, s, sigma * w, t_peak, n_stops, n_events
+    return s_max, s_min, s, sigma * w, t_peak, n_stops, max(w_max, w), n_events
 
 
 @njit(cache=True)
@@ -370,7 +378,7 @@ def _run_scene(ax, az, x, z, dt, g, scene, out):
     least, _ = least_normal(ax, az, x, z, dt, sn, cs, g, scene[2])
     out[:] = np.nan
     if least >= 0.0:
-        s_max, s_min, s, w, _, _, _ = slide_exact(
+        s_max, s_min, s, w, _, _, _, _ = slide_exact(
             ax, az, x, z, dt, sn, cs, scene[1], g, scene[2], None
         )
         out[0], out[1], out[2], out[3] = s_max, s_min, s, w

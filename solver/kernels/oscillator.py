@@ -35,13 +35,14 @@ def _step(p, zeta):
     return h, 1.0 - once - 2.0 * zeta * h, once, twice
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def peaks(a, dt, omega, zeta, peak, at):
     """Largest pseudo-acceleration of damped oscillators under the linearly interpolated record.
 
     u'' + 2 zeta omega u' + omega^2 u = -a(t) from rest, exact at the samples (Nigam and Jennings,
     Bull. Seism. Soc. Am. 59 (1969) 909-922), in y = omega^2 u and z = omega u' so that every
-    quantity is an acceleration.
+    quantity is an acceleration. Peaks between two samples are those of the cubic with the values y
+    and the slopes z of both. Of steps longer than one radian only the ends are looked at.
 
     Parameters
     ----------
@@ -50,10 +51,14 @@ def peaks(a, dt, omega, zeta, peak, at):
     zeta : float
         Fraction of critical damping, in [0, 1).
     peak, at : array, shape (m,)
-        Filled with the signed omega^2 u at the largest |u| [m/s2], and with the sample where it is.
+        Filled with the signed omega^2 u at the largest |u| [m/s2], and with the sample where it is,
+        at the end of its step.
     """
     m = omega.size
     c = np.empty((7, m))
+    radians = omega * dt
+    # Over a longer step the cubic would invent peaks; without slopes it is monotonic.
+    radians[radians > 1.0] = 0.0
     for k in range(m):
         p = omega[k] * dt
         h, slope, once, twice = _step(p, zeta)
@@ -68,10 +73,23 @@ def peaks(a, dt, omega, zeta, peak, at):
         before, now = a[i - 1], a[i]
         for k in range(m):
             moved = c[0, k] * y[k] + c[1, k] * z[k] - c[3, k] * before - c[4, k] * now
-            z[k] = c[2, k] * z[k] - c[1, k] * y[k] - c[5, k] * before - c[6, k] * now
-            y[k] = moved
-            higher = abs(moved) > abs(peak[k])
-            peak[k] = moved if higher else peak[k]
+            turned = c[2, k] * z[k] - c[1, k] * y[k] - c[5, k] * before - c[6, k] * now
+            # The cubic start + s (first + s (bend + s twist)); its slope is zero at two places s.
+            start, rise, first, last = y[k], moved - y[k], radians[k] * z[k], radians[k] * turned
+            bend, twist = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
+            root = math.sqrt(max(bend * bend - 3.0 * twist * first, 0.0))
+            q = -bend - math.copysign(root, bend)
+            one = q / (3.0 * twist) if twist != 0.0 else 1.0
+            other = first / q if q != 0.0 else 1.0
+            one = one if 0.0 < one < 1.0 else 1.0
+            other = other if 0.0 < other < 1.0 else 1.0
+            top = start + one * (first + one * (bend + one * twist))
+            second = start + other * (first + other * (bend + other * twist))
+            top = second if abs(second) > abs(top) else top
+            top = moved if abs(moved) > abs(top) else top
+            y[k], z[k] = moved, turned
+            higher = abs(top) > abs(peak[k])
+            peak[k] = top if higher else peak[k]
             at[k] = i if higher else at[k]
 
 

@@ -36,7 +36,8 @@ Letters:
     law         None, or mu_fast, mu_fast - mu_slow, rate [s/m] and mu at rest (`slide_plane`)
     moved       bound of the change of v in a step                                        [m/s]
     off, error  bounds of the error in velocity [m/s] and in position [m] so far
-    top         largest distance in plan, its time; largest and least sx; largest and least sy
+    top         largest distance in plan, its time; largest and least sx; largest and least sy;
+                largest speed
 """
 
 import math
@@ -759,6 +760,21 @@ def _see_zeros(b, order, degree, ux, uy, cs, sx, sy, h, t, top):
         _see(sx + way * ux - aside * uy, sy + way * uy + aside * ux, t + h * at, cs, top)
 
 
+@jit(forceinline=True)
+def _see_speed(b, order, w, after, moved, top):
+    """Update `top` with the largest speed of a step: at its end, or where v . v' changes sign."""
+    top[6] = max(top[6], after)
+    if w + moved > top[6]:
+        for k in range(order):
+            b[E, k] = 0.0
+            for j in range(k + 1):
+                m, n = np.uintp(j), np.uintp(k + 1 - j)
+                b[E, k] += (k + 1 - j) * (b[VA, m] * b[VA, n] + b[VS, m] * b[VS, n])
+        for k in range(_changes(b, E, order - 1, ORDER)):
+            va, vs, _, _ = _rates(b, order, b[ROOTS, k])
+            top[6] = max(top[6], math.sqrt(va * va + vs * vs))
+
+
 @jit()
 def _hides(sx, sy, vx, vy, gx, gy, cs, reach, top):
     """Whether an extreme may occur on the way to a stop, while v turns toward G."""
@@ -915,8 +931,9 @@ def slide_plane(
         Filled with time, kind, sx and sy of the first m events.
     history : array, shape (4, n) or (4, 0)
         Filled with sx, sy, vx and vy at the samples; a shape of (4, 0) is not filled.
-    top : array, shape (6,)
-        Filled: the largest distance in plan, its time, largest and least sx, largest and least sy.
+    top : array, shape (7,)
+        Filled: the largest distance in plan, its time, largest and least sx, largest and least sy,
+        and the largest speed.
     end : array, shape (4,)
         Filled with sx, sy, vx and vy at the end.
 
@@ -936,7 +953,7 @@ def slide_plane(
     b = np.empty((10, ORDER + 2))
     for k in range(ORDER + 2):
         b[SHARE, k] = 1.0 / (k + 1)
-    for k in range(6):
+    for k in range(7):
         top[k] = 0.0
     sx = sy = vx = vy = w = tau = fastest = since = off = error = 0.0
     moving = False
@@ -1045,6 +1062,7 @@ def slide_plane(
             way, aside = h * (b[VA, 0] + way), h * (b[VS, 0] + aside)
             way, aside = way * ux - aside * uy, way * uy + aside * ux
             _look(b, order, ux, uy, cs, sx, sy, way, aside, vx, vy, w, moved, h, t, top)
+            _see_speed(b, order, w, after, moved, top)
             sx, sy = sx + way, sy + aside
             error += EPS * (abs(sx) + abs(sy) + w * dt)
             _see(sx, sy, t + h, cs, top)

@@ -44,7 +44,10 @@ class AxisScene:
 
 
 class Outcome(NamedTuple):
-    """Result of a method, along the slope: [m], [m/s], [s]."""
+    """Result of a method, along the slope: [m], [m/s], [s].
+
+    The largest speed is that of the exact kernel; NaN by the other methods.
+    """
 
     followed: bool
     s_max: float
@@ -53,6 +56,7 @@ class Outcome(NamedTuple):
     w_end: float
     t_peak: float
     n_stops: int
+    w_max: float = math.nan
 
 
 Parameters = Mapping[str, float]
@@ -145,9 +149,9 @@ def _vertical(scene: AxisScene) -> tuple[Floats | None, Floats | None]:
 
 def _run_exact(
     scene: AxisScene, events: Floats | None
-) -> tuple[float, float, float, float, float, int, int]:
+) -> tuple[float, float, float, float, float, int, float, int]:
     c, (az, z) = scene, _vertical(scene)
-    result: tuple[float, float, float, float, float, int, int] = one_axis.slide_exact(
+    result: tuple[float, float, float, float, float, int, float, int] = one_axis.slide_exact(
         c.ax, az, c.x, z, c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events
     )
     return result

@@ -200,26 +200,6 @@ class HazardBasis(StrEnum):
     EXCEPTION = "exception of 11.4.8"
 
 
-def site_specific_reason(
-    edition: Edition, *, site_class: str, s_s_g: float | None, s_1_g: float | None
-) -> str:
-    """Return why a site needs a site-specific hazard analysis; empty if it does not.
-
-    ASCE 7-16 11.4.8: site class F; E with S_S >= 1.0 g or S_1 >= 0.2 g; D with S_1 >= 0.2 g. The
-    multi-period values of ASCE 7-22 leave site class F.
-    """
-    letter = site_class[:1] if site_class in ("D", "D (default)", "E", "F") else ""
-    if letter == "F":
-        return "site class F"
-    if not edition.has_site_coefficients:
-        return ""
-    if letter == "E" and s_s_g is not None and s_s_g >= 1.0:
-        return f"site class E with S_S = {s_s_g:g} g"
-    if letter in ("D", "E") and s_1_g is not None and s_1_g >= 0.2:
-        return f"site class {letter} with S_1 = {s_1_g:g} g"
-    return ""
-
-
 LEAST_F_A_BY_DEFAULT = 1.2
 """Least F_a where site class D is assumed by default (ASCE 7-16 11.4.4)."""
 

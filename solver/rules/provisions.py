@@ -9,17 +9,21 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TypeVar
 
+from solver.model import Floats
+from solver.rules.rulesets import ALLOWED, LowProfileLength
 from solver.rules.rulesets import OVERRIDABLE as OVERRIDABLE
 from solver.rules.rulesets import RULE_SETS as RULE_SETS
 from solver.rules.rulesets import Confidence as Confidence
-from solver.rules.rulesets import LowProfileLength
 from solver.rules.rulesets import Provision as Provision
 from solver.rules.rulesets import RuleSet as RuleSet
 
 # Relative difference up to which values count as equal: a limit such as "1 in 20" is compared with
 # a slope typed as "5 percent".
 _EQUAL = 1e-9
+
+Lengths = TypeVar("Lengths", float, Floats)
 
 
 class PrescriptiveBasis(StrEnum):
@@ -115,17 +119,40 @@ def analysis_value(
     n = len(peaks_m)
     mean = sum(peaks_m) / n if n else math.nan
     largest = math.nan if mean != mean else max(peaks_m)
-    if basis is None:
-        enough = n >= rules["analysis_mean_motions"]
-        basis = Basis.MEAN_FACTORED if enough else Basis.LARGEST_FACTORED
-    factor = rules["analysis_factor"] if basis.has_factor else 1.0
-    if n < least_motions(rules, basis):
-        basis, value = Basis.TOO_FEW, math.nan
-    else:
-        value = factor * (largest if basis.takes_largest else mean)
+    found = basis_for(rules, n, basis)
     return AnalysisValue(
-        n_motions=n, mean_m=mean, largest_m=largest, basis=basis, factor=factor, value_m=value
+        n_motions=n,
+        mean_m=mean,
+        largest_m=largest,
+        basis=found,
+        factor=_factor(rules, basis or found),
+        value_m=factored(rules, found, mean, largest),
     )
+
+
+def basis_for(rules: RuleSet, n_motions: int, asked: Basis | None = None) -> Basis:
+    """Return the statistic for a number of motions; with `asked` None that of the rule set."""
+    if asked is None:
+        enough = n_motions >= rules["analysis_mean_motions"]
+        asked = Basis.MEAN_FACTORED if enough else Basis.LARGEST_FACTORED
+    return asked if n_motions >= least_motions(rules, asked) else Basis.TOO_FEW
+
+
+def factored(rules: RuleSet, basis: Basis, mean_m: Lengths, largest_m: Lengths) -> Lengths:
+    """Return the value from analysis [m] by the mean and the largest peak; NaN if too few."""
+    factor = math.nan if basis is Basis.TOO_FEW else _factor(rules, basis)
+    return factor * (largest_m if basis.takes_largest else mean_m)
+
+
+def _factor(rules: RuleSet, basis: Basis) -> float:
+    return rules["analysis_factor"] if basis.has_factor else 1.0
+
+
+def analysis_floor_m(
+    rules: RuleSet, prescriptive: Prescriptive, *, is_reviewed: bool = False
+) -> float:
+    """Return the minimum of the value from analysis [m]: none with peer review."""
+    return 0.0 if is_reviewed else rules["analysis_floor"] * prescriptive.value_m
 
 
 def least_motions(rules: RuleSet, basis: Basis) -> float:
@@ -293,7 +320,6 @@ def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple
             mu,
             "prescriptive_min_mu",
             limit=required_mu(rules, slope_rad),
-            at_most=False,
             measure=Measure.PLAIN,
         ),
     )
@@ -320,7 +346,6 @@ def analysis_checks(
             "Number of motions",
             n_motions,
             "analysis_min_motions",
-            at_most=False,
         ),
     )
 
@@ -332,14 +357,13 @@ def _check(
     key: str,
     *,
     limit: float | None = None,
-    at_most: bool = True,
     measure: Measure = Measure.COUNT,
 ) -> Check:
     return Check(
         title=title,
         value=value,
         limit=rules[key] if limit is None else limit,
-        at_most=at_most,
+        at_most=ALLOWED[key].is_most,
         measure=measure,
         key=key,
         provision=rules.values[key],

@@ -72,11 +72,25 @@ OVERRIDABLE: Mapping[str, str] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Allowed:
-    """Range of a value that may replace a number of a rule set."""
+    """Range of a value that may replace a number of a rule set.
+
+    Attributes
+    ----------
+    low, high : float
+    is_whole : bool
+    is_most : bool
+        Whether the number limits a project from above: a larger one then requires less of it. Of
+        all others a smaller one does.
+    """
 
     low: float
     high: float
     is_whole: bool = False
+    is_most: bool = False
+
+    def lowers(self, value: float, adopted: float) -> bool:
+        """Whether a value requires less of a project than the number of the rule set."""
+        return value > adopted if self.is_most else value < adopted
 
     def has(self, value: float) -> bool:
         """Whether a value is within the range."""
@@ -99,14 +113,14 @@ ALLOWED: Mapping[str, Allowed] = {
     "prescriptive_factor_in": Allowed(low=1, high=600),
     "prescriptive_minimum_in": Allowed(low=0, high=240),
     "prescriptive_low_sdc_in": Allowed(low=0, high=240),
-    "prescriptive_max_slope_deg": Allowed(low=0, high=30),
+    "prescriptive_max_slope_deg": Allowed(low=0, high=30, is_most=True),
     "prescriptive_min_mu": Allowed(low=0, high=1.5),
-    "analysis_max_slope_deg": Allowed(low=0, high=30),
-    "ibc_max_slope_deg": Allowed(low=0, high=30),
-    "max_stories": Allowed(low=1, high=200, is_whole=True),
-    "max_risk_category": Allowed(low=1, high=4, is_whole=True),
-    "low_profile_in": Allowed(low=1, high=120),
-    "low_profile_ratio": Allowed(low=0.01, high=5),
+    "analysis_max_slope_deg": Allowed(low=0, high=30, is_most=True),
+    "ibc_max_slope_deg": Allowed(low=0, high=30, is_most=True),
+    "max_stories": Allowed(low=1, high=200, is_whole=True, is_most=True),
+    "max_risk_category": Allowed(low=1, high=4, is_whole=True, is_most=True),
+    "low_profile_in": Allowed(low=1, high=120, is_most=True),
+    "low_profile_ratio": Allowed(low=0.01, high=5, is_most=True),
     "analysis_min_motions": Allowed(low=1, high=100, is_whole=True),
     "analysis_mean_motions": Allowed(low=1, high=100, is_whole=True),
     "analysis_factor": Allowed(low=1, high=10),
@@ -143,6 +157,7 @@ class RuleSet:
     mu_rises_with_slope: bool
     low_profile_length: LowProfileLength
     steeper_if_reviewed: bool  # no slope limit of its own in SDC A, B, C with peer review
+    statistic_is_stated: bool  # of the peaks; otherwise a mean without factor is no departure
     edition: str  # of the seismic parameters, unless the workbook states another
 
     def __getitem__(self, key: str) -> float:
@@ -280,6 +295,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
             mu_rises_with_slope=False,
             low_profile_length=LowProfileLength.BASE,
             steeper_if_reviewed=False,
+            statistic_is_stated=True,
             edition="ASCE 7-16",
         ),
         RuleSet(
@@ -293,6 +309,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
             mu_rises_with_slope=True,
             low_profile_length=LowProfileLength.SPACING,
             steeper_if_reviewed=True,
+            statistic_is_stated=False,
             edition="ASCE 7-16",
         ),
         RuleSet(
@@ -306,6 +323,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
             mu_rises_with_slope=True,
             low_profile_length=LowProfileLength.SPACING,
             steeper_if_reviewed=True,
+            statistic_is_stated=False,
             edition="ASCE 7-22",
         ),
     )

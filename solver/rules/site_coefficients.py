@@ -1,7 +1,7 @@
 """The site coefficients F_a and F_v of ASCE 7-16, Tables 11.4-1 and 11.4-2, by site class.
 
 ASCE 7-22 has none. A package uses the coefficients that its workbook gives; the workbook shows
-these beside them. Read `site_coefficient`.
+these beside them. Read `site_coefficient`, then `site_specific_reason`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from solver.rules.hazard import LEAST_F_A_BY_DEFAULT
+from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, Edition
 from solver.rules.rulesets import Confidence
 
 BY_DEFAULT = "D (default)"
@@ -92,3 +92,36 @@ def site_coefficient(table: CoefficientTable, site_class: str, mapped_g: float) 
         return row[left]
     share = (at - heads[left]) / (heads[left + 1] - heads[left])
     return row[left] + share * (row[left + 1] - row[left])
+
+
+LEAST_S_1_OF_D_G = 0.2
+"""S_1 [g] from which site class D needs a site-specific hazard analysis (ASCE 7-16 11.4.8)."""
+
+
+def site_specific_reason(
+    edition: Edition, *, site_class: str, s_s_g: float | None, s_1_g: float | None
+) -> str:
+    """Return why a site needs a site-specific hazard analysis, or may; empty if it does not.
+
+    ASCE 7-16 11.4.8: site class F; E where the tables have no coefficient; D with S_1 >= 0.2 g. It
+    may where the mapped value that tells is not given. The multi-period values of ASCE 7-22 leave
+    site class F.
+    """
+    if site_class == "F":
+        return "site class F"
+    if not edition.has_site_coefficients:
+        return ""
+    name = "site class D by default" if site_class == BY_DEFAULT else f"site class {site_class}"
+    missing = []
+    for symbol, table, mapped_g in (("S_S", F_A, s_s_g), ("S_1", F_V, s_1_g)):
+        if mapped_g is None:
+            missing += [symbol] if _needs_analysis(table, site_class, math.inf) else []
+        elif _needs_analysis(table, site_class, mapped_g):
+            return f"{name} with {symbol} = {mapped_g:g} g"
+    return f"{name}, {' and '.join(missing)} not given" if missing else ""
+
+
+def _needs_analysis(table: CoefficientTable, site_class: str, mapped_g: float) -> bool:
+    if site_class == "E":
+        return math.isnan(site_coefficient(table, site_class, mapped_g))
+    return table is F_V and site_class in ("D", BY_DEFAULT) and mapped_g >= LEAST_S_1_OF_D_G

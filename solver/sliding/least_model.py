@@ -308,6 +308,7 @@ def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
         t_prd_s=math.nan,
         n_stops=linked.n_stops,
         end_speed_mps=math.nan,
+        peak_speed_mps=math.nan,
         error_m=linked.error_m,
     )
     return Solution(

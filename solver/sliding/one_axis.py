@@ -103,6 +103,7 @@ def _result(outcome: Outcome, cs: float, n_min_g: float, error_m: float) -> Slid
         n_min_g=n_min_g,
         t_uplift_s=math.nan,
         end_speed_mps=cs * outcome.w_end,
+        peak_speed_mps=outcome.w_max,
         error_m=error_m,
     )
 
@@ -122,6 +123,7 @@ def without_displacement(status: Status, n_min_g: float, t_uplift: float) -> Sli
         n_min_g=n_min_g,
         t_uplift_s=t_uplift,
         end_speed_mps=math.nan,
+        peak_speed_mps=math.nan,
         error_m=math.nan,
     )
 

@@ -66,6 +66,8 @@ class TwoAxesOutcome:
         Largest excursion toward +x, -x, +y and -y [m], all >= 0.
     end_m, end_mps : tuple of float
         Displacement and velocity at the end of the record, x and y [m], [m/s].
+    peak_mps : float
+        Largest speed, along the surface of the roof [m/s].
     error_m : float
         Largest difference of any position from the exact motion under the interpolated record [m]:
         a bound if friction is monotone (`Friction.is_monotone`), otherwise twice the difference
@@ -84,6 +86,7 @@ class TwoAxesOutcome:
     right_m: float
     end_m: tuple[float, float]
     end_mps: tuple[float, float]
+    peak_mps: float
     error_m: float
     n_stops: int
     n_events: int
@@ -116,6 +119,7 @@ def _result(outcome: TwoAxesOutcome, n_min_g: float) -> SlideResult:
         n_min_g=n_min_g,
         t_uplift_s=math.nan,
         end_speed_mps=speed,
+        peak_speed_mps=outcome.peak_mps,
         error_m=outcome.error_m,
     )
 
@@ -212,7 +216,7 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesO
         drop = friction.mu_fast - friction.mu_slow
         law = (friction.mu_fast, drop, friction.rate_s_per_m, friction.mu_static)
     ax, ay, az = _components(scene)
-    top, end = np.empty(6), np.empty(4)
+    top, end = np.empty(7), np.empty(4)
     outcome, error, n_stops, n_events, n_steps = kernel.slide_plane(
         ax,
         ay,
@@ -235,7 +239,7 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesO
         top,
         end,
     )
-    prd, t_prd, s_max, s_min, y_max, y_min = top.tolist()
+    prd, t_prd, s_max, s_min, y_max, y_min, peak = top.tolist()
     sx, sy, vx, vy = end.tolist()
     return TwoAxesOutcome(
         status=_STATUSES[outcome],
@@ -247,6 +251,7 @@ def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesO
         right_m=abs(y_min),
         end_m=(cs * sx, sy),
         end_mps=(cs * vx, vy),
+        peak_mps=peak,
         error_m=error,
         n_stops=n_stops,
         n_events=n_events,

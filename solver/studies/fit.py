@@ -1,4 +1,4 @@
-"""A closed formula fitted to the PRD of a study, with its error and its domain.
+"""A closed formula fitted to a displacement of a study, with its error and its domain.
 
     k_y = tan(atan(mu) - theta)        r = k_y / (p x)
     ln PRD = b0 + b1 ln(1 - r) + b2 ln r + b3 ln x + b4 theta / mu
@@ -6,7 +6,8 @@
 k_y [g] is the acceleration at which a block begins to slip downslope, x the intensity and p x the
 mean peak acceleration of the motions at that intensity [g]. The terms in r are those of Ambraseys
 and Menu (1988), Earthquake Engng. Struct. Dyn. 16, 985-1006, Eq. 2; theta / mu describes the
-ratcheting downslope. Runs nothing. Read `fit_prd`.
+ratcheting downslope. In place of the PRD a fixed multiple of it may be fitted, such as the value
+from analysis of a rule set. Runs nothing. Read `fit_prd`.
 """
 
 from __future__ import annotations
@@ -27,6 +28,9 @@ LARGEST_R = 0.9
 
 TERMS = 5
 
+DIGITS = 4
+"""Significant digits of the coefficients: the errors are those of the formula as it is printed."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fit:
@@ -35,9 +39,9 @@ class Fit:
     Attributes
     ----------
     coefficients : tuple of float
-        b0 to b4, for a PRD in meters.
+        b0 to b4, for a PRD in meters, to `DIGITS`.
     ppa_g : float
-        p, mean peak acceleration of the motions per unit of intensity [g].
+        p, mean peak acceleration of the motions per unit of intensity [g], to `DIGITS`.
     sigma_ln : float
         Standard deviation of ln(exact / fitted), with the degrees of freedom that are left.
     least_ratio, greatest_ratio : float
@@ -100,6 +104,10 @@ def _terms(slope: Floats, mu: Floats, x: Floats, r: Floats) -> Floats:
     return np.stack([np.ones_like(r), np.log1p(-r), np.log(r), np.log(x), slope / mu], axis=-1)
 
 
+def _to_digits(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
+
+
 def fit_prd(
     slope_rad: Floats, mu: Floats, intensity: Floats, prd_m: Floats, *, ppa_g: float
 ) -> Fit:
@@ -119,14 +127,15 @@ def fit_prd(
     InputError
         If fewer than ten cases are left, or they do not determine the coefficients.
     """
+    ppa_g = _to_digits(ppa_g)
     with np.errstate(divide="ignore"):
         r = np.tan(np.arctan(mu) - slope_rad) / (ppa_g * intensity)
     fits = (prd_m >= LEAST_PRD_M) & (r > 0.0) & (r <= LARGEST_R)
     cases = int(fits.sum())
     if cases < 2 * TERMS:
         raise InputError(
-            f"{cases} cases have a PRD of {1e3 * LEAST_PRD_M:g} mm or more; a formula needs "
-            f"{2 * TERMS} or more"
+            f"{cases} cases have a displacement of {1e3 * LEAST_PRD_M:g} mm or more; a formula "
+            f"needs {2 * TERMS} or more"
         )
     slope_rad, mu, intensity, prd_m, r = (
         values[fits] for values in (slope_rad, mu, intensity, prd_m, r)
@@ -138,6 +147,7 @@ def fit_prd(
             "the cases do not determine a formula; give two or more slopes, friction "
             "coefficients and intensities"
         )
+    found = np.array([_to_digits(value) for value in found])
     off = wanted - terms @ found
     values = {"slope_rad": slope_rad, "mu": mu, "intensity": intensity, "r": r, "prd_m": prd_m}
     return Fit(

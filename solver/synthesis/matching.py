@@ -7,7 +7,7 @@ Read `make_frame` first, then `shaped` and `matched`.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -15,19 +15,22 @@ from numpy.typing import NDArray
 
 from solver.kernels import oscillator
 from solver.model import Floats
-from solver.records.record import DECIMALS, UNITS
+from solver.records.record import DECIMALS, UNITS, Record
 from solver.records.spectrum_acceptance import POINTS_HZ
-from solver.synthesis.target import BAND_HZ, DAMPING, Target, target_sa_g
+from solver.synthesis.target import BAND_HZ, DAMPING, Target, band, spectrum_fit, target_sa_g
 
 # Accepted ratios to the target, and the one at which a low peak is aimed. An interval instead of
 # one value, because corrections at neighboring frequencies conflict, most of all at long periods.
 _LEAST, _AIM, _MOST = 1.0, 1.02, 1.05
 # Mean ratio / smallest ratio at which matching stops: the mean excess of the motion when scaled so
-# that no peak is below the target.
-_CLOSE = 1.04
+# that no peak is below the target; at the matched frequencies, and between them.
+_CLOSE, _CLOSE_BETWEEN = 1.04, 1.05
 _SHAPINGS = 6
 _MATCHINGS = 20
-_PER_OCTAVE = 18
+_PER_OCTAVE = 24
+# Spectra have sharp minima between the matched frequencies: they are looked for at so many points
+# of an octave, and matched as well, so many times.
+_LOOKED_AT, _ROUNDS = 96, 6
 # Regularization of the equations: small for peaks outside the interval, larger for those inside,
 # which may move.
 _RIDGE_OUTSIDE, _RIDGE_INSIDE = 0.001, 0.2
@@ -82,10 +85,7 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> Frame:
 
 
 def _matched_hz(low_hz: float, high_hz: float) -> Floats:
-    """Frequencies to match: those of the acceptance, and points between them.
-
-    Spectra have sharp minima between the points, so the points of the acceptance are among them.
-    """
+    """Frequencies to match: those of the acceptance, and as close to each other beyond them."""
     inside = POINTS_HZ[(low_hz < POINTS_HZ) & (high_hz > POINTS_HZ)]
     knots = np.concatenate([[low_hz], inside, [high_hz]])
     counts = np.ceil(_PER_OCTAVE * np.diff(np.log2(knots)) - 1e-9).astype(int)
@@ -123,14 +123,14 @@ def _pulses(cycles: Floats, n: int) -> Floats:
     return (2.0 * ramp[:, 1:-1] - ramp[:, 2:] - ramp[:, :-2]) / p
 
 
-def goal_mps2(frame: Frame, target: Target) -> Floats:
+def _goal_mps2(frame: Frame, target: Target) -> Floats:
     """Target pseudo-accelerations [m/s2], one for each oscillator of the frame."""
     return _G * target_sa_g(target, frame.freq_hz)
 
 
-def shaped(frame: Frame, start: Floats, target: Target, goal: Floats) -> Floats:
+def shaped(frame: Frame, start: Floats, target: Target) -> Floats:
     """Enveloped motion whose Fourier amplitudes are corrected iteratively by goal / spectrum."""
-    n = len(frame.envelope)
+    n, goal = len(frame.envelope), _goal_mps2(frame, target)
     padded = 1 << (n - 1).bit_length() + 1
     spectrum = np.fft.rfft(start, padded)
     freq_hz = np.maximum(np.fft.rfftfreq(padded, frame.dt_s), 1e-3)
@@ -159,7 +159,40 @@ def _peaks(frame: Frame, a: Floats) -> tuple[Floats, _Samples]:
     return peak, at
 
 
-def matched(frame: Frame, a: Floats, goal: Floats) -> Floats:
+def matched(frame: Frame, a: Floats, target: Target) -> Floats:
+    """Corrected motion with a small mean ratio / smallest ratio to the target, wherever it is.
+
+    Minima of the spectrum between the matched frequencies are matched in turn.
+    """
+    looked_at = band(_LOOKED_AT, float(frame.freq_hz[0]))
+    best, least = a, math.inf
+    for _ in range(_ROUNDS):
+        a = _matched(frame, a, _goal_mps2(frame, target))
+        ratio = spectrum_fit(Record(name="", dt_s=frame.dt_s, a_mps2=a), target, looked_at).ratio
+        excess = float(ratio.mean() / ratio.min())
+        if excess < least:
+            best, least = a, excess
+        if excess <= _CLOSE_BETWEEN:
+            break
+        frame = _joined_by(frame, looked_at[_minima(ratio)])
+    return best
+
+
+def _minima(ratio: Floats) -> _Samples:
+    """Places of the minima below 1."""
+    inner = ratio[1:-1]
+    is_least = (inner <= ratio[:-2]) & (inner < ratio[2:]) & (inner < _LEAST)
+    return np.flatnonzero(is_least) + 1
+
+
+def _joined_by(frame: Frame, more_hz: Floats) -> Frame:
+    """Return a frame that matches more frequencies as well; the rigid one stays last."""
+    freq_hz = np.append(np.union1d(frame.freq_hz[:-1], more_hz), frame.freq_hz[-1])
+    pulses = _pulses(freq_hz * frame.dt_s, len(frame.envelope))
+    return replace(frame, freq_hz=freq_hz, pulses=pulses)
+
+
+def _matched(frame: Frame, a: Floats, goal: Floats) -> Floats:
     """Iteratively corrected motion with the smallest mean ratio / smallest ratio to the goal."""
     best, least = a, math.inf
     for _ in range(_MATCHINGS):
@@ -185,7 +218,9 @@ class _Moves(NamedTuple):
 
 
 def _correction(frame: Frame, a: Floats, moves: _Moves, goal: Floats) -> Floats:
-    """Smallest change under the envelope that makes the moves of the peaks.
+    """Smallest change under the envelope's square that makes the moves of the peaks.
+
+    The square leaves the ends weak, where late peaks of long periods would add.
 
     A peak is the sum of the samples before it, each multiplied by the pulse response after the
     time between them, which is the pulse response reversed in time. The quiet shapes stay exactly
@@ -197,11 +232,12 @@ def _correction(frame: Frame, a: Floats, moves: _Moves, goal: Floats) -> Floats:
         row[: k + 1] = pulse[k::-1] / unit
     rows[m:] = frame.quiet
     wanted = np.append(moves.of_goal, -frame.quiet @ a)
-    rows *= frame.envelope
+    allowed = frame.envelope**2
+    rows *= allowed
     products = rows @ rows.T
     ridge = np.where(moves.outside, _RIDGE_OUTSIDE, _RIDGE_INSIDE)
     products[np.diag_indices(m)] *= 1.0 + ridge
-    return frame.envelope * (rows.T @ np.linalg.solve(products, wanted))
+    return allowed * (rows.T @ np.linalg.solve(products, wanted))
 
 
 def rounded(a: Floats) -> Floats:

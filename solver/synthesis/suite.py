@@ -16,16 +16,15 @@ from solver.model import Floats, InputError
 from solver.records.acceptance import MOST_CORRELATION
 from solver.records.measures import correlation, strength
 from solver.records.record import Record
-from solver.records.spectrum_acceptance import POINTS_HZ, ratio_to_target
-from solver.synthesis.matching import Frame, goal_mps2, make_frame, matched, rounded, shaped
+from solver.synthesis.matching import Frame, make_frame, matched, rounded, shaped
 from solver.synthesis.seeds import Seed, grown, noise_seed, seeds_of, strongest
 from solver.synthesis.target import (
+    SpectrumFit,
     Target,
-    band,
     keeps,
+    shifted_grids,
     spectrum_fit,
     target_problems,
-    target_sa_g,
 )
 
 DRAWS = 20
@@ -33,8 +32,9 @@ DRAWS = 20
 HOLD_SHARE = 4.0 / 6.0
 """Hold of the envelope / duration, and least D5-95 / duration; the envelope alone has 0.70."""
 
-# Ratio to the target to which the lowest point is scaled: above 1 by more than rounding changes it.
-_ABOVE = 1.0005
+# Ratio to the target to which the lowest point is scaled: above 1 by more than rounding changes it,
+# and by more than a spectrum falls between the points.
+_ABOVE = 1.002
 
 # Minimum length of a seed record / duration: a shorter one says little about a motion.
 _SHORTEST_SHARE = 1.0 / 6.0
@@ -87,10 +87,11 @@ def make_suite(
     """Generate motions of two horizontal components and a vertical component each.
 
     Motion k of a seed is the same for any count. Every component alone satisfies the rows of
-    `solver.records.acceptance` where its target is given and the duration has three cycles: its
-    spectrum is scaled to touch the target at its lowest point of the acceptance. It is drawn again
-    if it departs from its target between the points, correlates with another component
-    (`MOST_CORRELATION`) or has a significant duration shorter than the hold of the envelope.
+    `solver.records.acceptance` where its target is given and the duration has three cycles: it is
+    scaled so that its spectrum touches the target at the lowest point of `GRIDS` grids of 1/6
+    octave. It is drawn again if it departs from its target by more than `GREATEST` or `MEAN_OFF`,
+    correlates with another component (`MOST_CORRELATION`) or has a significant duration shorter
+    than the hold of the envelope.
 
     Records, if given, replace the noise. The phases of a record's strongest part are preserved, and
     with them its pulses and the order of its frequencies. The envelope replaces its level over a
@@ -202,19 +203,17 @@ def _component(
 ) -> tuple[Record, str]:
     """Return a component and the description of its seed."""
     target, frame = wanted.target, wanted.frame
-    goal = goal_mps2(frame, target)
     duration_s = frame.dt_s * (len(frame.envelope) - 1)
     nearest = math.inf, ""
     for draw in range(DRAWS):
         start = grown(seed, rng, len(frame.envelope), draw)
-        a = matched(frame, shaped(frame, start, target, goal), goal)
-        a = rounded(a * _ABOVE / _least_ratio(wanted, a))
+        a = matched(frame, shaped(frame, start, target), target)
+        a = rounded(a * _ABOVE / _fit(wanted, a).least)
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
         alike = any(abs(correlation(record, other)) > MOST_CORRELATION for other in unlike)
         is_strong = strength(record).d5_95_s >= HOLD_SHARE * duration_s
-        fit = spectrum_fit(record, target, band(48, frame.freq_hz[0]))
-        is_above = _least_ratio(wanted, a) >= 1.0
-        if keeps(fit) and is_above and is_strong and not alike:
+        fit = _fit(wanted, a)
+        if keeps(fit) and is_strong and not alike:
             return record, seed.words(draw)
         reached = f"{fit.least:.2f} to {fit.greatest:.2f}"
         nearest = min(nearest, (max(1.0 / fit.least, fit.greatest), reached))
@@ -224,11 +223,10 @@ def _component(
     )
 
 
-def _least_ratio(wanted: _Wanted, a: Floats) -> float:
-    """Smallest ratio to the target at the points of the acceptance that are matched."""
-    matched_points = wanted.frame.freq_hz[0] * (1.0 - 1e-9) <= POINTS_HZ
-    target_g = target_sa_g(wanted.target, POINTS_HZ)
-    return float(ratio_to_target(a, wanted.frame.dt_s, target_g)[matched_points].min())
+def _fit(wanted: _Wanted, a: Floats) -> SpectrumFit:
+    """Compare a component with its target on grids of 1/6 octave that begin anywhere."""
+    record = Record(name="", dt_s=wanted.frame.dt_s, a_mps2=a)
+    return spectrum_fit(record, wanted.target, shifted_grids(float(wanted.frame.freq_hz[0])))
 
 
 def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s: float) -> None:

@@ -25,8 +25,13 @@ BAND_HZ = (0.3, 33.3)
 LONGEST_HZ = 0.1
 """Lowest frequency of the comparison with a target that is given to there."""
 
-LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.06
-"""Accepted ratios to the target, at 1/48 octave over the matched band: smallest, largest, and
+GRIDS = 100
+"""Grids of 1/6 octave, shifted against each other, on all of which a component is accepted."""
+
+_KNEE_HZ = 1.3
+
+LEAST, GREATEST, MEAN_OFF = 1.00, 1.30, 0.06
+"""Accepted ratios to the target on `shifted_grids` over the matched band: smallest, largest, and
 largest difference of the mean from 1.
 """
 
@@ -82,6 +87,15 @@ def band(per_octave: int, low_hz: float) -> Floats:
     high_hz = BAND_HZ[1]
     steps = np.arange(math.floor(per_octave * math.log2(high_hz / low_hz)) + 1)
     return np.append(low_hz * 2.0 ** (steps / per_octave), high_hz)
+
+
+def shifted_grids(low_hz: float) -> Floats:
+    """Frequencies [Hz] of `GRIDS` grids of 1/6 octave, one through 1.3 Hz, up to 33.3 Hz.
+
+    A laboratory may lay its points of 1/6 octave anywhere.
+    """
+    first, last = (6 * GRIDS * math.log2(hz / _KNEE_HZ) for hz in (low_hz, BAND_HZ[1]))
+    return _KNEE_HZ * 2.0 ** (np.arange(math.ceil(first), math.floor(last) + 1) / (6 * GRIDS))
 
 
 def spectrum_fit(record: Record, target: Target, freq_hz: Floats | None = None) -> SpectrumFit:

@@ -133,6 +133,8 @@ def _begun(span: _Interval, t: float, state: Floats) -> tuple[float, Floats, boo
     from scipy.optimize import brentq
 
     left = span.dt - t
+    if span.excess(span.dt) < 0.0 < span.excess(t):  # the block gains no more after that
+        left = float(brentq(span.excess, t, span.dt, rtol=1e-14)) - t
     wanted = BEGINNING * span.gained(t, left)
     h = float(brentq(lambda h: span.gained(t, h) - wanted, 0.0, left, rtol=1e-14, xtol=1e-25))
     x, y, c = span.at(t + h)

@@ -38,7 +38,7 @@ from solver.verification.evidence import (
 )
 from solver.verification.rung_evidence import RungEvidence
 from solver.verification.scenes import own_records
-from solver.verification.shake_table import ShakeTable, compare
+from solver.verification.shake_table import SHIPPED, ShakeTable, compare
 from solver.verification.table_tests import TableTest, table_tests
 from solver.verification.triples import Triple, own_triples, recorded_triples
 
@@ -141,7 +141,7 @@ def verify(
         conditioning=conditioning,
         roofs=roofs,
         rungs=(models,),
-        tables=(compare(tests),) if tests else (),
+        tables=(*SHIPPED, *((compare(tests),) if tests else ())),
         peers=judged,
         records=tuple(record.name for record in chosen),
         quick=quick,

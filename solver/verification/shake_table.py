@@ -105,6 +105,11 @@ class ShakeTable:
         return ShakeTable(runs=tuple(run for run in self.runs if belongs(run.test)))
 
 
+SHIPPED: tuple[ShakeTable, ...] = ()
+"""Tests that come with the program, none as yet: the manual and every package state their status.
+"""
+
+
 def compare(tests: Sequence[TableTest]) -> ShakeTable:
     """Run every test with the simplest adequate model, in the polarity of the table."""
     return ShakeTable(runs=tuple(map(_run, tests)))

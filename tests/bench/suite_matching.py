@@ -23,7 +23,7 @@ from solver.records.record import Record
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis import make_suite, spectrum_fit
-from solver.synthesis.matching import goal_mps2, make_frame, matched, rounded, shaped
+from solver.synthesis.matching import make_frame, matched, rounded, shaped
 from solver.synthesis.seeds import Seed, grown, strongest
 
 S_DS_G = 1.2
@@ -64,8 +64,7 @@ def ours(record: Record) -> Floats:
     part = Seed(name=record.name, a=strongest(record, DT_S, N), own_phases=True)
     start = grown(part, np.random.default_rng(1), N, 0)
     frame = make_frame(target, DT_S, DT_S * (N - 1))
-    goal = goal_mps2(frame, target)
-    return rounded(matched(frame, shaped(frame, start, target, goal), goal))
+    return rounded(matched(frame, shaped(frame, start, target), target))
 
 
 def reqpy(record: Record) -> Floats:

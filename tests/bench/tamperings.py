@@ -1,4 +1,4 @@
-"""Fifty seeded ways to tamper with a package, each by the command: all of them have to be found.
+"""Sixty seeded ways to tamper with a package, each by the command: none may be called the same.
 
 Run from the top: .venv/bin/python tests/bench/tamperings.py [COUNT] [PROJECT ...]
 """
@@ -34,9 +34,9 @@ def main() -> None:
     """Verify each package, then tamper with them in turn, and print what was found."""
     import tampering
 
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 50
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 60
     names = sys.argv[2:] or sorted(p.parent.name for p in ROOT.glob("projects/*/input.xlsx"))
-    kinds = (*tampering.OF_THE_FILE, *tampering.OF_THE_INPUT)
+    kinds = (*tampering.OF_THE_FILE, *tampering.OF_THE_INPUT, *tampering.OF_THE_SOFTWARE)
     missed, codes = [], Counter()
     with tempfile.TemporaryDirectory() as out:
         given = Path(out) / "given.pdf"
@@ -49,7 +49,10 @@ def main() -> None:
             given.write_bytes(kind(packages[name], random.Random(seed)))
             code = verified(given)
             codes[kind.__name__, code] += 1
-            if code not in (2, 3):
+            print(f"{seed:12} {kind.__name__}: exit code {code}", flush=True)
+            # Other versions may draw otherwise: then it is said that this was not compared.
+            may_be_drawn = kind is tampering.drawn_otherwise
+            if code not in ((2, 3, 4) if may_be_drawn else (2, 3)):
                 missed.append((seed, kind.__name__, name, code))
     for (kind_name, code), found in sorted(codes.items()):
         print(f"{kind_name:22} exit code {code}: {found}")

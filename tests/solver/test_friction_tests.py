@@ -68,6 +68,20 @@ def test_a_law_is_averaged_at_the_tested_velocities_and_taken_at_its_largest_wit
     assert unknown.mean_of(falling) == 0.5
 
 
+def test_runs_at_different_velocities_are_no_repeats_of_each_other():
+    runs = [run(0.50, velocity=0.1), run(0.40), run(0.44, velocity=0.02), run(0.42)]
+    more = [run(0.48, velocity=0.1049), run(0.46, velocity=0.0205), run(0.49, velocity=0.1051)]
+    (tested,) = series([*runs, *more])
+    found = [[one.mu for one in group.runs] for group in tested.repeats]
+    assert found == [[0.44, 0.46], [0.50, 0.48], [0.49], [0.40, 0.42]]
+    assert tested.repeats[0].velocity_mps == 0.0205
+    assert math.isnan(tested.repeats[-1].velocity_mps)
+    assert tested.velocity_mps == 0.1051
+    assert tested.least_mu == pytest.approx(0.41, abs=1e-15)
+    (still,) = series([run(0.5, velocity=0.0), run(0.6, velocity=0.0)])
+    assert (len(still.repeats), still.least_mu) == (1, pytest.approx(0.55, abs=1e-15))
+
+
 @pytest.mark.parametrize("mu_fast", [0.52, 0.31])
 @pytest.mark.parametrize("rate", [3.0, 20.0, 400.0])
 def test_runs_on_a_law_give_that_law(mu_fast, rate):

@@ -41,7 +41,13 @@ from report.sheet.schema.choices import (
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
-from report.sheet.schema.project import Project, Revision, Site, edition_of
+from report.sheet.schema.project import (
+    Project,
+    Revision,
+    Site,
+    edition_of,
+    site_class_or_default,
+)
 from report.sheet.schema.roof import Roof
 from report.sheet.schema.scene import (
     ROOF,
@@ -108,6 +114,7 @@ __all__ = [
     "factors",
     "provision_name",
     "provision_unit",
+    "site_class_or_default",
     "slope_rad",
 ]
 
@@ -136,6 +143,11 @@ def _provision_key(text: str) -> str:
     """Return the key of a provision given by its name, its key or an earlier key."""
     name = " ".join(text.partition(" [")[0].split()).casefold()
     return PROVISIONS.get(text, _KEYS_BY_NAME.get(name, text))
+
+
+def _unit_of_named(text: str) -> str:
+    key = _provision_key(text)
+    return provision_unit(key) if key in PROVISION_KEYS else ""
 
 
 def factors(text: str) -> tuple[float, ...]:
@@ -241,7 +253,15 @@ class Override(Frozen):
             provision_name("parapet_height_in"),
         ),
     ]
-    value: Annotated[float, Cell("Value", "In the unit stated on the sheet Provisions.", 18.0)]
+    value: Annotated[
+        float,
+        Cell(
+            "Value",
+            "In the unit stated on the sheet Provisions.",
+            18.0,
+            unit_from=("provision", _unit_of_named),
+        ),
+    ]
     reason: Annotated[
         RequiredText,
         Cell(

@@ -84,6 +84,7 @@ class MotionInput(Frozen):
             "The factor, or the PPA in g; blank for other types of scaling.",
             1.0,
             usual=(0.2, 5.0),
+            unit_from=("scaling", lambda text: "g" if text == Scaling.PPA else ""),
         ),
     ] = None
     polarity: Annotated[

@@ -203,17 +203,28 @@ class Site(Frozen):
         Cell(
             "Hazard basis",
             "Site class D with S_1 of 0.2 g or more needs a site-specific analysis or the"
-            " exception of ASCE 7-16 11.4.8.",
+            " exception of ASCE 7-16 11.4.8. Values below those of its tables need one.",
             "mapped values",
         ),
     ] = HazardBasis.MAPPED
     hazard_source: Annotated[
-        Text, Cell("Source of hazard", "Tool or report.", "ASCE 7 Hazard Tool")
+        Text,
+        Cell(
+            "Source of hazard",
+            "Tool, or author of the report on a site-specific analysis.",
+            "ASCE 7 Hazard Tool",
+        ),
     ] = ""
     hazard_date: Annotated[
         dt.date | None,
-        Cell("Date of hazard", "When the values were read.", dt.date(2026, 2, 20)),
+        Cell(
+            "Date of hazard", "When the values were read, or of the report.", dt.date(2026, 2, 20)
+        ),
     ] = None
+    hazard_report: Annotated[
+        Text,
+        Cell("Report number of hazard", "Of the report on a site-specific analysis.", "GE-2026-41"),
+    ] = ""
     force_factor: Annotated[
         Annotated[float, Field(gt=0, le=5)] | None,
         Cell(
@@ -267,6 +278,27 @@ class Site(Frozen):
         return self.parameters.s_d1
 
     @property
+    def assumed_class(self) -> SiteClass:
+        """The site class, D by default where none is given."""
+        return site_class_or_default(self.site_class)
+
+    @property
+    def sdc_lacks(self) -> tuple[str, ...]:
+        """What the SDC is not compared with, because it is not given."""
+        values = (("S_1", self.s_1_g), ("S_D1", self.s_d1))
+        return tuple(symbol for symbol, value in values if value is None)
+
+    @property
+    def sdc_mark(self) -> str:
+        """What follows a printed SDC without S_1 and S_D1, on which it depends too."""
+        return " (not confirmed)" if self.sdc_lacks else ""
+
+    @property
+    def sdc_text(self) -> str:
+        """The SDC for print."""
+        return f"{self.sdc}{self.sdc_mark}"
+
+    @property
     def z_over_h(self) -> float:
         """Relative height of the roof that supports the array."""
         return self.roof_height_m / self.structure_height_m
@@ -275,3 +307,8 @@ class Site(Frozen):
 def edition_of(rule_set: RuleSetName, name: EditionName | None) -> Edition:
     """Return the edition of the seismic parameters: as given, or else that of the rule set."""
     return EDITIONS[RULE_SETS[rule_set].edition if name is None else name]
+
+
+def site_class_or_default(given: SiteClass | None) -> SiteClass:
+    """Return a site class, D by default where none is given."""
+    return SiteClass.D_DEFAULT if given is None else given

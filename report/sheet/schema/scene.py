@@ -91,7 +91,13 @@ class Array(Placed):
 
     id: Annotated[Id, Cell("ID", "Short and unique, such as A1.", "A1")]
     slope_value: Annotated[
-        NotNegative, Cell("Slope", "Slope of the roof under the array, 0 to less than 45 deg.", 2.0)
+        NotNegative,
+        Cell(
+            "Slope",
+            "Slope of the roof under the array, 0 to less than 45 deg.",
+            2.0,
+            unit_from=("slope_unit", str),
+        ),
     ]
     slope_unit: Annotated[SlopeUnit, Cell("Slope unit", "Unit of the slope.", "degrees")]
     mu: Annotated[

@@ -7,7 +7,7 @@ import { fromFragment, toFragment } from "./link.js";
 import { html, replace } from "./make.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
-import { showArrays, showClearances, showNoVerdict, showProvisional, showVerdict } from "./results.js";
+import { showArrays, showClearances, showNoVerdict, showProvisional, showVerdict, withoutVerdicts } from "./results.js";
 import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
@@ -19,6 +19,7 @@ const ALONE =
   "The workbook came alone. Drop its folder on this page, or a zip of it, so that its records come with it. A cell below that names a record has no error of its own.";
 const CORRECT =
   "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
+const FORMER = "The values below are those before the change.";
 
 const part = (id) => document.getElementById(id);
 const announce = (sentence) => {
@@ -138,13 +139,18 @@ function show({ phase, answer: next }) {
   document.body.dataset.phase = phase;
   if (next) {
     hideError();
-    showAnswer(next);
+    showAnswer(next, phase === "rest" ? "final" : "provisional");
+  } else if (answer?.verdict) {
+    announce("");
+    showAnswer(withoutVerdicts(answer), "former");
   }
   if (phase === "rest") showRest();
   else showMoving(phase, next);
 }
 
-function showAnswer(next) {
+// What the values shown are: final, provisional, or former, which are not of what is asked now.
+function showAnswer(next, values) {
+  document.body.dataset.values = values;
   answer = next;
   controls.follow(answer.shown);
   plan.show(answer);
@@ -155,14 +161,16 @@ function showAnswer(next) {
 function showPicked() {
   const array = answer.arrays.find(({ id }) => id === chosen.array);
   showArrays(part("arrays"), answer.arrays, chosen.array, (id) => choose({ array: id }));
-  showBars(part("bars"), array, answer.scale_m);
+  if (array) showBars(part("bars"), array, answer.scale_m); // not of a project that was open before
 }
 
 function showMoving(phase, next) {
+  const isFormer = document.body.dataset.values === "former";
   views.moving();
   takeaway.compare();
-  if (phase === "settling") showProvisional(part("verdict"), "The full model is running.", "The values below are not final.");
+  if (phase === "settling") showProvisional(part("verdict"), "The full model is running.", isFormer ? FORMER : "The values below are not final.");
   else if (next) showProvisional(part("verdict"), "Values while a slider moves; no verdict.", next.model_text);
+  else if (isFormer) showProvisional(part("verdict"), "The values are being computed; no verdict.", FORMER);
 }
 
 function showRest() {
@@ -198,7 +206,7 @@ function failAnswer(error, moving) {
   const reasons = (error.problems ?? []).map(({ text }) => text);
   const isRefused = reasons.length > 0;
   if (moving && !isRefused) return; // the full model is asked next, and tells
-  document.body.dataset.phase = "failed";
+  Object.assign(document.body.dataset, { phase: "failed", values: "former" });
   const unanswered = isUnreached(error) ? "the server does not answer" : "the server gave no answer";
   showNoVerdict(part("verdict"), isRefused ? "these values have no answer" : unanswered, reasons);
   if (isRefused) announce(`No verdict. ${error.message}`);

@@ -9,6 +9,15 @@ export function tag(verdict) {
   return html("strong", { class: looks[verdict] ?? "tag" }, verdict);
 }
 
+/** Return an answer whose values stay while others are computed: no verdict of it does. */
+export function withoutVerdicts({ plan, arrays, clearances, ...rest }) {
+  return { ...rest, verdict: null, arrays: arrays.map(without), clearances: clearances.map(without), plan: { ...plan, gaps: plan.gaps.map(without) } };
+}
+
+function without(row) {
+  return { ...row, verdict: null };
+}
+
 /** Show the verdict of a full answer. */
 export function showVerdict(element, { verdict, verdict_text: text, reasons, model_text: model }) {
   replace(

@@ -160,7 +160,14 @@ def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
     assert not done.verdict.is_permitted
     _, still = assessed("0.29, 0.50", 0.01, mu=0.3, shaking=shaking)
     assert (still.linked.value_m, still.ratio) == (0.0, 1.0)
-    assert still.is_rigid_enough
+    assert still.is_within
+
+
+def test_one_rigid_block_is_not_adequate_for_a_displacement_that_is_not_permitted():
+    """Nothing moves under motions that do not qualify, as one block or as a row."""
+    (item,) = stand_in.unpermitted(links=[stand_in.links("A1", "0.3, 0.3", 50)]).linked
+    assert (item.is_within, item.is_final) == (True, True)
+    assert not item.is_rigid_enough
 
 
 def test_uplift_withholds_the_row_as_well():

@@ -145,6 +145,14 @@ def test_one_component_has_no_angles_and_no_vertical_to_reverse():
     assert (found.surface.mean_m > 0).all()
 
 
+def test_a_clearance_without_a_permitted_route_has_no_margin():
+    first, second, across, own = certainty(stand_in.unpermitted()).margins
+    for margin in (first, second, across):  # the second and third are of one clearance
+        assert math.isnan(margin.least_mu)
+    assert own.array.id == "A2"
+    assert own.least_mu == 0.40  # below it the route is not permitted
+
+
 def test_without_clearances_there_are_no_margins():
     assert certainty(made(clearances=[])).margins == ()
 

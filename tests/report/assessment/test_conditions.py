@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 import stand_in
+from report.assessment.hazard_rows import hazard_rows
 from report.assessment.verdict import Verdict, worst
 from solver.records.acceptance_row import Consequence
 
@@ -51,6 +52,102 @@ def test_a_peer_review_without_name_license_and_date_is_a_condition(missing):
 def test_site_class_d_with_a_large_s_1_asks_for_a_hazard_analysis(hazard, satisfied):
     assert row(assessed(site=site(hazard=hazard)), "site_specific_hazard").is_satisfied is satisfied
     assert row(assessed(site=site(site_class="C")), "site_specific_hazard") is None
+
+
+SOURCED = {"hazard_source": "ASCE 7 Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
+BLANK = dict.fromkeys(("s_s_g", "s_1_g", "f_a", "f_v", "s_ms_g", "s_m1_g", "s_d1_g", "site_class"))
+
+
+def conditions(**changes):
+    """Ids of the open requirements on the hazard."""
+    keys = ("hazard_source", "sdc", "site_class", "site_specific_hazard")
+    found = hazard_rows(stand_in.project(site=site(**changes)))
+    assert {item.consequence for item in found} == {Consequence.CONDITION}
+    return [key for key in keys for item in found if item.id == key and not item.is_satisfied]
+
+
+@pytest.mark.parametrize("missing", [None, *SOURCED])
+def test_a_hazard_without_source_or_date_is_a_condition(missing):
+    given = {name: value for name, value in SOURCED.items() if name != missing}
+    assert conditions(site_class="C", **given) == (["hazard_source"] if missing else [])
+
+
+def test_s_ds_alone_is_ok_with_conditions_at_most():
+    alone = conditions(**BLANK | {"s_ds_g": 1.0})
+    assert alone == ["hazard_source", "sdc", "site_class", "site_specific_hazard"]
+    assert conditions(**BLANK | SOURCED | {"s_ds_g": 1.0, "site_class": "C"}) == ["sdc"]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({}, "S_1 and S_D1 not given: SDC D is not confirmed"),
+        ({"s_1_g": 0.5}, "S_D1 not given: SDC D is not confirmed"),
+        ({"s_d1_g": 0.5}, "S_1 not given: SDC D is not confirmed"),
+        ({"s_1_g": 0.5, "s_m1_g": 0.9}, "S_1 = 0.500 g, S_D1 = 0.600 g"),
+        ({"s_1_g": 0.5, "f_v": 1.8}, "S_1 = 0.500 g, S_D1 = 0.600 g"),
+    ],
+)
+def test_the_sdc_is_confirmed_by_s_1_and_s_d1_only(given, words):
+    data = stand_in.project(site=site(**BLANK | given | {"s_ds_g": 1.0}))
+    (found,) = (item for item in hazard_rows(data) if item.id == "sdc")
+    assert found.found == words
+    assert found.is_satisfied is ("not" not in words)
+    assert data.site.sdc_text == ("D" if found.is_satisfied else "D (not confirmed)")
+
+
+@pytest.mark.parametrize("site_class", [None, "D (default)"])
+def test_site_class_d_by_default_says_11_4_8(site_class):
+    found = hazard_rows(stand_in.project(site=site(site_class=site_class)))
+    (by_default,) = (item for item in found if item.id == "site_class")
+    assert not by_default.is_satisfied
+    assert "F_a is then at least 1.2" in by_default.remedy
+    assert "ASCE 7-16 11.4.8" in by_default.remedy
+    (asked,) = (item for item in found if item.id == "site_specific_hazard")
+    assert asked.title == "Hazard analysis for site class D by default with S_1 = 0.7 g"
+    assert conditions(site_class=site_class, s_1_g=0.1, **SOURCED) == ["site_class"]
+    studied = {"hazard": "site-specific analysis", "hazard_report": "GE-12", **SOURCED}
+    assert conditions(site_class=site_class, **studied) == []
+
+
+def test_a_site_class_is_asked_for_with_any_edition():
+    given = BLANK | SOURCED | {"s_ms_g": 1.5, "s_1_g": 0.5, "s_m1_g": 0.6}
+    given |= {"s_ds_g": None, "edition_name": "ASCE 7-22"}
+    assert conditions(**given) == ["site_class"]
+    (found,) = (
+        item
+        for item in hazard_rows(stand_in.project(site=site(**given)))
+        if item.id == "site_class"
+    )
+    assert "11.4.8" not in found.remedy
+
+
+@pytest.mark.parametrize(
+    ("given", "asked"),
+    [
+        ({"site_class": "D", "s_1_g": None}, "site class D, S_1 not given"),
+        ({"site_class": "E", "s_s_g": 0.9, "s_1_g": 0.05}, "site class E with S_S = 0.9 g"),
+        ({"site_class": "E", "s_s_g": 0.5, "s_1_g": 0.15}, "site class E with S_1 = 0.15 g"),
+        ({"site_class": "E", "s_s_g": None, "s_1_g": 0.05}, "site class E, S_S not given"),
+        ({"site_class": "E", "s_s_g": 0.5, "s_1_g": 0.05}, ""),
+        ({"site_class": "D", "s_1_g": 0.1}, ""),
+    ],
+)
+def test_what_11_4_8_asks_for_is_said_also_where_it_cannot_be_told(given, asked):
+    rows = hazard_rows(stand_in.project(site=site(**given)))
+    found = [item.title for item in rows if item.id == "site_specific_hazard"]
+    assert found == ([f"Hazard analysis for {asked}"] if asked else [])
+
+
+@pytest.mark.parametrize("missing", [None, "hazard_report", *SOURCED])
+def test_a_site_specific_analysis_without_its_report_is_a_condition(missing):
+    stated = {"hazard_report": "GE-12", **SOURCED}
+    given = {name: value for name, value in stated.items() if name != missing}
+    data = stand_in.project(site=site(hazard="site-specific analysis", **given))
+    (found,) = (item for item in hazard_rows(data) if item.id == "hazard_source")
+    assert found.title == "Report on the site-specific hazard analysis"
+    assert found.is_satisfied is (missing is None)
+    assert found.verdict is (Verdict.CONDITIONS if missing else Verdict.OK)
 
 
 def test_fire_lanes_limit_an_array_to_150_feet():
@@ -144,6 +241,19 @@ def test_a_value_from_analysis_that_is_not_permitted_is_named_so():
     found = row(done, "motions")
     assert found.verdict is Verdict.NG
     assert "the value from analysis is not permitted" in found.remedy
+
+
+def test_no_slack_and_no_gap_of_the_plan_is_enough_for_a_displacement_that_is_not_permitted():
+    done = stand_in.unpermitted(clearances=[])
+    found = row(done, "electrical_slack")
+    assert (found.subject, found.verdict) == ("A1", Verdict.NG)
+    near = next(item for item in done.rows if item.title == "Clearance A1 to RTU-1")
+    assert near.verdict is Verdict.NG
+    for item in (found, near):
+        assert item.limit == "unknown without a permitted design displacement"
+    reach = "or the prescriptive one where none is permitted (163.1 in (4144 mm))"
+    assert reach in near.remedy
+    assert not any(item.title.startswith("Clearance A2 to S") for item in done.rows)
 
 
 def test_a_route_that_five_percent_less_friction_closes_is_a_condition():

@@ -119,3 +119,11 @@ def test_the_envelope_of_an_outline_is_as_far_away_as_it_moves_everywhere(done, 
     # Five corners round off; in the notch two strips of the width of the move overlap.
     exact = 64.0 + 40.0 * design_m + (5.0 * math.pi / 4.0 - 1.0) * design_m**2
     assert exact <= outline.area_m2 <= exact * 1.01
+
+
+def test_a_displacement_that_is_not_permitted_keeps_nothing_clear():
+    done = stand_in.unpermitted()
+    first, second = done.arrays
+    assert design_envelope(first) == ()
+    assert math.isnan(keep_clear_m(done, first))
+    assert keep_clear_m(done, second) == second.design_m

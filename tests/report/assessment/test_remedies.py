@@ -51,6 +51,13 @@ def peaks_m(array, motions, mu, share=1.0):
     ]
 
 
+def test_nothing_is_tried_for_a_clearance_without_a_permitted_route():
+    narrow = [stand_in.clearance("A1", "RTU-1", stand_in.FOOT)]
+    done = stand_in.unpermitted(options={}, clearances=narrow)
+    assert done.arrays[0].design_m == done.arrays[0].floor_m > stand_in.FOOT
+    assert remedies(done) == ()
+
+
 def test_a_walk_returns_every_value_before_the_first_failure():
     assert reach(lambda k: k >= 23, 150, 11)[-1] == 23
     assert reach(lambda k: k <= 44, 5, 99)[-1] == 44

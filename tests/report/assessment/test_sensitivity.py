@@ -206,7 +206,7 @@ def test_a_block_that_lifts_off_has_no_error_and_no_sensitivity():
     _, scene, evidence = made(shaking=(*stand_in.motions(3, seconds=4.0), lifted))
     page = accuracy_page.page(scene, evidence)
     assert "lifts off the roof" in page["method"]
-    assert "no design displacement" in words(page)
+    assert "no permitted design displacement" in words(page)
     assert not re.search(r"\bnan\b", words(page))
     assert math.isnan(evidence.rivals.doubled)
 

@@ -89,7 +89,7 @@ def test_new_example_writes_the_example_of_the_projects(tmp_path, monkeypatch):
         parts = [part for part in one.namelist() if part.endswith(".xml")]
         for part in set(parts) - {"docProps/core.xml"}:
             assert one.read(part) == other.read(part), part
-    assert "no problems found" in run("check", made).output
+    assert "no errors, 1 warning" in run("check", made).output
 
 
 def test_new_example_overwrites_no_records(tmp_path):
@@ -112,10 +112,12 @@ def test_new_writes_a_workbook_and_never_overwrites_one(tmp_path):
     assert (tmp_path / "job" / "input.xlsx").read_bytes() == before
 
 
-def test_check_finds_nothing_wrong_with_the_example():
+def test_check_finds_no_error_in_the_example_but_friction_tests_without_repeats():
     done = run("check", EXAMPLE)
     assert done.exit_code == 0
-    assert "no problems found. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in done.output
+    counts = "no errors, 1 warning. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g"
+    assert counts in done.output
+    assert "three runs at each velocity" in done.output
 
 
 def test_check_of_a_blank_workbook_names_every_cell_and_exits_2(tmp_path):
@@ -172,7 +174,7 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
         in done.output
     )
     (line,) = (text for text in done.output.splitlines() if text.startswith("A2 "))
-    assert line.endswith("NG: limits on the motions and 1 more")
+    assert line.endswith("NG: limits on the motions and 5 more")  # the block, four clearances
     results = json.loads((tmp_path / "out" / "results.json").read_text())
     assert results["verdict"] == "NG"
     assert results["linked"][0]["rigid_is_enough"] is False

@@ -25,9 +25,9 @@ from report.cli.terminal import Progress
 from report.figures import work
 from report.manual import blocks
 from report.manual.sections import sections
-from report.manual.shake_table import NOT_VALIDATED
 from report.typeset.pdf import lay_out
 from report.words.letters import lettered
+from report.words.validation import NOT_VALIDATED
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import PeerPoint

@@ -115,7 +115,7 @@ def test_each_kind_has_its_layer(done):
     document = read(write_dxf(plan_drawing(done)))
     assert {layer.title for layer in Layer} <= {layer.dxf.name for layer in document.layers}
     used = {entity.dxf.layer for entity in document.modelspace()}
-    assert used == {layer.title for layer in Layer}
+    assert used == {layer.title for layer in Layer} - {Layer.CLEARANCE_NONE.title}
 
 
 def test_a_clearance_that_is_not_satisfied_is_on_a_layer_of_its_own(done):
@@ -146,3 +146,19 @@ def test_a_gap_short_by_less_than_a_digit_does_not_read_as_enough():
     provided, required = re.findall(r"(?:provided|required) ([\d.]+) in", line.words)
     assert float(required) > float(provided)
     assert line.words.endswith("NG")
+
+
+def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_clear():
+    plan = plan_drawing(stand_in.unpermitted())
+    said = [text.words for text in plan.texts]
+    assert said.count("design displacement: not permitted") == 1
+    assert sum("keep clear" in words for words in said) == 1  # of A2
+    (first, *_) = [words for words in said if words.startswith("1: ")]
+    assert first == "1: provided 84.0 in (2134 mm), required no value, no verdict"
+    layers = {line.name: line.layer for line in plan.lines if line.layer.title.startswith("CLEAR")}
+    assert layers == {
+        "A1 to RTU-1": Layer.CLEARANCE_NONE,
+        "A2 to A1": Layer.CLEARANCE_NONE,
+        "A2 to S edge": Layer.CLEARANCE,
+    }
+    assert [line.name for line in plan.lines if line.layer is Layer.DESIGN] == ["A2"]

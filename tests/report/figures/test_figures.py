@@ -113,3 +113,10 @@ def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
     printed = words(figures.comparison(assessment.arrays, us_first))
     assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in printed
     assert f"[{'mm' if us_first else 'in'}]" in printed
+
+
+def test_a_clearance_without_a_permitted_route_is_drawn_without_a_verdict():
+    done = stand_in.unpermitted()
+    found = words(figures.clearances(done.clearances, True))
+    assert [text for text in found if text in ("OK", "NG", "none")] == ["none", "none", "OK"]
+    assert "none" in words(figures.comparison(done.arrays, True))

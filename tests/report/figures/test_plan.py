@@ -234,6 +234,20 @@ def test_without_a_design_displacement_the_plan_says_so(done):
     assert not any("keep clear 4" in text for text in found)
 
 
+@pytest.mark.parametrize("size", SIZES)
+def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_clear(size):
+    found = words(roof_plan(stand_in.unpermitted(), size))
+    assert "Δ 0.0 in (0 mm)" not in found
+    assert not any("keep clear 0" in text.lower() for text in found)
+    assert not {"OK", "NG"} & set(found)
+    if size.is_full:
+        assert "Δ not permitted" in found
+        assert found.count("required no value") == 2
+        notes = " ".join(found)
+        assert "Keep clear: no value for A1." in notes
+        assert "no route to a design displacement is permitted: clearance 1, 2." in notes
+
+
 def test_the_plan_does_without_objects_drawn():
     data = stand_in.project(
         objects=[{"id": "RTU-1", "kind": "fixed object"}],

@@ -63,6 +63,28 @@ PASTED = "Motions!C9: horizontal record:"
 
 
 @pytest.mark.parametrize(
+    ("cell", "code", "line"),
+    [
+        ("B6", '0.0" m/s²"', "Pasted!B6 is 0.1, shown in m/s² by its number format"),
+        ("A6", '0.00" ms"', "Pasted!A6 is 0.02, shown in ms by its number format"),
+    ],
+)
+def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
+    cells = timed([0.01 * i for i in range(104)], "t [s]")
+    path = edit(paste(cells), lambda book: setattr(book["Pasted"][cell], "number_format", code))
+    assert problems(path)[0].startswith(f"{PASTED} {line}")
+
+
+def test_a_pasted_column_may_be_shown_with_its_units(paste):
+    def change(book):
+        for row in range(4, 108):
+            book["Pasted"][f"A{row}"].number_format = '0.00" s"'
+            book["Pasted"][f"B{row}"].number_format = '0.0000" g"'
+
+    read_workbook(edit(paste(timed([0.01 * i for i in range(104)], "t [s]")), change))
+
+
+@pytest.mark.parametrize(
     ("cells", "lines"),
     [
         (pasted([0.1, "abc", 0.2]), [f"{PASTED} Pasted!B5 is 'abc'; give a number"]),

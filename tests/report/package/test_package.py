@@ -226,14 +226,14 @@ def test_motions_without_a_vertical_component_are_counted(crowded):
     assert "0 of 3 a vertical component" in flat(" ".join(crowded))
 
 
-def test_too_few_motions_give_no_value_and_ng(said):
+def test_too_few_motions_give_no_value_and_no_verdict_on_clearances(said):
     whole = said(stand_in.steep(), few(2))
     summary = whole[whole.index("1 Summary Marked") if "1 Summary Marked" in whole else 0 :]
     for name in ("A1", "A2", "A3"):
         row = re.search(rf"{name} \d\.\d\d 0\.\d\d (none .*?) (OK|NG) none NG", summary)
         assert row, name
         assert row[1] == "none none 81.6 2072 none none none"
-    assert "5 of 5 clearances" in whole
+    assert "without a verdict: 5 of 5 clearances" in whole
     assert "too few motions" in whole
     assert not re.search(r"\bnan\b", whole, re.IGNORECASE)
 

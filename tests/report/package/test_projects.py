@@ -95,8 +95,33 @@ def example(tmp_path_factory):
     return made(packages.reported(tmp_path_factory, "example", by_script=True))
 
 
-def test_the_example_has_at_most_28_sheets(example):
-    assert len(example.pages) <= 28
+def test_the_example_has_at_most_29_sheets(example):
+    assert len(example.pages) <= 29
+
+
+def test_the_friction_of_the_example_is_said_as_it_was_run_wherever_it_is_said(example):
+    law = "0.40 to 0.50, by velocity"
+    assert f"A3: μ {law}; design displacement" in example.pages[0]
+    letter = next(page for page in example.pages if page.startswith("Letter of results"))
+    assert f"A3 {law}" in letter
+    for part in ("1 Summary", "2 Roof plan", "9 Clearances"):
+        assert law in example.part(part), part
+    assert "μ 0.40 " not in example.whole.replace(f"μ {law}", "")
+
+
+def test_the_example_has_the_conditions_that_its_friction_tests_leave(example):
+    conditions = {
+        (row["subject"], row["title"])
+        for row in example.results["requirements"]
+        if row["verdict"] == "OK with conditions"
+    }
+    beyond = "Friction beyond the velocities tested"
+    repeats = "Wet and dry, three runs at each velocity"
+    assert conditions == {("", repeats), ("A1", beyond), ("A2", beyond), ("A3", beyond)}
+    assert example.results["verdict"] == "OK with conditions"
+    inputs = example.part("4 Inputs")
+    assert "entered, at or below the tests from 0.10 in/s (2.5 mm/s) to 4.00 in/s" in inputs
+    assert "Array A3 with μ = 0.40 at every velocity, all motions rerun" in inputs
 
 
 @pytest.mark.parametrize("name", ["example", "school", "conditions"])
@@ -249,14 +274,14 @@ def test_the_school_says_in_words_where_its_motions_exceed_their_targets(school)
 
 
 def test_the_school_prints_si_units_first(school):
-    assert "289 mm (11.4 in)" in school.part("1 Summary")
+    assert "304 mm (12.0 in)" in school.part("1 Summary")
     assert not re.search(r"\d in \(\d+ mm\)", school.whole)
 
 
 def test_the_schools_friction_is_as_tested(school):
     inputs = school.part("4 Inputs")
     assert "Kinetic mean 0.550 dry (3 runs), 0.500 wet (3 runs)" in inputs
-    assert "Array A1: μ = 0.500, equal to the tested mean 0.500 (wet)" in inputs
+    assert "Arrays A1, A2: μ = 0.500, equal to the tested mean 0.500 (wet); entered, at" in inputs
 
 
 # The incomplete warehouse.
@@ -282,7 +307,7 @@ def test_the_warehouse_is_ng_in_the_same_word_everywhere(conditions):
         "Friction test report on file: not given; required: laboratory, report number, date. "
         "Obtain the friction test report",
         "Tested to ASTM G115: standard not given; accreditation not given",
-        "Wet and dry, three runs each: no runs",
+        "Wet and dry, three runs at each velocity: no runs",
         "two horizontal and the vertical together: 1 (RM1, no y and no z); required: ≥ 3. The "
         "design displacements are prescriptive; the analysis is for information.",
         "array A1, Largest plan dimension between fire lanes: 160.00 ft (48.77 m); required: ≤ "
@@ -344,7 +369,7 @@ def test_the_row_on_components_is_ng_in_the_part_on_motions(conditions):
 def test_the_inputs_say_that_no_friction_test_is_given(conditions):
     inputs = conditions.part("4 Inputs")
     assert "The workbook gives no runs of friction tests" in inputs
-    assert re.search(r"A1 1\.19 2\.1 270 0\.500 not given Ballasted tray", inputs)
+    assert re.search(r"A1 1\.19 2\.1 270 0\.50 not given Ballasted tray", inputs)
 
 
 def test_the_clearance_that_fails_says_what_would_do(conditions):

@@ -8,8 +8,10 @@ from report.pages import appendix
 from report.sheet.read import EchoRow
 
 
-def row(cell, label, typed="", value="—", unit=""):
-    return EchoRow(sheet="S", cell=cell, label=label, typed=typed, unit=unit, value=value)
+def row(cell, label, typed="", value="—", unit="", unseen=""):
+    return EchoRow(
+        sheet="S", cell=cell, label=label, typed=typed, unit=unit, value=value, unseen=unseen
+    )
 
 
 def table(*rows):
@@ -27,6 +29,29 @@ def test_single_cells_stand_in_two_columns_with_their_units():
     assert [line.cells for line in made.rows] == [
         ("B5", "S_S", "1.9575 g", "B7", "Site class", "C"),
         ("B6", "S_1", "0.7 g", "", "", ""),
+    ]
+
+
+def test_a_cell_that_the_workbook_does_not_show_is_marked_with_how():
+    made = table(
+        row("B5", "S_S", "1.5", "1.5 g", "g", unseen="hidden"),
+        row("B6", "S_1", "=B5/2 → 0.75", "0.75 g", "g", unseen="hidden, struck through"),
+    )
+    (cells,) = [line.cells for line in made.rows]
+    assert cells[2] == "1.5 g (hidden)"
+    assert cells[5] == "=B5/2 → 0.75 g: 0.75 g (hidden, struck through)"
+
+
+def test_a_column_of_which_one_cell_is_hidden_is_printed_row_by_row():
+    made = table(
+        row("B8", "ID", "A1", "A1"),
+        row("C8", "Slack", "60", "1.524 m", "in"),
+        row("B9", "ID", "A2", "A2", unseen="filtered out"),
+        row("C9", "Slack", "60", "1.524 m", "in", unseen="filtered out"),
+    )
+    assert [line.cells for line in made.rows] == [
+        ("8", "A1", "60"),
+        ("9", "A2 (filtered out)", "60 (filtered out)"),
     ]
 
 

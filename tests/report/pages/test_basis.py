@@ -8,6 +8,8 @@ import stand_in
 from report.assessment.certainty import certainty
 from report.pages.front import basis
 from report.pages.registry import package_data
+from report.words.validation import explained
+from solver.verification.shake_table import SHIPPED
 
 MOTIONS = stand_in.motions(3, seconds=6.0)
 
@@ -42,3 +44,12 @@ def test_the_reason_of_a_motion_of_one_component_names_no_other():
     (array,) = stand_in.assess_input(data, [bare]).arrays
     reasons = {run.solution.reason for run in array.motions[0].runs}
     assert reasons == {"the motion has no other component"}
+
+
+def test_the_page_states_the_validation_of_the_tests_that_come_with_the_program():
+    page = said(MOTIONS)
+    assert page["validation"] == explained(SHIPPED)
+    assert (
+        "has not been validated against shake-table tests of ballasted arrays"
+        in (page["validation"])
+    )

@@ -52,7 +52,8 @@ def test_the_cover_has_verdict_and_governing_numbers(usual):
     rows = block(usual)
     gaps = usual.assessment.clearances
     assert rows["Verdict"].startswith("NG Marked NG: ")
-    assert rows["Governing array"].startswith(f"{usual.governing.id}: design displacement 40.8 in")
+    governing = rows["Governing array"]
+    assert governing.startswith(f"{usual.governing.id}: μ 0.45; design displacement 40.8 in")
     worst = max(gaps, key=lambda gap: gap.required_m / gap.clearance.provided_m)
     assert worst.clearance.object == "S edge"  # 1.5 x 40.8 in beside 60 in
     assert rows["Governing clearance"] == "A2 to S edge: D/C 1.02"
@@ -84,7 +85,7 @@ def test_a_project_without_clearances_or_value_names_neither():
     assert "design displacement none" in rows["Governing array"]
     page = letter(made)
     assert "The workbook lists no clearances; none is checked." in page["texts"]
-    assert any("without a design displacement is NG" in text for text in page["texts"])
+    assert any("without a permitted design displacement is NG" in text for text in page["texts"])
 
 
 def test_lines_for_the_license_are_on_cover_and_letter(html):

@@ -128,11 +128,21 @@ def test_a_row_that_slides_where_one_block_does_not_has_no_limit():
         arrays=[stand_in.array("A1", 2.0, mu=0.3)],
     )
     page = model.page(package)["links"]
-    assert texts(page["design"].rows[0])[5:] == ["∞", "0.0", "0", "∞", "∞", "NG"]
+    assert texts(page["design"].rows[0])[5:] == ["∞", "none", "none", "∞", "∞", "NG"]
     assert page["lines"][1].steps[0][1] == "no limit"
-    assert "in one axis, one rigid block does not slide" in page["troubles"][0]
+    assert "in one axis, one rigid block does not slide" in page["troubles"][1]
 
 
 def test_only_stiffer_links_help_where_the_array_has_the_least_coefficient_already(both):
     linked = both.assessment.linked[1]
     assert links._remedy(linked) == "Provide stiffer links."
+
+
+def test_without_a_permitted_displacement_one_rigid_block_is_not_called_adequate():
+    done = stand_in.unpermitted(links=[stand_in.links("A1", "0.3, 0.3", 50)])
+    page = model.page(package_data(done))["links"]
+    assert texts(page["design"].rows[0])[-1] == "NG"
+    assert page["troubles"] == (
+        "Array A1: there is no permitted design displacement to compare a row of linked blocks "
+        "with.",
+    )

@@ -143,8 +143,8 @@ def test_the_eight_combinations_and_the_governing_one_are_named(usual):
     for array, text in zip(usual.assessment.arrays, page["sentences"][:3], strict=True):
         worst = array.worst
         assert f"{worst.motion.id}, {worst.governing.heading.name}, with PRD" in text
-    tested = "0.500 at low velocity, 0.600 at high velocity, rate 10.0 s/m, 0.550 at rest"
-    assert tested in page["sentences"][2]
+    friction = "Friction: 0.50 to 0.60, by velocity, 0.55 at rest (rate 10.0 s/m); entered; no runs"
+    assert friction in page["sentences"][2]
     assert "not a bound" in page["sentences"][3]
     assert page["sentences"][3].startswith("Array A3: the friction decreases at the onset")
     assert sum("not a bound" in text for text in page["sentences"]) == 1

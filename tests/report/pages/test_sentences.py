@@ -15,8 +15,7 @@ from report.assessment.sensitivity import accuracy
 from report.drawing.plan import plan_drawing
 from report.pages import accuracy as accuracy_page
 from report.pages import certainty as certainty_page
-from report.pages import inputs, letter, limits, model, results
-from report.pages import remedies as remedies_page
+from report.pages import clearances, inputs, letter, limits, model, results
 from report.pages.demand import demand_lines
 from report.pages.registry import package_data
 from stand_in import FOOT
@@ -52,10 +51,32 @@ def test_a_route_that_is_not_permitted_is_said_wherever_its_value_is(unqualified
     assert text.startswith("Array A1: the value from analysis is not permitted")
 
 
-def test_what_would_do_for_a_clearance_says_that_no_route_is_permitted(unqualified):
-    texts = remedies_page.sentences(unqualified, remedies(unqualified.assessment))
-    (gap,) = [text for text in texts if text.startswith("Clearance 2")]
-    assert "No route is permitted for A1 as given." in gap
+def test_a_clearance_without_a_permitted_route_is_said_to_be_neither_ok_nor_ng(unqualified):
+    """The floor of A1 is larger than the second clearance and smaller than the first."""
+    for brief in (True, False):
+        table = clearances.clearance_table(unqualified, brief=brief)
+        for row in table.rows:
+            assert row.cells[-6:-4] == ("none", "none")
+            assert [str(cell) for cell in row.cells[-2:]] == ["none", '<b class="none">none</b>']
+        assert table.notes == (
+            "Verdict none: no route to a design displacement is permitted for A1; the required "
+            "separation is not known.",
+        )
+    assert remedies(unqualified.assessment) == ()
+    margins = certainty_page.page(unqualified, certainty(unqualified.assessment))
+    assert margins["margin"] == "Clearances 1, 2 have no verdict, and no margin."
+    assert letter._clearances(unqualified) == "None of the two clearances is satisfied."
+
+
+def test_less_friction_says_nothing_of_a_displacement_that_is_not_permitted(unqualified):
+    content = accuracy_page.page(unqualified, accuracy(unqualified.assessment))
+    row = next(row for row in content["friction"].rows if row.cells[0] == "A1")
+    assert set(row.cells[2:]) == {"none"}
+    assert (
+        "Array A1: no permitted design displacement, so no sensitivity to friction is given."
+        in content["sentences"]
+    )
+    assert not any("remain satisfied" in text for text in content["sentences"])
 
 
 def test_less_friction_that_closes_the_route_leaves_no_design_displacement(unqualified):

@@ -188,4 +188,6 @@ def test_i_p_is_a_range_where_arrays_differ():
 def test_a_near_fault_site_is_category_e():
     found = values(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
     assert (found["SDC by short period"], found["SDC by S1"]) == ("D", "E")
-    assert found["Controlling SDC of these"] == "E"
+    assert found["Controlling SDC of these"] == found["SDC"] == "E (not confirmed)"
+    confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
+    assert confirmed["Controlling SDC of these"] == confirmed["SDC"] == "E"

@@ -2,6 +2,8 @@
 
 import datetime as dt
 import io
+import json
+import sys
 import threading
 from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, HTTPServer
@@ -27,6 +29,7 @@ import packages
 import tampering
 from report.cli.main import main
 from report.proof.package import Package, reader
+from report.proof.signatures import Signature
 from report.proof.updates import Appended, appended
 from report.typeset.finish import FIELD
 
@@ -174,7 +177,8 @@ def test_a_signature_is_pades_b_b_without_a_network(signed, authority, data, fou
     assert signature.sig_object["/SubFilter"] == "/ETSI.CAdES.detached"
     assert status.bottom_line
     assert status.timestamp_validity is None
-    assert found(content) == Appended(signed=(FIELD,), others=())
+    signed = Signature(field=FIELD, signer="Jane Doe, S.E.")
+    assert found(content) == Appended(signed=(signed,), others=())
 
 
 def test_a_time_stamp_makes_it_b_t(sign, authority, clock, found):
@@ -210,8 +214,64 @@ def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, data,
     done, content = sign(content=out.getvalue())
     assert done.exit_code == 0, done.output
     later = found(content)
-    assert later.signed == (FIELD,)
+    assert [one.field for one in later.signed] == [FIELD]
     assert "appended: sheet 4 /Contents" in later.others
+
+
+def test_a_signature_that_does_not_fit_is_a_difference(signed, found):
+    _, content = signed
+    start = content.rindex(b"/Contents <") + len(b"/Contents <")
+    # The last byte of what was signed with the key; behind it are zeros.
+    end = start + len(content[start : content.index(b">", start)].rstrip(b"0"))
+    digit = b"1" if content[end - 3 : end - 2] != b"1" else b"2"
+    later = found(content[: end - 3] + digit + content[end - 2 :])
+    assert [one.field for one in later.signed] == [FIELD]
+    assert any(text.startswith(f"signature '{FIELD}': ") for text in later.others)
+
+
+@pytest.mark.parametrize("entry", ["/AA", "/A", "/Lock"])
+def test_a_hidden_field_with_an_action_is_found_though_it_is_signed(sign, data, found, entry):
+    from pyhanko.pdf_utils import generic
+    from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+
+    def name(text):
+        return generic.NameObject(text)
+
+    writer = IncrementalPdfFileWriter(io.BytesIO(data))
+    script = {name("/S"): name("/JavaScript"), name("/JS"): generic.pdf_string("app.alert(1)")}
+    field = generic.DictionaryObject({
+        name("/Type"): name("/Annot"), name("/Subtype"): name("/Widget"), name("/FT"): name("/Sig"),
+        name("/T"): generic.pdf_string("other"), name("/F"): generic.NumberObject(132),
+        name("/Rect"): generic.ArrayObject(map(generic.NumberObject, (0, 0, 0, 0))),
+        name(entry): generic.DictionaryObject(script),
+    })  # fmt: skip
+    page = writer.root["/Pages"]["/Kids"][0]
+    page["/Annots"].append(writer.add_object(field))
+    writer.update_container(page)
+    out = io.BytesIO()
+    writer.write(out)
+    _, content = sign(content=out.getvalue())
+    is_found = any("/Annots" in text for text in found(content).others)
+    assert is_found == (entry != "/Lock")  # which a field may have
+
+
+def test_a_signature_that_cannot_be_checked_is_said_not_to_be(job, p12, tmp_path, monkeypatch):
+    path = tmp_path / "calc-package-signed.pdf"
+    package = str(job / "out" / "calc-package.pdf")
+    words = ["sign", package, "--p12", str(p12), "--password", PASSWORD, "--out", str(path)]
+    assert CliRunner().invoke(main, words).exit_code == 0
+    monkeypatch.setitem(sys.modules, "pyhanko", None)
+    done = CliRunner().invoke(main, ["verify-package", str(path)])
+    assert done.exit_code == 4, done.output
+    assert "Same: the input in the package gives this package, to the last bit." in done.output
+    assert "the signature was not checked" in done.output
+    assert "./roofslip sign --help installs" in done.output
+    monkeypatch.undo()
+    done = CliRunner().invoke(main, ["verify-package", str(path), "--json"])
+    assert done.exit_code == 0, done.output
+    (signature,) = json.loads(done.stdout)["signed"]
+    assert signature["signer"] == "Jane Doe, S.E."
+    assert signature["is_checked"]
 
 
 def test_a_second_signature_has_no_field(sign, signed):

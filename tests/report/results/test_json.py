@@ -60,6 +60,26 @@ def test_json_has_the_prescriptive_value_in_every_direction_where_it_governs():
         assert values == {array["design_m"]}
 
 
+def test_json_has_velocities_and_what_the_low_velocity_coefficient_alone_gives():
+    arrays = [
+        stand_in.array("A1", 0.5),
+        stand_in.array("A3", 3.0, y=90, mu=0.30, mu_fast=0.45, mu_rate_s_per_m=20.0),
+    ]
+    gaps = [stand_in.clearance("A1", "RTU-1", 2.0), stand_in.clearance("A3", "T-1", 2.0)]
+    data = stand_in.project(arrays=arrays, clearances=gaps)
+    assessment = stand_in.assessed(stand_in.book(data, stand_in.motions(3, seconds=8.0)))
+    document = json.loads(made(assessment))
+    for array in document["arrays"]:
+        assert array["peak_speed_mps"] == max(run["peak_speed_mps"] for run in array["runs"])
+    assert [array["friction_as_run"] for array in document["arrays"]] == [
+        "0.45", "0.30 to 0.45, by velocity",
+    ]  # fmt: skip
+    (alone,), (gap,) = document["low_velocity"]["arrays"], document["low_velocity"]["clearances"]
+    assert (alone["id"], alone["mu"]) == ("A3", 0.30)
+    assert alone["design_m"] == assessment.low_velocity.arrays[0].design_m
+    assert (gap["array"], gap["object"]) == ("A3", "T-1")
+
+
 def test_json_has_rows_of_linked_blocks_with_their_runs():
     data = stand_in.project(links=[stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)])
     book = stand_in.book(data, stand_in.motions(3, seconds=8.0))
@@ -113,7 +133,7 @@ def test_a_missing_value_is_null_in_json():
     document = json.loads(made(stand_in.assessed(book)))
     assert document["arrays"][0]["design_m"] is None
     assert document["clearances"][0]["required_m"] is None
-    assert document["clearances"][0]["verdict"] == "NG"
+    assert document["clearances"][0]["verdict"] == "none"
     assert document["verdict"] == "NG"
 
 
@@ -177,3 +197,14 @@ def test_json_has_neighbors_that_are_missing_or_contradict_and_the_limits_on_mot
         row.satisfied for row in assessment.acceptance.rows
     ]
     assert {"found_s", "limit_s"} <= {key for row in document["acceptance"] for key in row}
+
+
+def test_json_has_no_verdict_where_no_route_is_permitted():
+    document = json.loads(made(stand_in.unpermitted()))
+    first, _ = document["arrays"]
+    assert (first["design_m"], first["design_permitted"], first["verdict"]) == (0.0, False, "NG")
+    for gap in document["clearances"][:2]:
+        assert [gap[key] for key in ("required_m", "demand_capacity", "design_m")] == [None] * 3
+        assert gap["verdict"] == "none"
+    assert document["clearances"][2]["verdict"] == "OK"
+    assert document["verdict"] == "NG"

@@ -213,9 +213,7 @@ def test_what_is_not_json_is_an_input_error(text):
         former_from(text, "x")
 
 
-@settings(
-    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_damaged_bytes_are_read_or_refused_and_never_crash(assessment, content, data):
     damaged = bytearray(content)
@@ -231,8 +229,22 @@ def test_damaged_bytes_are_read_or_refused_and_never_crash(assessment, content, 
     package_data(assessment, changes(former, assessment))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(end=st.floats(0.0, 1.0, exclude_max=True))
 def test_a_truncated_file_is_refused(content, end):
     with pytest.raises(InputError):
         former_from(content[: int(end * (len(content) - 2))], "x")
+
+
+def test_a_verdict_that_is_lost_with_the_route_is_named():
+    """A former version took the displacement of 0 and called the clearance OK."""
+    now = stand_in.unpermitted()
+    document = json.loads(results_json(now, support(now)))
+    document["clearances"][0] |= {"required_m": 0.0, "verdict": "OK"}
+    found = changed(b"", document, now)
+    shown = {(item.kind, item.title): (item.before, item.now) for item in found.items}
+    assert shown == {
+        (ChangeKind.CLEARANCE, "A1 to RTU-1, required"): ("0.0 in (0 mm)", "none"),
+        (ChangeKind.VERDICT, "Clearance A1 to RTU-1"): ("OK", "none"),
+    }
+    assert found.clearances == {1}

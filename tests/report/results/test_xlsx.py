@@ -158,6 +158,11 @@ CASES = {
 @pytest.mark.parametrize("case", CASES)
 def test_every_formula_gives_the_value_written_with_it(case):
     formulas, values = made(stand_in.book(stand_in.project(**CASES[case]), short()))
+    assert check_formulas(formulas, values) > 50
+
+
+def check_formulas(formulas, values):
+    """Hold every formula against the value written with it; return how many there are."""
     checked, known = 0, {}
     for sheet in formulas:
         for row in sheet.iter_rows():
@@ -169,7 +174,7 @@ def test_every_formula_gives_the_value_written_with_it(case):
                         cached = pytest.approx(cached, rel=1e-12, abs=1e-12)
                     assert value == cached, cell
                     checked += 1
-    assert checked > 50
+    return checked
 
 
 def test_the_effect_of_links_follows_from_their_runs():
@@ -254,11 +259,12 @@ def test_the_model_of_every_run_is_listed(usual):
     assert first[head.index("Cross-slope [in]")] > 0.0
 
 
-def test_without_a_value_the_workbook_states_no_value_and_ng():
+def test_without_a_value_the_workbook_states_no_value_and_no_verdict():
     _, values = made(stand_in.book(stand_in.steep(), stand_in.motions(2)))
     assert values["Design"]["N5"].value == "none"
     assert values["Clearances"]["I5"].value == "none"
-    assert values["Clearances"]["M5"].value == "NG"
+    assert values["Clearances"]["M5"].value == "none"
+    assert values["Design"]["S5"].value == "NG"
 
 
 def test_text_that_looks_like_a_formula_stays_text():
@@ -336,3 +342,23 @@ def test_a_limit_that_is_not_satisfied_is_ng_in_the_workbook():
     assert values.worksheets[0]["B3"].value == "NG"
     rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
     assert any(row[0] == "Motions" and row[5] == "not satisfied: NG" for row in rows)
+
+
+def test_the_workbook_has_no_verdict_where_no_route_is_permitted():
+    assessment = stand_in.unpermitted(links=[stand_in.links("A1", "0.3, 0.3", 50)])
+    formulas, values = opened(xlsx(assessment))
+    check_formulas(formulas, values)
+    rows = rows_of(values["Clearances"])
+    assert [row["Governing array, direction"] for row in rows[:2]] == ["A1, any"] * 2
+    for row in rows[:2]:
+        headings = ("Design [in]", "Required [in]", "Required [mm]", "D/C", "Result")
+        assert [row[heading] for heading in headings] == ["none"] * 5
+    assert rows[2]["Result"] == "OK"
+    assert [row["Verdict"] for row in rows_of(values["Design"])] == ["NG", "NG"]
+    assert rows_of(values["Links"])[0]["Result"] == "NG"
+
+
+def rows_of(sheet):
+    """The rows of a sheet below its headings, by heading."""
+    head, *rows = sheet.iter_rows(min_row=4, values_only=True)
+    return [dict(zip(head, row, strict=True)) for row in rows]

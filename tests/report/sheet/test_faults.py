@@ -4,7 +4,11 @@ import datetime as dt
 import re
 
 import pytest
+from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
+from report.sheet.fields import Place
+from report.sheet.read import read
+from report.sheet.schema import UnitsFirst
 from sheets import edit, make, problems, read_workbook, type_into
 
 
@@ -422,6 +426,14 @@ CONTRADICTIONS = [
         {f"Options!{c}36": v for c, v in zip("BCD", ("parapet_height_in", 20, "x"), strict=True)},
         ["Options!B36: provision is 'parapet_height_in', already given at Options!B35; delete one"],
     ),
+    (
+        {"Site!B8": 2.4},
+        [
+            "Site!B13: S_DS is 1.566 g; give at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for"
+            " site class 'D' (ASCE 7-16 Table 11.4-1†), or select the hazard basis 'site-specific"
+            " analysis' and give its report"
+        ],
+    ),
 ]
 
 
@@ -495,6 +507,67 @@ def test_a_percentage_is_not_a_number_in_percent(tmp_path):
         "Arrays!C9: slope is a percentage (5%, which Excel holds as 0.05); give a number of 0 or"
         " more, formatted as a number",
     )
+
+
+# Section and field, unit of the sheet, number format, and how it shows the number.
+MISLEADING = [
+    ("arrays", "cg_height_m", '0" mm"', "CG height is 9, shown in mm", "more than 0 [in]"),
+    ("arrays", "weight_n", '0.0"kg"', "weight is 42000, shown in kg", "more than 0 [lb]"),
+    ("arrays", "weight_n", "0,", "weight is 42000, shown divided by 1,000", "more than 0 [lb]"),
+    ("arrays", "mu", '0.00"g"', "friction coefficient is 0.45, shown in g", "from 0 to 1.5"),
+    ("arrays", "slope_value", '0.0"%"', "slope is 0.5, shown in %", "0 or more"),
+    ("site", "structure_height_m", '0.0" m"', "structure height h is 36, shown in m", "0 [ft]"),
+    ("overrides", "value", '0" ft"', "value is 18, shown in ft", "give a number"),
+    ("motions", "scale_value", '0.0"g"', "factor or PPA is 2, shown in g", "more than 0"),
+]
+
+
+def formatted(path, section, field, code, row=0):
+    """Give an input a number format; return its address."""
+    address = read(path).addresses[Place(section, row, field)]
+    sheet, cell = address.split("!")
+    edit(path, lambda book: setattr(book[sheet][cell], "number_format", code))
+    return address
+
+
+@pytest.mark.parametrize(("section", "field", "code", "what", "wish"), MISLEADING)
+def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
+    tmp_path, section, field, code, what, wish
+):
+    path = make(tmp_path)
+    row = 1 if section == "motions" else 0
+    address = formatted(path, section, field, code, row)
+    (line,) = problems(path)
+    assert line.startswith(f"{address}: {what} by its number format ({code}); give a number")
+    assert wish in line
+    assert line.endswith(", formatted as a number")
+
+
+@pytest.mark.parametrize(
+    ("section", "field", "code", "row"),
+    [
+        ("arrays", "cg_height_m", '0.0" in"', 0),
+        ("arrays", "weight_n", "#,##0", 0),
+        ("arrays", "weight_n", '#,##0" lbs"', 0),
+        ("arrays", "mu", '0.00" (lab)"', 0),
+        ("arrays", "slope_value", "0.0°", 0),  # in degrees
+        ("arrays", "slope_value", '0.0"%"', 1),  # in percent
+        ("overrides", "value", '0" in"', 0),
+        ("motions", "scale_value", '0.0"g"', 2),  # a PPA
+        ("site", "s_ds_g", '0.000"g"', 0),
+    ],
+)
+def test_a_number_format_may_name_the_unit_of_its_cell(tmp_path, section, field, code, row):
+    path = make(tmp_path)
+    formatted(path, section, field, code, row)
+    read_workbook(path)
+
+
+def test_a_number_format_may_name_the_unit_of_a_sheet_in_si(tmp_path):
+    path = make(tmp_path, UnitsFirst.SI)
+    formatted(path, "arrays", "cg_height_m", '0.0" mm"')
+    formatted(path, "site", "structure_height_m", '0.0" m"')
+    read_workbook(path)
 
 
 @pytest.mark.parametrize(("key", "noun"), [("arrays", "array"), ("motions", "motion")])
@@ -634,3 +707,23 @@ def test_a_unit_that_cannot_be_chosen_may_be_blank(tmp_path):
 def test_merged_cells_in_a_table_are_reported(tmp_path):
     path = edit(make(tmp_path), lambda book: book["Arrays"].merge_cells("F8:F9"))
     assert problems(path) == ("Arrays!F8:F9: cells are merged; unmerge them",)
+
+
+@pytest.mark.parametrize("to", [(1, 0), (0, 1), (0, -1)], ids=["below", "unit", "label"])
+def test_merged_cells_that_cover_a_single_field_are_reported(tmp_path, to):
+    path = make(tmp_path)
+    sheet, cell = read(path).addresses[Place("site", 0, "structure_height_m")].split("!")
+    row, column = coordinate_to_tuple(cell)
+    ends = sorted([(row, column), (row + to[0], column + to[1])])
+    area = ":".join(f"{get_column_letter(c)}{r}" for r, c in ends)
+    edit(path, lambda book: book[sheet].merge_cells(area))
+    assert problems(path) == (f"{sheet}!{area}: cells are merged; unmerge them",)
+
+
+def test_cells_merged_beside_a_single_field_do_not_matter(tmp_path):
+    path = make(tmp_path)
+    sheet, cell = read(path).addresses[Place("project", 0, "name")].split("!")
+    row, column = coordinate_to_tuple(cell)
+    area = f"{cell}:{get_column_letter(column + 3)}{row}"
+    edit(path, lambda book: book[sheet].merge_cells(area))
+    assert read_workbook(path).input.project.name == "Alameda Warehouse"

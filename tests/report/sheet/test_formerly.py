@@ -65,6 +65,33 @@ def test_every_earlier_label_is_read_as_the_present_one(tmp_path):
     assert same(read(edit(make(tmp_path), earlier_labels)).project, project())
 
 
+def without(section, field):
+    """Remove the label and the name of a single cell, as a workbook from before it has none."""
+    (label,) = (e.cell.label for e in entries(section.model) if e.name == field)
+
+    def change(book):
+        del book.defined_names[section.cell_name(field)]
+        (cell,) = (
+            cell for row in book[section.sheet].iter_rows() for cell in row if cell.value == label
+        )
+        cell.value = None
+
+    return change
+
+
+def test_a_workbook_from_before_the_report_on_the_hazard_is_read_as_it_is(tmp_path):
+    site = next(section for section in SECTIONS if section.key == "site")
+    book = read(edit(make(tmp_path), without(site, "hazard_report")))
+    assert book.problems == ()
+    assert same(book.project, project())
+
+
+def test_a_workbook_that_lost_one_of_the_cells_that_came_together_is_refused(tmp_path):
+    site = next(section for section in SECTIONS if section.key == "site")
+    (problem,) = read(edit(make(tmp_path), without(site, "hazard_date"))).problems
+    assert "date of hazard is missing" in problem[1]
+
+
 def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
     def change(book):
         book["Options"]["B35"] = "max_storeys"

@@ -60,6 +60,9 @@ def test_a_saved_book_gives_no_warning_and_is_repaired(saved, tmp_path):
     book = saved["filled"]
     assert formulas(book) != formulas(make(tmp_path))  # it spells some of them in another way
     assert lost(saved["blank"]) == lost(book) == []
+    for name in saved:
+        sheet = read(saved[name])
+        assert (sheet.unseen, sheet.warnings) == ((), ()), name
     spoiled = book.with_name("spoiled.xlsx")
     spoiled.write_bytes(book.read_bytes())
     assert lost(edit(spoiled, typed_over)) == OVER

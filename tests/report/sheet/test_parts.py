@@ -148,3 +148,19 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path, monkeypatch):
         write_cells(path, {at("Arrays", "I8"): 1.0})
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir() if p.name.startswith(".")] == []
+
+
+def test_a_folded_column_that_is_filled_is_shown_and_the_others_stay_folded(book):
+    path, _ = book
+    sheet = load_workbook(path)["Clearances"]
+    groups = [range(one.min, one.max + 1) for one in sheet.column_dimensions.values() if one.hidden]
+    first, *others = groups
+    data = changed(path.read_bytes(), {CellPosition("Clearances", 8, first.start): 1.0})
+    after = load_workbook(io.BytesIO(data))["Clearances"].column_dimensions
+    hidden = {
+        column for one in after.values() if one.hidden for column in range(one.min, one.max + 1)
+    }
+    assert hidden == {column for group in others for column in group}
+    blank = changed(path.read_bytes(), {CellPosition("Clearances", 8, first.start): None})
+    still = load_workbook(io.BytesIO(blank))["Clearances"].column_dimensions
+    assert any(one.hidden and one.min == first.start for one in still.values())

@@ -81,9 +81,7 @@ def inputs(draw):
     return project(**changes, objects=[])
 
 
-@settings(
-    max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=inputs(), units=st.sampled_from(UnitsFirst))
 def test_every_valid_project_is_recovered_from_the_workbook(tmp_path, data, units):
     path = make(tmp_path)

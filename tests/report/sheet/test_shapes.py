@@ -92,7 +92,7 @@ def sampled(shape, count=400):
     return np.concatenate([a + shares * (b - a) for a, b in itertools.pairwise(points)])
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(stars(), stars())
 def test_the_gap_is_that_between_densely_sampled_boundaries(a, b):
     assume(crossing(a.points) is None)
@@ -117,7 +117,7 @@ def _contains(outer, inner):
     return True
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(stars(), stars())
 def test_closest_points_lie_on_the_shapes_at_the_gap(a, b):
     assume(crossing(a.points) is None)
@@ -179,7 +179,7 @@ def test_the_room_of_an_l_shape_is_its_larger_leg():
     assert room(Rectangle(0, 1, 0, 2)) == Rectangle(0, 1, 0, 2)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(stars())
 def test_the_room_is_within(shape):
     assume(crossing(shape.points) is None)

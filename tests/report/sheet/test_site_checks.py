@@ -4,6 +4,7 @@ import pytest
 
 from report.sheet.schema import Site, SiteClass
 from report.sheet.site_checks import site_faults
+from solver.rules.hazard import HazardBasis
 
 GIVEN = {
     "rule_set": "SEAOC PV1-2012",
@@ -50,9 +51,10 @@ def test_a_consistent_site_has_no_faults():
         ),
         ({"s_1_g": 0.8}, "sdc", "S_1 = 0.8 g in risk category II requires E or higher"),
         (
-            {"site_class": SiteClass.D_DEFAULT, "s_s_g": 1.2, "f_a": 1.1},
+            {"site_class": SiteClass.D_DEFAULT, "s_s_g": 1.2, "f_a": 1.1, "f_v": 1.9},
             "f_a",
-            "F_a is 1.1; give at least 1.2 for site class 'D (default)' (ASCE 7-16 11.4.4)",
+            "F_a is 1.1; give at least 1.2 for site class 'D (default)' and S_S of 1.2 g (ASCE 7-16"
+            " Table 11.4-1†)",
         ),
         (
             {"rule_set": "ASCE 7-22", "edition_name": "ASCE 7-16"},
@@ -75,6 +77,62 @@ def test_an_inconsistency_is_named_at_its_cell(changes, field, text):
     ((place, said),) = faults(**changes)
     assert place == field
     assert text in said
+
+
+UNSOURCED = {"s_s_g": 2.0, "s_1_g": 0.6, "site_class": SiteClass.D, "f_a": None, "f_v": None}
+# Class D: F_a 1.0 and F_v 1.7, so S_MS 2.0, S_DS 1.333, S_M1 1.02, S_D1 0.68.
+
+
+@pytest.mark.parametrize(
+    ("changes", "fields"),
+    [
+        ({"s_ds_g": 1.0}, ["s_ds_g"]),
+        ({"s_ms_g": 1.5}, ["s_ms_g"]),
+        ({"s_ms_g": 1.5, "s_ds_g": 1.0}, ["s_ms_g", "s_ds_g"]),
+        ({"s_ds_g": 1.0, "s_d1_g": 0.6}, ["s_ds_g", "s_d1_g"]),
+        ({"s_ds_g": 1.34, "s_m1_g": 0.9}, ["s_m1_g"]),
+        ({"s_ds_g": 1.33}, []),
+        ({"s_ds_g": 1.328}, ["s_ds_g"]),
+        ({"s_ds_g": 1.34, "s_d1_g": 0.68}, []),
+        ({"f_a": 0.9}, ["f_a"]),
+        ({"f_a": 0.9, "s_ds_g": 1.2}, ["f_a"]),
+        ({"f_a": 1.0, "f_v": 1.5}, ["f_v"]),
+        ({"f_a": 1.1, "s_ds_g": 1.4667}, []),
+        ({"site_class": SiteClass.D_DEFAULT, "s_ds_g": 1.334}, ["s_ds_g"]),
+        ({"site_class": SiteClass.D_DEFAULT, "s_ds_g": 1.6}, []),
+        ({"site_class": None, "s_ds_g": 1.334}, ["s_ds_g"]),
+        ({"site_class": SiteClass.B, "s_ds_g": 1.2}, []),
+        # No value in the table: a site-specific analysis is required, which is a requirement row.
+        ({"site_class": SiteClass.E, "s_ds_g": 0.8}, []),
+        ({"site_class": SiteClass.F, "s_ds_g": 0.8}, []),
+        ({"site_class": SiteClass.E, "s_s_g": 0.75, "s_ds_g": 0.6}, ["s_ds_g"]),
+        ({"hazard": HazardBasis.EXCEPTION, "s_ds_g": 1.0}, ["s_ds_g"]),
+        ({"hazard": HazardBasis.SITE_SPECIFIC, "s_ds_g": 1.0}, []),
+        ({"hazard": HazardBasis.SITE_SPECIFIC, "f_a": 0.9}, []),
+        ({"edition_name": "ASCE 7-22", "s_ds_g": 1.0}, []),
+        ({"edition_name": "ASCE 7-22", "s_ms_g": 2.0, "s_ds_g": 1.0}, ["s_ds_g"]),
+        ({"s_s_g": None, "s_1_g": None, "s_ds_g": 1.0}, []),
+    ],
+)
+def test_a_value_below_the_table_of_its_edition_is_an_error_at_its_cell(changes, fields):
+    assert [field for field, _ in faults(**UNSOURCED | changes)] == fields
+
+
+def test_a_value_below_the_table_says_what_would_do():
+    ((_, text),) = faults(**UNSOURCED | {"s_ds_g": 1.0})
+    assert text == (
+        "S_DS is 1 g; give at least 1.334 g, which is 2/3 F_a S_S with F_a of 1 for site class 'D'"
+        " (ASCE 7-16 Table 11.4-1†), or select the hazard basis 'site-specific analysis' and give"
+        " its report"
+    )
+    ((_, text),) = faults(**UNSOURCED | {"s_ds_g": 1.0, "site_class": None})
+    assert "for site class 'D (default)', assumed because none is given (" in text
+
+
+def test_a_site_class_that_the_edition_does_not_have_is_an_error():
+    ((place, text),) = faults(**UNSOURCED | {"site_class": SiteClass.CD, "s_ds_g": 1.0})
+    assert place == "site_class"
+    assert text.startswith("site class is 'CD', which ASCE 7-16 does not have; give one of A, B, ")
 
 
 def test_edition_22_takes_what_the_hazard_tool_gives():

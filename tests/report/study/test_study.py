@@ -24,6 +24,7 @@ from report.pages.symbols import with_symbols
 from report.results.publish import locked
 from report.sheet.schema import UnitsFirst
 from report.study import files
+from report.study.basis_pages import basis
 from report.study.exports import chances_of, export_files, known_states
 from report.study.files import study_files, study_html
 from report.study.prescribed import compare
@@ -31,8 +32,9 @@ from report.study.read import read_study
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.template import write_study
-from report.study.words import headline
+from report.study.words import design_words, headline
 from report.typeset.pdf import lay_out
+from report.words.units import digits_down
 from solver import solve
 from solver.model import coulomb
 from solver.studies.curves import least_friction
@@ -156,9 +158,10 @@ def test_a_mat_without_tests_has_no_bar_for_friction(results):
 
 def test_least_friction_is_read_off_the_curve(results):
     mus = np.array(results.plan.input.mus)
-    found = results.least_frictions(0, "largest", 0.1)
+    found = results.least_frictions(0, "largest PRD", 0.1)
     wanted = least_friction(mus, results.curves.largest_m[0, 1, :, 6], 0.1)
-    assert found[1, 6] == pytest.approx(wanted, nan_ok=True)
+    assert found[1, 6] == pytest.approx(wanted, abs=0.01, nan_ok=True)
+    assert not found[1, 6] < wanted
 
 
 def test_censored_and_exceeding_runs_without_a_value_differ_as_stated(other):
@@ -242,6 +245,8 @@ def test_curves_csv_has_every_case(made, results):
     assert len(rows) == results.curves.mean_m.size
     means = [float(row["mean_prd_m"] or "nan") for row in rows]
     assert np.array_equal(means, results.curves.mean_m.ravel(), equal_nan=True)
+    design = [float(row["design_displacement_before_the_floor_m"] or "nan") for row in rows]
+    assert np.array_equal(design, results.design_m.ravel(), equal_nan=True)
     assert list(rows[0])[3] == "intensity (PPA [g])"
 
 
@@ -251,8 +256,15 @@ def test_the_workbook_holds_summaries_only(made, results):
         "Study", "Curves", "Least friction", "Largest slope", "Fragility", "Chances", "Formula",
     ]  # fmt: skip
     assert max(sheet.max_row for sheet in book) <= results.curves.mean_m.size * 3 + 1
-    value = book["Curves"].cell(2 + 11, 5).value
-    assert value == pytest.approx(results.curves.mean_m[0, 0, 0, 11] / 0.0254)
+    heads = [cell.value for cell in book["Curves"][1]]
+    for head, values in (
+        ("Design displacement before the floor [in]", results.design_m),
+        ("Mean PRD [in]", results.curves.mean_m),
+    ):
+        value = book["Curves"].cell(2 + 11, 1 + heads.index(head)).value
+        assert value == pytest.approx(values[0, 0, 0, 11] / 0.0254)
+    about = {row[0].value: row[1].value for row in book["Study"]}
+    assert about["Design displacement"] == design_words(results)
     theta = [row[6].value for row in book["Fragility"].iter_rows(min_row=2)]
     for found, state in zip(theta[:3], results.arrays[0].states, strict=True):
         wanted = state.fragility.fitted.theta
@@ -267,15 +279,15 @@ def test_the_pages_state_what_was_found(made, results):
     text = text_of(made[0] / "out/study/study.pdf")
     assert "1 Results" in text
     assert "Fragility of S1" in text
+    assert "of the PRD, not of the design displacement" in text
     assert "RTU & co" in text
     lost = int(results.curves.without_value.sum())
     assert ("Every motion gave a final PRD" in text) == (lost == 0)
     fit = results.fits[0]
-    assert isinstance(fit, str) or f"is {fit.sigma_ln:.2f}" in text
     assert f"{results.manifest['rows']:,} runs" in text
     assert "outside" in text or isinstance(fit, str)
     state = results.arrays[0].states[2].fragility
-    assert f"{state.fitted.theta:.3g}" in text
+    assert digits_down(state.fitted.theta, 3) in text
 
 
 def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(
@@ -287,15 +299,15 @@ def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(
     at = 0, 1, 1, 6
     level = found.plan.input.intensities[6]
     wanted = max(60.0 * 0.0254 * (level - 0.4) ** 2, 6.0 * 0.0254)
-    assert one.value_m[6] == pytest.approx(wanted)
-    ratio = 1.1 * found.curves.mean_m[at] / wanted
+    # Six motions: the largest counts.
+    ratio = 1.1 * found.curves.largest_m[at] / wanted
     assert one.ratio[1, 1, 6] == pytest.approx(ratio, nan_ok=True)
     written = study_files(found)
     prose = written["study.pdf"].decode()
     text = packages.words(prose)
     assert "Beside the prescriptive displacement" in text
     safe = int((one.ratio <= 1.0).sum())
-    assert f"in {safe:,} of {one.ratio.size:,} cases" in text
+    assert f"enough in {safe:,} of {one.ratio.size:,} cases" in text
     # Set as a symbol on the pages; the charts write it as the sheet does.
     assert str(with_symbols("S_DS")) in prose
     assert not re.search(r"<(p|li|figcaption)>[^<]*S_DS", prose)
@@ -353,7 +365,9 @@ def test_pelicun_reads_the_library(made, results, tmp_path):
         fitted = state.fragility.fitted
         assert row[name, "Family"] == "lognormal"
         assert float(row[name, "Theta_0"]) == pytest.approx(fitted.theta, rel=1e-5)
+        assert float(row[name, "Theta_0"]) <= fitted.theta * (1 + 1e-9)
         assert float(row[name, "Theta_1"]) == pytest.approx(fitted.beta, rel=1e-5)
+        assert float(row[name, "Theta_1"]) >= fitted.beta * (1 - 1e-9)
 
 
 P58 = "seismic/building/component/FEMA P-58 2nd Edition"
@@ -411,7 +425,8 @@ def test_openquake_has_the_chances_at_every_intensity(made, results):
         assert imt == "PGA"
         assert x == pytest.approx(results.plan.input.intensities)
         for row, state in zip(p, array.states, strict=True):
-            assert row == pytest.approx(chances_of(state.fragility), abs=1e-6)
+            assert row == pytest.approx(chances_of(state.fragility), abs=1.01e-6)
+            assert (row >= np.array(chances_of(state.fragility)) - 1e-11).all()
             assert (np.diff(row) >= 0.0).all()
 
 
@@ -464,3 +479,16 @@ def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monk
     assert done.exit_code == 2
     assert "another run has been writing there" in done.output
     assert list(runs.iterdir()) == []
+
+
+def test_warnings_on_the_workbook_are_printed_with_the_basis(results):
+    warned = dataclasses.replace(results.plan, warnings=(("Mats!B8", "cell B8 is struck through"),))
+    (table,) = (
+        table
+        for block in basis(dataclasses.replace(results, plan=warned)).blocks
+        for table in block.tables
+        if table.caption == "Warnings on the workbook"
+    )
+    assert [row.cells for row in table.rows] == [("Mats!B8", "cell B8 is struck through.")]
+    tables = [table for block in basis(results).blocks for table in block.tables]
+    assert table.caption not in [other.caption for other in tables]

@@ -6,9 +6,12 @@ import shutil
 from zipfile import ZipFile
 
 import pytest
+from click.testing import CliRunner
 from openpyxl import load_workbook
 
 from places import ROOT
+from report.cli.main import main
+from report.sheet.fields import Place
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.study.motions import study_motions
@@ -279,3 +282,47 @@ def test_the_project_has_the_size_of_a_catalog():
     assert found.shape == (1, 8, 3, 20)
     assert [motion.id for motion in found.motions.motions[0]] == [f"RM{n}" for n in range(1, 8)]
     assert len(found.campaign.columns) == 28
+
+
+def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
+    folder = write(tmp_path)
+    path = folder / "input.xlsx"
+    book = load_workbook(path)
+    book["Mats"].sheet_state = "hidden"
+    book.save(path)
+    ((cell, text),) = plan(folder).warnings
+    assert cell.startswith("Mats!")
+    assert text.startswith("the sheet is hidden, and cells ")
+    assert text.endswith(" on it are read: show it, or clear what is not meant")
+    shown = CliRunner().invoke(main, ["study", str(folder), "--dry-run"])
+    assert f"warning: {cell}: {text}" in shown.stderr
+
+
+def test_a_study_that_hides_nothing_has_no_warning(tmp_path):
+    assert plan(write(tmp_path)).warnings == ()
+
+
+def test_a_mat_shown_in_percent_as_text_is_an_error(tmp_path):
+    folder = write(tmp_path)
+    address = read_study(folder).gathered.addresses[Place("mats", 0, "mu")]
+    sheet, cell = address.split("!")
+    book = load_workbook(folder / "input.xlsx")
+    book[sheet][cell].number_format = '0.0"%"'
+    book.save(folder / "input.xlsx")
+    assert problems(folder).startswith(
+        f'{address}: friction coefficient is 0.4, shown in % by its number format (0.0"%");'
+    )
+
+
+def test_an_intensity_may_be_shown_in_the_unit_of_its_measure(tmp_path):
+    folder = write(tmp_path, given(site_intensity=1.2))
+    address = read_study(folder).gathered.addresses[Place("study", 0, "site_intensity")]
+    sheet, cell = address.split("!")
+    for code, is_right in (('0.0" g"', True), ('0.0" m/s"', False)):
+        book = load_workbook(folder / "input.xlsx")
+        book[sheet][cell].number_format = code
+        book.save(folder / "input.xlsx")
+        if is_right:
+            plan(folder)
+        else:
+            assert "is 1.2, shown in m/s by its number format" in problems(folder)

@@ -28,7 +28,7 @@ def test_a_first_visit_shows_the_example_with_its_answer(client):
     state = client.get("/api/state").json()
     assert state["project"]["is_example"]
     assert state["problems"] == []
-    assert state["answer"]["verdict"] == "OK"
+    assert state["answer"]["verdict"] == "OK with conditions"
     assert state["answer"]["model"] == "full"
     assert [array["id"] for array in state["answer"]["arrays"]] == state["views"]["arrays"]
 
@@ -106,7 +106,7 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
     assert first.pop("opened") != second.pop("opened")
     assert first == second
     assert not first["project"]["is_example"]
-    assert first["answer"]["verdict"] == "OK"
+    assert first["answer"]["verdict"] == "OK with conditions"
     assert client.post("/api/example").json()["project"]["is_example"]
 
 
@@ -135,7 +135,7 @@ def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, session
     assert sent(client, [("records/x.csv", b"0")]).status_code == 422
     state = client.get("/api/state").json()
     assert state["opened"] == before
-    assert state["answer"]["verdict"] == "OK"
+    assert state["answer"]["verdict"] == "OK with conditions"
     folder = sessions.find(client.cookies["roofslip-8765"]).folder
     assert [each.name for each in folder.iterdir()] == [before]
 

@@ -74,8 +74,8 @@ def test_a_first_visit_shows_the_example_running_and_says_what_to_do(untouched):
     assert "This is the example" in page.inner_text("#welcome")
     assert page.title().startswith(page.inner_text("h1"))
     assert "token" not in page.url
-    assert [text for text in verdicts(page) if text != "OK"] == []
-    assert len(verdicts(page)) == 1 + 3 + 6
+    # The project and its arrays, whose friction is not tested at their velocities; clearances.
+    assert verdicts(page) == ["OK with conditions"] * (1 + 3) + ["OK"] * 6
     assert page.locator("#plan-drawing .array").count() == 3
     assert page.locator("#plan-drawing .callout").count() == 6
     assert page.locator("#bars tbody tr").count() == 7
@@ -97,7 +97,7 @@ def test_a_screen_reader_gets_names_for_all_and_the_verdict_at_rest(untouched):
         }"""
     )
     assert unnamed == []
-    assert page.inner_text("#live").startswith("OK.")
+    assert page.inner_text("#live").startswith(f"{verdicts(page)[0]}.")
     assert page.locator("#slider-friction").get_attribute("aria-valuetext")
     assert "required" in page.locator("#plan-description").text_content()
     assert urlsplit(page.url).query == ""
@@ -132,6 +132,71 @@ def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(
     assert failing > 0
     assert page.locator("#plan-drawing .gap.is-ng").count() == failing
     assert page.locator("#plan-drawing .ng-box").all_text_contents() == ["NG"] * failing
+
+
+WATCH = """() => {
+  window.seen = [];
+  const look = () => window.seen.push({
+    tags: [...document.querySelectorAll(".tag, .ng-box")]
+      .filter((tag) => tag.checkVisibility({ visibilityProperty: true }))
+      .map((tag) => tag.textContent),
+    verdict: document.querySelector("#verdict").innerText,
+    said: document.querySelector("#live").textContent + document.querySelector("desc").textContent,
+    captions: [...document.querySelectorAll(".results caption")]
+      .map((caption) => getComputedStyle(caption, "::after").content),
+    heavy: document.querySelectorAll(".gap.is-ng").length,
+  });
+  const ofSlider = (event) => event.target.type === "range" && look();
+  for (const kind of ["change", "click"]) document.addEventListener(kind, look);
+  document.addEventListener("input", ofSlider);
+}"""
+"""Looks at the page after its own handlers of an event, before a frame is drawn."""
+
+
+def drag(page):
+    box = page.locator("#slider-friction").bounding_box()
+    page.mouse.move(box["x"] + 0.6 * box["width"], box["y"] + box["height"] / 2)
+    page.mouse.down()
+
+
+CHANGES = {
+    "pointer": drag,
+    "keyboard": lambda page: page.locator("#slider-friction").press("ArrowLeft"),
+    "polarity": lambda page: page.select_option("#choice-polarity", "reversed"),
+    "rule set": lambda page: page.select_option("#choice-rule_set", "ASCE 7-16"),
+    "reset": lambda page: page.get_by_label("Slope: back to the workbook's value").click(),
+}
+
+
+@pytest.mark.parametrize("how", CHANGES)
+def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, how):
+    """However late the answer is, no verdict stands beside values that it is not of."""
+    moved(page, "slope", 1.5)  # some clearances are NG
+    at_rest(page)
+    assert {"NG", "OK"} <= set(verdicts(page))
+    page.evaluate(WATCH)
+    held, answered = [], []
+    page.route("**/api/assess", lambda route: route.continue_() if answered else held.append(route))
+    CHANGES[how](page)
+    page.wait_for_timeout(400)  # a frame and more
+    page.evaluate("document.dispatchEvent(new Event('click'))")
+    seen = page.evaluate("seen")
+    assert len(seen) >= 2
+    for look in seen:
+        assert look["tags"] == ["Provisional"]
+        assert "Full model" not in look["verdict"]
+        assert "The values below are those before the change." in look["verdict"]
+        assert set(look["captions"]) == {'" (before the change)"'}
+        assert not re.search(r"\b(OK|NG)\b", look["said"])
+        assert look["heavy"] == 0
+    answered.append(True)
+    for route in held:
+        route.continue_()
+    page.mouse.up()
+    at_rest(page)
+    assert "Full model" in page.inner_text("#verdict")
+    assert "Provisional" not in verdicts(page)
+    assert page.locator("#verdict .tag").inner_text() in ("OK", "NG", "OK with conditions")
 
 
 def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, address):
@@ -181,7 +246,7 @@ def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
     assert verdicts(page) == [] or page.locator("#results .tag:visible").count() == 0
     page.get_by_label("Friction: back to the workbook's value").click()
     at_rest(page)
-    assert verdicts(page)[0] == "OK"
+    assert verdicts(page)[0] == "OK with conditions"
 
 
 def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
@@ -251,15 +316,16 @@ def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
     page.wait_for_selector("h1:has-text('Small Warehouse')")
     at_rest(page)
     of_the_workbook = numbers(page, "arrays", 3)
-    moved(page, "friction", 0.6)
-    page.wait_for_url("**/#friction=0.6")
+    moved(page, "friction", 0.9)  # with less, no route is permitted
+    moved(page, "intensity", 1.1)
+    page.wait_for_url("**/#friction=0.9&intensity=1.1")
     at_rest(page)
     assert numbers(page, "arrays", 3) != of_the_workbook
     name, bytes_ = saved(page, lambda: page.click("#save-workbook"))
     book = openpyxl.load_workbook(io.BytesIO(bytes_))
     mus = [cell.value for row in book["Arrays"].iter_rows() for cell in row]
     assert name.endswith(".xlsx")
-    assert 0.3 in mus
+    assert 0.45 in mus
     page.click("#make-package")
     page.wait_for_selector("#package-status progress")
     page.wait_for_selector("#package-status .made", timeout=150_000)
@@ -274,7 +340,7 @@ def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
     assert name == "calc-package.pdf"
     summary = "".join(sheet.extract_text() for sheet in PdfReader(io.BytesIO(pdf)).pages[:6])
     assert all(value.removesuffix(" in") in summary for value in design)
-    moved(page, "friction", 0.9)
+    moved(page, "friction", 0.95)
     assert "before the last change" in page.inner_text("#package-status")
 
 
@@ -360,7 +426,7 @@ def test_two_visitors_see_nothing_of_each_other(browser, address, tmp_path):
         at_rest(two)
         assert "Distribution Warehouse" in two.inner_text("h1")
         assert verdicts(one)[0] == "NG"
-        assert verdicts(two)[0] == "OK"
+        assert verdicts(two)[0] == "OK with conditions"
 
 
 def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(page, tmp_path):

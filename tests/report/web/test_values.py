@@ -220,3 +220,31 @@ def test_where_memory_ends_what_is_kept_goes_and_the_job_is_done_again_once(shor
             jobs.perform(other)
     assert kept[0] >= 1
     assert kept[1] == 0
+
+
+def test_s_ds_that_changes_leaves_the_table_of_its_coefficient_behind():
+    """Of a school with S_S 0.55 g and F_a 1.28: at a smaller S_S the table gives a larger F_a."""
+    given = start("school")
+    offered = {item["id"]: item for item in controls(given)["sliders"]}
+    assert "least" not in offered["intensity"]["stops"]
+    site = given.sheet.project.site
+    lower = with_values(given, {"intensity": 0.7}).sheet.project.site
+    assert lower.s_ds == pytest.approx(0.7 * site.s_ds, rel=1e-5)
+    assert (site.s_s_g, lower.s_s_g) == (0.55, None)
+
+
+def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_verdict():
+    """Motions of a third of their target move nothing, and do not qualify."""
+    weak = with_values(start("school"), {"intensity": 0.32, "together": "no"})
+    done = assess(weak.sheet, weak.shaking)
+    found = answer(done, is_provisional=False)
+    for array in found["arrays"]:
+        shown_as = (array["design"], array["design_m"], array["design_short"])
+        assert shown_as == ("0 mm (0.0 in)", None, "not permitted")
+        assert (array["source"], array["verdict"]) == ("analysis, not permitted", "NG")
+    for gap in (*found["clearances"], *found["plan"]["gaps"]):
+        assert (gap["required"], gap["verdict"]) == ("no value", "none")
+    assert {gap["ratio"] for gap in found["clearances"]} == {None}
+    assert not any(array["envelope"] for array in found["plan"]["arrays"])
+    assert found["verdict"] == "NG"
+    assert answer(done, is_provisional=True)["arrays"][0]["design_short"] == "0 mm"

@@ -3,15 +3,24 @@
 import math
 
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from report.words.units import Quantity, compared, measured, no_less, no_more, pair, round_below
+from report.words.units import (
+    Quantity,
+    compared,
+    digits_down,
+    digits_up,
+    measured,
+    no_less,
+    no_more,
+    pair,
+    round_below,
+)
 
 LENGTHS_M = st.floats(0.01, 20.0)
 
 
-@settings(deadline=None)  # a busy machine is no failure
 @given(LENGTHS_M, LENGTHS_M)
 @example(36.04 * 0.0254, 35.96 * 0.0254)
 @example(1.0361, 1.0359)
@@ -48,6 +57,21 @@ def test_rounding_up_leaves_a_value_that_is_exact_in_its_unit():
     for tenths in range(1, 2000):
         text = f"{tenths / 10:.1f}"
         assert no_less(tenths / 10 * 0.0254, inch) == no_more(tenths / 10 * 0.0254, inch) == text
+
+
+@given(st.floats(1e-6, 999.0), st.integers(1, 4))
+@example(99.6, 2)
+@example(0.1, 3)
+def test_significant_digits_enclose_a_value(value, digits):
+    low, high = float(digits_down(value, digits)), float(digits_up(value, digits))
+    last = 10.0 ** min(math.floor(math.log10(value)) - digits + 1, 0)
+    assert low <= value * (1 + 1e-9) + 1e-6 * last
+    assert high >= value * (1 - 1e-9) - 1e-6 * last
+    assert high - low <= 1.001 * last
+
+
+def test_no_digits_are_asked_of_zero():
+    assert digits_up(0.0, 2) == digits_down(0.0, 2) == "0"
 
 
 def test_no_value_stays_no_value():

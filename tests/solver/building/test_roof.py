@@ -256,7 +256,7 @@ def test_nothing_is_added_where_nothing_is_needed(ground):
     np.testing.assert_array_equal(roof.vertical_mps2, a)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(
     period_s=st.floats(0.05, 6.0),
     factor=st.floats(0.01, 100.0),

@@ -129,9 +129,7 @@ def read_or_refuse(path: Path, **how: Any) -> None:
         assert np.isfinite(record.a_mps2).all()
 
 
-hostile = settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+hostile = settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 @hostile

@@ -86,7 +86,7 @@ def run_all(compiled):
         again = exact(ax, az, x, z, 0.25, sn, cs, mu, G, scale, events)
         assert run == again
         history = np.full((2, ax.size), np.nan)
-        fill(ax, az, 0.25, sn, cs, mu, G, scale, events[: run[6]], history)
+        fill(ax, az, 0.25, sn, cs, mu, G, scale, events[: run[-1]], history)
         numbers += [*run, *events.ravel(), *history.ravel()]
         numbers += normal(ax, az, x, z, 0.25, sn, cs, G, scale)
         out, scene = np.empty((1, 4)), np.array([[math.asin(sn), mu, scale]])

@@ -63,7 +63,7 @@ def run_all():
         az = readonly(vertical if len(vertical) else np.zeros(ax.size))
         bounds = [one_axis.bounds(a) for a in (ax, ay, az)]
         for step, most in ((1e-6, 12), (1e-13, 20)):
-            top, end = np.empty(6), np.empty(4)
+            top, end = np.empty(7), np.empty(4)
             settings = (0.05, sn, math.sqrt(1.0 - sn * sn), mu, G, 1.0, step, most, 2000, law)
             nothing = np.empty((0, 4)), np.empty((4, 0))
             run = slide(ax, ay, az, *bounds, *settings, *nothing, top, end)
@@ -98,7 +98,7 @@ def given_up(ax, most_steps, dt=0.05):
     nothing = np.empty((0, 4)), np.empty((4, 0))
     with np.errstate(all="ignore"):
         return two_axes.slide_plane(
-            ax, ax, level, x, x, z, *settings, *nothing, np.empty(6), np.empty(4)
+            ax, ax, level, x, x, z, *settings, *nothing, np.empty(7), np.empty(4)
         )
 
 
@@ -113,7 +113,7 @@ def test_a_run_holds_and_releases_none_of_its_arrays():
     """The functions inside count no references to what they borrow."""
     ax, ay, az = readonly(wave(2, 30)), readonly(wave(3, 30)), readonly(np.zeros(30))
     given = [ax, ay, az, *(one_axis.bounds(a) for a in (ax, ay, az))]
-    filled = [np.empty(shape) for shape in ((9, 4), (4, 30), 6, 4)]
+    filled = [np.empty(shape) for shape in ((9, 4), (4, 30), 7, 4)]
     before = [sys.getrefcount(array) for array in given + filled]
     settings = (0.05, 0.0, 1.0, 1.0, G, 1.0, 1e-6, 12, 2000, GROWS)
     for _ in range(100):
@@ -135,7 +135,7 @@ def test_blocks_passed_over_change_nothing():
         widened[:, -1] = bounds[:, -1]
     runs = []
     for bounds in ((x, y), wide):
-        top, end = np.empty(6), np.empty(4)
+        top, end = np.empty(7), np.empty(4)
         run = two_axes.slide_plane(
             ax, ay, az, *bounds, z, 0.05, 0.1, 0.99, 0.3, G, 1.0, 1e-9, 16, 2000, None,
             np.empty((0, 4)), np.empty((4, 0)), top, end,

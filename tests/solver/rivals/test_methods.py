@@ -250,7 +250,7 @@ def test_small_steps_only_in_slip_give_the_papers_numbers_to_the_last_bit(noise,
     np.testing.assert_array_equal(paper.u_m, other.u_m)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     st.lists(st.integers(-6, 6).map(lambda k: 0.5 * k), min_size=2, max_size=12),
     st.sampled_from([0.0, 0.25, 0.5]),

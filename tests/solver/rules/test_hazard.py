@@ -12,7 +12,6 @@ from solver.rules.hazard import (
     sdc_near_fault,
     sdc_short,
     seismic_parameters,
-    site_specific_reason,
 )
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 
@@ -95,21 +94,3 @@ def test_edition_22_takes_the_values_of_the_hazard_tool_and_no_coefficients():
     assert site.s_m1 == pytest.approx(0.9)
     assert seismic_parameters(E22, s_s=1.0, f_a=1.2).s_ds is None
     assert seismic_parameters(E16, s_ds=1.2).s_ms == pytest.approx(1.8)
-
-
-@pytest.mark.parametrize(
-    ("edition", "site_class", "s_s", "s_1", "reason"),
-    [
-        (E16, "D", 1.0, 0.2, "site class D with S_1 = 0.2 g"),
-        (E16, "D (default)", 1.0, 0.6, "site class D with S_1 = 0.6 g"),
-        (E16, "D", 1.0, 0.199, ""),
-        (E16, "E", 1.0, None, "site class E with S_S = 1 g"),
-        (E16, "C", 2.0, 1.0, ""),
-        (E16, "F", 0.1, 0.1, "site class F"),
-        (E22, "F", 0.1, 0.1, "site class F"),
-        (E22, "D", 1.0, 0.6, ""),
-        (E22, "DE", 1.0, 0.6, ""),
-    ],
-)
-def test_sites_that_need_a_hazard_analysis_of_their_own(edition, site_class, s_s, s_1, reason):
-    assert site_specific_reason(edition, site_class=site_class, s_s_g=s_s, s_1_g=s_1) == reason

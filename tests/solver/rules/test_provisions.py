@@ -15,8 +15,11 @@ from solver.rules.provisions import (
     Basis,
     Neighbor,
     analysis_checks,
+    analysis_floor_m,
     analysis_value,
     array_checks,
+    basis_for,
+    factored,
     interconnection_strength_n,
     parapet_qualifies,
     prescriptive_checks,
@@ -155,6 +158,24 @@ def test_two_motions_or_a_missing_peak_give_no_value():
     for peaks in ([0.1, math.nan, 0.2], [math.nan, 0.1, 0.2]):
         assert math.isnan(analysis_value(PV1, peaks).value_m)
         assert math.isnan(analysis_value(PV1, peaks).largest_m)
+
+
+@pytest.mark.parametrize("rules", RULE_SETS.values())
+@pytest.mark.parametrize("count", [1, 2, 3, 6, 7, 12])
+def test_the_value_of_many_cases_is_that_of_each(rules, count):
+    peaks = np.random.default_rng(count).lognormal(size=(5, count))
+    peaks[2, 0] = math.nan
+    mean, largest = peaks.mean(axis=1), peaks.max(axis=1)
+    found = factored(rules, basis_for(rules, count), mean, largest)
+    wanted = [analysis_value(rules, list(map(float, row))).value_m for row in peaks]
+    assert found == pytest.approx(wanted, rel=1e-12, nan_ok=True)
+
+
+@pytest.mark.parametrize(("rules", "expected_in"), [(PV1, 10.8), (A16, 19.2), (A22, 19.2)])
+def test_the_floor_is_a_share_of_the_prescriptive_displacement_unless_reviewed(rules, expected_in):
+    found = prescriptive_displacement(rules, s_ds_g=1.0, sdc="D", importance=1.0)
+    assert analysis_floor_m(rules, found) == pytest.approx(expected_in * INCH)
+    assert analysis_floor_m(rules, found, is_reviewed=True) == 0.0
 
 
 def test_a_plain_mean_needs_eleven_motions():

@@ -4,7 +4,10 @@ import math
 
 import pytest
 
-from solver.rules.site_coefficients import F_A, F_V, site_coefficient
+from solver.rules.hazard import EDITIONS
+from solver.rules.site_coefficients import F_A, F_V, site_coefficient, site_specific_reason
+
+E16, E22 = EDITIONS["ASCE 7-16"], EDITIONS["ASCE 7-22"]
 
 
 @pytest.mark.parametrize(
@@ -45,3 +48,28 @@ def test_the_default_of_site_class_d_is_never_below_d_nor_below_1_2():
 def test_asce_7_22_site_classes_between_the_letters_have_no_coefficient():
     with pytest.raises(KeyError):
         site_coefficient(F_A, "CD", 1.0)
+
+
+@pytest.mark.parametrize(
+    ("edition", "site_class", "s_s", "s_1", "reason"),
+    [
+        (E16, "D", 1.0, 0.2, "site class D with S_1 = 0.2 g"),
+        (E16, "D (default)", 1.0, 0.6, "site class D by default with S_1 = 0.6 g"),
+        (E16, "D", 1.0, 0.199, ""),
+        (E16, "E", 1.0, None, "site class E with S_S = 1 g"),
+        (E16, "E", 0.75, 0.1, ""),
+        (E16, "E", 0.76, 0.1, "site class E with S_S = 0.76 g"),
+        (E16, "E", 0.75, 0.11, "site class E with S_1 = 0.11 g"),
+        (E16, "E", 0.75, None, "site class E, S_1 not given"),
+        (E16, "E", None, None, "site class E, S_S and S_1 not given"),
+        (E16, "D", None, None, "site class D, S_1 not given"),
+        (E16, "C", None, None, ""),
+        (E16, "C", 2.0, 1.0, ""),
+        (E16, "F", 0.1, 0.1, "site class F"),
+        (E22, "F", 0.1, 0.1, "site class F"),
+        (E22, "D", 1.0, 0.6, ""),
+        (E22, "DE", 1.0, 0.6, ""),
+    ],
+)
+def test_sites_that_need_a_hazard_analysis_of_their_own(edition, site_class, s_s, s_1, reason):
+    assert site_specific_reason(edition, site_class=site_class, s_s_g=s_s, s_1_g=s_1) == reason

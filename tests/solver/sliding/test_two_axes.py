@@ -75,6 +75,7 @@ def test_without_transverse_shaking_it_is_the_exact_one_axis_motion(degrees, mu,
     assert outcome.up_m == pytest.approx(exact.up_m, rel=1e-12, abs=1e-15)
     assert outcome.end_m == pytest.approx((exact.residual_m, 0.0), abs=1e-12 * exact.prd_m)
     assert outcome.t_prd_s == pytest.approx(exact.t_prd_s, abs=1e-9)
+    assert outcome.peak_mps == pytest.approx(exact.peak_speed_mps, rel=1e-9)
     if mu > 0.0:
         assert outcome.n_stops == exact.n_stops
 
@@ -214,6 +215,7 @@ def test_traps_are_followed_as_scipy_follows_them(name, mu):
         error = abs(outcome.prd_m - exact.prd)
         assert error <= outcome.error_m + ORACLE * exact.prd
         assert outcome.error_m <= tolerance * exact.prd
+        assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + ORACLE)
 
 
 def assert_every_tolerance_is_kept_to(block):
@@ -234,6 +236,7 @@ def assert_every_tolerance_is_kept_to(block):
         error = np.abs(places(outcome) - theirs).max()
         assert error <= outcome.error_m + ORACLE * exact.prd
         assert outcome.error_m <= tolerance * exact.prd
+        assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + ORACLE)
         assert outcome.n_stops == exact.n_stops
 
 

@@ -35,6 +35,7 @@ def test_under_a_constant_push_the_speed_follows_its_closed_form(friction, turn)
     block = scene(math.cos(turn) * along, math.sin(turn) * along, dt, friction=friction)
     samples, _ = follow_history(block, follow(block, 1e-10))
     assert np.hypot(samples[2], samples[3]) == pytest.approx(speed, rel=1e-10, abs=1e-14)
+    assert follow(block, 1e-10).peak_mps == pytest.approx(speed[-1], rel=1e-10)
 
 
 def test_what_holds_more_at_rest_lets_go_at_once():
@@ -88,6 +89,7 @@ def test_it_is_as_scipy_follows_it(friction):
         error = np.abs(places(outcome) - theirs).max()
         assert error <= outcome.error_m + 1e-10 * exact.prd
         assert error <= (tolerance + 1e-10) * exact.prd
+        assert outcome.peak_mps == pytest.approx(exact.fastest, rel=tolerance + 1e-10)
         assert outcome.n_stops == exact.n_stops
 
 

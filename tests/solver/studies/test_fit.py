@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from solver.model import InputError
-from solver.studies.fit import fit_prd
+from solver.studies.fit import DIGITS, fit_prd
 
 TRUTH = (-2.0, 2.5, -1.2, 0.9, 3.0)
 PPA = 1.3
@@ -36,6 +36,23 @@ def test_the_error_is_that_of_the_data():
     found = fit_prd(*cases(), np.nan_to_num(prd(*cases())) * noise, ppa_g=PPA)
     assert found.sigma_ln == pytest.approx(0.2, rel=0.2)
     assert found.least_ratio < 1.0 < found.greatest_ratio
+
+
+def test_the_errors_are_those_of_the_coefficients_as_printed():
+    noise = np.exp(0.2 * np.random.default_rng(2).standard_normal(90))
+    data, peak = np.nan_to_num(prd(*cases())) * noise, 1.2345678
+    found = fit_prd(*cases(), data, ppa_g=peak)
+    printed = [float(f"{b:.{DIGITS}g}") for b in found.coefficients]
+    assert list(found.coefficients) == printed
+    assert found.ppa_g == 1.235
+    slope, mu, x = cases()
+    r = np.tan(np.arctan(mu) - slope) / (found.ppa_g * x)
+    fitted = (data >= 0.005) & (r <= 0.9)
+    terms = [np.ones_like(r[fitted]), np.log(1 - r[fitted]), np.log(r[fitted]), np.log(x[fitted]),
+             (slope / mu)[fitted]]  # fmt: skip
+    ratio = data[fitted] / np.exp(sum(b * term for b, term in zip(printed, terms, strict=True)))
+    assert found.least_ratio == pytest.approx(ratio.min(), rel=1e-12)
+    assert found.greatest_ratio == pytest.approx(ratio.max(), rel=1e-12)
 
 
 @pytest.mark.parametrize(

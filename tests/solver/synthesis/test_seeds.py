@@ -30,7 +30,7 @@ VERTICAL = CORNERS_HZ, np.array([0.067, 0.67, 0.67, 0.27])
 @pytest.fixture(scope="module")
 def made() -> tuple[Any, Any]:
     group = tuple(falling(seed) for seed in (1, 2))
-    return group, make_suite(HORIZONTAL, VERTICAL, count=2, seed=1, records=[group])
+    return group, make_suite(HORIZONTAL, VERTICAL, count=2, seed=7, records=[group])
 
 
 def falling(seed: int) -> Record:
@@ -104,7 +104,7 @@ def test_what_each_component_grew_from_is_told(made: Any) -> None:
 
 
 def test_a_motion_of_records_is_the_same_whatever_the_count(made: Any) -> None:
-    again = make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, records=[made[0]])[0]
+    again = make_suite(HORIZONTAL, VERTICAL, count=1, seed=7, records=[made[0]])[0]
     for record, other in zip(again.components, made[1][0].components, strict=True):
         assert np.array_equal(record.a_mps2, other.a_mps2)
 

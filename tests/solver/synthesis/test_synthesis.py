@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import numpy as np
 import pytest
 from scipy import signal
 
+from modal import psa_g
 from solver.formats import read_motion_file, read_record
 from solver.model import Floats, InputError, Motion
 from solver.records.acceptance import acceptance
@@ -49,34 +49,9 @@ def rng(seed: int) -> np.random.Generator:
     return np.random.Generator(np.random.PCG64(seed))
 
 
-def finer(record: Record, steps: int) -> Record:
-    """Put samples between each two, on the straight lines."""
-    coarse = np.arange(len(record.a_mps2))
-    at = np.arange((coarse.size - 1) * steps + 1) / steps
-    fine = np.interp(at, coarse, record.a_mps2)
-    return Record(name=record.name, dt_s=record.dt_s / steps, a_mps2=fine)
-
-
-def modal_psa_g(record: Record, freq_hz: Floats) -> Floats:
-    """5 % damped spectrum by one complex mode: q' = s q - a, u = Im(q) / w_d, exact per step.
-
-    Peaks at 40 places of a period or more, by powers of two of the record's own steps.
-    """
-    steps = np.maximum(2.0 ** np.ceil(np.log2(40.0 * record.dt_s * freq_hz)), 1.0)
-    every = steps.max() // steps
-    record = finer(record, int(steps.max()))
-    omega = 2.0 * np.pi * freq_hz
-    damped = omega * np.sqrt(1.0 - 0.05**2)
-    s = -0.05 * omega + 1j * damped
-    h = record.dt_s
-    turn = np.exp(s * h)
-    held = (turn - 1.0) / s
-    ramped = (held - h) / (s * h)
-    q, peak = np.zeros_like(s), np.zeros_like(omega)
-    for i, (now, then) in enumerate(pairwise(record.a_mps2), start=1):
-        q = turn * q - now * held - (then - now) * ramped
-        peak = np.maximum(peak, np.where(i % every == 0, np.abs(q.imag), 0.0))
-    return omega**2 * peak / damped / G
+def psa_over(record: Record, wanted: Target, freq_hz: Floats) -> Floats:
+    """Spectrum over the target, by another method."""
+    return psa_g(record.a_mps2, record.dt_s, freq_hz) / target_sa_g(wanted, freq_hz)
 
 
 def counts(record: Record) -> list[int]:
@@ -100,17 +75,28 @@ class TestSuite:
         # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:
             fit = spectrum_fit(record, wanted)
-            assert fit.least >= 0.90
+            assert fit.least >= 1.0
             assert fit.greatest <= 1.30
             assert 1.0 <= fit.mean <= 1.07
 
-    def test_no_point_of_the_acceptance_is_below_the_target(self, components: Any) -> None:
-        # 1/6 octave or less, from 0.1 Hz; another routine finds the same.
-        freq_hz = np.append(np.geomspace(0.1, 1.3, 24), np.geomspace(1.3, 33.3, 30))
+    def test_no_point_of_a_sixth_of_an_octave_is_below_the_target_wherever_the_first_lies(
+        self, components: Any
+    ) -> None:
+        # 100 grids; another routine finds the same.
+        shift = np.arange(100) / 600.0
+        freq_hz = 1.3 * 2.0 ** (np.arange(-22, 28) / 6.0 + shift[:, None]).ravel()
         for record, wanted in components[:6]:
-            ratio = modal_psa_g(record, freq_hz) / target_sa_g(wanted, freq_hz)
-            assert 1.0 <= ratio.min() < 1.001
+            ratio = psa_over(record, wanted, freq_hz)
+            assert 1.0 <= ratio.min() < 1.003
             assert ratio.max() <= 1.3
+
+    def test_the_suite_that_failed_between_the_points_keeps_every_row_on_every_grid(self) -> None:
+        # 1.3 x 2^(k/6) Hz: 4 of 18 components were below the target at 2.6 and 2.92 Hz.
+        across, upward = corners(1.6 * 1.7, 0.4 * 1.7 * 2.25 / 1.3), corners(0.67 * 1.7, 0.27 * 1.7)
+        (made,) = make_suite(across, upward, count=1, seed=99002)
+        freq_hz = 1.3 * 2.0 ** (np.arange(28) / 6.0)
+        for record, wanted in zip(made.components, (across, across, upward), strict=True):
+            assert psa_over(record, wanted, freq_hz).min() >= 1.0
 
     def test_suites_satisfy_every_row_of_the_acceptance(self, suites: Any) -> None:
         motions = [
@@ -211,13 +197,13 @@ class TestSynthesis:
         tail = np.array([0.1, 1.0 / 0.77, 8.3, 33.3]), np.array([0.077, 1.0, 1.0, 0.75])
         record = synthesize(tail, rng=rng(1), dt_s=dt_s, duration_s=duration_s, name="tail")
         assert len(record.a_mps2) == round(duration_s / dt_s) + 1
-        ratio = modal_psa_g(record, BAND) / target_sa_g(tail, BAND)
+        ratio = psa_over(record, tail, BAND)
         assert 0.9 <= ratio.min() <= ratio.max() <= 1.3
 
     def test_a_target_that_begins_above_the_band_is_flat_below(self) -> None:
         flat = np.array([2.0, 20.0]), np.array([1.0, 1.0])
         record = synthesize(flat, rng=rng(1), dt_s=0.01, duration_s=20.0, name="flat")
-        assert modal_psa_g(record, BAND[:24]) == pytest.approx(1.0, abs=0.1)
+        assert psa_over(record, flat, BAND[:24]) == pytest.approx(1.0, abs=0.1)
 
     def test_a_motion_like_another_is_drawn_again(self) -> None:
         how: dict[str, Any] = {"dt_s": 0.01, "duration_s": 12.0, "name": "x"}
@@ -231,7 +217,7 @@ class TestSynthesis:
         monkeypatch.setattr(target, "LEAST", 1.5)
         with pytest.raises(
             InputError,
-            match=r"x: 2 motions of 12 s all miss .*; the closest has 0\.9\d to 1\.\d\d times",
+            match=r"x: 2 motions of 12 s all miss .*; the closest has 1\.00 to 1\.\d\d times",
         ):
             synthesize(HORIZONTAL, rng=rng(1), dt_s=0.01, duration_s=12.0, name="x")
 
@@ -266,15 +252,12 @@ class TestFit:
         fit = spectrum_fit(suites[0].x, HORIZONTAL)
         assert fit.freq_hz[:-1] == pytest.approx(0.1 * 2.0 ** (np.arange(101) / 12.0), rel=1e-12)
         assert fit.freq_hz[-1] == 33.3
-        achieved = modal_psa_g(suites[0].x, fit.freq_hz)
-        assert fit.achieved_g == pytest.approx(achieved, rel=1e-9)
-        ratio = achieved / target_sa_g(HORIZONTAL, fit.freq_hz)
-        assert fit.ratio == pytest.approx(ratio, rel=1e-9)
+        ratio = psa_over(suites[0].x, HORIZONTAL, fit.freq_hz)
+        assert fit.ratio == pytest.approx(ratio, rel=1e-4)
         ratios = fit.least, fit.mean, fit.greatest
-        assert ratios == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-9)
+        assert ratios == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-4)
 
     def test_scipy_finds_the_same_spectrum_by_a_state_space_model(self, suites: Any) -> None:
-        # The step of these is a 40th of a period or less: peaks are looked for at samples alone.
         record, freq_hz = suites[4].y, np.array([0.1, 0.3, 0.9, 2.7, 4.9])
         t = record.dt_s * np.arange(len(record.a_mps2))
         peaks_g = []
@@ -283,4 +266,4 @@ class TestFit:
             oscillator = signal.lti([omega**2], [1.0, 0.1 * omega, omega**2])
             peaks_g.append(np.abs(signal.lsim(oscillator, -record.a_mps2, t)[1]).max() / G)
         fit = spectrum_fit(record, HORIZONTAL, freq_hz)
-        assert fit.achieved_g == pytest.approx(peaks_g, rel=1e-6)
+        assert fit.achieved_g == pytest.approx(peaks_g, rel=3e-3)  # of samples alone

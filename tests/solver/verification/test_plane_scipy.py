@@ -29,6 +29,17 @@ def test_the_reference_is_the_exact_motion_where_there_is_one_axis(slope_deg):
     np.testing.assert_allclose(y, 0.0, atol=1e-20)
 
 
+def test_the_reference_follows_a_slip_whose_drive_ends_within_its_first_interval():
+    part = own_triples(True)[0].cut(5)
+    scene = part.scene(Case(0.0, 0.4, 1.0), coulomb(0.4), second=False)
+    drive = readonly(np.array([5.0, 0.0, 0.0, 0.0, 0.0]))
+    scene = replace(scene, ax_mps2=drive, az_mps2=readonly(0.0 * drive), scale=1.0)
+    exact = one_axis.run_history(scene)
+    x, _ = plane_scipy.reference(replace(scene, ay_mps2=readonly(0.0 * drive)))
+    assert exact.result.prd_m > 0.0
+    np.testing.assert_allclose(x, exact.u_m, rtol=0.0, atol=1e-11 * exact.result.prd_m)
+
+
 def test_regularized_friction_creeps_as_its_closed_form_says():
     scene, v0 = stopped_scene(), 1e-3
     outcome = plane_scipy.regularized(scene, "Radau", v0, 1e-6)

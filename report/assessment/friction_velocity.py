@@ -1,0 +1,225 @@
+"""Friction at the velocities at which arrays slide, against the velocities tested.
+
+Compares friction beyond the tests with the smallest value tested, and assesses arrays with their
+low-velocity coefficient alone. Read `VelocityCheck`, then `velocity_row`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment, assess_array
+from report.assessment.begun import Begun
+from report.assessment.clearances import ClearanceCheck, check_clearance
+from report.assessment.friction import at_low_velocity, coefficient
+from report.assessment.friction_rows import tested
+from report.assessment.verdict import NOT_GIVEN, Row, Verdict
+from report.sheet.friction_checks import MU_TOLERANCE
+from report.sheet.schema import ProjectInput
+from report.words.units import Quantity, number, pair
+from solver.friction_tests import Series, governing
+from solver.model import Friction
+from solver.records.acceptance_row import Consequence
+from solver.rules.provisions import RuleSet
+
+VELOCITY_ROW = "friction_velocity"
+"""Id of the requirement on friction beyond the velocities tested."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VelocityCheck:
+    """The friction of an array beyond the velocities tested.
+
+    Attributes
+    ----------
+    friction : Friction
+    fastest_mps : float
+        Largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none.
+    tests : Series
+        The runs of friction tests that govern for the array.
+    """
+
+    friction: Friction
+    fastest_mps: float
+    tests: Series
+
+    @property
+    def is_beyond(self) -> bool:
+        """Whether the array may slide faster than tested; where no test reports its velocity, so.
+
+        An array that never slides is not beyond.
+        """
+        tested_mps = self.tests.velocity_mps
+        return not self.fastest_mps <= (0.0 if math.isnan(tested_mps) else tested_mps)
+
+    @property
+    def mu_beyond(self) -> float:
+        """Largest friction used beyond the velocities tested; NaN where none is."""
+        law, ends = self.friction, (self.tests.velocity_mps, self.fastest_mps)
+        if not self.is_beyond:
+            return math.nan
+        if any(map(math.isnan, ends)):
+            return max(law.mu_slow, law.mu_fast)
+        return max(map(law.at, ends))
+
+    @property
+    def is_satisfied(self) -> bool:
+        """Whether friction beyond the tests is at most the smallest tested, within rounding."""
+        return not self.is_beyond or self.mu_beyond <= self.tests.least_mu + MU_TOLERANCE
+
+    @property
+    def verdict(self) -> Verdict:
+        """OK, or OK with conditions."""
+        return Verdict.OK if self.is_satisfied else Verdict.CONDITIONS
+
+
+def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck | None:
+    """Return the friction of an array beyond the velocities tested; None without test runs."""
+    found = tested(data)
+    if not found:
+        return None
+    return VelocityCheck(
+        friction=assessed.array.friction,
+        fastest_mps=assessed.fastest_mps,
+        tests=governing(found, assessed.array.mu_report),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LowVelocity:
+    """The arrays whose friction depends on velocity, with the low-velocity coefficient alone.
+
+    Attributes
+    ----------
+    arrays : tuple of ArrayAssessment
+        Empty where no friction depends on velocity.
+    clearances : mapping
+        The clearances of these arrays, by their number in the workbook, from 1.
+    """
+
+    arrays: tuple[ArrayAssessment, ...]
+    clearances: Mapping[int, ClearanceCheck]
+
+    def of(self, array_id: str) -> ArrayAssessment | None:
+        """Return an array; None where its friction does not depend on velocity."""
+        return next((item for item in self.arrays if item.id == array_id), None)
+
+    def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
+        """Return the clearances that involve an array, on either side."""
+        return [gap for gap in self.clearances.values() if gap.involves(array_id)]
+
+
+NOT_BY_VELOCITY = LowVelocity(arrays=(), clearances={})
+
+
+def with_low_velocity(data: ProjectInput) -> ProjectInput:
+    """Return an input with those arrays only whose friction depends on velocity, without it."""
+    arrays = [at_low_velocity(array) for array in data.arrays if array.friction.is_by_velocity]
+    return data.model_copy(update={"arrays": type(data.arrays)(arrays)})
+
+
+def low_velocity(
+    data: ProjectInput,
+    rules: RuleSet,
+    arrays: Sequence[ArrayAssessment],
+    begun: Begun,
+    *,
+    motions_qualify: bool,
+) -> LowVelocity:
+    """Assess the arrays of `with_low_velocity` beside the others as given.
+
+    Parameters
+    ----------
+    begun : Begun
+        Their runs.
+    """
+    changed = {
+        array.id: assess_array(data, rules, array, *wait(), motions_qualify=motions_qualify)
+        for array, wait in zip(with_low_velocity(data).arrays, begun, strict=True)
+    }
+    every = [changed.get(item.id, item) for item in arrays]
+    return LowVelocity(
+        arrays=tuple(changed.values()),
+        clearances={
+            count: check_clearance(data, rules, every, row)
+            for count, row in enumerate(data.clearances, start=1)
+            if not changed.keys().isdisjoint((row.array, row.object))
+        },
+    )
+
+
+def velocity_rows(
+    data: ProjectInput, arrays: Sequence[ArrayAssessment], slow: LowVelocity
+) -> Iterator[Row]:
+    """Yield for each array whether friction beyond the velocities tested is shown by tests.
+
+    Nothing without test runs: what is missing then is a requirement of its own.
+    """
+    us_first = data.project.units_first == "US"
+    for item in arrays:
+        check = velocity_check(data, item)
+        if check is not None:
+            yield _row(item.id, check, slow, us_first)
+
+
+def _row(array_id: str, check: VelocityCheck, slow: LowVelocity, us_first: bool) -> Row:
+    least = number(check.tests.least_mu, 3)
+    remedy = (
+        f"Obtain friction tests at the sliding velocities, or enter at most {least} at every "
+        "velocity."
+    )
+    alone = slow.of(array_id)
+    if alone is not None:
+        outcome = ", ".join(_outcome(alone, slow, us_first))
+        remedy += f" With {coefficient(alone.array.mu)} at every velocity: {outcome}."
+    return Row(
+        id=VELOCITY_ROW,
+        title="Friction beyond the velocities tested",
+        subject=array_id,
+        found="; ".join(_found(check, us_first)),
+        limit=f"slower than tested, or μ beyond ≤ {least}",
+        basis="friction tests",
+        is_satisfied=check.is_satisfied,
+        consequence=Consequence.CONDITION,
+        remedy=remedy,
+    )
+
+
+def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
+    """Yield the largest velocities of runs and of tests, and the friction used beyond."""
+    yield _slides(check.fastest_mps, us_first)
+    tested_mps = check.tests.velocity_mps
+    if math.isnan(tested_mps):
+        yield f"velocities tested {NOT_GIVEN}"
+    else:
+        yield f"tested to {pair(tested_mps, Quantity.VELOCITY, us_first)}"
+    if check.is_beyond:
+        yield f"μ beyond {number(check.mu_beyond, 3)}"
+
+
+def _slides(fastest_mps: float, us_first: bool) -> str:
+    if math.isnan(fastest_mps):
+        return "a run gives no velocity"
+    if fastest_mps == 0.0:
+        return "does not slide"
+    return f"slides at {pair(fastest_mps, Quantity.VELOCITY, us_first)}"
+
+
+def _outcome(alone: ArrayAssessment, slow: LowVelocity, us_first: bool) -> Iterator[str]:
+    """Yield the design displacement and the verdicts on the clearances of an array."""
+    design_m = alone.design_m
+    yield (
+        "no design displacement"
+        if math.isnan(design_m)
+        else f"design displacement {pair(design_m, Quantity.DISPLACEMENT, us_first)}"
+    )
+    if alone.has_unpermitted_value:
+        yield NOT_PERMITTED
+    gaps = slow.gaps_of(alone.id)
+    failed = [gap.clearance for gap in gaps if gap.verdict is Verdict.NG]
+    if failed:
+        yield f"NG: {', '.join(f'{row.array} to {row.object}' for row in failed)}"
+    elif gaps and all(gap.ok for gap in gaps):
+        yield "all its clearances OK" if len(gaps) > 1 else "its clearance OK"

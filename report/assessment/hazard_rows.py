@@ -1,0 +1,131 @@
+"""What a plan checker asks about the seismic parameters: source, SDC, site class, 11.4.8.
+
+Each row that is not satisfied is a condition, not NG; values below their table are errors
+(`report.sheet.site_checks`). Read `hazard_rows`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from report.assessment.verdict import NOT_GIVEN, Row, stated
+from report.sheet.schema import ProjectInput, Site
+from solver.records.acceptance_row import Consequence
+from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, HazardBasis
+from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason
+
+
+def hazard_rows(data: ProjectInput) -> tuple[Row, ...]:
+    """Return the rows on the seismic parameters of the site."""
+    site = data.site
+    return (_source(site), _category(site), *_site_class(site), *_site_specific(site))
+
+
+def _is_studied(site: Site) -> bool:
+    return site.hazard is HazardBasis.SITE_SPECIFIC
+
+
+def _source(site: Site) -> Row:
+    """Return whether it is stated where the parameters come from."""
+    source, date = ("source", site.hazard_source), ("date", site.hazard_date)
+    if not _is_studied(site):
+        found, is_complete = stated((source, date))
+        return _row(
+            id="hazard_source",
+            title="Source and date of the seismic parameters",
+            found=found,
+            limit="source and date",
+            basis="seismic parameters",
+            is_satisfied=is_complete,
+            remedy="State on the sheet Site which tool or report the values are from, and when "
+            "they were read.",
+        )
+    found, is_complete = stated((source, ("report number", site.hazard_report), date))
+    return _row(
+        id="hazard_source",
+        title="Report on the site-specific hazard analysis",
+        found=found,
+        limit="source, report number and date",
+        basis=site.edition.clause("site_specific"),
+        is_satisfied=is_complete,
+        remedy="Obtain the report, and state its author, number and date on the sheet Site.",
+    )
+
+
+def _category(site: Site) -> Row:
+    """Return whether the SDC was compared with all that it depends on."""
+    lacking = site.sdc_lacks
+    missing = " and ".join(lacking)
+    found = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
+    if not lacking:
+        found = f"S_1 = {site.s_1_g:.3f} g, S_D1 = {site.s_d1:.3f} g"
+    return _row(
+        id="sdc",
+        title="Basis of the seismic design category",
+        found=found,
+        limit="S_DS, S_1 and S_D1",
+        basis=site.edition.clause("sdc"),
+        is_satisfied=not lacking,
+        remedy=f"The SDC depends on {missing} too: give {'both' if len(lacking) > 1 else 'it'}.",
+    )
+
+
+def _site_class(site: Site) -> Iterator[Row]:
+    """Yield a site class that nobody determined, with what then holds."""
+    if site.assumed_class != BY_DEFAULT or _is_studied(site):
+        return
+    holds = (
+        f"F_a is then at least {LEAST_F_A_BY_DEFAULT:g} ({site.edition.clause('s_ms')}), and S_1 of"
+        f" {LEAST_S_1_OF_D_G:g} g or more needs a site-specific hazard analysis or the exception"
+        f" ({site.edition.clause('site_specific')}): determine the site class."
+    )
+    yield _row(
+        id="site_class",
+        title="Site class",
+        found=f"{NOT_GIVEN}: D by default" if site.site_class is None else "D by default",
+        limit="determined for the site",
+        basis=site.edition.clause("site_class"),
+        is_satisfied=False,
+        remedy=holds
+        if site.edition.has_site_coefficients
+        else "The values of a hazard tool depend on the site class: determine it.",
+    )
+
+
+def _site_specific(site: Site) -> Iterator[Row]:
+    """Yield where a site-specific hazard analysis is required, or may be."""
+    reason = site_specific_reason(
+        site.edition, site_class=site.assumed_class, s_s_g=site.s_s_g, s_1_g=site.s_1_g
+    )
+    if not reason:
+        return
+    is_open = reason.endswith(NOT_GIVEN)
+    yield _row(
+        id="site_specific_hazard",
+        title=f"Hazard analysis for {reason}",
+        found=site.hazard.value,
+        limit="site-specific analysis or exception"
+        + (", if the missing value requires it" if is_open else ""),
+        basis=site.edition.clause("site_specific"),
+        is_satisfied=site.hazard is not HazardBasis.MAPPED,
+        remedy="Give the mapped value that is missing, obtain a site-specific hazard analysis, or "
+        "state the exception that applies."
+        if is_open
+        else "S_DS and S_D1 are mapped values: obtain a site-specific hazard analysis, or state "
+        "the exception that applies.",
+    )
+
+
+def _row(
+    *, id: str, title: str, found: str, limit: str, basis: str, is_satisfied: bool, remedy: str
+) -> Row:
+    return Row(
+        id=id,
+        title=title,
+        found=found,
+        limit=limit,
+        basis=basis,
+        is_satisfied=is_satisfied,
+        consequence=Consequence.CONDITION,
+        remedy=remedy,
+    )

@@ -1,0 +1,118 @@
+"""Overrides of provisions and departures from the rule set that require less of a project.
+
+Each needs the consent of the authority having jurisdiction, and is a row. A number that is another
+under the rule set as adopted carries a mark. Read `override_rows`, then `as_adopted`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from report.assessment.verdict import Row
+from report.sheet.schema import (
+    Override,
+    ProjectInput,
+    Statistic,
+    provision_name,
+    provision_unit,
+)
+from solver.records.acceptance_row import Consequence
+from solver.rules.provisions import RULE_SETS, Basis, RuleSet
+from solver.rules.rulesets import ALLOWED
+
+OVERRIDDEN = "‡"
+"""Mark of a number that an override or a departure changes."""
+
+MEANING = f"{OVERRIDDEN}: changed by an override or a departure"
+
+OVERRIDE_ID = "override"
+LOWERING = (OVERRIDE_ID, "directional", "statistic")
+"""Ids of the rows here."""
+
+CONSENT = "Obtain the consent of the authority having jurisdiction."
+
+
+def override_rows(data: ProjectInput) -> tuple[Row, ...]:
+    """Return what requires less than the rule set: each override that does, and each departure."""
+    rules = RULE_SETS[data.site.rule_set]
+    overrides = (row for row in data.overrides if _lowers(rules, row))
+    return (*(_override(rules, row) for row in overrides), *_departures(data, rules))
+
+
+def override_title(row: Override) -> str:
+    """Return the title of the row of an override."""
+    name = provision_name(row.provision)
+    return f"Override of the {name[:1].lower()}{name[1:]}"
+
+
+def as_adopted(data: ProjectInput) -> ProjectInput:
+    """Return an input without its overrides and departures; the input itself if it has none."""
+    given = data.options
+    statistic = Statistic.RULE_SET if _takes_plain_mean(data) else given.statistic
+    options = given.model_copy(update={"directional": False, "statistic": statistic})
+    if not data.overrides and options == given:
+        return data
+    return data.model_copy(update={"overrides": (), "options": options})
+
+
+def mark_of(value: float, adopted: float) -> str:
+    """Return the mark of a number that is another under the rule set as adopted; none for NaN."""
+    return "" if math.isnan(value) or value == adopted else OVERRIDDEN
+
+
+def _lowers(rules: RuleSet, row: Override) -> bool:
+    given = rules.values.get(row.provision)
+    return given is not None and ALLOWED[row.provision].lowers(row.value, given.value)
+
+
+def _override(rules: RuleSet, row: Override) -> Row:
+    given, unit = rules.values[row.provision], provision_unit(row.provision)
+    value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, given.value))
+    sign = "≤" if ALLOWED[row.provision].is_most else "≥"
+    return _row(
+        title=override_title(row),
+        id=OVERRIDE_ID,
+        found=f"{value}{OVERRIDDEN}, {row.reason}",
+        limit=f"{sign} {adopted}",
+        basis=given.clause,
+    )
+
+
+def _departures(data: ProjectInput, rules: RuleSet) -> Iterator[Row]:
+    options = data.options
+    if options.directional:
+        yield _row(
+            id="directional",
+            title="Displacement by direction",
+            found=f"displacement toward each clearance{OVERRIDDEN}, {options.directional_reason}",
+            limit="design displacement in full in every direction",
+            basis=rules.name,
+        )
+    if _takes_plain_mean(data):
+        yield _row(
+            id="statistic",
+            title="Design value statistic",
+            found=f"{options.statistic}{OVERRIDDEN}",
+            limit="statistic of the rule set, with its factor",
+            basis=rules.values["analysis_factor"].clause,
+        )
+
+
+def _takes_plain_mean(data: ProjectInput) -> bool:
+    """Whether the workbook requests a mean without factor where the rule set has one."""
+    is_stated = RULE_SETS[data.site.rule_set].statistic_is_stated
+    return is_stated and data.options.statistic.value == Basis.MEAN.value
+
+
+def _row(*, id: str, title: str, found: str, limit: str, basis: str) -> Row:
+    return Row(
+        id=id,
+        title=title,
+        found=found,
+        limit=limit,
+        basis=basis,
+        is_satisfied=False,
+        consequence=Consequence.CONDITION,
+        remedy=CONSENT,
+    )

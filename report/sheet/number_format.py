@@ -1,0 +1,158 @@
+"""What a spreadsheet shows of a number by its number format: another unit, thousands, nothing.
+
+Knows the format codes (ECMA-376-1, 18.8.31) and the names of units, no cells. Read `misleading`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+_PARTS = re.compile(
+    r'"(?P<quoted>[^"]*)(?:"|$)|\\(?P<escaped>.)|(?P<space>[_*].)|\[\$(?P<currency>[^\]-]*)[^\]]*\]'
+    r"|\[[^\]]*\]|(?P<end>;)|(?P<general>General)|(?P<digits>[0#?.,%@]|E[+-])|(?P<other>.)",
+    re.IGNORECASE | re.DOTALL,
+)
+_LONGEST = 255
+"""Characters that Excel allows in a format code (Excel specifications and limits)."""
+
+_SCALE = re.compile(r"[0#?](,+)(?![0#?,])")
+_WORDS = re.compile(r"[^\s()\[\]{},;:=]+")
+_SINGLE = re.compile(r"([^\d^]+?)\^?([23]?)")
+
+_NAMES = {
+    "in": ("inch", "inches", '"', "″", "”"),
+    "ft": ("foot", "feet", "'", "′", "’"),
+    "yd": ("yard", "yards"),
+    "mm": ("millimeter", "millimeters", "millimetre", "millimetres"),
+    "cm": ("centimeter", "centimeters", "centimetre", "centimetres"),
+    "m": ("meter", "meters", "metre", "metres"),
+    "km": ("kilometer", "kilometers", "kilometre", "kilometres"),
+    "mi": ("mile", "miles"),
+    "lb": ("lbs", "lbf", "pound", "pounds"),
+    "kip": ("kips", "k"),
+    "N": ("newton", "newtons"),
+    "kN": (),
+    "MN": (),
+    "kg": ("kgf", "kilogram", "kilograms"),
+    "t": ("ton", "tons", "tonne", "tonnes"),
+    "psf": (),
+    "psi": (),
+    "ksi": (),
+    "Pa": (),
+    "kPa": (),
+    "MPa": (),
+    "plf": (),
+    "s": ("sec", "secs", "second", "seconds"),
+    "ms": ("msec",),
+    "min": ("minute", "minutes"),
+    "Hz": (),
+    "rad": ("radian", "radians"),
+    "deg": ("°", "º", "degree", "degrees"),
+    "%": ("percent", "pct"),
+    "g": (),
+    "cm/s2": ("gal",),
+}
+_UNITS = {
+    name if len(name) == 1 else name.casefold(): unit
+    for unit, others in _NAMES.items()
+    for name in (unit, *others)
+}
+_ALSO_A_WORD = frozenset(("min", "k"))
+"""Names of units that alone may be a word: a minimum, thousands."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Section:
+    """One of the sections of a format code: its digits, and the text that it adds."""
+
+    digits: str
+    text: str
+
+
+def misleading(code: str, unit: str) -> str:
+    """Return how a format shows a number as another one, such as `in mm`; empty if it does not.
+
+    Parameters
+    ----------
+    code : str
+        The format code of a cell.
+    unit : str
+        Unit of its number; empty for none. A format may name it.
+    """
+    return next(filter(None, (_misleading(part, unit) for part in _sections(code)[:3])), "")
+
+
+def is_percentage(code: str) -> bool:
+    """Whether a format shows 0.05 as 5%."""
+    return any("%" in section.digits for section in _sections(code))
+
+
+def shows_nothing(code: str, value: object) -> bool:
+    """Whether a format shows no digit of a number, or none of a text."""
+    sections = _sections(code)
+    if isinstance(value, str):
+        return len(sections) > 3 and "@" not in sections[3].digits
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    by_sign = 0 if value > 0 or len(sections) == 1 else 1
+    if value == 0:
+        by_sign = 2 if len(sections) > 2 else 0
+    return not re.search("[0#?@]", sections[by_sign].digits)
+
+
+def _misleading(section: _Section, unit: str) -> str:
+    if scale := _SCALE.search(section.digits):
+        return f"divided by {1000 ** len(scale[1]):,}" if len(scale[1]) < 5 else "divided"
+    own, named = _unit(unit) or unit, list(_units_named(section.text))
+    if not named or own in (name for _, name in named):
+        return ""
+    return f"in {named[0][0]}"
+
+
+def _units_named(text: str) -> Iterator[tuple[str, str]]:
+    """Yield the words of a text that name a unit, each with the symbol of the unit."""
+    for word in _WORDS.findall(text):
+        bare = word.strip(".-–+~&!<>$_") or word
+        if (unit := _unit(bare)) and bare.casefold() not in _ALSO_A_WORD:
+            yield bare, unit
+
+
+@lru_cache(maxsize=256)
+def _unit(word: str) -> str:
+    """Return the symbol of a unit, of whatever name; empty if it is none."""
+    plain = word.replace("²", "2").replace("³", "3")
+    parts = [_single(part) for part in re.split(r"[/·*-]", plain)]
+    return "/".join(parts) if all(parts) else ""
+
+
+def _single(part: str) -> str:
+    match = _SINGLE.fullmatch(part.strip("."))
+    if match is None:
+        return ""
+    name = match[1] if len(match[1]) == 1 else match[1].casefold()
+    unit = _UNITS.get(name, "")
+    return f"{unit}{match[2]}" if unit else ""
+
+
+@lru_cache(maxsize=65_536)
+def _sections(code: str) -> tuple[_Section, ...]:
+    """Return the sections of a format code: of numbers above, below and equal to 0, and of text."""
+    sections, digits, text = [], "", ""
+    for match in _PARTS.finditer(code[:_LONGEST] or "General"):
+        kind = match.lastgroup
+        match kind:
+            case "end":
+                sections.append(_Section(digits, text))
+                digits, text = "", ""
+            case "digits":
+                digits += match[0]
+            case "general":
+                digits += "0"
+            case "space":
+                text += " "
+            case "quoted" | "escaped" | "currency" | "other":
+                text += match[kind]
+    return (*sections, _Section(digits, text))

@@ -1,0 +1,194 @@
+"""Friction beyond the velocities tested, and arrays with their low-velocity coefficient alone."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import stand_in
+from report.assessment.evidence import plotted
+from report.assessment.friction_velocity import VelocityCheck, velocity_check
+from report.assessment.verdict import Verdict
+from solver.friction_tests import FrictionRun, Series, Surface
+from solver.model import Friction, coulomb
+from solver.rules.provisions import Neighbor
+
+LAW = {"mu": 0.30, "mu_fast": 0.45, "mu_rate_s_per_m": 20.0}
+MOTIONS = stand_in.motions(3, seconds=8.0)
+TITLE = "Friction beyond the velocities tested"
+
+
+def runs(mu=0.45, velocity_mps=0.0254, count=3):
+    return [
+        {"surface": surface, "number": k, "mu": mu, "velocity_mps": velocity_mps}
+        for surface in Surface
+        for k in range(1, count + 1)
+    ]
+
+
+def assessed(arrays, tests, **changes):
+    data = stand_in.project(arrays=arrays, friction_runs=tests, **changes)
+    return stand_in.assess_input(data, MOTIONS)
+
+
+def one(mu=0.45, slope=2.0, tests=(), **law):
+    return assessed([stand_in.array("A1", slope, mu=mu, **law)], tests, clearances=[])
+
+
+def rows(done):
+    return {row.subject: row for row in done.rows if row.title == TITLE}
+
+
+@pytest.fixture(scope="module")
+def by_velocity():
+    """A1 and A2 alike but for their friction: constant, and a law that begins with the same."""
+    arrays = [
+        stand_in.array("A1", 2.0, mu=0.30),
+        stand_in.array("A2", 2.0, x=120, **LAW),
+    ]
+    gaps = [
+        stand_in.clearance("A1", "RTU-1", 0.4),
+        stand_in.clearance("A1", "A2", 1.2),
+        stand_in.clearance("A2", "S edge", 1.7, "down"),
+    ]
+    reviewed = {
+        "peer_reviewed": True, "peer_reviewer": "R", "peer_license": "1", "peer_date": "2026-03-01"
+    }  # fmt: skip
+    tests = runs(0.45, 0.0254)
+    return assessed(arrays, tests, clearances=gaps, options=reviewed)
+
+
+def test_the_velocity_is_the_largest_of_all_runs(by_velocity):
+    item = by_velocity.arrays[0]
+    each = [run.result.peak_speed_mps for motion in item.motions for run in motion.runs]
+    assert item.fastest_mps == max(each)
+    (histories, _) = plotted(by_velocity).histories
+    for motion, history in zip(item.motions, histories, strict=True):
+        across = history.across_mps if history.across_mps.size else np.zeros(1)
+        cosine = math.cos(item.array.slope_rad)
+        seen = float(np.hypot(history.v_mps / cosine, across).max())
+        peak = motion.governing.result.peak_speed_mps
+        assert seen <= peak * (1.0 + 1e-9)
+        assert seen == pytest.approx(peak, rel=0.02)
+
+
+def test_friction_beyond_the_tests_above_their_smallest_is_a_condition(by_velocity):
+    first, second = rows(by_velocity)["A1"], rows(by_velocity)["A2"]
+    assert first.is_satisfied  # 0.30 at every velocity
+    assert second.is_satisfied  # 0.45 at most
+    slower = [
+        {"surface": "wet", "number": 9, "mu": 0.40, "velocity_mps": 0.002},
+        *runs(0.47, 0.0254),
+    ]
+    done = one(0.30, mu_fast=0.45, mu_rate_s_per_m=20.0, tests=slower)
+    row = rows(done)["A1"]
+    assert row.verdict is Verdict.CONDITIONS
+    assert "; tested to 1.00 in/s (25.4 mm/s); μ beyond 0.450" in row.found
+    assert row.limit == "slower than tested, or μ beyond ≤ 0.400"
+    assert "enter at most 0.400 at every velocity. With 0.30 at every velocity: " in row.remedy
+    assert done.array_verdict(done.arrays[0]) is not Verdict.OK
+
+
+def test_tests_as_fast_as_the_array_slides_leave_nothing_beyond():
+    fastest = one().arrays[0].fastest_mps
+    assert fastest > 0.1
+    for share, satisfied in ((1.01, True), (0.99, False)):
+        tests = [*runs(0.46, share * fastest), *runs(0.40, 0.0254)]
+        wet = [test | {"number": k} for k, test in enumerate(tests, 1)]
+        row = rows(one(tests=wet))["A1"]
+        assert row.is_satisfied is satisfied
+        assert ("μ beyond" in row.found) is not satisfied
+
+
+def test_an_array_that_does_not_slide_is_not_beyond_any_test():
+    weak = [replace(motion, scale=1e-3 * motion.scale) for motion in MOTIONS]
+    arrays = [stand_in.array("A1", 0.5)]
+    data = stand_in.project(arrays=arrays, friction_runs=runs(0.2), clearances=[])
+    row = rows(stand_in.assess_input(data, weak))["A1"]
+    assert (row.is_satisfied, row.found) == (
+        True, "does not slide; tested to 1.00 in/s (25.4 mm/s)",
+    )  # fmt: skip
+
+
+def test_tests_without_velocities_show_friction_up_to_their_smallest_mean():
+    for mu, satisfied in ((0.44, True), (0.46, False)):
+        row = rows(one(mu, tests=runs(0.45, None)))["A1"]
+        assert row.is_satisfied is satisfied
+        assert f"; velocities tested not given; μ beyond {mu:.3f}" in row.found
+
+
+def test_without_tests_there_is_nothing_to_compare_with():
+    done = one()
+    assert rows(done) == {}
+    assert velocity_check(done.project, done.arrays[0]) is None
+
+
+def check(friction, fastest, *tested):
+    given = (
+        FrictionRun(report="", surface=Surface.WET, velocity_mps=v, mu=mu, mu_static=math.nan)
+        for v, mu in tested
+    )
+    tests = Series(report="", surface=Surface.WET, runs=tuple(given))
+    return VelocityCheck(friction=friction, fastest_mps=fastest, tests=tests)
+
+
+def test_friction_beyond_is_the_largest_between_the_tests_and_the_fastest_run():
+    rising = Friction(mu_slow=0.4, mu_fast=0.5, rate_s_per_m=2.0, mu_static=0.4)
+    falling = Friction(mu_slow=0.5, mu_fast=0.4, rate_s_per_m=2.0, mu_static=0.5)
+    tested = ((0.1, 0.45), (0.2, 0.47))
+    assert check(rising, 0.3, *tested).mu_beyond == pytest.approx(0.5 - 0.1 * math.exp(-0.6))
+    assert check(falling, 0.3, *tested).mu_beyond == pytest.approx(0.4 + 0.1 * math.exp(-0.4))
+    assert check(rising, math.nan, *tested).mu_beyond == 0.5
+    assert math.isnan(check(rising, 0.2, *tested).mu_beyond)
+
+
+def test_a_run_without_a_velocity_may_be_any_velocity():
+    unknown = check(coulomb(0.454), math.nan, (0.1, 0.45))
+    assert not replace(unknown, friction=coulomb(0.50)).is_satisfied
+    assert unknown.is_satisfied  # within rounding
+    up = tuple(replace(motion, az_mps2=2.0 * motion.ax_mps2) for motion in MOTIONS)
+    arrays = [stand_in.array("A1", 0.5)]
+    data = stand_in.project(arrays=arrays, friction_runs=runs(0.40), clearances=[])
+    row = rows(stand_in.assess_input(data, up))["A1"]
+    assert row.found.startswith("a run gives no velocity; tested to")
+    assert not row.is_satisfied
+
+
+@pytest.mark.parametrize(("mu", "satisfied"), [(0.4649, True), (0.4651, False)])
+def test_the_smallest_value_is_compared_within_rounding(mu, satisfied):
+    assert check(coulomb(mu), 1.0, (0.1, 0.46)).is_satisfied is satisfied
+
+
+def test_the_low_velocity_coefficient_alone_gives_what_it_gives_when_entered(by_velocity):
+    slow = by_velocity.low_velocity
+    assert [item.id for item in slow.arrays] == ["A2"]
+    entered = [stand_in.array("A1", 2.0, mu=0.30), stand_in.array("A2", 2.0, x=120, mu=0.30)]
+    again = stand_in.assess_input(
+        by_velocity.project.model_copy(update={"arrays": stand_in.project(arrays=entered).arrays}),
+        MOTIONS,
+    )
+    assert slow.arrays[0].design_m == again.arrays[1].design_m
+    assert slow.arrays[0].design_m > by_velocity.arrays[1].design_m
+    assert slow.arrays[0].fastest_mps > by_velocity.arrays[1].fastest_mps
+    assert list(slow.clearances) == [2, 3]
+    assert slow.clearances[3].required_m == again.clearances[2].required_m
+    # The two arrays are as unlike as entered: their coefficients are equal in these runs alone.
+    assert again.clearances[1].neighbor is Neighbor.LIKE
+    assert slow.clearances[2].neighbor is Neighbor.UNLIKE
+    found = [gap.ok for gap in slow.gaps_of("A2")]
+    failed = [
+        f"{gap.clearance.array} to {gap.clearance.object}"
+        for gap in slow.gaps_of("A2")
+        if not gap.ok
+    ]
+    remedy = rows(by_velocity)["A2"].remedy
+    assert all(name in remedy for name in failed)
+    assert ("NG: " in remedy) is (not all(found))
+
+
+def test_reruns_with_other_friction_have_none_of_their_own(by_velocity):
+    assert by_velocity.less.low_velocity.arrays == ()
+    constant = one(tests=runs())
+    assert (constant.low_velocity.arrays, constant.low_velocity.clearances) == ((), {})
+    assert "every velocity: " not in rows(constant)["A1"].remedy

@@ -1,0 +1,170 @@
+"""Overrides and departures that require less: a condition each, and a mark on what they change."""
+
+import datetime as dt
+from functools import cache
+
+import pytest
+
+import stand_in
+from report.assessment.foresight import foreseen
+from report.assessment.overrides import OVERRIDDEN, override_rows
+from report.assessment.verdict import Verdict
+from report.sheet.fields import Place
+from solver.records.acceptance_row import Consequence
+
+DIRECTIONAL = {
+    "directional": True,
+    "directional_reason": "Agreed on 2026-02-10",
+    "directional_reviewer": "Reviewer of record",
+    "directional_license": "CA S0000",
+    "directional_date": dt.date(2026, 3, 1),
+}
+
+
+def overrides(**values):
+    return [{"provision": key, "value": v, "reason": "agreed"} for key, v in values.items()]
+
+
+@cache
+def motions():
+    return stand_in.motions(7, seconds=8.0)
+
+
+def assessed(options=None, **values):
+    data = stand_in.project(
+        overrides=overrides(**values),
+        options=options or {},
+        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120)],
+        clearances=[
+            stand_in.clearance("A1", "RTU-1", 7 * stand_in.FOOT),
+            stand_in.clearance("A2", "S edge", 5 * stand_in.FOOT, "down"),
+        ],
+    )
+    return stand_in.assess_input(data, motions())
+
+
+@pytest.mark.parametrize(
+    ("key", "less", "more"),
+    [
+        ("separation_fixed", 0.5, 1.5),
+        ("prescriptive_minimum_in", 3.0, 12.0),
+        ("prescriptive_min_mu", 0.3, 0.5),
+        ("analysis_floor", 0.4, 0.8),
+        ("analysis_factor", 1.0, 1.2),
+        ("analysis_mean_motions", 3.0, 11.0),
+        ("parapet_height_in", 18.0, 30.0),
+        ("interconnection_min", 0.05, 0.2),
+        ("analysis_max_slope_deg", 10.0, 5.0),
+        ("ibc_max_slope_deg", 8.0, 3.0),
+        ("max_stories", 8.0, 4.0),
+        ("low_profile_in", 48.0, 24.0),
+    ],
+)
+def test_an_override_that_requires_less_is_a_condition(key, less, more):
+    (found,) = override_rows(stand_in.project(overrides=overrides(**{key: less})))
+    assert (found.is_satisfied, found.consequence) == (False, Consequence.CONDITION)
+    assert found.verdict is Verdict.CONDITIONS
+    assert "consent of the authority having jurisdiction" in found.remedy
+    assert OVERRIDDEN in found.found
+    assert "agreed" in found.found
+    assert override_rows(stand_in.project(overrides=overrides(**{key: more}))) == ()
+
+
+def test_an_override_by_the_number_of_the_rule_set_is_no_condition():
+    assert override_rows(stand_in.project(overrides=overrides(separation_fixed=1.0))) == ()
+
+
+def test_the_row_names_both_numbers_and_the_clause():
+    (found,) = override_rows(stand_in.project(overrides=overrides(prescriptive_minimum_in=3.0)))
+    assert found.title == "Override of the minimum prescriptive displacement"
+    assert (found.found, found.limit) == ("3 in‡, agreed", "≥ 6 in")
+    assert found.basis == "PV1-2012"
+    (slope,) = override_rows(stand_in.project(overrides=overrides(analysis_max_slope_deg=10.0)))
+    assert slope.limit == "≤ 7 deg"
+
+
+def test_a_departure_is_a_condition():
+    (found,) = override_rows(stand_in.project(options=DIRECTIONAL))
+    assert found.title == "Displacement by direction"
+    assert "Agreed on 2026-02-10" in found.found
+    assert found.verdict is Verdict.CONDITIONS
+
+
+@pytest.mark.parametrize(("rule_set", "count"), [("SEAOC PV1-2012", 1), ("ASCE 7-16", 0)])
+def test_a_mean_without_factor_departs_from_a_rule_set_that_states_a_statistic(rule_set, count):
+    site = stand_in.project().site.model_dump() | {"rule_set": rule_set}
+    data = stand_in.project(site=site, options={"statistic": "mean"})
+    assert len(override_rows(data)) == count
+    assert override_rows(stand_in.project(options={"statistic": "1.1 x largest"})) == ()
+
+
+def test_the_verdict_is_at_least_ok_with_conditions():
+    plain, done = assessed(), assessed(separation_fixed=0.5)
+    assert [row.id for row in done.conditions] == ["override", *(r.id for r in plain.conditions)]
+
+
+def test_check_names_an_override_at_its_cell():
+    data = stand_in.project(
+        overrides=overrides(max_stories=8.0, separation_fixed=1.5, low_profile_in=40.0)
+    )
+    made = stand_in.book(data, motions())
+    places = [f.place for f in foreseen(made.sheet, made.shaking) if f.text.startswith("override")]
+    assert places == [Place("overrides", 0, "value"), Place("overrides", 2, "value")]
+
+
+def marks(done):
+    """Marks of the design displacement of each array and of each required separation."""
+    return [item.design_mark for item in done.arrays], [gap.mark for gap in done.clearances]
+
+
+def test_without_overrides_nothing_is_marked():
+    done = assessed()
+    assert marks(done) == (["", ""], ["", ""])
+    assert not done.is_overridden
+
+
+@pytest.mark.parametrize(("factor", "mark"), [(0.5, "‡"), (1.0, ""), (1.5, "‡")])
+def test_a_separation_carries_the_mark_of_its_factor(factor, mark):
+    done = assessed(separation_fixed=factor)
+    assert marks(done) == (["", ""], [mark, ""])
+    gap = done.clearances[0]
+    assert (gap.design_mark, gap.ratio_words.endswith("‡")) == ("", bool(mark))
+
+
+def test_a_floor_that_is_lowered_marks_what_it_governed():
+    """The value from analysis is between the two floors: without the override it would not do."""
+    plain = assessed()
+    assert [item.governs for item in plain.arrays] == ["floor", "floor"]
+    done = assessed(analysis_floor=0.0)
+    assert [item.governs for item in done.arrays] == ["analysis", "analysis"]
+    assert marks(done) == (["‡", "‡"], ["‡", "‡"])
+    assert all(
+        item.design_m < p.design_m for item, p in zip(done.arrays, plain.arrays, strict=True)
+    )
+
+
+def test_a_floor_that_is_lowered_marks_nothing_where_it_did_not_govern():
+    strong = stand_in.motions(7, seconds=8.0, peak_g=6.0)
+    data = stand_in.project(overrides=overrides(analysis_floor=0.1), clearances=[])
+    done = stand_in.assess_input(data, strong)
+    assert {item.governs for item in done.arrays} == {"analysis"}
+    assert not done.is_overridden
+    assert next(row.id for row in done.conditions) == "override"
+
+
+def test_a_route_that_an_override_alone_permits_is_marked():
+    arrays = [stand_in.array("A1", 8.0, mu=0.6)]
+    wide = overrides(analysis_max_slope_deg=9.0, ibc_max_slope_deg=9.0)
+    data = stand_in.project(arrays=arrays, clearances=[], overrides=wide)
+    done = stand_in.assess_input(data, motions())
+    assert done.arrays[0].is_permitted
+    assert marks(done) == (["‡"], [])
+
+
+def test_the_mean_without_factor_is_marked():
+    strong = stand_in.motions(11, seconds=8.0, peak_g=6.0)
+    data = stand_in.project(options={"statistic": "mean"}, clearances=[])
+    done = stand_in.assess_input(data, strong)
+    by_analysis = [item for item in done.arrays if item.governs == "analysis"]
+    assert by_analysis
+    assert all(item.design_mark for item in by_analysis)

@@ -1,0 +1,138 @@
+"""A number that an override lowers carries its mark in every output, and is named to the reader."""
+
+import io
+import json
+import re
+from dataclasses import replace
+from html import unescape
+
+import openpyxl
+import pytest
+
+import stand_in
+from report.assessment.evidence import support
+from report.assessment.spectra import spectra
+from report.assessment.verdict import Verdict
+from report.drawing.plan import plan_drawing
+from report.figures.base import load_fonts, style
+from report.figures.plan import plan_figure
+from report.figures.plan_sheet import LANDSCAPE
+from report.package.html import pages
+from report.pages.summary import summary
+from report.results.json import results_json
+from report.results.xlsx import results_xlsx
+from report.sheet.archive import open_book
+from report.typeset.pdf import TEMPLATES
+from report.web.answers import answer
+from sheets import make
+
+FACTOR = {"provision": "separation_fixed", "value": 0.5, "reason": "Agreed on 2026-02-10"}
+MINIMUM = {"provision": "prescriptive_factor_in", "value": 40.0, "reason": "Agreed on 2026-02-11"}
+LENGTH = r"[\d.,]+ in \([\d.,]+ mm\)"
+
+
+@pytest.fixture(scope="module")
+def done():
+    outline = {"x_from_m": 0.0, "x_to_m": 220 * stand_in.FOOT,
+               "y_from_m": 0.0, "y_to_m": 171 * stand_in.FOOT}  # fmt: skip
+    data = stand_in.project(overrides=[FACTOR, MINIMUM], roof=outline)
+    return stand_in.assess_input(data, stand_in.motions(7, seconds=8.0))
+
+
+@pytest.fixture(scope="module")
+def parts(done):
+    """The words of each part of the package, by its id."""
+    html = pages(done, support(done))
+    found = re.split(r'<h1 id="([a-z-]+)"', html)
+    return {"cover": plain(found[0])} | {
+        name: plain(text) for name, text in zip(found[1::2], found[2::2], strict=True)
+    }
+
+
+def plain(html):
+    return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
+
+
+def test_the_floor_of_a_lowered_prescriptive_value_and_a_lowered_factor_are_marked(done):
+    assert {item.governs for item in done.arrays} == {"floor"}
+    assert {item.design_mark for item in done.arrays} == {"‡"}
+    assert done.verdict is not Verdict.OK
+
+
+@pytest.mark.parametrize(
+    ("part", "text"),
+    [
+        ("cover", rf"design displacement {LENGTH}†?‡"),
+        ("cover", r"D/C [\d.]+‡"),
+        ("letter", r"A1 0\.45 [\d.]+ ?†?‡ [\d,]+ ?†?‡ floor"),
+        ("letter", r"override of the separation to a fixed object or unlike array / design"
+                   r" displacement: 0\.5‡, Agreed on 2026-02-10 \(required: ≥ 1\)"),
+        ("letter", "needs the consent of the authority having jurisdiction"),
+        ("summary", r"Condition: Override of the factor on \(.*?40 in‡, Agreed on 2026-02-11"),
+        ("summary", rf"Prescriptive displacement {LENGTH}†?‡"),
+        ("summary", r"RTU-1 fixed object [\d.]+ ?‡"),
+        ("clearances", r"RTU-1 fixed object [\d.]+ ?‡ [\d,]+ ?‡ A1 0\.50 ?†?‡"),
+        ("comparison", r"A1 [\d.]+ ?†?‡ [\d,]+ ?†?‡"),
+    ],
+)  # fmt: skip
+def test_every_page_with_the_number_marks_it(parts, part, text):
+    assert re.search(text, parts[part]), parts[part][:3000]
+
+
+def test_the_plan_and_its_notes_mark_it(done):
+    load_fonts(TEMPLATES / "fonts")
+    with style():
+        figure = plan_figure(done, LANDSCAPE)
+    said = " ".join(text.get_text() for text in figure.findobj(lambda a: hasattr(a, "get_text")))
+    assert re.search(rf"Δ {LENGTH}‡", said)
+    assert re.search(r"keep clear \d+ in‡", said, re.IGNORECASE)
+    assert re.search(r"required [\d.]+ in‡", said)
+    assert "‡: changed by an override" in said
+
+
+def test_the_plan_as_dxf_says_it_in_words(done):
+    said = " ".join(text.words for text in plan_drawing(done).texts)
+    assert re.search(rf"design displacement {LENGTH} \(overridden\)", said)
+    assert re.search(r"keep clear \d+ in \(overridden\); no conduit", said)
+    assert "‡" not in said
+
+
+def test_results_json_marks_it(done):
+    found = json.loads(results_json(done, support(done)))
+    assert all(item["design_is_overridden"] for item in found["arrays"])
+    assert all(item["required_is_overridden"] for item in found["clearances"])
+    ids = [row["id"] for row in found["requirements"] if row["verdict"] != "OK"]
+    assert ids.count("override") == 2
+
+
+def test_results_xlsx_shows_the_mark_and_keeps_the_number(done):
+    book = openpyxl.load_workbook(io.BytesIO(results_xlsx(done, spectra(done))), data_only=True)
+    for sheet, headings in (
+        ("Design", ("Prescriptive [in]", "Floor [in]", "Design [in]", "Design by Roofslip [in]")),
+        ("Clearances", ("Design [in]", "Required [in]", "Required [mm]", "D/C")),
+    ):
+        rows = list(book[sheet].iter_rows(min_row=4))
+        names = [cell.value for cell in rows[0]]
+        for heading in headings:
+            cell = rows[1][names.index(heading)]
+            assert isinstance(cell.value, float)
+            assert cell.number_format.endswith('"‡"'), (sheet, heading)
+        assert "‡: changed by an override" in book[sheet]["A2"].value
+    said = [cell.value for row in book["Requirements"].iter_rows() for cell in row]
+    assert any("0.5‡" in str(value) for value in said)
+
+
+def test_terminal_and_page_mark_it(done, tmp_path):
+    book = open_book(make(tmp_path))
+    done = replace(done, sheet=replace(done.sheet, book=book))
+    lines = list(summary(done))
+    assert re.search(rf"A1 .*{LENGTH}‡ .*{LENGTH}‡ .*[\d.]+‡", lines[1])
+    assert "‡: changed by an override or a departure" in lines
+    assert any(line.startswith("condition: override of the separation") for line in lines)
+    shown = answer(done, is_provisional=False)
+    assert all(item["design"].endswith("‡") for item in shown["arrays"])
+    assert all(item["design_short"].endswith("‡") for item in shown["arrays"])
+    for gap in shown["clearances"]:
+        assert all(gap[key].endswith("‡") for key in ("required", "required_short", "ratio_text"))
+    assert all(gap["required"].endswith("‡") for gap in shown["plan"]["gaps"])
+    assert "‡: changed by an override" in shown["model_text"]

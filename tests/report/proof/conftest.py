@@ -1,0 +1,66 @@
+"""A package that was made once, parts of it, and what holds a tampered one against it."""
+
+from functools import cache
+
+import pytest
+
+import packages
+import tampering
+from report.proof.package import open_package
+from report.proof.updates import appended
+from report.proof.verdict import Written, compared
+
+
+@pytest.fixture(scope="session")
+def job(tmp_path_factory):
+    return packages.reported(tmp_path_factory, "conditions", by_script=True).project
+
+
+@pytest.fixture(scope="session")
+def data(job):
+    return (job / "out" / "calc-package.pdf").read_bytes()
+
+
+@pytest.fixture(scope="session")
+def few_sheets(data):
+    """The package without most of its sheets, for what is compared by the words of every sheet."""
+
+    def change(pdf):
+        del pdf.pages[8:]
+
+    return tampering.rewritten(data, change)
+
+
+@pytest.fixture(scope="session")
+def written():
+    """A function that parses what was written from an input, once for all comparisons with it."""
+    return cache(Written)
+
+
+@pytest.fixture
+def proof(tmp_path, data, written):
+    """A function that compares the bytes of a package with what was written from its input."""
+
+    def of(given, computed=data, short=""):
+        path = tmp_path / "given.pdf"
+        path.write_bytes(given)
+        package, ours = open_package(path), written(computed)
+        return compared(package, ours, appended(package), short or ours.manifest.hash)
+
+    return of
+
+
+@pytest.fixture
+def tampered(proof):
+    """A function that changes a package, and returns how that compares with it as it was."""
+
+    def of(content, *changes):
+        def change(pdf):
+            for one in changes:
+                one(pdf)
+
+        given = tampering.rewritten(content, change)
+        assert given != tampering.rewritten(content, lambda pdf: None)
+        return proof(given, content)
+
+    return of

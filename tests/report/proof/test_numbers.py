@@ -1,0 +1,50 @@
+"""JSON from a stranger is read whole or refused, and numbers are compared to a tolerance."""
+
+import pytest
+
+from report.proof.numbers import number_differences, parsed, word_differences
+from solver.model import InputError
+
+BAD = {
+    "deep": b'{"a": ' + b"[" * 100_000 + b"]" * 100_000 + b"}",
+    "not closed": b"[" * 100_000,
+    "a key twice": b'{"design_m": 1.0, "design_m": 2.0}',
+    "a key twice below": b'{"a": [{"b": 1, "c": 2, "b": 1}]}',
+    "not a number": b'{"a": NaN}',
+    "infinite": b'{"a": -Infinity}',
+    "beyond floats": b'{"a": 1e999}',
+    "beyond floats, whole": b'{"a": ' + b"9" * 400 + b"}",
+    "many digits": b'{"a": ' + b"9" * 100_000 + b"}",
+    "not UTF-8": b'{"a": "\xff"}',
+    "UTF-16": '{"a": 1}'.encode("utf-16"),
+    "half a pair": b'{"a": "\\ud800"}',
+    "empty": b"",
+    "cut": b'{"a": 1',
+}
+"""What is no JSON of ours, under why."""
+
+
+@pytest.mark.parametrize("why", BAD)
+def test_json_that_two_programs_could_read_as_two_things_is_refused(why):
+    with pytest.raises(InputError, match=r"^results.json is damaged: "):
+        parsed(BAD[why], "results.json")
+
+
+def test_json_is_read_as_it_is():
+    assert parsed(b'{"a": [1, 2.5, "x", null, true]}', "") == {"a": [1, 2.5, "x", None, True]}
+
+
+def test_documents_of_other_types_differ():
+    for other in ([], "x", 1, None, {"a": []}):
+        assert number_differences(other, {"a": 1.0}, 1e-9)
+
+
+def test_numbers_are_the_same_to_the_tolerance_and_no_further():
+    assert not number_differences({"a": 1.0 + 1e-10}, {"a": 1.0}, 1e-9)
+    assert number_differences({"a": 1.0 + 1e-8}, {"a": 1.0}, 1e-9)
+    assert number_differences({"a": True}, {"a": 1}, 1e-9)
+
+
+def test_blanks_between_words_do_not_count_and_every_letter_does():
+    assert word_differences("RTU- 1\n10 .", "RTU-1 10.") == []
+    assert word_differences("24.0 in", "24.1 in") == ["'24.0' where the input gives '24.1'"]

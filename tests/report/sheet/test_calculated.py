@@ -1,0 +1,107 @@
+"""A workbook that was saved before its formulas were calculated is a warning."""
+
+import re
+import zipfile
+
+import pytest
+
+from places import DATA
+from report.assessment.foresight import findings
+from report.sheet.findings import located
+from report.sheet.read import read
+from sheets import edit, make, read_workbook, type_into
+
+
+def saying(path, attributes):
+    """Let a workbook say how it was calculated."""
+    with zipfile.ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    book = members["xl/workbook.xml"]
+    members["xl/workbook.xml"] = re.sub(rb"<calcPr[^>]*/>", b"<calcPr %b/>" % attributes, book)
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    return path
+
+
+def told(path):
+    book = read_workbook(path)
+    found = findings(book.sheet, book.shaking)
+    return [(f.id, cell, f.text) for f, cell in
+            zip(found, located(found, book.sheet.addresses), strict=True)]  # fmt: skip
+
+
+@pytest.fixture
+def saved(tmp_path):
+    """The project as LibreOffice saved it, with two formulas in input cells and their values."""
+    path = make(tmp_path)
+    path.write_bytes((DATA / "saved-by-libreoffice.xlsx").read_bytes())
+    records = [cell for place, cell in read(path).addresses.items()
+               if place.section == "motions" and place.field == "record"]  # fmt: skip
+    names = zip(records, ("x", "x2", "x3"), strict=True)
+    return type_into(path, {cell: f"records/{name}.csv" for cell, name in names})
+
+
+MANUAL = b'calcId="191029" calcMode="manual" calcCompleted="0"'
+
+
+def test_formulas_that_manual_calculation_left_are_named(saved):
+    assert told(saying(saved, MANUAL)) == [
+        (
+            "calculation",
+            "Arrays!E8",
+            "the workbook was saved before its formulas were calculated (calculation is manual),"
+            " and Arrays!E8, Arrays!E9 may show former values: calculate it (F9) and save it",
+        )
+    ]
+
+
+def test_a_calculation_that_was_stopped_is_a_warning_without_manual_mode(saved):
+    ((_, _, text),) = told(saying(saved, b'calcCompleted="false"'))
+    assert text.startswith("the workbook was saved before its formulas were calculated, and Arrays")
+
+
+def test_a_workbook_whose_values_were_changed_from_outside_asks_to_be_calculated(saved):
+    ((name, _, text),) = told(saved)  # the names of its records were
+    assert name == "calculation"
+    assert text.startswith("the workbook asks to be calculated when it is opened, and Arrays!E8,")
+
+
+@pytest.mark.parametrize(
+    "says",
+    [b"", b'calcMode="manual"', b'calcMode="manual" calcCompleted="1"', b'fullCalcOnLoad="0"'],
+)
+def test_a_workbook_that_was_calculated_is_no_warning(saved, says):
+    assert told(saying(saved, says)) == []
+
+
+def test_computed_cells_alone_are_a_warning_in_manual_mode_and_none_in_a_fresh_workbook(tmp_path):
+    path = make(tmp_path)
+    assert told(path) == []  # it asks to be calculated when it is opened
+    assert told(saying(path, MANUAL)) == [
+        (
+            "calculation",
+            "Project",
+            "the workbook was saved before its formulas were calculated (calculation is manual),"
+            " and its computed cells may show former values: calculate it (F9) and save it",
+        )
+    ]
+
+
+def test_a_workbook_without_formulas_has_none_that_was_not_calculated(tmp_path):
+    def without(book):
+        for sheet in book.worksheets:
+            for table in sheet.tables.values():
+                for column in table.tableColumns:
+                    column.calculatedColumnFormula = None
+            for cell in (cell for row in sheet for cell in row if cell.data_type == "f"):
+                cell.value = None
+
+    assert told(saying(edit(make(tmp_path), without), MANUAL)) == []
+
+
+def test_the_warning_is_acknowledged_by_its_name(tmp_path):
+    rows = [{"warning": "calculation", "reason": "Recalculated on 2026-03-05"}]
+    book = read_workbook(saying(make(tmp_path, acknowledged=rows), MANUAL))
+    (found,) = findings(book.sheet, book.shaking)
+    assert found.reason == "Recalculated on 2026-03-05"

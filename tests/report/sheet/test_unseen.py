@@ -1,0 +1,281 @@
+"""What is read though the workbook does not show it is a warning, with the cells."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from openpyxl.styles import Font, PatternFill
+from openpyxl.styles.colors import Color
+from openpyxl.utils import coordinate_to_tuple, get_column_letter
+from openpyxl.worksheet.cell_range import CellRange
+from openpyxl.worksheet.filters import AutoFilter, FilterColumn, Filters
+
+from report.assessment.foresight import findings
+from report.pages import appendix
+from report.sheet.fields import Place
+from report.sheet.findings import located
+from report.sheet.read import read
+from report.sheet.unseen import Kind, Unseen, warnings
+from sheets import blank, edit, make, read_workbook, type_into
+
+
+def told(path):
+    """Name, cell and text of each warning and note."""
+    book = read_workbook(path)
+    found = findings(book.sheet, book.shaking)
+    return [(f.id, cell, f.text) for f, cell in
+            zip(found, located(found, book.sheet.addresses), strict=True)]  # fmt: skip
+
+
+def cell_of(path, section, field, row=0):
+    """Sheet, column letter and row of an input."""
+    sheet, cell = read(path).addresses[Place(section, row, field)].split("!")
+    number, column = coordinate_to_tuple(cell)
+    return sheet, get_column_letter(column), number
+
+
+def has(text, *cells):
+    """Whether the ranges of a text include cells."""
+    ranges = [CellRange(area) for area in re.findall(r"[A-Z]+[0-9]+(?::[A-Z]+[0-9]+)?", text)]
+    return all(any(cell in area for area in ranges) for cell in cells)
+
+
+def hide_sheet(state):
+    def change(book):
+        book["Options"].sheet_state = state
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("state", "said"),
+    [("hidden", "hidden"), ("veryHidden", "hidden so that Excel's menu does not list it")],
+)
+def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
+    path = make(tmp_path)
+    sheet, column, row = cell_of(path, "overrides", "value")
+    ((name, _, text),) = told(edit(path, hide_sheet(state)))
+    assert name == f"hidden sheet {sheet}"
+    assert text.startswith(f"the sheet is {said}, and cells B")
+    assert has(text, f"{column}{row}")
+    assert text.endswith(" on it are read: show it, or clear what is not meant")
+
+
+def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
+    path = make(tmp_path)
+    sheet, letter, row = cell_of(path, "arrays", "mu", 1)
+
+    def change(book):
+        book[sheet].row_dimensions[row].hidden = True
+        book[sheet].column_dimensions[letter].hidden = True
+
+    ((name, cell, text),) = told(edit(path, change))
+    assert name == f"hidden {sheet}"
+    assert has(text, f"{letter}{row - 2}", f"{letter}{row - 1}", f"B{row}")  # with the heading
+    assert not has(text, f"B{row - 1}")
+    assert text.endswith(" are in hidden rows or columns, and are read: show them, or clear what"
+                         " is not meant")  # fmt: skip
+    assert cell.startswith(f"{sheet}!")
+
+
+def no_height(book, sheet, letter, row):
+    book[sheet].row_dimensions[row].height = 0.75  # one pixel
+
+
+def no_width(book, sheet, letter, row):
+    book[sheet].column_dimensions[letter].width = 0.1
+
+
+@pytest.mark.parametrize("change", [no_height, no_width])
+def test_a_row_or_column_with_next_to_no_size_is_hidden(tmp_path, change):
+    path = make(tmp_path)
+    sheet, letter, row = cell_of(path, "project", "number")
+    ((name, _, text),) = told(edit(path, lambda book: change(book, sheet, letter, row)))
+    assert name == f"hidden {sheet}"
+    assert has(text, f"{letter}{row}")
+
+
+def test_the_unit_of_a_number_in_a_hidden_column_is_a_warning(tmp_path):
+    path = make(tmp_path)
+    _, letter, row = cell_of(path, "site", "structure_height_m")
+    unit = get_column_letter(coordinate_to_tuple(f"{letter}1")[1] + 1)
+
+    def change(book):
+        book["Site"].column_dimensions[unit].hidden = True
+
+    ((name, _, text),) = told(edit(path, change))
+    assert name == "hidden Site"
+    assert has(text, f"{unit}{row}")
+
+
+def filter_table(book, sheet, row):
+    table = next(iter(book[sheet].tables.values()))
+    table.autoFilter = AutoFilter(ref=table.ref)
+    table.autoFilter.filterColumn = [FilterColumn(colId=0, filters=Filters(filter=["A1"]))]
+    book[sheet].row_dimensions[row].hidden = True
+
+
+def filter_sheet(book, sheet, row):
+    book[sheet].auto_filter.ref = next(iter(book[sheet].tables.values())).ref
+    book[sheet].auto_filter.add_filter_column(0, ["A1"])
+    book[sheet].row_dimensions[row].hidden = True
+
+
+@pytest.mark.parametrize("change", [filter_table, filter_sheet])
+def test_a_row_that_a_filter_hides_is_filtered_out(tmp_path, change):
+    path = make(tmp_path)
+    sheet, _, row = cell_of(path, "arrays", "id", 1)
+    ((name, cell, text),) = told(edit(path, lambda book: change(book, sheet, row)))
+    assert (name, cell) == (f"filtered out {sheet}", f"{sheet}!B{row}")
+    assert "are in rows that a filter hides, and are read: clear the filter, and delete" in text
+
+
+def test_a_row_that_is_struck_through_is_a_warning_and_a_blank_one_is_none(tmp_path):
+    path = make(tmp_path)
+    sheet, letter, row = cell_of(path, "clearances", "provided_m", 4)
+
+    def change(book):
+        for number in (row, row + 1):
+            for cell in book[sheet][number]:
+                cell.font = Font(strike=True)
+
+    assert told(edit(path, change)) == [
+        (
+            f"struck through {sheet}",
+            f"{sheet}!B{row}",
+            f"cells B{row}:{letter}{row} are struck through, and are read: clear what is not meant,"
+            " and remove the strikethrough from the rest",
+        )
+    ]
+
+
+WHITE_FILL = PatternFill("solid", start_color="FFFFFF", end_color="FFFFFF")
+NO_FILL = PatternFill()
+THEME = Color(theme=0)
+
+
+def looks(font=None, fill=None, number_format=None):
+    said = {"font": font, "fill": fill, "number_format": number_format}
+
+    def change(cell):
+        for name, look in said.items():
+            if look is not None:
+                setattr(cell, name, look)
+
+    return change
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        looks(Font(color="FFFFFF"), WHITE_FILL),
+        looks(Font(color="FFFDFB"), NO_FILL),
+        looks(Font(color=THEME), NO_FILL),
+        looks(Font(color="FFF6CC")),  # that of the input cells
+        looks(None, PatternFill("solid", start_color="000000", end_color="000000")),
+        looks(number_format=";;;"),
+    ],
+)
+def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, change):
+    path = make(tmp_path)
+    sheet, letter, row = cell_of(path, "arrays", "mu")
+    cell = f"{letter}{row}"
+    assert told(edit(path, lambda book: change(book[sheet][cell]))) == [
+        (
+            f"invisible {sheet}",
+            f"{sheet}!{cell}",
+            f"cell {cell} cannot be seen for the color of the text or the number format, and is"
+            " read: change it, or clear what is not meant",
+        )
+    ]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        looks(Font(color="FF0000")),
+        looks(Font(color=Color(theme=1)), NO_FILL),
+        looks(Font(color=Color(indexed=8)), NO_FILL),
+        looks(None, PatternFill("darkGray", start_color="000000")),
+    ],
+)
+def test_text_in_another_color_is_no_warning(tmp_path, change):
+    path = make(tmp_path)
+    sheet, letter, row = cell_of(path, "arrays", "mu")
+    assert told(edit(path, lambda book: change(book[sheet][f"{letter}{row}"]))) == []
+
+
+def test_what_the_template_folds_and_a_hidden_sheet_that_is_not_read_are_no_warnings(tmp_path):
+    def change(book):
+        for name in ("Provisions", "Tables", "Start", "Layers"):
+            book[name].sheet_state = "hidden"
+        assert any(c.hidden for c in book["Arrays"].column_dimensions.values())
+
+    assert told(edit(make(tmp_path), change)) == []
+    assert read(blank(tmp_path / "blank.xlsx")).unseen == ()
+
+
+def test_a_value_in_a_folded_column_is_a_warning(tmp_path):
+    path = make(tmp_path)
+    sheet, letter, row = cell_of(path, "arrays", "i_p")
+    ((name, _, text),) = told(type_into(path, {f"{sheet}!{letter}{row}": 1.5}))
+    assert name == f"hidden {sheet}"
+    assert f"cells {letter}{row - 1}:{letter}{row} are in hidden rows" in text
+
+
+def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_path):
+    rows = [{"warning": "Hidden  sheet options", "reason": "Kept from the client's view"}]
+    path = edit(make(tmp_path, acknowledged=rows), hide_sheet("hidden"))
+    book = read_workbook(path)
+    (found,) = findings(book.sheet, book.shaking)
+    assert found.reason == "Kept from the client's view"
+    sheet, _, _ = cell_of(path, "overrides", "value")
+    ((_, tables),) = [part for part in appendix.echo(book.sheet.echo) if part[0] == sheet]
+    printed = [text for table in tables for line in table.rows for text in line.cells]
+    notes = [note for table in tables for note in table.notes]
+    assert "18 (hidden sheet)" in printed
+    assert all("hidden" not in note.split("Left blank")[-1] for note in notes)
+    others = [r for r in book.sheet.echo if r.sheet != sheet]
+    assert not any(r.unseen for r in others)
+
+
+def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_record(tmp_path):
+    def change(book):
+        sheet = book.create_sheet("Pasted")
+        for row in range(1, 151):
+            values = ["t [s]", "x [g]", "y [g]"] if row == 1 else [0.01 * row, 0.1, 0.2 / row]
+            for column, value in enumerate(values, start=1):
+                sheet.cell(row, column).value = value
+        sheet.sheet_state = "hidden"
+        sheet.row_dimensions[5].hidden = True
+
+    path = edit(make(tmp_path), change)
+    motions = {"record": "Pasted!x [g]", "transverse": "Pasted!y [g]"}
+    cells = {}
+    for field, name in motions.items():
+        sheet, letter, row = cell_of(path, "motions", field)
+        cells[f"{sheet}!{letter}{row}"] = name
+    book = read_workbook(type_into(path, cells))
+    found = [f for f in findings(book.sheet, book.shaking) if f.id]
+    ((name, text),) = [(f.id, f.text) for f in found if f.id.startswith("hidden")]
+    assert name == "hidden sheet Pasted"
+    assert "and cells A1:C150 on it are read" in text
+    (note,) = {n for n in appendix.records(book.shaking.records).notes if n.startswith("M1 hor")}
+    assert note == "M1 horizontal: cells A1:B150 on the sheet Pasted: hidden sheet"
+
+
+def test_many_cells_are_named_by_their_first_ranges():
+    scattered = Unseen(
+        kind=Kind.STRUCK,
+        sheet="Arrays",
+        state="visible",
+        place=Place("arrays", 0, "id"),
+        cells=tuple((row, column) for row in range(8, 31, 2) for column in (2, 3)),
+    )
+    named = "B8:C8, B10:C10, B12:C12, B14:C14, B16:C16, B18:C18, B20:C20, B22:C22"
+    assert scattered.words == f"cells {named} and 4 more ranges"
+    pairs = tuple((row, column) for row in range(8, 31) for column in (2, 4))
+    whole = replace(scattered, cells=pairs)
+    (found,) = warnings([scattered, whole])
+    assert found.text.startswith("cells B8:D8, B9, D9, B10:D10, B11, D11,")
+    assert replace(whole, cells=whole.cells[::2]).words == "cells B8:B30"

@@ -1,0 +1,354 @@
+"""The design displacement of a study: that of a package; and answers on the safe side."""
+
+import csv
+import dataclasses
+import io
+import json
+import math
+import re
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, example, settings
+from hypothesis import given as over
+from hypothesis import strategies as st
+from openpyxl import load_workbook
+
+import packages
+import stand_in
+from report.assessment.arrays import Route
+from report.study.answer_pages import allowed
+from report.study.files import study_html
+from report.study.page_parts import design_length
+from report.study.pages import sections
+from report.study.prescribed import compare
+from report.study.prescribed_pages import prescribed
+from report.study.results import MEAN, STATISTICS
+from report.study.run import planned, run_study
+from report.study.schema import Intensity, Mat, RuleSetName, StudyArray
+from report.study.tables import curves_csv, study_xlsx
+from report.study.words import both, design_words, headline
+from solver.rules.provisions import (
+    RULE_SETS,
+    analysis_floor_m,
+    analysis_value,
+    prescriptive_displacement,
+)
+from solver.studies.fragility import Lognormal
+from test_study_read import given, write
+
+S_DS = 1.0
+S_DS_GIVEN = {"intensity": Intensity.S_DS, "s_ds_g": 0.5, "intensities": "0.5, 1, 2"}
+
+
+def run(folder, *, motions=7, **changes):
+    """Run a study whose intensity is S_DS."""
+    about = {**S_DS_GIVEN, "study_arrays": (), "slopes_deg": "0, 4, 6", "mus": "0.3"}
+    study = given(**{**about, **changes})
+    write(folder, study, motions=motions)
+    return run_study(planned(folder)[0], folder / "out")
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    return run(tmp_path_factory.mktemp("design"), allowed_m=0.3)
+
+
+def peaks_m(results, slope_deg, mu, level):
+    """PRDs of the motions, by the assessment of a package; and its array."""
+    motions = [
+        dataclasses.replace(m, scale=m.scale * level) for m in results.plan.motions.motions[0]
+    ]
+    site = {**stand_in.project().site.model_dump(), "s_ds_g": level}
+    data = stand_in.project(
+        arrays=[stand_in.array("A1", slope_deg, mu=mu)], objects=[], clearances=[], site=site
+    )
+    (array,) = stand_in.assess_input(data, motions).arrays
+    return [run.governing.prd_m for run in array.motions], array
+
+
+def test_the_design_displacement_is_that_of_a_package_with_the_same_motions(results):
+    """On 4 degrees the prescriptive displacement is not permitted, and the analysis is used."""
+    x = results.plan.input.intensities.index(S_DS)
+    for m, mu in enumerate(results.plan.input.mus):
+        _, array = peaks_m(results, 4.0, mu, S_DS)
+        assert array.route is Route.ANALYSIS
+        assert results.design_m[0, 1, m, x] == pytest.approx(array.design_m, rel=1e-12)
+        assert results.curves.mean_m[0, 1, m, x] == pytest.approx(array.analysis.mean_m, rel=1e-12)
+
+
+def test_the_floor_governs_in_some_cases_and_the_analysis_in_others(results):
+    floor = results.plan.design_rule.floor_m
+    assert (results.design_m == floor).any()
+    assert (results.design_m > floor).any()
+    assert results.design_m == pytest.approx(np.maximum(1.1 * results.curves.mean_m, floor))
+
+
+@pytest.mark.parametrize(
+    ("motions", "rule_set"),
+    [(7, "SEAOC PV1-2012"), (7, "ASCE 7-16"), (5, "ASCE 7-22"), (3, "SEAOC PV1-2012")],
+)
+def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_set):
+    found = run(tmp_path, motions=motions, rule_set=RuleSetName(rule_set), mus="")
+    rules, mu = RULE_SETS[rule_set], found.plan.input.mus[0]
+    for x, level in enumerate(found.plan.input.intensities):
+        prd, _ = peaks_m(found, 4.0, mu, level)
+        least = analysis_floor_m(
+            rules, prescriptive_displacement(rules, s_ds_g=level, sdc="D", importance=1.0)
+        )
+        wanted = max(analysis_value(rules, prd).value_m, least)
+        assert found.design_m[0, 1, 0, x] == pytest.approx(wanted, rel=1e-12)
+    said = design_words(found)
+    assert rule_set in said
+    assert ("1.1† times the mean PRD" in said) == (motions >= 7)
+    assert ("1.1† times the largest PRD" in said) == (motions < 7)
+    assert f"{rules['analysis_floor']:g}† times the prescriptive displacement" in said
+    assert ("I_e = 1" in said) == (rule_set != "SEAOC PV1-2012")
+
+
+@pytest.mark.parametrize("motions", [1, 2])
+def test_too_few_motions_give_no_design_displacement_and_it_is_said(tmp_path, motions):
+    found = run(tmp_path, motions=motions, allowed_m=0.3)
+    assert np.isnan(found.design_m).all()
+    text = packages.words(study_html(found))
+    assert "There is no design displacement: SEAOC PV1-2012 needs 3† motions or more" in text
+    assert compare(found, 0) == ()
+    assert "For a mean PRD of at most" in text
+    assert all("design displacement" not in line for line in headline(found))
+
+
+def test_without_s_ds_the_displacement_is_called_before_the_floor(tmp_path):
+    found = run(tmp_path, intensity=Intensity.PPA, intensities="0.5, 1", s_ds_g=None, allowed_m=0.3)
+    assert found.design_m == pytest.approx(1.1 * found.curves.mean_m, nan_ok=True)
+    text = packages.words(study_html(found))
+    assert "before its floor of 0.5† times the prescriptive displacement, which follows" in text
+    assert "For a design displacement before the floor of at most" in text
+    assert "the floor alone" not in text
+
+
+def test_tables_and_manifest_carry_the_design_displacement_beside_the_mean(results, tmp_path):
+    rows = list(csv.DictReader(io.StringIO(curves_csv(results).decode())))
+    for name, values in (
+        ("design_displacement_m", results.design_m),
+        ("mean_prd_m", results.curves.mean_m),
+    ):
+        found = [float(row[name] or "nan") for row in rows]
+        assert np.array_equal(found, values.ravel(), equal_nan=True)
+    about = results.manifest["design_displacement"]
+    assert json.loads(json.dumps(about))["floor_m"] == results.plan.design_rule.floor_m.tolist()
+    assert (about["rule_set"], about["statistic"]) == ("SEAOC PV1-2012", "1.1 x mean")
+    book = load_workbook(io.BytesIO(study_xlsx(results)))
+    heads = [cell.value for cell in book["Curves"][1]]
+    assert {"Design displacement [in]", "Mean PRD [in]"} <= set(heads)
+    named = {row[1].value for row in book["Least friction"].iter_rows(min_row=2)}
+    assert named == {"design displacement", *STATISTICS}
+
+
+def test_the_floor_alone_is_named_where_it_exceeds_the_allowed_displacement(results):
+    (section,) = [allowed(results, 0, 0.3)]
+    text = " ".join(text for block in section.blocks for text in block.texts)
+    # 0.5 x 60 in x 1.6^2 at 2 g, 10.8 in at 1 g, 3 in at 0.5 g; 0.3 m are 11.8 in.
+    assert "At S_DS = 2 g and more the floor alone exceeds it" in text
+    assert "on slopes up to 7°†; IBC 1613.3 permits ballasted systems up to 4.76°†" in text
+
+
+# The prescriptive displacement
+
+
+def test_where_the_prescriptive_displacement_is_too_small_it_says_where_it_is_permitted(results):
+    (found,) = compare(results, 0)
+    slopes, mus = results.plan.input.slopes_deg, results.plan.input.mus
+    permitted = np.array([[slope <= 3.0 and mu >= 0.4 for mu in mus] for slope in slopes])
+    assert (found.permitted == permitted).all()
+    text = packages.words(study_html(results))
+    unsafe, inside = found.unsafe, found.unsafe & permitted[..., None]
+    assert found.unsafe_not_permitted.sum() == unsafe.sum() - inside.sum()
+    assert unsafe.any()
+    count = {0: "none", int(unsafe.sum()): f"all {unsafe.sum()}"}
+    parts = [
+        count.get(int(part), str(part)) for part in (inside.sum(), unsafe.sum() - inside.sum())
+    ]
+    assert f"it is permitted in {parts[0]} and not permitted in {parts[1]}" in text
+
+
+def with_analysis(results, ratio):
+    """The results with a value from analysis of so many times the prescriptive displacement."""
+    values = np.broadcast_to(ratio, results.design_m.shape)
+    return dataclasses.replace(results, analysis_m=values * results.plan.design_rule.prescriptive_m)
+
+
+def texts_of(results):
+    """The sentences on the prescriptive displacement."""
+    (found,) = compare(results, 0)
+    (block,) = prescribed(results, 0, found).blocks
+    return " ".join(block.texts)
+
+
+def test_a_prescriptive_displacement_that_is_enough_is_not_said_to_be_too_small(results):
+    text = texts_of(with_analysis(results, 0.5))
+    size = results.design_m.size
+    assert f"enough in {size} of {size} cases and too small in 0." in text
+    assert "cases in which it is too small" not in text
+
+
+def test_cases_that_are_permitted_and_too_small_are_counted(results):
+    text = texts_of(with_analysis(results, 2.0))
+    # Two of three frictions are 0.4 or more, one of three slopes 3 degrees or less.
+    assert "Of the 27 cases in which it is too small, it is permitted in 6 and not" in text
+    assert "not permitted in 21: slopes of 0° to 6°, μ of 0.3 to 0.6." in text
+
+
+# The safe side
+
+MUS, SLOPES = "0.3, 0.4333333, 0.5012345", "0.25, 2, 3.3333333"
+AXES = {"mus": MUS, "slopes_deg": SLOPES, "mats": (Mat(id="A", mu=0.6),), "study_arrays": ()}
+LENGTHS = st.floats(0.01, 5.0) | st.just(math.nan)
+TABLES = st.lists(LENGTHS, min_size=36, max_size=36)
+
+
+def made_up(results, values):
+    """The results with other axes and displacements."""
+    study = given(**S_DS_GIVEN, **AXES)
+    lengths = np.array(values).reshape(1, 3, 4, 3)
+    return dataclasses.replace(
+        results,
+        plan=dataclasses.replace(results.plan, input=study),
+        design_m=lengths,
+        curves=dataclasses.replace(results.curves, mean_m=lengths / 1.1),
+    )
+
+
+def reading(cell):
+    """A printed answer as a number; NaN for none."""
+    return math.nan if cell == "none" else float(cell.strip("≤≥ "))
+
+
+def excess(axis, lengths, value, allowed_m, *, upward):
+    """By how much a displacement exceeds the allowed one anywhere from an answer on [m]."""
+    end = axis[-1] if upward else axis[0]
+    assert min(axis) <= value <= max(axis)
+    points = np.concatenate([axis, np.linspace(value, end, 50)])
+    points = points[points >= value] if upward else points[points <= value]
+    return np.max(np.interp(points, axis, lengths)) - allowed_m
+
+
+def check(axis, lengths, value, allowed_m, step, *, upward):
+    """Hold an answer to the safe side, and to no more than a step beyond."""
+    last = lengths[-1 if upward else 0]
+    if math.isnan(value):
+        assert not last <= allowed_m
+        return
+    steepest = np.nanmax(np.abs(np.diff(lengths) / np.diff(axis)), initial=0.0)
+    slack = 1.01e-6 * step * steepest + 1e-12
+    assert excess(axis, lengths, value, allowed_m, upward=upward) <= slack
+    inner = value - 1.01 * step if upward else value + 1.01 * step
+    if axis[0] <= inner <= axis[-1]:
+        over_all = excess(axis, lengths, inner, allowed_m, upward=upward)
+        assert not over_all <= -slack or not over_all <= 0.0
+
+
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@over(values=TABLES, allowed_m=st.floats(0.005, 5.0))
+@example(values=[0.02] * 36, allowed_m=0.1)
+@example(values=[2.0] * 36, allowed_m=0.1)
+@example(values=[math.nan] * 36, allowed_m=0.1)
+def test_printed_and_exported_answers_are_on_the_safe_side(results, values, allowed_m):
+    found = made_up(results, values)
+    axes = found.plan.input
+    levels = axes.intensities
+    tables = [block.tables[0] for block in allowed(found, 0, allowed_m).blocks if block.tables]
+    for table in tables:
+        name = MEAN if MEAN in table.caption else found.plan.design_rule.name
+        lengths = found.displacements[name][0]
+        for line, row in enumerate(table.rows):
+            for x, cell in enumerate(row.cells[1:]):
+                if "friction coefficient" in table.caption:
+                    check(np.array(axes.mus), lengths[line, :, x], reading(cell), allowed_m, 0.01,
+                          upward=True)  # fmt: skip
+                else:
+                    check(np.array(axes.slopes_deg), lengths[:, line, x], reading(cell), allowed_m,
+                          0.1, upward=False)  # fmt: skip
+    assert len(tables) == 4
+    # The workbook and the first lines have the same numbers as the tables.
+    printed = [[reading(cell) for cell in row.cells[1:]] for row in tables[1].rows]
+    slopes = found.largest_slopes(0, found.plan.design_rule.name, allowed_m)
+    assert np.array_equal(slopes, np.array(printed), equal_nan=True)
+    study = axes.study.model_copy(update={"allowed_m": allowed_m})
+    plan = dataclasses.replace(found.plan, input=dataclasses.replace(axes, study=study))
+    lines = headline(dataclasses.replace(found, plan=plan))[1 : 1 + len(axes.mus)]
+    for line, values_at in zip(lines, slopes[:, len(levels) // 2], strict=True):
+        number = re.search(r"largest slope (?:≥ )?([\d.]+|none)", line)[1]
+        assert reading(number) == pytest.approx(values_at, abs=0.0, nan_ok=True)
+        stated = float(re.search(r"of at most ([\d.]+) in", line)[1])
+        assert stated * 0.0254 >= allowed_m - 1e-8
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@over(value_m=st.floats(0.0, 20.0))
+def test_design_displacements_and_clearances_print_rounded_up(results, value_m):
+    inch, mm = map(float, re.match(r"([\d.]+) in \((\d+) mm\)", both(results, value_m)).groups())
+    assert design_length(results, value_m) == f"{inch:.1f}"
+    assert 0.0 <= inch - value_m / 0.0254 + 1e-6 < 0.1001
+    assert 0.0 <= mm - value_m / 1e-3 + 1e-6 < 1.0001
+
+
+def test_the_printed_column_of_the_design_displacement_is_rounded_up(results):
+    (table,) = (
+        table
+        for section in sections(results)
+        for block in section.blocks
+        for table in block.tables
+        if table.caption.startswith("Displacements at")
+    )
+    wanted = results.design_m[0, :, :, 1].T.ravel()  # friction by friction
+    assert [row.cells[2] for row in table.rows] == [design_length(results, v) for v in wanted]
+
+
+def test_the_printed_formula_has_the_stated_error_in_every_case_fitted(tmp_path):
+    found = run(tmp_path, slopes_deg="0 to 6 by 1", mus="0.2, 0.3", intensities="0.2 to 2.4 by 0.2")
+    text = packages.words(study_html(found)).replace("−", "-")
+    line = re.search(r"ln Δ RHA = (.*?) ln\(1 - r\).*?/ \(([\d.]+) x\)", text)
+    assert line, text[text.index("Simplified formula") :][:400]
+    b = [float(v) for v in re.findall(r"(?<![\d.])-?\d[\d.]*(?:e[-+]\d+)?", line[0])]
+    b0, b1, b2, b3, b4 = (b[0], b[1], b[3], b[4], b[5])
+    p = float(line[2])
+    least, greatest = map(
+        float, re.search(r"is between ([\d.]+) and ([\d.]+): \2 times", text).groups()
+    )
+    cases = int(re.search(r"Fitted to (\d+) cases", text)[1])
+    axes = found.plan.input
+    slope, mu, x = np.meshgrid(
+        np.radians(axes.slopes_deg), axes.mus, axes.intensities, indexing="ij"
+    )
+    r = np.tan(np.arctan(mu) - slope) / (p * x)
+    value = 1.1 * found.curves.mean_m[0]
+    fitted = (value >= 0.005) & (r > 0.0) & (r <= 0.9)
+    assert fitted.sum() == cases
+    r, slope, mu, x = (v[fitted] for v in (r, slope, mu, x))
+    formula = np.exp(b0 + b1 * np.log(1 - r) + b2 * np.log(r) + b3 * np.log(x) + b4 * slope / mu)
+    ratio = value[fitted] / formula
+    assert least <= ratio.min()
+    assert ratio.max() <= greatest
+    assert ratio.min() - least < 0.011
+    assert greatest - ratio.max() < 0.011
+
+
+def test_chances_and_medians_are_rounded_to_the_safe_side(tmp_path):
+    arrays = (StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1),)
+    found = run(tmp_path, study_arrays=arrays, site_intensity=1.0, intensities="0.2 to 2 by 0.2")
+    array = found.arrays[0]
+    for value, text in ((1.0, "100 %"), (0.9961, "100 %"), (0.1441, "15 %"), (0.00123, "0.13 %")):
+        chance = dataclasses.replace(array.chances[0], value=value, low=value, high=value)
+        one = dataclasses.replace(array, chances=(chance,))
+        line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
+        assert f": {text} (" in line
+    for theta, beta in ((1.2345, 0.0561), (0.99999, 0.2), (12.39, 1.011)):
+        state = array.states[2]
+        known = dataclasses.replace(state.fragility, fitted=Lognormal(theta=theta, beta=beta))
+        one = dataclasses.replace(
+            array, chances=(), states=(dataclasses.replace(state, fragility=known),)
+        )
+        line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
+        printed, spread = map(float, re.search(r" ([\d.]+) g, beta ([\d.]+)", line).groups())
+        assert 0.0 <= theta - printed < 0.1
+        assert 0.0 <= spread - beta < 0.1

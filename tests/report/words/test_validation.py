@@ -1,0 +1,32 @@
+"""Whether the sliding solution is validated follows from the shake-table tests at hand."""
+
+import numba
+import pytest
+
+import tables
+from report.words.validation import NOT_VALIDATED, explained, validation
+from solver.verification.shake_table import compare
+from solver.verification.table_tests import table_tests
+
+compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
+
+
+def of(folder, ratios, data):
+    tables.write_folder(folder, ratios, data=data)
+    return compare(table_tests(folder))
+
+
+def test_without_tests_nothing_is_validated_and_the_text_says_what_that_means():
+    assert validation(()) == NOT_VALIDATED
+    assert explained(()).startswith(f"{NOT_VALIDATED} The checks of the verification manual")
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("ratio", "data", "is_validated"),
+    [(1.02, "measured", True), (1.02, "computed", False), (1.6, "measured", False)],
+)
+def test_only_accepted_measured_tests_validate(tmp_path, ratio, data, is_validated):
+    found = of(tmp_path, [ratio] * 5, data)
+    assert (NOT_VALIDATED not in explained((found,))) is is_validated
+    assert validation((found,)) == explained((found,)) or not is_validated
