@@ -30,7 +30,7 @@ GRIDS = 100
 
 _KNEE_HZ = 1.3
 
-LEAST, GREATEST, MEAN_OFF = 1.00, 1.30, 0.06
+LEAST, GREATEST, MEAN_OFF = 1.00, 1.30, 0.07
 """Accepted ratios to the target on `shifted_grids` over the matched band: smallest, largest, and
 largest difference of the mean from 1.
 """

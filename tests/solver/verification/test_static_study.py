@@ -1,7 +1,5 @@
 """Static above kinetic friction: it fades with the difference, and jumps where it must."""
 
-import math
-
 import numba
 import numpy as np
 import pytest
@@ -9,7 +7,7 @@ import pytest
 from solver.model import STANDARD_GRAVITY_MPS2, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.verification import rung_study, static_study
-from solver.verification.study import MODEL_CASES
+from solver.verification.study import MODEL_CASES, TIGHT
 from solver.verification.triples import own_triples
 
 pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
@@ -36,15 +34,19 @@ def test_the_change_falls_with_the_square_of_the_difference(evidence):
         (wider.one_axis, narrower.one_axis),
         (wider.two_axes, narrower.two_axes),
     ):
-        order = math.log(np.median(former) / np.median(later)) / math.log(step)
-        assert order == pytest.approx(2.0, abs=0.01)
+        # Each run is within its tolerance, and so is what it is compared with.
+        rounding = step**2 * 2.0 * TIGHT
+        assert step**2 * np.median(later) == pytest.approx(
+            np.median(former), rel=0.02, abs=rounding
+        )
         assert later[-1] < 0.1 * former[-1]
 
 
 def test_two_axes_tend_to_one_with_one_coefficient_and_need_not_with_two(evidence):
     wide, faint = evidence.fading[1], evidence.fading[-1]
     assert faint.one_coefficient[-1] < 1e-3 * wide.one_coefficient[-1]
-    assert faint.static_above[-1] == pytest.approx(wide.static_above[-1], rel=0.5)
+    # With the square of the share it would be 1e-4 of it.
+    assert faint.static_above[-1] > 1e-2 * wide.static_above[-1]
 
 
 def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone(evidence):
