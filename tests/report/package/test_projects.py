@@ -274,7 +274,7 @@ def test_the_school_says_in_words_where_its_motions_exceed_their_targets(school)
 
 
 def test_the_school_prints_si_units_first(school):
-    assert "304 mm (12.0 in)" in school.part("1 Summary")
+    assert "299 mm (11.8 in)" in school.part("1 Summary")
     assert not re.search(r"\d in \(\d+ mm\)", school.whole)
 
 
