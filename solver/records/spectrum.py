@@ -26,10 +26,11 @@ def response_spectrum(
     The oscillators are solved exactly for the linearly interpolated record (Nigam and Jennings,
     Bull. Seism. Soc. Am. 59 (1969) 909-922), from rest to the end of the record. Peaks between the
     steps are found on cubics through the exact states, with `PEAK_FINENESS` steps per period or
-    more: within 0.02 % for periods of dt and longer (white noise: 0.007 %). Below dt the steps are
-    `PEAK_STEPS` per interval: within 0.05 % to dt/2, and at samples of the steps alone below
-    dt/2.5. Free vibration after the end of the record is not included: pad the record with zeros
-    to include it.
+    more: within 0.02 % for periods of dt and longer (white noise: 0.007 %), or within 0.02 % of the
+    peak acceleration where a record of a few steps leaves the spectrum far below it. Below dt the
+    steps are `PEAK_STEPS` per interval: within 0.05 % to dt/2, and at samples of the steps alone
+    below dt/2.5. Free vibration after the end of the record is not included: pad the record with
+    zeros to include it.
 
     Parameters
     ----------
