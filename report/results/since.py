@@ -5,13 +5,16 @@ Compares nothing: see `report.results.compare`. Read `read_former`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from report.results.json import SCHEMA_VERSION
+from report.sheet.cells import cut
 from report.sheet.schema import ProjectInput
+from report.words.letters import UNPRINTABLE
 from solver.model import InputError
 
 AGAIN = "write it again with `report` of this version, from the workbook of that revision"
@@ -121,9 +124,28 @@ def former_from(content: bytes, path: Path) -> Former:
             f"{path}: schema_version is {found}; this version reads {SCHEMA_VERSION}; {AGAIN}"
         )
     try:
-        return Former.model_validate_json(content)
+        former = Former.model_validate_json(content)
     except ValidationError as error:
         raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
+    for text in _texts(former.model_dump(mode="json")):
+        if found := UNPRINTABLE.search(text):
+            raise InputError(
+                f"{path}: '{cut(text)}' has the character U+{ord(found[0]):04X}, which cannot be"
+                f" printed; the file is damaged: {AGAIN}"
+            )
+    return former
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """Yield all texts of a document, keys included."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            yield from (key, *_texts(item))
+    elif isinstance(value, list):
+        for item in value:
+            yield from _texts(item)
 
 
 def _first(error: ValidationError) -> str:

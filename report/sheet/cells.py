@@ -20,6 +20,7 @@ from pydantic import ValidationError
 from report.sheet import formerly
 from report.sheet.fields import Entry, Frozen, YesNo, adapter
 from report.sheet.number_format import is_percentage, misleading
+from report.words.letters import UNPRINTABLE, trimmed
 from report.words.units import Quantity
 from solver.model import InputError
 
@@ -29,10 +30,6 @@ _DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
 _WITH_UNIT = re.compile(
     r"[+-]?[0-9]+\.?[0-9]*\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
-)
-# With those that separate lines or change the direction of a text, which no font has.
-_CONTROL = re.compile(
-    r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff]"
 )
 LARGEST = 1e15
 """Magnitude above which a number is refused, so that no change of units can overflow."""
@@ -72,8 +69,8 @@ class Found:
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing but spaces was typed."""
-        blank = self.value is None or (isinstance(self.value, str) and not self.value.strip())
+        """Whether nothing that can be seen was typed."""
+        blank = self.value is None or (isinstance(self.value, str) and not trimmed(self.value))
         return blank and not self.formula
 
     @property
@@ -227,7 +224,7 @@ def _quoted(value: object) -> str:
 
 def cut(text: str, most: int = SHOWN) -> str:
     """Return a text on one line, shortened."""
-    text = _CONTROL.sub("?", text).replace("\n", " ")
+    text = UNPRINTABLE.sub("?", text).replace("\n", " ")
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
@@ -316,7 +313,7 @@ def _text(cell: Found) -> str:
             f"is {plain(cell.value)}, which is not text; format the cell as text and retype it"
         )
     # Excel writes characters that XML does not allow, and a pasted CR, as _x000D_.
-    text = unescape(plain(cell.value)).replace("\r\n", "\n").replace("\r", "\n").strip()
-    if _CONTROL.search(text):
+    text = trimmed(unescape(plain(cell.value)).replace("\r\n", "\n").replace("\r", "\n"))
+    if UNPRINTABLE.search(text):
         raise CellError(f"is '{cut(text)}', with control characters; retype it")
     return text

@@ -1,8 +1,20 @@
-"""Greek letters for their names (the solver writes `mu`, a page prints μ); superscripts."""
+"""Greek letters for their names (the solver writes `mu`, a page prints μ); superscripts.
+
+Also the characters that no page may print, and those that nobody sees.
+"""
 
 from __future__ import annotations
 
 import re
+
+UNPRINTABLE = re.compile(
+    r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
+)
+"""Control characters, those that separate lines or change the direction of a text, and what XML
+does not allow."""
+
+_UNSEEN = r"[\s\u00ad\u200b-\u200f\u2060-\u2064\ufeff]+"
+_ENDS = re.compile(rf"\A{_UNSEEN}|{_UNSEEN}\Z")
 
 _LETTERS = {
     "mu": "μ",
@@ -34,3 +46,8 @@ def lettered(text: str) -> str:
     for plain, set_well in _SIGNS.items():
         named = named.replace(plain, set_well)
     return re.sub(r"(?<![\w-])-(?=[\w.])", "−", named)
+
+
+def trimmed(text: str) -> str:
+    """Return a text without spaces and characters of no width at its ends."""
+    return _ENDS.sub("", text)

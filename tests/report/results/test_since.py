@@ -205,6 +205,28 @@ def test_a_wrong_type_is_named_with_its_place(content, where, value):
         former_from(json.dumps(document).encode(), "x")
 
 
+@pytest.mark.parametrize("letter", ["\ufffe", "\uffff", "\x00", "\x7f", "\u202e"])
+@pytest.mark.parametrize(
+    "where",
+    [
+        ("input", "project", "revision"),
+        ("requirements", 0, "found"),
+        ("arrays", 0, "peaks", 0, "motion"),
+    ],
+)
+def test_a_character_that_no_page_can_print_is_named(content, where, letter):
+    document = json.loads(content)
+    at = document
+    for step in where[:-1]:
+        at = at[step]
+    assert isinstance(at[where[-1]], str)
+    at[where[-1]] = f"a{letter}b"
+    with pytest.raises(InputError, match=r"'a\?b' has the character U\+") as error:
+        former_from(json.dumps(document).encode(), "x")
+    assert f"U+{ord(letter):04X}, which cannot be printed" in str(error.value)
+    assert letter not in str(error.value)
+
+
 @pytest.mark.parametrize(
     "text", [b"", b"[]", b"null", b"{", b"\xff\xfe", b"[" * 100000, b"1" * 9999]
 )

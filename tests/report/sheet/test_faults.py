@@ -136,6 +136,20 @@ SINGLE_CELLS = [
         "A_x0007_B",
         "project name is 'A?B', with control characters; retype it",
     ),
+    (
+        "Project",
+        "B5",
+        "A_xFFFE_B",  # so Excel writes a character that XML does not allow
+        "project name is 'A?B', with control characters; retype it",
+    ),
+    (
+        "Project",
+        "B6",
+        "_xFFFF_",
+        "project number is '?', with control characters; retype it",
+    ),
+    ("Arrays", "B8", "\u200b", "ID is missing; give text such as 'A1'"),
+    ("Motions", "B9", " \u200b\ufeff\u2060 ", "ID is missing; give text such as 'M1'"),
     ("Project", "B11", "3/5/26", "date is '3/5/26'; give a date such as 2026-03-05"),
     ("Project", "B11", True, "date is TRUE; give a date such as 2026-03-05"),
     ("Site", "B15", 1.5, "number of stories is 1.5; give a whole number from 1 to 200"),
@@ -727,3 +741,8 @@ def test_cells_merged_beside_a_single_field_do_not_matter(tmp_path):
     area = f"{cell}:{get_column_letter(column + 3)}{row}"
     edit(path, lambda book: book[sheet].merge_cells(area))
     assert read_workbook(path).input.project.name == "Alameda Warehouse"
+
+
+def test_characters_of_no_width_at_the_ends_of_a_text_are_not_read(tmp_path):
+    book = type_into(make(tmp_path), {"Motions!B8": "\ufeffM7\u200b \u200b"})
+    assert read_workbook(book).input.motions[0].id == "M7"
