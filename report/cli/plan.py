@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import input_errors
+from report.cli.terminal import input_errors, plain
 
 if TYPE_CHECKING:
     from report.drawing.plan_read import Place, RoofPlan
@@ -44,9 +44,9 @@ def read(drawing: Path, project: Path, units: str | None, replace: bool) -> None
     with input_errors(project):
         path, has_formulas = _filled(project, found, replace)
     for place in (*found.roof, *found.arrays, *found.objects):
-        click.echo(_line(place))
+        click.echo(plain(_line(place)))
     for text in _unread(found):
-        click.echo(text)
+        click.echo(plain(text))
     click.echo(f"{path}: the plan is filled in. Complete it, then run: roofslip report {project}")
     if has_formulas:
         click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")

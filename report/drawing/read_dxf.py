@@ -6,6 +6,7 @@ coordinates and unit. Hostile files are refused by size before the library loads
 
 from __future__ import annotations
 
+import logging
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from report.drawing.dxf import APPLICATION
 from report.sheet.shapes import Point, Polygon, ring
+from report.words.letters import UNPRINTABLE, trimmed
 from solver.model import InputError
 
 if TYPE_CHECKING:
@@ -26,6 +28,7 @@ MAX_ENTITIES = 20_000
 MAX_VALUES = 1_000_000
 MAX_DEPTH = 8
 MAX_POINTS = 2000
+MAX_COORDINATE = 1e12
 
 SAGITTA_M = 0.003
 """Largest distance [m] of an arc from the chords that it is read as."""
@@ -146,6 +149,7 @@ def _check(path: Path) -> None:
 def _loaded(path: Path) -> Document:
     import ezdxf
 
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     try:
         return ezdxf.filemanagement.readfile(str(path))
     except Exception as error:  # a damaged drawing makes the library raise almost anything
@@ -175,7 +179,7 @@ def _check_blocks(document: Document) -> None:
         for entity in entities:
             total += 1
             if entity.dxftype() == "INSERT":
-                total += _count(entity) * size(entity.dxf.name, depth + 1)
+                total += _count(entity) * size(entity.dxf.get("name", ""), depth + 1)
             if total > MAX_ENTITIES:
                 raise InputError(
                     f"its blocks expand to more than {MAX_ENTITIES:,} entities; explode those of"
@@ -194,44 +198,60 @@ def _count(insert: Any) -> int:
 
 def _take(entity: Any, drawing: RoofDrawing, sagitta: float, name: str, block: str) -> None:
     """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
-    kind, layer = entity.dxftype(), entity.dxf.get("layer", "0")
+    kind, layer = entity.dxftype(), _printable(entity.dxf.get("layer", "0"))
     handle = str(entity.dxf.get("handle") or block)
-    if kind == "INSERT":
-        _take_insert(entity, drawing, sagitta, handle)
-    elif kind in _TEXTS:
-        _take_text(entity, drawing, layer, kind)
-    elif kind in _LINES:
-        found = _ring(entity, kind, sagitta)
-        if isinstance(found, str):
-            drawing.unread.append(Unread(handle=handle, layer=layer, reason=found))
+    try:
+        if kind == "INSERT":
+            reason = _take_insert(entity, drawing, sagitta, handle)
+        elif kind in _TEXTS:
+            reason = _take_text(entity, drawing, layer, kind)
+        elif kind in _LINES:
+            reason = _take_line(entity, drawing, sagitta, layer, name, handle)
         else:
-            own = _own_name(entity)
-            drawing.lines.append(
-                Drawn(handle=handle, layer=layer, name=own or name, points=found,
-                      is_ours=bool(own))
-            )  # fmt: skip
-    else:
-        drawing.unread.append(Unread(handle=handle, layer=layer, reason=f"a {kind}"))
+            reason = f"a {kind}"
+    except Exception as error:  # as `_loaded`
+        reason = f"a {kind} that cannot be read ({type(error).__name__})"
+    if reason:
+        drawing.unread.append(Unread(handle=handle, layer=layer, reason=reason))
 
 
-def _take_insert(insert: Any, drawing: RoofDrawing, sagitta: float, handle: str) -> None:
+def _printable(text: object) -> str:
+    """Return a text of the drawing without what no terminal and no page may print."""
+    return trimmed(UNPRINTABLE.sub("", str(text)))
+
+
+def _take_line(
+    entity: Any, drawing: RoofDrawing, sagitta: float, layer: str, name: str, handle: str
+) -> str:
+    """Add a closed line, or return why it is none."""
+    found = _ring(entity, entity.dxftype(), sagitta)
+    if isinstance(found, str):
+        return found
+    own = _own_name(entity)
+    drawing.lines.append(
+        Drawn(handle=handle, layer=layer, name=own or name, points=found, is_ours=bool(own))
+    )
+    return ""
+
+
+def _take_insert(insert: Any, drawing: RoofDrawing, sagitta: float, handle: str) -> str:
+    """Add what a block shows, or return why it shows nothing."""
+    if insert.block() is None:
+        return f"a block '{_printable(insert.dxf.get('name', ''))}' that the drawing does not have"
     name = _attribute(insert)
     layer = insert.dxf.get("layer", "0")
-    try:
-        for one in insert.multi_insert() if _count(insert) > 1 else (insert,):
-            for entity in one.virtual_entities():
-                # Layer 0 within a block is the layer that the block is put on.
-                if entity.dxf.get("layer", "0") == "0":
-                    entity.dxf.layer = layer
-                _take(entity, drawing, sagitta, name, handle)
-    except (ArithmeticError, ValueError, TypeError) as error:
-        reason = f"a block that cannot be shown ({type(error).__name__})"
-        drawing.unread.append(Unread(handle=handle, layer=layer, reason=reason))
+    for one in insert.multi_insert() if _count(insert) > 1 else (insert,):
+        for entity in one.virtual_entities():
+            # Layer 0 within a block is the layer that the block is put on.
+            if entity.dxf.get("layer", "0") == "0":
+                entity.dxf.layer = layer
+            _take(entity, drawing, sagitta, name, handle)
+    return ""
 
 
 def _attribute(insert: Any) -> str:
     """Return the name that the attributes of a block give: NAME, ID or TAG, or the only one."""
-    found = {str(a.dxf.tag).casefold(): str(a.dxf.text).strip() for a in insert.attribs}
+    found = {str(a.dxf.tag).casefold(): _printable(a.dxf.text) for a in insert.attribs}
     for tag in ("name", "id", "tag", "mark"):
         if found.get(tag):
             return found[tag]
@@ -242,35 +262,37 @@ def _own_name(entity: Any) -> str:
     """Return the name that `report` wrote with a line."""
     if not entity.has_xdata(APPLICATION):
         return ""
-    return next((str(tag.value) for tag in entity.get_xdata(APPLICATION) if tag.code == 1000), "")
+    tags = entity.get_xdata(APPLICATION)
+    return next((_printable(tag.value) for tag in tags if tag.code == 1000), "")
 
 
-def _take_text(entity: Any, drawing: RoofDrawing, layer: str, kind: str) -> None:
+def _take_text(entity: Any, drawing: RoofDrawing, layer: str, kind: str) -> str:
+    """Add a text that says something at a place; none is missed that does not."""
     text = entity.plain_text() if kind != "ATTRIB" else entity.dxf.text
     if kind == "MTEXT":
         x, y, _ = entity.dxf.insert
     else:
         x, y, _ = entity.get_placement()[1] or entity.dxf.insert
-    words = " ".join(str(text).split())
+    words = " ".join(_printable(text).split())
     if words and math.isfinite(x) and math.isfinite(y):
         drawing.texts.append(Words(layer=layer, text=words, at=(float(x), float(y))))
+    return ""
 
 
 def _ring(entity: Any, kind: str, sagitta: float) -> tuple[Point, ...] | str:
     """Return the ring of a closed line, or why it is none."""
-    try:
-        if not _is_flat(entity):
-            return f"a {kind} that is not parallel to the plan"
-        if kind == "POLYLINE" and not (entity.is_2d_polyline or entity.is_3d_polyline):
-            return "a mesh"
-        if kind != "CIRCLE" and len(entity) > MAX_POINTS:
-            return f"a {kind} of more than {MAX_POINTS} points"
-        vertices = _vertices(entity, kind)
-        is_closed = kind == "CIRCLE" or bool(entity.is_closed)
-    except (ArithmeticError, ValueError, TypeError, AttributeError) as error:
-        return f"a {kind} that cannot be read ({type(error).__name__})"
+    if not _is_flat(entity):
+        return f"a {kind} that is not parallel to the plan"
+    if kind == "POLYLINE" and not (entity.is_2d_polyline or entity.is_3d_polyline):
+        return "a mesh"
+    if kind != "CIRCLE" and len(entity) > MAX_POINTS:
+        return f"a {kind} of more than {MAX_POINTS} points"
+    vertices = _vertices(entity, kind)
+    is_closed = kind == "CIRCLE" or bool(entity.is_closed)
     if not all(math.isfinite(value) for vertex in vertices for value in vertex):
         return f"a {kind} with a coordinate that is not a number"
+    if not all(abs(value) <= MAX_COORDINATE for vertex in vertices for value in vertex):
+        return f"a {kind} with a coordinate or bulge of more than {MAX_COORDINATE:g}"
     if not vertices or not (is_closed or vertices[0][:2] == vertices[-1][:2]):
         return f"an open {kind}"
     points = list(_chords(vertices, sagitta))
@@ -322,10 +344,10 @@ def _on_arc(turn: float, share: float) -> tuple[float, float]:
 
 def _shares(chord: float, bulge: float, sagitta: float) -> list[float]:
     """Return the shares of an arc at which its chords start; 0 alone for a line."""
-    if not bulge or not chord:
+    if 0.5 * abs(bulge) * chord <= sagitta:
         return [0.0]
     radius = chord * (1.0 + bulge**2) / (4.0 * abs(bulge))
-    step = 2.0 * math.acos(max(1.0 - sagitta / radius, 0.5))
+    step = 4.0 * math.asin(math.sqrt(0.5 * min(sagitta / radius, 0.5)))
     count = min(math.ceil(4.0 * math.atan(abs(bulge)) / step), MAX_POINTS + 1)
     return [k / count for k in range(count)]
 

@@ -2,12 +2,18 @@
 
 import io
 import math
+import subprocess
+import sys
 
 import pytest
+from click.testing import CliRunner
 
+from report.cli.main import main
 from report.drawing.read_dxf import MAX_ENTITIES, MAX_VALUES, read_dxf
+from report.sheet.read import read
 from report.sheet.schema import LayerKind
-from sketch import LIBRECAD_R12, Sketch, plan
+from sheets import make
+from sketch import BOX_FT, LIBRECAD_R12, UNIT_FT, Sketch, plan
 from solver.model import InputError
 
 
@@ -100,3 +106,80 @@ def test_a_line_of_many_vertices_is_listed(tmp_path):
     sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
     (found,) = plan(sketch.saved(tmp_path)).unread
     assert found.reason == "a LWPOLYLINE of more than 2000 points"
+
+
+def test_a_block_that_the_drawing_does_not_have_is_listed(tmp_path):
+    sketch = Sketch()
+    sketch.ring("ARRAY", BOX_FT, "A1")
+    sketch.space.add_blockref("GO\u202eNE", (0, 0), dxfattribs={"layer": "ARRAY"})
+    found = plan(sketch.saved(tmp_path))
+    assert [place.name for place in found.arrays] == ["A1"]
+    (missing,) = found.unread
+    assert missing.reason == "a block 'GONE' that the drawing does not have"
+
+
+def test_a_block_without_a_name_is_listed(tmp_path):
+    path = tmp_path / "roof.dxf"
+    start, text = LIBRECAD_R12.split("0\nTEXT\n")
+    path.write_text(f"{start}0\nINSERT\n8\nPV\n10\n0.0\n20\n0.0\n0\nTEXT\n{text}")
+    (missing,) = plan(path, "m", {"PV": LayerKind.ARRAY}).unread
+    assert missing.reason.startswith("a INSERT that cannot be read")
+
+
+@pytest.mark.parametrize("radius", [1e300, -1e300, 1e150, 2e12])
+def test_a_circle_larger_than_any_drawing_is_listed(tmp_path, radius):
+    sketch = Sketch()
+    sketch.space.add_circle((0, 0), radius, dxfattribs={"layer": "OBJECT"})
+    (found,) = plan(sketch.saved(tmp_path)).unread
+    assert found.reason == "a CIRCLE with a coordinate or bulge of more than 1e+12"
+
+
+def test_a_line_that_hardly_bulges_is_straight(tmp_path):
+    sketch = Sketch()
+    line = sketch.ring("OBJECT", BOX_FT, "RTU-1")
+    line.set_points([(x, y, 1e-300) for x, y in BOX_FT], format="xyb")
+    (found,) = plan(sketch.saved(tmp_path)).objects
+    assert len(found.shape.points) == 4
+
+
+def test_the_chords_of_a_flat_arc_stay_within_3_mm_of_it(tmp_path):
+    # Of a circle of 3 million km an arc 100 km long, which bulges by 417 mm.
+    sketch = Sketch(unit="m")
+    bulge = math.tan(1e5 / 3e9 / 4.0)
+    points = [(0.0, 0.0, bulge), (1e5, 0.0, 0.0), (1e5, 1e5, 0.0)]
+    sketch.space.add_lwpolyline(points, "xyb", close=True, dxfattribs={"layer": "OBJECT"})
+    (line,) = read_dxf(sketch.saved(tmp_path)).lines
+    chord = 1e5 / (len(line.points) - 2)
+    assert 0.5 * 0.003 < chord**2 / (8.0 * 3e9) <= 0.003
+
+
+@pytest.mark.parametrize("letter", ["\u202e", "\x00", "\x07", "\ufffe", "\u2028"])
+def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter):
+    book = make(tmp_path)
+    sketch = Sketch()
+    sketch.ring("ARRAY", BOX_FT, f"A{letter}1")
+    sketch.ring("OBJECT", UNIT_FT, letter)
+    sketch.ring("NOT-KNOWN", UNIT_FT)
+    path = sketch.saved(tmp_path)
+    path.write_bytes(path.read_bytes().replace(b"NOT-KNOWN", f"NOT-{letter}KNOWN".encode()))
+    done = CliRunner().invoke(main, ["plan", "read", str(path), str(book), "--replace"])
+    assert done.exit_code == 0, done.output
+    assert "A1: array" in done.output
+    assert "not read: layer NOT-KNOWN, " in done.output
+    assert letter not in done.output
+    draft = read(book).draft
+    assert draft["arrays"][0]["id"] == "A1"
+    assert "OBJ-1" in [row["id"] for row in draft["objects"]]
+
+
+def test_the_library_prints_nothing_of_its_own(tmp_path):
+    path = tmp_path / "roof.dxf"
+    path.write_text(LIBRECAD_R12.replace("\nVERTEX\n", "\nVERTEX\n5\n1F\n"))
+    code = (
+        "import sys; from pathlib import Path; from report.drawing.read_dxf import read_dxf;"
+        "print(len(read_dxf(Path(sys.argv[1]), 1.0).lines))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, path], capture_output=True, text=True, check=True
+    )
+    assert (done.stdout, done.stderr) == ("1\n", "")
