@@ -128,9 +128,9 @@ def former_from(content: bytes, path: Path) -> Former:
     except ValidationError as error:
         raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
     for text in _texts(former.model_dump(mode="json")):
-        if found := UNPRINTABLE.search(text):
+        if letter := UNPRINTABLE.search(text):
             raise InputError(
-                f"{path}: '{cut(text)}' has the character U+{ord(found[0]):04X}, which cannot be"
+                f"{path}: '{cut(text)}' has the character U+{ord(letter[0]):04X}, which cannot be"
                 f" printed; the file is damaged: {AGAIN}"
             )
     return former

@@ -212,21 +212,21 @@ def _checked(
             ("g_mps2", g_mps2, "a number of m/s2 above 0", lambda v: 0.0 < v < math.inf),
         )
     }
-    if records["ay_mps2"] is not None or not friction.is_constant:
+    if not isinstance(method, str) or method not in METHODS:
+        problems.append(f"method is {_shown(method)}; give one of {', '.join(METHODS)}")
+    elif records["ay_mps2"] is not None or not friction.is_constant:
         problems += _plane_faults(method, parameters)
-    elif method not in METHODS:
-        problems.append(f"method is {method!r}; give one of {', '.join(METHODS)}")
     else:
         problems += _faults(METHODS[method], parameters, records["az_mps2"] is not None)
     if problems:
         raise InputError(problems)
     run = Scene(ax_mps2=ax, ay_mps2=ay, az_mps2=az, friction=friction, **numbers)
-    if overflow := _overflow(run):
-        raise InputError(overflow)
+    if faults := overflow(run):
+        raise InputError(faults)
     return run
 
 
-def _overflow(scene: Scene) -> list[str]:
+def overflow(scene: Scene) -> list[str]:
     """Return an error if squared accelerations, their rates or the distances would overflow."""
     records = (scene.ax_mps2, scene.ay_mps2, scene.az_mps2)
     peak = scene.scale * max(float(np.abs(record).max()) for record in records if record.size)
@@ -297,7 +297,9 @@ def _shown(value: object) -> str:
 
 def _checked_records(records: Mapping[str, ArrayLike | None], problems: list[str]) -> list[Floats]:
     checked = {
-        name: NO_RECORD if values is None else checked_record(name, values, problems)
+        name: NO_RECORD
+        if values is None and name != "ax_mps2"
+        else checked_record(name, values, problems)
         for name, values in records.items()
     }
     shape = checked["ax_mps2"].shape
@@ -341,7 +343,7 @@ def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list
     return problems
 
 
-def checked_record(name: str, values: ArrayLike, problems: list[str]) -> Floats:
+def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> Floats:
     """Return a read-only float64 view: numba would compile a second version for writable arrays."""
     wanted = f"{name} is not a row of real numbers; give a sequence of accelerations"
     try:

@@ -16,8 +16,9 @@ from numba import get_num_threads
 from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels import one_axis
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Status
-from solver.sliding.checked import checked_number, checked_record
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Scene, Status, coulomb
+from solver.rivals.methods import NO_RECORD
+from solver.sliding.checked import checked_number, checked_record, overflow
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -109,6 +110,19 @@ def sweep(
         checked_number(name, value, "a number above 0", _is_size, problems)
     if problems:
         raise InputError(problems)
+    _, mu, scale = (float(np.abs(axis).max()) for axis in axes)
+    largest = Scene(
+        ax_mps2=ax,
+        ay_mps2=NO_RECORD,
+        az_mps2=NO_RECORD if az is None else az,
+        dt_s=float(dt_s),
+        slope_rad=0.0,
+        friction=coulomb(mu),
+        scale=scale,
+        g_mps2=float(g_mps2),
+    )
+    if faults := overflow(largest):
+        raise InputError(faults)
     return _run(ax, az, float(dt_s), float(g_mps2), axes, progress or (lambda share: None))
 
 

@@ -13,6 +13,7 @@ from solver.records.record import record_from_values
 RECORD = [0.0, 3.0, -3.0, 0.0]
 
 NOT_A_ROW = [
+    None,
     np.array(["2026-01-01", "2026-01-02"], dtype="datetime64[ns]"),
     np.array([1, 2], dtype="timedelta64[s]"),
     np.ma.array([1.0, 2.0], mask=[False, True]),
@@ -72,6 +73,30 @@ def test_what_is_no_number_is_refused(name, given):
     if given is not np.ma.masked:  # in a list, numpy warns and makes it NaN
         with pytest.raises(InputError):
             CALLS[name](RECORD, 0.01, [given] if name == "sweep" else given)
+
+
+@pytest.mark.parametrize("given", [["exact"], np.array(["exact", "paper"]), {}, None, 7], ids=named)
+@pytest.mark.parametrize("across", [None, RECORD])
+def test_what_is_no_name_of_a_method_is_refused(given, across):
+    for run in (slide, slide_history):
+        with pytest.raises(InputError, match=r"method is .*; give one of exact, ") as caught:
+            run(RECORD, 0.01, slope_rad=0.0, mu=0.5, ay_mps2=across, method=given)
+        assert len(caught.value.problems) == 1
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [{"dt_s": 1e300}, {"dt_s": 1e-300}, {"mu": 1e200}, {"scale": -1e200}, {"g_mps2": 1e130}],
+    ids=str,
+)
+def test_what_overflows_in_one_run_is_refused_in_a_sweep(changed):
+    given = {"dt_s": 0.01, "mu": 0.5, "scale": 1.0, "g_mps2": 9.8} | changed
+    with pytest.raises(InputError, match="exceed the floating-point range") as of_one:
+        slide(RECORD, slope_rad=0.0, **given)
+    dt_s, mu, scale = (given.pop(name) for name in ("dt_s", "mu", "scale"))
+    with pytest.raises(InputError) as of_all:
+        sweep(RECORD, dt_s, slopes_rad=[0.0, 0.1], mus=[mu, 0.2], scales=[0.1, scale], **given)
+    assert of_all.value.problems == of_one.value.problems
 
 
 @pytest.mark.parametrize("given", NOT_A_ROW, ids=named)
