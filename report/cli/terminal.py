@@ -91,11 +91,16 @@ def _refuse(source: Path, problems: Sequence[str], *, as_json: bool) -> NoReturn
         about = {"schema_version": SCHEMA_VERSION, "workbook": str(source)}
         click.echo(json.dumps(about | {"errors": problems}, ensure_ascii=False))
         sys.exit(INPUT_ERROR)
+    say_problems(source, problems)
+    sys.exit(INPUT_ERROR)
+
+
+def say_problems(source: Path, problems: Sequence[str]) -> None:
+    """Print the problems of an input, one per line."""
     count = len(problems)
     click.echo(f"{plain(source)}: {count} problem{'s' if count > 1 else ''} found.", err=True)
     for problem in problems:
         click.echo(f"  {plain(problem)}", err=True)
-    sys.exit(INPUT_ERROR)
 
 
 def _system_problem(error: OSError) -> str:

@@ -7,6 +7,8 @@ Owns what counts as a save, and how long to wait for one that is not finished. R
 from __future__ import annotations
 
 import gc
+import hashlib
+import os
 import signal
 import sys
 import time
@@ -14,13 +16,20 @@ import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import INPUT_ERROR, input_errors, no_collections
+from report.cli.terminal import (
+    INPUT_ERROR,
+    input_errors,
+    no_collections,
+    plain,
+    say_problems,
+)
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
@@ -29,8 +38,7 @@ if TYPE_CHECKING:
 SETTLE_S = 3.0
 """How long a workbook may be half saved, locked or gone [s] before that is an error."""
 
-_POLL_MS = 300
-_RETRY_S = 0.3
+_POLL_S = 0.3
 _MOST_CHANGES = 12
 _SUFFIXES = (".tmp", ".bak", ".swp", ".lock")
 
@@ -66,7 +74,7 @@ def watch(source: Path, out: Path | None, once: bool) -> None:
             round_.sweep()
             for names in filter(None, found):
                 click.echo("")
-                click.echo(f"saved: {', '.join(names)}")
+                click.echo(plain(f"saved: {', '.join(names)}"))
                 round_.run()
                 round_.sweep()
         finally:
@@ -85,6 +93,7 @@ class Round:
 
     def run(self) -> bool:
         """Check and report once; return whether a package was written."""
+        from report.making import OUTPUTS
         from report.results.since import former_from
         from solver.model import InputError
 
@@ -92,9 +101,12 @@ class Round:
         try:
             files = self._made()
         except InputError as error:
-            click.echo(f"{self._workbook}: {len(error.problems)} problem(s) found.", err=True)
-            for problem in error.problems:
-                click.echo(f"  {problem}", err=True)
+            say_problems(self._workbook, error.problems)
+            if any((self._folder / name).exists() for name in OUTPUTS):
+                click.echo(
+                    f"{plain(self._folder)}: not written again; its files are of an earlier save",
+                    err=True,
+                )
             return False
         self._before = former_from(files["results.json"], self._folder / "results.json")
         click.echo(f"{self._folder}: written in {time.monotonic() - started:.1f} s")
@@ -131,12 +143,12 @@ class Round:
         from report.results.compare import changes
 
         for line in summary(assessment):
-            click.echo(line)
+            click.echo(plain(line))
         if self._before is not None:
             items = changes(self._before, assessment).items
             for item in items[:_MOST_CHANGES]:
                 at = f" ({item.cell})" if item.cell else ""
-                click.echo(f"changed: {item.title}{at}: {item.before} -> {item.now}")
+                click.echo(plain(f"changed: {item.title}{at}: {item.before} -> {item.now}"))
             if not items:
                 click.echo("changed: nothing that the package shows")
             elif len(items) > _MOST_CHANGES:
@@ -171,7 +183,7 @@ def settle(workbook: Path) -> None:
         if time.monotonic() > last:
             open_book(workbook)
             return
-        time.sleep(_RETRY_S)
+        time.sleep(_POLL_S)
 
 
 def _is_whole(workbook: Path) -> bool:
@@ -179,35 +191,73 @@ def _is_whole(workbook: Path) -> bool:
     try:
         with zipfile.ZipFile(workbook) as archive:
             return archive.testzip() is None
-    except (OSError, zipfile.BadZipFile, NotImplementedError, RuntimeError, ValueError, zlib.error):
+    except (OSError, EOFError, zipfile.BadZipFile, NotImplementedError, RuntimeError, ValueError,
+            zlib.error):  # fmt: skip
         return False
 
 
 def saves(workbook: Path, folder: Path) -> Iterator[list[str]]:
     """Yield the names of the files of each save beside a workbook, except in the output folder.
 
-    None at once, when the watch has begun, and again whenever there was no save for a moment.
+    None at once, when the watch has begun, and again whenever there was no save for a moment. A
+    save is a file with other content, whatever its time stamp. One that is still being written is
+    waited for, at most `SETTLE_S`.
     """
-    from watchfiles import watch as changed_files
-
-    top, written = workbook.parent.resolve(), folder.resolve()
-
-    def counts(_: object, name: str) -> bool:
-        path = Path(name)
-        # A folder changes with every file that is written into it, the package among them.
-        return is_input(path) and not path.is_relative_to(written) and not path.is_dir()
-
     # Shares over a network tell no program of a change: the folder is polled.
-    for found in changed_files(
-        top,
-        watch_filter=counts,
-        force_polling=True,
-        poll_delay_ms=_POLL_MS,
-        rust_timeout=_POLL_MS,
-        yield_on_timeout=True,
-        raise_interrupt=False,
-    ):
-        yield sorted({str(Path(name).relative_to(top)) for _, name in found})
+    top, written = workbook.parent.resolve(), folder.resolve()
+    known = _settled(workbook, _files(top, written, {}), written)
+    while True:
+        yield []
+        time.sleep(_POLL_S)
+        found = _files(top, written, known)
+        if found == known:
+            continue
+        found = _settled(workbook, found, written)
+        contents = ({path: file.sha256 for path, file in files.items()} for files in (known, found))
+        changed = set.symmetric_difference(*(set(content.items()) for content in contents))
+        known = found
+        if changed:
+            yield sorted({str(path.relative_to(top)) for path, _ in changed})
+
+
+@dataclass(frozen=True, slots=True)
+class _File:
+    """A file with what the system says of it: its content is read only where that differs."""
+
+    stamp: tuple[int, ...]
+    sha256: str
+
+
+def _settled(workbook: Path, found: Mapping[Path, _File], written: Path) -> Mapping[Path, _File]:
+    """Return the files once none changes any more and the workbook is whole."""
+    last = time.monotonic() + SETTLE_S
+    while True:
+        time.sleep(_POLL_S)
+        now = _files(workbook.parent.resolve(), written, found)
+        if (now == found and _is_whole(workbook)) or time.monotonic() > last:
+            return now
+        found = now
+
+
+def _files(top: Path, written: Path, known: Mapping[Path, _File]) -> Mapping[Path, _File]:
+    """Return the files that may be inputs, in a folder and below it."""
+    found = {}
+    for place, folders, names in os.walk(top):
+        folders[:] = [name for name in folders if Path(place, name) != written]
+        for path in (Path(place, name) for name in names if is_input(Path(name))):
+            with suppress(OSError):  # it may be gone by now
+                found[path] = _file(path, known.get(path))
+    return found
+
+
+def _file(path: Path, known: _File | None) -> _File:
+    status = path.stat()
+    stamp = (status.st_mtime_ns, status.st_ctime_ns, status.st_size, status.st_ino)
+    if known is not None and known.stamp == stamp:
+        return known
+    # A pipe or a device would be waited for.
+    content = path.read_bytes() if path.is_file() else b""
+    return _File(stamp, hashlib.sha256(content).hexdigest())
 
 
 def is_input(path: Path) -> bool:

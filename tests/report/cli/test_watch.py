@@ -11,6 +11,7 @@ import subprocess
 import sys
 import threading
 import time
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -48,7 +49,8 @@ def test_locks_and_temporary_files_are_no_save(name, counts):
     assert is_input(Path(name)) is counts
 
 
-def test_a_folder_that_only_received_the_package_is_no_save(tmp_path):
+def test_a_folder_that_only_received_the_package_is_no_save(tmp_path, monkeypatch):
+    monkeypatch.setattr(watch, "SETTLE_S", 0.0)
     path, folder = tmp_path / "input.xlsx", tmp_path / "out"
     path.write_bytes(b"before")
     found = saves(path, folder)
@@ -59,6 +61,90 @@ def test_a_folder_that_only_received_the_package_is_no_save(tmp_path):
     assert [next(found) for _ in range(4)] == [[]] * 4
     path.write_bytes(b"after it")
     assert next(filter(None, found)) == ["input.xlsx"]
+
+
+def test_a_save_with_an_older_time_stamp_is_seen(tmp_path, monkeypatch):
+    """As of a file that is copied back from a backup with its time."""
+    monkeypatch.setattr(watch, "SETTLE_S", 0.0)
+    path = tmp_path / "input.xlsx"
+    path.write_bytes(b"before")
+    found = saves(path, tmp_path / "out")
+    next(found)
+    path.write_bytes(b"backup")
+    os.utime(path, (1e9, 1e9))
+    assert next(filter(None, (next(found) for _ in range(4)))) == ["input.xlsx"]
+
+
+def test_a_save_without_a_change_is_none(tmp_path):
+    path, record = make(tmp_path), tmp_path / "records" / "z.csv"
+    found = saves(path, tmp_path / "out")
+    next(found)
+    path.write_bytes(path.read_bytes())
+    record.touch()
+    assert [next(found) for _ in range(4)] == [[]] * 4
+
+
+def test_a_save_in_several_steps_is_one(tmp_path):
+    """As Excel does it: a temporary file, then another name; here with a pause in the middle."""
+    path = make(tmp_path)
+    whole = edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.5)).read_bytes()
+    found = saves(path, tmp_path / "out")
+    next(found)
+    temporary = tmp_path / "5A1B2C00"
+    temporary.write_bytes(whole[:1000])
+    timer = later(0.5, lambda: (temporary.write_bytes(whole + b"0"), temporary.replace(path)))
+    named = [next(found) for _ in range(6)]
+    timer.join()
+    assert [names for names in named if names] == [["input.xlsx"]]
+
+
+def test_a_removed_record_is_a_save(tmp_path):
+    path, record = make(tmp_path), tmp_path / "records" / "z.csv"
+    found = saves(path, tmp_path / "out")
+    next(found)
+    record.unlink()
+    assert next(filter(None, (next(found) for _ in range(4)))) == ["records/z.csv"]
+
+
+def test_a_workbook_that_shrinks_while_it_is_read_is_read_again(tmp_path, monkeypatch):
+    path = make(tmp_path)
+    whole, looks = path.read_bytes(), []
+    read = zipfile.ZipFile.testzip
+
+    def shrinking(archive):
+        looks.append(archive)
+        largest = max(archive.infolist(), key=lambda part: part.compress_size)
+        end = largest.header_offset + largest.compress_size // 2
+        path.write_bytes(whole[:end] if len(looks) == 1 else whole)
+        return read(archive)
+
+    monkeypatch.setattr(zipfile.ZipFile, "testzip", shrinking)
+    monkeypatch.setattr(watch, "SETTLE_S", 60.0)
+    timer = later(0.5, lambda: path.write_bytes(whole))
+    settle(path)
+    timer.join()
+    assert len(looks) == 2
+
+
+def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_save(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr(watch, "SETTLE_S", 0.0)
+    path, folder = tmp_path / "input.xlsx", tmp_path / "out"
+    path.write_bytes(b"half")
+    round_ = Round(path, folder, SameProcess())
+    try:
+        assert not round_.run()
+        first = capsys.readouterr().err
+        folder.mkdir()
+        (folder / "calc-package.pdf").write_bytes(b"%PDF")
+        assert not round_.run()
+    finally:
+        forget()
+    told = capsys.readouterr().err.splitlines()
+    assert told[0] == f"{path}: 1 problem found."
+    assert told[-1] == f"{folder}: not written again; its files are of an earlier save"
+    assert "earlier save" not in first
 
 
 def later(seconds, action):
