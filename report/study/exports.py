@@ -15,7 +15,7 @@ from xml.etree import ElementTree as ET
 
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
-from report.study.words import both
+from report.study.words import NO_NUMBER, both
 from report.words.units import digits_down, digits_up, round_up
 from solver.studies.fragility import Fragility
 
@@ -37,7 +37,8 @@ MEASURES: Mapping[Intensity, str] = {
 
 NRML = "http://openquake.org/xmlns/nrml/0.5"
 MOST_STATES = 4
-_COLUMNS = ("Family", "Theta_0", "Theta_1", "DamageStateWeights")
+_COLUMNS = ("Family", "Theta_0", "Theta_1", "DamageStateWeights", "Description")
+"""Those of a library, and a description of the limit state, which its readers pass over."""
 
 
 def export_files(results: StudyResults) -> Mapping[str, bytes]:
@@ -54,10 +55,9 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
     return files
 
 
-def known_states(one: ArrayResult) -> tuple[tuple[str, LimitState], ...]:
-    """Return the limit states that have a lognormal, numbered LS1, LS2 ... as a library needs."""
-    known = [state for state in one.states if state.fragility.fitted.is_known]
-    return tuple((f"LS{number}", state) for number, state in enumerate(known, start=1))
+def known_states(one: ArrayResult) -> tuple[LimitState, ...]:
+    """Return the limit states that have a lognormal; each has the same name in every file."""
+    return tuple(state for state in one.states if state.fragility.fitted.is_known)
 
 
 def component_id(results: StudyResults, one: ArrayResult) -> str:
@@ -80,12 +80,28 @@ def _library(results: StudyResults, known: list[ArrayResult]) -> str:
     )  # fmt: skip
     for one in known:
         cells: list[object] = []
-        for _, state in known_states(one):
-            f = state.fragility.fitted
-            cells += ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), ""]
+        for state in one.states:
+            cells += _cells(state)
         cells += [""] * (len(states) - len(cells))
         writer.writerow([component_id(results, one), 0, demand, unit, 0, 0, *cells])
     return text.getvalue()
+
+
+def _cells(state: LimitState) -> list[str]:
+    """Return the columns of a limit state; an undetermined one has its description alone."""
+    f = state.fragility.fitted
+    if not f.is_known:
+        return ["", "", "", "", f"{sentence(state)} {_sentence(NO_NUMBER)}"]
+    return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", sentence(state)]
+
+
+def sentence(state: LimitState) -> str:
+    """Return what a limit state is, as a sentence."""
+    return _sentence(state.words)
+
+
+def _sentence(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}."
 
 
 def _metadata(results: StudyResults, known: list[ArrayResult]) -> str:
@@ -118,13 +134,13 @@ def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
         "SuggestedComponentBlockSize": "1 EA",
         "RoundUpToIntegerQuantity": "True",
         "LimitStates": {
-            name: {
+            state.name: {
                 "DS1": {
-                    "Description": f"{state.words[:1].upper()}{state.words[1:]}.",
+                    "Description": sentence(state),
                     "RepairAction": "Inspect; not part of this study.",
                 }
             }
-            for name, state in known_states(one)
+            for state in known_states(one)
         },
     }
 
@@ -152,7 +168,7 @@ def _nrml(results: StudyResults) -> bytes:
         {"id": "roofslip", "assetCategory": "contents", "lossCategory": "contents"},
     )
     study = results.plan.input.study
-    ET.SubElement(model, f"{{{NRML}}}description").text = study.title
+    ET.SubElement(model, f"{{{NRML}}}description").text = _description(results)
     states = [state.name for state in results.arrays[0].states]
     ET.SubElement(model, f"{{{NRML}}}limitStates").text = " ".join(states)
     for one in results.arrays:
@@ -173,6 +189,16 @@ def _nrml(results: StudyResults) -> bytes:
             chances.text = " ".join(f"{round_up(p, 6):.6f}" for p in chances_of(state.fragility))
     ET.indent(root)
     return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
+
+
+def _description(results: StudyResults) -> str:
+    """Return the title, and what the limit states of each array are."""
+    states = [
+        f"{component_id(results, one)}: "
+        + " ".join(f"{state.name}: {sentence(state)}" for state in one.states)
+        for one in results.arrays
+    ]
+    return " ".join([f"{results.plan.input.study.title}.", *states])
 
 
 def chances_of(found: Fragility) -> list[float]:
