@@ -78,9 +78,7 @@ def record_format(top: Path) -> None:
     """Add a format of records."""
     (top / "solver" / "formats" / "acc.py").write_text(FORMAT, encoding="utf-8")
     reader = top / "solver" / "formats" / "reader.py"
-    replaced(
-        reader, "from solver.formats import cosmos,", "from solver.formats import acc, cosmos,"
-    )
+    replaced(reader, "solver.formats import cosmos,", "solver.formats import acc, cosmos,")
     replaced(reader, "for module in (cosmos,", "for module in (acc, cosmos,")
 
 
@@ -105,7 +103,7 @@ def page(top: Path) -> None:
     """Add a page after the limits."""
     (top / "report" / "pages" / "wind.py").write_text(PAGE, encoding="utf-8")
     registry = top / "report" / "pages" / "registry.py"
-    replaced(registry, "    results,\n)", "    results,\n    wind,\n)")
+    replaced(registry, "    symbols,\n)", "    symbols,\n    wind,\n)")
     replaced(
         registry,
         '    Page(\n        id="provisions",',
@@ -120,7 +118,7 @@ CHANGES = (
         rule_set,
         "from report.sheet.schema.choices import RuleSetName\n"
         "from solver.rules.rulesets import RULE_SETS\n"
-        "assert RULE_SETS[RuleSetName('ASCE 7-28')].amplification.slope == 2.5",
+        "assert RULE_SETS[RuleSetName('ASCE 7-28')].values['prescriptive_factor_in'].value == 60.0",
     ),
     Change(
         "record format",
@@ -139,7 +137,7 @@ CHANGES = (
         "from report.package.html import pages\n"
         "assessment = report.assess_project('projects/example')\n"
         "html = pages(assessment, support(assessment))\n"
-        "assert 'Wind on 3 arrays is not checked, see part 2.' in html",
+        "assert 'Wind on 3 arrays is not checked, see part 3.' in html",
     ),
 )
 
