@@ -12,38 +12,10 @@ from places import RECORDS, SAMPLES
 
 G = 9.80665
 
+pytest_plugins = ("selection",)
+
 settings.register_profile("roofslip", deadline=None)  # a busy machine is no failure
 settings.load_profile("roofslip")
-
-# Files that take more than two seconds; in the whole suite they start first, so that no core idles
-# at its end.
-SLOW = (
-    "test_readme", "test_page", "test_page_views", "test_package", "test_projects",
-    "test_answers", "test_verify", "test_two_axes_kernel", "test_campaign", "test_watch",
-    "test_recalculated", "test_cli", "test_drawn_roof", "test_verify_package",
-    "test_two_axes", "test_two_axes_friction", "test_suite_files", "test_synthesis",
-    "test_checked", "test_verification", "test_random_pairs", "test_two_axes_bounds",
-    "test_one_axis_kernel", "test_fixed_steps", "test_row_kernel", "test_rivals_kernel",
-    "test_cache", "test_refused", "test_seeds", "test_manual_building", "test_manual_rungs",
-    "test_packaging", "test_sign", "test_batch", "test_serve", "test_terminal", "test_cumulative",
-    "test_formats_reader", "test_project", "test_row",
-    "test_rung_study", "test_static_study", "test_rungs", "test_read", "test_faults", "test_xlsx",
-    "test_fragility", "test_study_parts",
-    "test_study", "test_study_cluster", "test_plane_scipy", "test_neighbors", "test_roof",
-    "test_plan", "test_check_cli", "test_foresight", "test_links", "test_friction_sheet",
-    "test_live", "test_clearances", "test_outlines", "test_tagged", "test_archive",
-    "test_front_matter", "test_libreoffice", "test_page_scripts", "test_fill", "test_labels_fit",
-    "test_json", "test_excel", "test_parts", "test_app", "test_values", "test_workers",
-)  # fmt: skip
-
-
-def pytest_collection_modifyitems(items):
-    """Mark what `./roofslip test --quick` leaves out, and start it first."""
-    for item in items:
-        if item.path.stem in SLOW:
-            item.add_marker(pytest.mark.slow)
-    order = {name: rank for rank, name in enumerate(SLOW)}
-    items.sort(key=lambda item: order.get(item.path.stem, len(SLOW)))
 
 
 def pytest_collection_finish(session):

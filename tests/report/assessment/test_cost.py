@@ -58,7 +58,6 @@ def test_arrays_cost_runs_where_their_slope_or_friction_differs(book):
     assert more_s(steeper) == pytest.approx(0.45 + 0.3 * 7.3)
 
 
-@pytest.mark.slow
 def test_the_command_says_it_before_the_runs(tmp_path, monkeypatch):
     one = project().model_dump()["arrays"][0]
     arrays = [

@@ -17,7 +17,6 @@ def run(*arguments):
     return CliRunner().invoke(main, ["batch", *(str(item) for item in arguments)])
 
 
-@pytest.mark.slow
 def test_a_project_that_fails_stops_no_other(tmp_path):
     for name in ("one", "two"):
         make(tmp_path / name)

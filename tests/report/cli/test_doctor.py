@@ -1,6 +1,5 @@
 """`roofslip doctor`, with everything and with something missing."""
 
-import pytest
 from click.testing import CliRunner
 
 from places import ROOT
@@ -12,7 +11,6 @@ def run():
     return CliRunner().invoke(main, ["doctor"])
 
 
-@pytest.mark.slow
 def test_with_everything_installed_it_says_so():
     done = run()
     assert done.exit_code == 0, done.output

@@ -175,7 +175,6 @@ def test_a_workbook_that_stays_away_is_an_error(tmp_path, monkeypatch):
         settle(tmp_path / "input.xlsx")
 
 
-@pytest.mark.slow
 def test_once_ends_after_one_round(tmp_path, monkeypatch):
     monkeypatch.setattr(watch, "SETTLE_S", 0.4)
     missing = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
@@ -269,7 +268,6 @@ def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, second):
         gc.enable()
 
 
-@pytest.mark.slow
 def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
     path = make(tmp_path)
     watching = Watching(tmp_path)
@@ -325,7 +323,6 @@ def outputs(folder):
     return {name: (folder / name).read_bytes() for name in OUTPUTS}
 
 
-@pytest.mark.slow
 def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
     tmp_path, monkeypatch, capsys
 ):

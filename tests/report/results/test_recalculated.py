@@ -12,8 +12,6 @@ import stand_in
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
 
-pytestmark = pytest.mark.slow
-
 INCH = 0.0254
 SITE = stand_in.project().site.model_dump()
 REVIEWED = {

@@ -12,8 +12,6 @@ from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template
 from sheets import blank, edit, make, project, same, type_into
 
-pytestmark = pytest.mark.slow
-
 METRIC = project(
     arrays=[row.model_dump() | {"i_p": 1.5} for row in project().arrays],
     objects=[row.model_dump() | {"i_p": 1.25} for row in project().objects],

@@ -1,0 +1,118 @@
+"""Which tests run: the nightly ones apart, and of the others, the quick ones, by their durations.
+
+`./roofslip test --durations` writes `tests/durations.csv`. Read `is_quick`.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections import Counter, defaultdict
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+DURATIONS = Path(__file__).with_name("durations.csv")
+KEPT_S = 0.1
+"""Shorter tests are not kept in the file: they are quick."""
+
+QUICK_S = 0.5
+"""Longest quick test; of a file whose tests all take longer, the shortest one is quick."""
+
+
+def function_of(nodeid: str) -> str:
+    """Return the test function of a test: its cases count as one."""
+    return nodeid.partition("[")[0]
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the options that `./roofslip test` uses."""
+    group = parser.getgroup("selection")
+    group.addoption("--which", choices=("usual", "quick", "nightly", "all"), default="usual")
+    group.addoption("--write-durations", action="store_true")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what was not asked for; a test named by `::` always runs."""
+    which = config.getoption("--which")
+    if which == "all" or any("::" in argument for argument in config.args):
+        return
+    quick = is_quick(read(DURATIONS), {function_of(item.nodeid) for item in items})
+    left_out = []
+    for item in items:
+        is_nightly = item.get_closest_marker("nightly") is not None
+        runs = {
+            "usual": not is_nightly,
+            "quick": not is_nightly and function_of(item.nodeid) in quick,
+            "nightly": is_nightly,
+        }
+        if not runs[which]:
+            left_out.append(item)
+    config.hook.pytest_deselected(items=left_out)
+    gone = set(left_out)
+    items[:] = [item for item in items if item not in gone]
+
+
+def is_quick(durations: dict[str, float], functions: Iterable[str]) -> set[str]:
+    """Return the quick test functions: each file has one or more."""
+    of_file = defaultdict(list)
+    for name in functions:
+        of_file[name.partition("::")[0]].append((durations.get(name, 0.0), name))
+    return {
+        name
+        for tests in of_file.values()
+        for seconds, name in tests
+        if seconds <= max(QUICK_S, min(tests)[0])
+    }
+
+
+def read(path: Path) -> dict[str, float]:
+    """Return the seconds of each test function in the file."""
+    if not path.is_file():
+        return {}
+    with path.open(encoding="utf-8", newline="") as lines:
+        return {row["test"]: float(row["seconds"]) for row in csv.DictReader(lines)}
+
+
+class Clock:
+    """Adds up the durations of setup, call and teardown, and writes them at the end."""
+
+    def __init__(self) -> None:
+        self._seconds: Counter[str] = Counter()
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Add a phase of a test."""
+        self._seconds[function_of(report.nodeid)] += report.duration
+
+    def pytest_sessionfinish(self, session: pytest.Session) -> None:
+        """Write what was run; what was not, stays as it was."""
+        if hasattr(session.config, "workerinput"):
+            return
+        known = {name: s for name, s in read(DURATIONS).items() if name not in self._seconds}
+        rows = sorted((known | dict(self._seconds)).items())
+        with DURATIONS.open("w", encoding="utf-8", newline="") as lines:
+            table = csv.writer(lines, lineterminator="\n")
+            table.writerow(("test", "seconds"))
+            table.writerows((name, f"{s:.1f}") for name, s in rows if s >= KEPT_S)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Time the tests if that was asked for."""
+    if config.getoption("--write-durations"):
+        config.pluginmanager.register(Clock())
+
+
+def pytest_terminal_summary(
+    terminalreporter: pytest.TerminalReporter, config: pytest.Config
+) -> None:
+    """Say which tests were left out."""
+    which = config.getoption("--which")
+    if which != "all" and not config.option.collectonly:
+        terminalreporter.write_line(f"roofslip: {LEFT_OUT[which]}")
+
+
+LEFT_OUT = {
+    "usual": "nightly tests are left out: ./roofslip test --nightly runs them",
+    "quick": "tests that take longer are left out: ./roofslip test runs them",
+    "nightly": "these were the nightly tests alone: ./roofslip test runs the others",
+}
