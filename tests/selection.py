@@ -6,11 +6,14 @@
 from __future__ import annotations
 
 import csv
+import subprocess
 from collections import Counter, defaultdict
 from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
+
+from places import ROOT
 
 DURATIONS = Path(__file__).with_name("durations.csv")
 KEPT_S = 0.1
@@ -38,9 +41,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if which == "all" or any("::" in argument for argument in config.args):
         return
     quick = is_quick(read(DURATIONS), {function_of(item.nodeid) for item in items})
+    changed = changed_files()
     left_out = []
     for item in items:
-        is_nightly = item.get_closest_marker("nightly") is not None
+        mark = item.get_closest_marker("nightly")
+        is_nightly = mark is not None and changed.isdisjoint(mark.args)
         runs = {
             "usual": not is_nightly,
             "quick": not is_nightly and function_of(item.nodeid) in quick,
@@ -51,6 +56,16 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     config.hook.pytest_deselected(items=left_out)
     gone = set(left_out)
     items[:] = [item for item in items if item not in gone]
+
+
+def changed_files() -> set[str]:
+    """Return the files that differ from the last commit but one; none where git does not say."""
+    command = ["git", "diff", "--name-only", "HEAD~1"]
+    try:
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    except OSError:
+        return set()
+    return set(done.stdout.split())
 
 
 def is_quick(durations: dict[str, float], functions: Iterable[str]) -> set[str]:

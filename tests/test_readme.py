@@ -113,6 +113,7 @@ def few_cases(book):
     book["Study"]["B12"] = "0.2 to 2 by 0.2"
 
 
+@pytest.mark.nightly
 def test_every_command_of_the_readme_runs(commanded):
     folder, printed = commanded
     assert {command.split()[1] for command in COMMANDS} >= {"report", "test", "new", "check"}
@@ -120,6 +121,7 @@ def test_every_command_of_the_readme_runs(commanded):
     assert (folder / "projects" / "yours" / "out" / "calc-package.pdf").is_file()
 
 
+@pytest.mark.nightly
 def test_the_study_of_the_readme_has_its_curves(commanded):
     folder, printed = commanded
     # Three mats on eight slopes at twenty intensities, and the cases of the array.

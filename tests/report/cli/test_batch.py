@@ -17,6 +17,7 @@ def run(*arguments):
     return CliRunner().invoke(main, ["batch", *(str(item) for item in arguments)])
 
 
+@pytest.mark.nightly
 def test_a_project_that_fails_stops_no_other(tmp_path):
     for name in ("one", "two"):
         make(tmp_path / name)

@@ -9,6 +9,7 @@ from pathlib import Path
 from zipfile import ZipFile
 
 import numpy as np
+import pytest
 from click.testing import CliRunner
 
 import packages
@@ -65,6 +66,7 @@ def test_new_does_not_write_through_a_dangling_link(tmp_path):
     assert not (tmp_path / "elsewhere.xlsx").exists()
 
 
+@pytest.mark.nightly
 def test_new_example_writes_the_example_of_the_projects(tmp_path, monkeypatch):
     bars = []
 

@@ -49,6 +49,7 @@ def test_without_a_number_of_steps_there_is_no_bar(monkeypatch, capsys):
         (["motion", "suite", "{1}", "--sds=1", "--zh=1", "--code=pv1", "--count=2"], "motion", 4),
     ],
 )
+@pytest.mark.nightly
 def test_the_bar_of_a_command_is_full_when_it_ends(monkeypatch, tmp_path, command, module, steps):
     """That of `new --example` is tested in test_cli.py."""
     bars = []

@@ -96,6 +96,7 @@ def made(quick):
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in written}
 
 
+@pytest.mark.nightly
 def test_the_quick_command_of_the_readme_passes_and_writes_everything(quick, made):
     verification, _, done, out, _ = quick
     count = len(verification.checks)

@@ -323,6 +323,7 @@ def outputs(folder):
     return {name: (folder / name).read_bytes() for name in OUTPUTS}
 
 
+@pytest.mark.nightly
 def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
     tmp_path, monkeypatch, capsys
 ):

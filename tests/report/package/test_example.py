@@ -56,6 +56,7 @@ def targets():
     return across, across, ac156_vertical(s_ds_g=example.S_DS_G)
 
 
+@pytest.mark.nightly
 def test_the_first_motion_is_reproduced_to_the_last_digit(records, targets):
     """One of seven, to keep the test short; sines may differ in the last digit between machines."""
     across, _, upward = ((part.freq_hz, part.sa_g) for part in targets)

@@ -125,6 +125,7 @@ def test_the_example_has_the_conditions_that_its_friction_tests_leave(example):
 
 
 @pytest.mark.parametrize("name", ["example", "school", "conditions"])
+@pytest.mark.nightly
 def test_no_sheet_but_the_letter_and_the_last_is_under_three_fifths_full(name, request):
     sheets = request.getfixturevalue(name)
     titled = zip(sheets.pages[:-1], sheets.filled[:-1], strict=True)

@@ -61,6 +61,7 @@ def test_what_no_report_writes_is_refused_whatever_software_is_named(tampered, f
 
 
 @pytest.mark.parametrize("change", tampering.REDRAWN, ids=lambda change: change.__name__)
+@pytest.mark.nightly
 def test_what_other_software_may_draw_otherwise_is_not_the_same(tampered, few_sheets, change):
     found = tampered(few_sheets, tampering.of_other_software, change)
     assert not found.differences
@@ -71,6 +72,7 @@ def test_what_other_software_may_draw_otherwise_is_not_the_same(tampered, few_sh
 
 @pytest.mark.parametrize("change", tampering.REDRAWN, ids=lambda change: change.__name__)
 @pytest.mark.parametrize("name", ["", "zlib"])
+@pytest.mark.nightly
 def test_software_that_draws_nothing_explains_no_other_drawing(tampered, few_sheets, change, name):
     named = [lambda pdf: tampering.of_other_software(pdf, name)] if name else []
     found = tampered(few_sheets, *named, change)
@@ -117,6 +119,7 @@ def test_every_entry_of_the_manifest_is_compared(tampered, few_sheets, entry):
     assert any(text.startswith(f"roofslip.json: {entry}") for text in found.differences)
 
 
+@pytest.mark.nightly
 def test_a_package_of_other_versions_has_the_same_words_and_numbers(proof, data, of_others, short):
     found = proof(of_others, data, short)
     assert not found.differences

@@ -85,6 +85,7 @@ def changed(before, reviewed, tmp_path_factory):
     return recalculated(paths, folder)
 
 
+@pytest.mark.nightly
 def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(before, changed):
     gaps = [gap.model_dump() for gap in stand_in.project().clearances]
     gaps[1] |= {"provided_m": NARROW_M}

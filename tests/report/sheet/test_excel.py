@@ -276,6 +276,7 @@ def printed(tmp_path_factory):
     return [page.extract_text() for page in PdfReader(file).pages]
 
 
+@pytest.mark.nightly
 def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path, printed):
     book = load_workbook(blank(tmp_path / "input.xlsx"))
     assert [s.title for s in book if s.page_setup.fitToWidth == 2] == ["Arrays"]

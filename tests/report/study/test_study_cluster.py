@@ -31,6 +31,7 @@ def cluster():
 NAMES = ["roof"]
 
 
+@pytest.mark.nightly
 def test_a_killed_worker_loses_nothing_and_every_part_has_the_bytes_of_this_machine(
     cluster, tmp_path
 ):

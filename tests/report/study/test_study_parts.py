@@ -228,6 +228,7 @@ run_missing(folder, c, manifest["identity"], NAMES, missing, lambda done: None)
 """
 
 
+@pytest.mark.nightly
 def test_a_study_killed_at_any_moment_goes_on_where_it_was(tmp_path):
     """Three runs are killed, after 1, 4 and 7 more parts; the rows are those of a run in peace."""
     folder, c = tmp_path / "killed", campaign("xyz", 2)

@@ -150,6 +150,7 @@ def test_the_table_states_target_tail_seed_and_the_fit_of_each_component(made):
     assert lines[-1].endswith("suite: 6 records, suite.json, suite.png; seed 5")
 
 
+@pytest.mark.nightly
 def test_the_same_seed_gives_the_same_bytes_whatever_the_count(made, tmp_path):
     done = run(tmp_path, *AC156, "--count", 1, "--seed", 5)
     assert done.exit_code == 0

@@ -444,6 +444,7 @@ def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(pa
     page.wait_for_selector("h1:has-text('Small Warehouse')")
 
 
+@pytest.mark.nightly
 def test_when_every_process_is_killed_the_page_goes_on(page, server):
     before = verdicts(page)
     for pid in processes_of(server[1]):

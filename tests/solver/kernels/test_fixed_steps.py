@@ -54,5 +54,6 @@ def test_a_free_block_at_rest_feels_no_friction_in_its_first_step():
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+@pytest.mark.nightly("solver/kernels/fixed_steps.py")
 def test_every_line_is_run_with_the_compiler_off(tmp_path):
     assert_every_line_runs("solver/kernels/fixed_steps.py", __file__, tmp_path)

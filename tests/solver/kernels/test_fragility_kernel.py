@@ -59,5 +59,6 @@ def test_rows_without_a_line_are_nan():
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run without it")
+@pytest.mark.nightly("solver/kernels/fragility.py")
 def test_every_line_of_the_kernels_runs(tmp_path):
     assert_every_line_runs("solver/kernels/fragility.py", __file__, tmp_path)

@@ -109,6 +109,7 @@ def test_compiled_and_plain_kernels_give_the_same_bits():
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+@pytest.mark.nightly("solver/kernels/one_axis.py", "solver/kernels/oscillator.py")
 def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
     assert_every_line_runs("solver/kernels/one_axis.py", __file__, tmp_path)
     assert_every_line_runs("solver/kernels/oscillator.py", __file__, tmp_path / "oscillator")

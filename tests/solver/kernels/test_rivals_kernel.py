@@ -65,6 +65,7 @@ def test_compiled_and_plain_rivals_give_the_same_bits():
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+@pytest.mark.nightly("solver/kernels/rivals.py")
 def test_every_line_of_the_rivals_is_run_with_the_compiler_off(tmp_path):
     assert_every_line_runs("solver/kernels/rivals.py", __file__, tmp_path)
 

@@ -101,5 +101,6 @@ def test_the_largest_value_of_a_polynomial_is_inside_where_it_turns():
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+@pytest.mark.nightly("solver/kernels/row.py")
 def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
     assert_every_line_runs("solver/kernels/row.py", __file__, tmp_path)

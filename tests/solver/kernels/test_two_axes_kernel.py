@@ -145,5 +145,6 @@ def test_blocks_passed_over_change_nothing():
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
+@pytest.mark.nightly("solver/kernels/two_axes.py")
 def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
     assert_every_line_runs("solver/kernels/two_axes.py", __file__, tmp_path)

@@ -63,6 +63,7 @@ def sometimes(number):
     return number if number != 5 else 1 // 0
 
 
+@pytest.mark.nightly
 def test_a_call_that_hangs_crashes_or_dies_is_told_and_the_others_are_kept():
     calls = campaign(sometimes, [(number,) for number in range(9)], limit_s=0.5, prepare=dict)
     assert [call.arguments for call in calls] == [(number,) for number in range(9)]

@@ -71,6 +71,7 @@ def components(suites: Any) -> list[tuple[Record, Target]]:
 
 
 class TestSuite:
+    @pytest.mark.nightly
     def test_every_component_of_ten_seeds_keeps_to_its_target(self, components: Any) -> None:
         # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:
@@ -159,6 +160,7 @@ class TestSuite:
             assert 19.99 < 0.005 * (strong[1] - strong[0]) < 24.0
             assert energy[400] < 0.02 * energy[-1] > energy[-1] - energy[-401]
 
+    @pytest.mark.nightly
     def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites: Any) -> None:
         again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=3)
         for component, other in zip(again[0].components, suites[3].components, strict=True):
