@@ -46,7 +46,7 @@ def _peer_review(data: ProjectInput) -> Iterator[Row]:
     missing = [name for name, value in parts if not value]
     yield Row(
         id="peer_review",
-        title="Peer review, which removes the floor",
+        title="Peer review of the analysis",
         found=f"{' and '.join(missing)} {NOT_GIVEN}"
         if missing
         else f"{options.peer_reviewer}, {options.peer_license}, {options.peer_date}",
@@ -54,7 +54,8 @@ def _peer_review(data: ProjectInput) -> Iterator[Row]:
         basis=data.site.rule_set,
         is_satisfied=not missing,
         consequence=Consequence.CONDITION,
-        remedy="Without peer review the floor applies: give reviewer, license and date.",
+        remedy="Give reviewer, license and date. Without peer review the floor and the slope limit "
+        "of the analysis route apply.",
     )
 
 

@@ -29,6 +29,7 @@ from report.pages.parts import (
     verdict,
 )
 from report.pages.remedies import sentences
+from report.pages.review import exceptional
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
 from report.words.units import number
@@ -161,7 +162,7 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
             package.fmt.both(array.design_m) + package.design_mark(array),
             f"governed by: {array.source}",
         ),
-        *_exceptional(package),
+        *exceptional(package),
     )
 
 
@@ -177,23 +178,6 @@ def _missed_targets(
         )
         for found in departures(spectra)
     ]
-
-
-def _exceptional(package: PackageData) -> Sequence[tuple[str, str, str]]:
-    """Return a floor that is removed and a departure from the rule set, with who reviewed them."""
-    options, rows = package.data.options, []
-    if options.peer_reviewed:
-        by = (options.peer_reviewer, options.peer_license, options.peer_date or "")
-        stated = ", ".join(str(part) for part in by if part) or "reviewer not given"
-        rows.append(
-            ("Floor", f"removed by peer review: {stated}", package.clause("analysis_floor"))
-        )
-    if options.directional:
-        reason = shortened(options.directional_reason, 80)
-        rows.append(
-            ("Departure", f"displacement by direction: {reason}", package.part("provisions"))
-        )
-    return rows
 
 
 def _array_table(package: PackageData) -> Table:
@@ -273,11 +257,9 @@ def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
 
 def _floor(package: PackageData) -> str:
     """Return whether the floor on the value from analysis applies."""
-    if package.data.options.peer_reviewed:
-        return "does not apply"
     if all(array.route is Route.PRESCRIPTIVE for array in package.assessment.arrays):
         return "is not used: the design displacements are prescriptive"
-    return "applies"
+    return "does not apply" if package.data.options.peer_reviewed else "applies"
 
 
 def _routes(package: PackageData) -> str:
@@ -288,9 +270,14 @@ def _routes(package: PackageData) -> str:
     }
     taken = {route: ids for route, ids in of_route.items() if ids}
     if len(taken) == 1:
-        return f"All limits of the {next(iter(taken))} route are satisfied"
+        return f"All limits of the {next(iter(taken))} route are satisfied{_as_permitted(package)}"
     parts = (f"of the {route} route for {', '.join(ids)}" for route, ids in taken.items())
-    return f"All limits are satisfied: {' and '.join(parts)}"
+    return f"All limits are satisfied{_as_permitted(package)}: {' and '.join(parts)}"
+
+
+def _as_permitted(package: PackageData) -> str:
+    by_exception = any(check.passes_by_exception for _, check in all_checks(package))
+    return " or, where permitted, exceeded" if by_exception else ""
 
 
 def _angles(package: PackageData, certainty: Certainty) -> str:

@@ -12,6 +12,7 @@ from report.assessment.friction import mu_words
 from report.assessment.overrides import LOWERING
 from report.pages.front import verdict_sentence
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, stamp
+from report.pages.review import review_sentences
 from report.pages.symbols import with_symbols
 from report.typeset.equations import symbol
 from report.words.counts import capitalized, counted, spelled
@@ -149,8 +150,7 @@ def _departures(package: PackageData) -> Iterator[str]:
             "The clearances take the displacement in their own direction, a departure from the "
             f"rule set ({where})."
         )
-    if options.peer_reviewed:
-        yield "The floor on the displacement from analysis is not applied: peer review is stated."
+    yield from review_sentences(package)
     if any(math.isnan(item.permitted_m) for item in package.assessment.arrays):
         yield (
             "An array without a permitted design displacement is NG: no clearance beside it is "

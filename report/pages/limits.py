@@ -30,6 +30,9 @@ from report.words.units import Quantity, compared, ratio
 from solver.records.acceptance_row import Consequence
 from solver.rules.provisions import Basis, Check
 
+EXCEPTED = "permitted*"
+"""Verdict on a value beyond a limit that the rule set permits to be exceeded."""
+
 
 def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
     """Return every limit with the item that it applies to."""
@@ -164,14 +167,36 @@ def check_table(
                     place,
                     check.title,
                     check_value(check, check.value, package.fmt),
-                    "≤" if check.at_most else "≥",
+                    _sign(check),
                     check_value(check, check.limit, package.fmt) + dagger(check.provision),
                     check.provision.clause + dagger(check.provision),
-                    verdict(check.ok, words),
+                    verdict(check.ok, (EXCEPTED, NG) if check.passes_by_exception else words),
                 )
             )
             for place, check in checks
         ),
+        notes=tuple(
+            dict.fromkeys(
+                _exception(package, check) for _, check in checks if check.passes_by_exception
+            )
+        ),
+    )
+
+
+def _sign(check: Check) -> str:
+    if check.passes_by_exception:
+        return ">"
+    return "≤" if check.at_most else "≥"
+
+
+def _exception(package: PackageData, check: Check) -> str:
+    """Return why the slope limit of the rule set may be exceeded, and what limits it instead."""
+    limit = check_value(check, check.limit, package.fmt) + dagger(check.provision)
+    return (
+        f"* {check.provision.clause}{dagger(check.provision)} permits roofs over {limit} by "
+        f"analysis in SDC A, B, C with peer review. SDC {package.data.site.sdc_text}; reviewed by "
+        f"{package.reviewer}. {package.clause('ibc_max_slope_deg')} limits the slope as well, in "
+        "a row of its own."
     )
 
 

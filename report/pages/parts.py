@@ -287,6 +287,13 @@ class PackageData:
         """Return the clause of a provision with its marks."""
         return self.assessment.rules.values[key].clause + self.mark(key)
 
+    @property
+    def reviewer(self) -> str:
+        """Who reviewed the analysis: name, license and date, as far as they are given."""
+        options = self.data.options
+        by = (options.peer_reviewer, options.peer_license, options.peer_date or "")
+        return ", ".join(str(part) for part in by if part) or "reviewer not given"
+
     def bar(self, is_changed: bool, kind: str = "") -> str:
         """Return the style of a row, with a bar in the margin where it changed."""
         return f"{kind} {BAR}".lstrip() if is_changed else kind

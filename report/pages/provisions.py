@@ -42,7 +42,9 @@ def provisions(package: PackageData) -> Mapping[str, object]:
                 for key, provision in rules.values.items()
             ),
             notes=tuple(
-                Markup("{}: {}.").format(_sentence_case(OVERRIDABLE[key]), provision.note)
+                Markup("{}: {}{}.").format(
+                    _sentence_case(OVERRIDABLE[key]), provision.note, dagger(provision)
+                )
                 for key, provision in rules.values.items()
                 if provision.note
             ),

@@ -286,6 +286,7 @@ def _check(check: Check) -> dict[str, Any]:
         "clause": check.provision.clause,
         "is_overridden": bool(check.provision.reason),
         "ok": check.ok,
+        "by_exception": check.passes_by_exception,
     }
 
 

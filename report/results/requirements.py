@@ -49,6 +49,7 @@ def _limit(item: str, check: Check) -> tuple[str, ...]:
     unit = {"deg": " deg", "m": " m", "count": "", "": ""}[check.measure]
     sign = "≤" if check.at_most else "≥"
     word = Verdict.OK if check.ok else Verdict.NG
+    by_exception = f"over the limit, permitted: {check.provision.note}"
     return (
         item,
         check.title,
@@ -56,7 +57,7 @@ def _limit(item: str, check: Check) -> tuple[str, ...]:
         f"{sign} {check.limit:.6g}{unit}{OVERRIDDEN if check.provision.reason else ''}",
         check.provision.clause,
         word.value,
-        "",
+        by_exception if check.passes_by_exception else "",
     )
 
 

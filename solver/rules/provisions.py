@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TypeVar
 
@@ -235,7 +235,10 @@ class Measure(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
-    """A value of the project compared with a limit of a rule set; NaN is never satisfied."""
+    """A value of the project compared with a limit of a rule set; NaN is never satisfied.
+
+    `may_exceed` is whether the rule set permits this project to exceed the limit.
+    """
 
     title: str
     value: float
@@ -244,10 +247,20 @@ class Check:
     measure: Measure
     key: str
     provision: Provision
+    may_exceed: bool = False
 
     @property
     def ok(self) -> bool:
-        """Whether the limit is satisfied; a value equal to it within rounding is."""
+        """Whether the value is permitted; one equal to the limit within rounding is."""
+        return self._is_within or self.passes_by_exception
+
+    @property
+    def passes_by_exception(self) -> bool:
+        """Whether the value is beyond the limit, which the rule set permits here."""
+        return self.may_exceed and not self._is_within and not math.isnan(self.value)
+
+    @property
+    def _is_within(self) -> bool:
         return _at_least(*((self.limit, self.value) if self.at_most else (self.value, self.limit)))
 
 
@@ -330,17 +343,19 @@ def analysis_checks(
 ) -> tuple[Check, ...]:
     """Return the checks of the limits of the analysis route.
 
-    ASCE 7, 13.6.12: steeper roofs in SDC A, B, C with peer review, then with the limit of the IBC.
+    ASCE 7, 13.6.12: steeper roofs in SDC A, B, C with peer review. The limit of the IBC, which
+    then governs, is among those of both routes.
     """
-    has_no_limit = rules.steeper_if_reviewed and sdc in "ABC" and is_reviewed
+    slope = _check(
+        rules,
+        "Roof slope, analysis route",
+        math.degrees(abs(slope_rad)),
+        "analysis_max_slope_deg",
+        measure=Measure.ANGLE_DEG,
+    )
+    may_exceed = rules.steeper_if_reviewed and sdc in "ABC" and is_reviewed
     return (
-        _check(
-            rules,
-            "Roof slope, analysis route",
-            math.degrees(abs(slope_rad)),
-            "ibc_max_slope_deg" if has_no_limit else "analysis_max_slope_deg",
-            measure=Measure.ANGLE_DEG,
-        ),
+        replace(slope, may_exceed=may_exceed),
         _check(
             rules,
             "Number of motions",

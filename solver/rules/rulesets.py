@@ -156,7 +156,7 @@ class RuleSet:
     low_sdc_is_flat: bool  # SDC A, B, C have a constant displacement instead of the formula
     mu_rises_with_slope: bool
     low_profile_length: LowProfileLength
-    steeper_if_reviewed: bool  # no slope limit of its own in SDC A, B, C with peer review
+    steeper_if_reviewed: bool  # its slope limit may be exceeded in SDC A, B, C with peer review
     statistic_is_stated: bool  # of the peaks; otherwise a mean without factor is no departure
     edition: str  # of the seismic parameters, unless the workbook states another
 
@@ -276,6 +276,8 @@ _PV1_NOTES = {
     " over 3 deg may be outside PV1-2012",
 }
 
+_ASCE_NOTES = {"analysis_max_slope_deg": "in SDC A, B, C it may be exceeded with peer review"}
+
 
 def _noted(table: dict[str, Provision], notes: Mapping[str, str]) -> dict[str, Provision]:
     return {key: replace(row, note=notes.get(key, "")) for key, row in table.items()}
@@ -303,7 +305,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
             name="ASCE 7-16",
             title="ASCE/SEI 7-16, Minimum Design Loads and Associated Criteria for Buildings "
             "and Other Structures, 13.6.12",
-            values=_table(_ASCE, "ASCE 7-16") | _IBC,
+            values=_noted(_table(_ASCE, "ASCE 7-16"), _ASCE_NOTES) | _IBC,
             importance_in_separation=False,
             low_sdc_is_flat=False,
             mu_rises_with_slope=True,
@@ -317,7 +319,7 @@ RULE_SETS: Mapping[str, RuleSet] = {
             name="ASCE 7-22",
             title="ASCE/SEI 7-22, Minimum Design Loads and Associated Criteria for Buildings "
             "and Other Structures, 13.6.12",
-            values=_unverified(_table(_ASCE, "ASCE 7-22")) | _IBC,
+            values=_noted(_unverified(_table(_ASCE, "ASCE 7-22")), _ASCE_NOTES) | _IBC,
             importance_in_separation=False,
             low_sdc_is_flat=False,
             mu_rises_with_slope=True,

@@ -222,8 +222,17 @@ def test_the_schools_slope_is_beyond_the_prescriptive_and_within_the_ibc(school)
     comparison = school.part("8 Comparison")
     assert "the prescriptive route is not permitted (Roof slope, prescriptive route)" in comparison
     limits = school.part("10 Limits")
-    assert "Roof slope, analysis route 3.58° (6.2 %) ≤ 4.76° (8.3 %)† IBC 1613.3† OK" in limits
-    assert "Reviewer of record, NM S0000, 2026-11-16" in limits
+    ibc, _, asce = limits.partition("Roof slope, analysis route 3.58° (6.2 %) > ")
+    assert "Roof slope, any ballasted system 3.58° (6.2 %) ≤ 4.76° (8.3 %)† IBC 1613.3† OK" in ibc
+    assert asce.startswith("2.86° (5.0 %)† ASCE 7-16 13.6.12† permitted* ")
+    assert (
+        "* ASCE 7-16 13.6.12† permits roofs over 2.86° (5.0 %)† by analysis in SDC A, B, C with "
+        "peer review. SDC C; reviewed by Reviewer of record, NM S0000, 2026-11-16. IBC 1613.3† "
+        "limits the slope as well, in a row of its own."
+    ) in limits
+    reason = "permitted over 2.86° (5.0 %)†: SDC C, analysis peer reviewed"
+    assert f"Roof slope (arrays A1, A2) {reason}" in school.part("1 Summary")
+    assert "in SDC A, B, C it may be exceeded with peer review†" in school.part("11 Provisions")
 
 
 def test_the_schools_design_value_is_from_analysis_without_a_floor(school):

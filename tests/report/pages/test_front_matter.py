@@ -187,7 +187,7 @@ def test_the_note_of_a_provision_is_printed(usual):
     assert plain(note) == (
         "Maximum slope for the analysis route [deg]: "
         "quoted for attached arrays (Sec. 4); an unattached array on a slope over 3 deg may be "
-        "outside PV1-2012."
+        "outside PV1-2012†."
     )
 
 

@@ -4,8 +4,10 @@ import datetime as dt
 
 import stand_in
 from places import ROOT
+from report.assessment.arrays import Route
 from report.assessment.project import assess
 from report.pages.front import summary, verdict_sentence
+from report.pages.letter import letter
 from report.pages.registry import package_data
 from report.pages.summary import document
 from report.pages.summary import summary as printed
@@ -41,6 +43,18 @@ def test_a_removed_floor_is_named_with_its_reviewer():
         "removed by peer review: Reviewer of record, CA S0000, 2026-03-01"
     )
     assert "reviewer not given" in numbers(peer_reviewed=True)["Floor"]
+
+
+def test_no_floor_is_removed_where_the_design_is_prescriptive():
+    arrays = [stand_in.array("A2", 0.5, x=120)]
+    package = package_data(stand_in.unpermitted(arrays=arrays, clearances=[]))
+    assert package.governing.route is Route.PRESCRIPTIVE
+    shown = {label: text for label, text, _ in summary(package, (), ())["numbers"]}
+    assert "Floor" not in shown
+    assert shown["Peer review"] == (
+        "reviewer not given; no floor is used: the design displacements are prescriptive"
+    )
+    assert not any("floor" in text for text in letter(package)["texts"])
 
 
 def test_a_departure_is_named_with_its_reason():

@@ -237,18 +237,33 @@ def test_one_in_twelve_of_the_ibc_limits_every_rule_set(rules):
     assert check(0.0).provision.clause == "IBC 1613.3"
 
 
+def analysis_slope(rules, rise, sdc, is_reviewed):
+    slope_rad = math.atan(rise)
+    return analysis_checks(
+        rules, slope_rad=slope_rad, n_motions=7, sdc=sdc, is_reviewed=is_reviewed
+    )[0]
+
+
 def test_asce_7_permits_steeper_roofs_in_low_sdc_with_peer_review_alone():
-    slope = math.atan(0.07)
-    for rules, sdc, is_reviewed, ok in (
-        (A16, "C", True, True),
-        (A16, "C", False, False),
-        (A16, "D", True, False),
-        (PV1, "D", False, True),
+    for rules, sdc, is_reviewed, ok, by_exception in (
+        (A16, "C", True, True, True),
+        (A22, "A", True, True, True),
+        (A16, "C", False, False, False),
+        (A16, "D", True, False, False),
+        (PV1, "C", True, True, False),
     ):
-        check = analysis_checks(
-            rules, slope_rad=slope, n_motions=7, sdc=sdc, is_reviewed=is_reviewed
-        )[0]
-        assert check.ok is ok
+        check = analysis_slope(rules, 0.07, sdc, is_reviewed)
+        assert (check.ok, check.passes_by_exception) == (ok, by_exception)
+
+
+def test_the_exception_for_peer_review_keeps_the_limit_of_13_6_12():
+    over, within = (analysis_slope(A16, rise, "C", True) for rise in (0.07, 0.05))
+    assert over.limit == within.limit == pytest.approx(math.degrees(math.atan(1 / 20)), rel=1e-12)
+    assert over.provision.clause == "ASCE 7-16 13.6.12"
+    assert over.provision.confidence == "L"
+    assert within.ok
+    assert not within.passes_by_exception
+    assert not analysis_slope(A16, math.nan, "C", True).ok
 
 
 def test_a_parapet_must_clear_the_roof_and_the_centre_of_gravity():
