@@ -67,7 +67,7 @@ class MethodRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rivals:
-    """The governing run along the slope alone, by every method: they have one axis only.
+    """The governing run along the slope alone, by every method.
 
     Attributes
     ----------

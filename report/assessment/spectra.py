@@ -19,13 +19,11 @@ from report.words.units import G_MPS2
 from solver.model import Floats, Motion
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
+from solver.records.spectrum_acceptance import POINTS_HZ
 
 PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
-BAND_HZ = 0.3 * 2.0 ** (np.arange(82) / 12.0)  # 1/12 octaves to 32.3 Hz
-# From the last corner of AC156 to the first: the band, coarser beyond it, and printed periods.
-PERIODS_S: Floats = np.unique(
-    np.concatenate([1.0 / BAND_HZ, np.geomspace(3.6, 9.3, 10), [1 / 33.3], PRINTED_S[1:]])
-)
+# The points of the limits on spectra, so that a page says one thing of them; and printed periods.
+PERIODS_S: Floats = np.unique(np.concatenate([1.0 / POINTS_HZ, PRINTED_S[1:]]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,8 +59,8 @@ class Spectra:
 
     @property
     def in_band(self) -> NDArray[np.bool_]:
-        """Whether a period lies in the matching band and has a target ordinate."""
-        return np.isin(self.periods_s, 1.0 / BAND_HZ) & np.isfinite(self.target_g)
+        """Whether the limits compare a period, and it has a target ordinate."""
+        return np.isin(self.periods_s, 1.0 / POINTS_HZ) & np.isfinite(self.target_g)
 
     @property
     def lowest(self) -> tuple[float, str, float]:

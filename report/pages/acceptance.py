@@ -106,9 +106,15 @@ def _between(acceptance: Acceptance, spectra: Sequence[Spectra]) -> str:
     if not ratio < min([*at_points, LEAST_MEAN]):
         return ""
     return (
-        " Between them a spectrum may be lower: the smallest ratio of those shown below is "
-        f"{number(ratio, 2)} ({motion}, {component.lower()}, at {period_s:.3g} s)."
+        " Between them, where no limit is compared, a spectrum may be lower: the smallest ratio of "
+        f"those shown below is {number(ratio, 2)} ({motion}, {component.lower()}, at "
+        f"{frequency(period_s)})."
     )
+
+
+def frequency(period_s: float) -> str:
+    """Return the frequency of a period, which names points that a rounded period does not."""
+    return f"{1.0 / period_s:.3g} Hz"
 
 
 def strength_table(motions: Sequence[MotionStrength]) -> Table:

@@ -79,10 +79,10 @@ def _plane(package: PackageData, rivals: Rivals) -> str:
     slow = "" if run.scene.friction.is_constant else ", and with the low-velocity friction"
     return (
         "Motion in two axes is computed to a tolerance: the error of this PRD is below "
-        f"{below_mm(run.result.error_m)} ({kind}). The other methods apply to one axis only and "
-        "are compared on this run along the slope alone, without the cross-slope component"
-        f"{slow}. That displacement, {package.fmt.both(rivals.exact.prd_m)}, is not a result of "
-        "this package."
+        f"{below_mm(run.result.error_m)} ({kind}). All methods are compared on this run along the "
+        f"slope alone, without the cross-slope component{slow}; the verification manual compares "
+        f"methods in two axes. That displacement, {package.fmt.both(rivals.exact.prd_m)}, is not "
+        "a result of this package."
     )
 
 

@@ -39,7 +39,7 @@ _Carried = tuple[Motion, str, RoofMotion]
 
 def _texts(package: PackageData, components: Sequence[_Carried]) -> Iterator[str]:
     yield Markup("{} {}").format(
-        "Motions recorded on the ground are transferred to the roof through an elastic building "
+        "Motions given at the ground are transferred to the roof through an elastic building "
         f"model, each horizontal component independently: {_words(components)}.",
         _period_words(package),
     )

@@ -21,7 +21,7 @@ from report.assessment.spectra import (
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.targets import OWN
-from report.pages.acceptance import acceptance_table, event_table, strength_table
+from report.pages.acceptance import acceptance_table, event_table, frequency, strength_table
 from report.pages.building import building_part
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
 from report.pages.symbols import with_symbols
@@ -30,6 +30,7 @@ from report.typeset.equations import symbol
 from report.words.units import G_MPS2, number
 from solver.model import Floats, Motion
 from solver.records.processing import AS_RECORDED
+from solver.records.spectrum_acceptance import POINTS_HZ
 from solver.rules.spectra import Tail
 
 
@@ -46,14 +47,14 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 
 def has_ground(package: PackageData) -> bool:
-    """Whether any motion was recorded on the ground."""
+    """Whether any motion is given at the ground."""
     return any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
 
 
 def motion_table(motions: Sequence[Motion], preparations: Sequence[PreparedMotion]) -> Table:
     """Return the list of the motions as run."""
     grounds = [prepared.recorded_at is RecordedAt.GROUND for prepared in preparations]
-    where = [TableColumn(head="Recorded", align="left", share=1.25)] if any(grounds) else []
+    where = [TableColumn(head="Given at", align="left", share=1.25)] if any(grounds) else []
     return Table(
         caption="Roof motions as run, after scaling",
         columns=(
@@ -239,7 +240,7 @@ def _ordinates(name: str, values: Floats, *, decimals: int = 3) -> TableRow:
 def achieved_table(spectra: Sequence[Spectra]) -> Table:
     """Return the ratios of the motions to the target over the band, a row per component."""
     return Table(
-        caption="Achieved / target, 0.3 to 33 Hz in 1/12 octaves",
+        caption=f"Achieved / target, 0.1 to 33.3 Hz, at the {len(POINTS_HZ)} points of the limits",
         columns=(
             TableColumn(head="Component", align="left", share=1.7),
             TableColumn(head="Motions", share=0.9),
@@ -248,9 +249,9 @@ def achieved_table(spectra: Sequence[Spectra]) -> Table:
             TableColumn(head="Mean below 1.3 Hz", unit="min.", share=0.9),
             TableColumn(head="Mean below 1.3 Hz", unit="max.", share=0.9),
             TableColumn(head="Single motion", unit="min.", share=0.7),
-            TableColumn(head="Single motion", unit="motion, T", align="left", share=1.6),
+            TableColumn(head="Single motion", unit="motion, f", align="left", share=1.6),
             TableColumn(head="Single motion", unit="max.", share=0.7),
-            TableColumn(head="Single motion", unit="motion, T", align="left", share=1.6),
+            TableColumn(head="Single motion", unit="motion, f", align="left", share=1.6),
         ),
         rows=tuple(_achieved(part) for part in spectra if part.in_band.any()),
         kind="compact",
@@ -277,11 +278,11 @@ def _extreme(values: Floats, fold: Callable[[Floats], float]) -> str:
 
 
 def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
-    """Return one ratio, with the motion and the period at which it occurs."""
+    """Return one ratio, with the motion and the frequency at which it occurs."""
     motion, period = np.unravel_index(at, each.shape)
     return (
         number(float(each[motion, period]), 2),
-        f"{part.ids[motion]}, {part.periods_s[part.in_band][period]:.2f} s",
+        f"{part.ids[motion]}, {frequency(part.periods_s[part.in_band][period])}",
     )
 
 
@@ -307,11 +308,11 @@ def departure_sentence(found: Departure) -> str:
     """Return where the motions miss their target, and what follows."""
     first, *others = found.titles
     also = f" ({'; '.join(others).lower()} likewise)" if others else ""
-    ratio, at = number(found.ratio, 2), f"at a period of {found.period_s:.3g} s"
+    ratio, at = number(found.ratio, 2), f"at {frequency(found.period_s)}"
     where = (
         "there alone"
         if found.from_s == found.to_s
-        else f"at periods from {found.from_s:.2g} to {found.to_s:.2g} s"
+        else f"from {1.0 / found.to_s:.3g} to {frequency(found.from_s)}"
     )
     if found.is_short:
         return (

@@ -81,14 +81,15 @@ def _building(package: PackageData) -> Iterator[Parameter]:
     site, fmt = package.data.site, package.fmt
     clause = site.edition.clause
     factor, divisor = site.edition.force_factors
-    force = clause("force")
+    force, factors = clause("force"), clause("component_factors")
+    i_p = clause("component_importance")
     yield Parameter("Rule set", "", package.assessment.rules.name, "adopted provisions")
     yield Parameter("Edition of the seismic parameters", "", site.edition.name, "", _edition(site))
     yield Parameter("Risk category", "", site.risk_category.value, clause("risk_category"))
     yield Parameter("Importance factor", "I_e", number(site.i_e, 2), clause("importance"))
-    yield Parameter("Component importance factor of the arrays", "I_p", _i_p(package), force)
-    yield Parameter("Component amplification", factor, _plain(site.force_factor, 2), force)
-    yield Parameter("Component response", divisor, _plain(site.force_divisor, 2), force)
+    yield Parameter("Component importance factor of the arrays", "I_p", _i_p(package), i_p)
+    yield Parameter("Component amplification", factor, _plain(site.force_factor, 2), factors)
+    yield Parameter("Component response", divisor, _plain(site.force_divisor, 2), factors)
     yield Parameter(
         "Height of the supporting roof above the base",
         "z",

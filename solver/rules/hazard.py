@@ -67,6 +67,8 @@ _COMMON = {
     "t_l": "11.4.6",
     "period": "12.8.2.1",
     "force": "13.3.1",
+    "component_importance": "13.1.3",
+    "component_factors": "Tables 13.5-1, 13.6-1",
     "importance": "Table 1.5-2",
     "risk_category": "Table 1.5-1",
     "site_class": "chapter 20",

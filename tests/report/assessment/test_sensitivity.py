@@ -76,13 +76,13 @@ def test_each_method_is_run_on_the_governing_scene(usual):
         assert run.error == pytest.approx(abs(again.prd_m - exact) / exact)
 
 
-def test_the_page_states_that_the_other_methods_have_one_axis(usual):
+def test_the_page_states_that_the_methods_are_compared_along_the_slope(usual):
     _, scene, evidence = usual
     page = accuracy_page.page(scene, evidence)
     peak = evidence.rivals.motion.governing.result.prd_m
     assert f"PRD {peak / 0.0254:.1f} in" in page["run"]
     assert "two axes with vertical" in page["run"]
-    assert "apply to one axis only" in page["plane"]
+    assert "All methods are compared on this run along the slope alone" in page["plane"]
     assert f"{evidence.rivals.exact.prd_m / 0.0254:.1f} in" in page["plane"]
     assert "is not a result of this package" in page["plane"]
     assert evidence.rivals.motion.governing.result.error_m < 1e-6

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 import stand_in
-from report.assessment.spectra import BAND_HZ, Spectra, departures, spectra
+from report.assessment.spectra import Spectra, departures, spectra
 from report.motions.targets import TargetSpectrum
 from report.pages import motions as page
 from report.sheet.schema import RecordedAt
 from solver.records.spectrum import response_spectrum
+from solver.records.spectrum_acceptance import POINTS_HZ
 
 G = 9.80665
 
@@ -51,15 +52,22 @@ def test_motions_without_a_component_are_omitted_there(assessment):
     assert [part.title for part in spectra(under(assessment, bare[:1]))] == ["Horizontal"]
 
 
-def test_the_band_is_that_of_matched_motions_in_twelfths_of_an_octave(assessment):
+def test_the_band_is_from_the_first_to_the_last_corner_of_ac156(assessment):
     part = spectra(under(assessment, given()))[0]
     band = np.sort(1.0 / part.periods_s[part.in_band])
-    assert band == pytest.approx(BAND_HZ)
-    assert band[1:] / band[:-1] == pytest.approx(2.0 ** (1 / 12))
-    assert (band[0], band[-1]) == pytest.approx((0.3, 32.3), abs=0.05)
+    assert (band[0], band[-1]) == pytest.approx((0.1, 33.3), rel=1e-12)
+    assert np.log2(band[1:] / band[:-1]).max() <= 1 / 24 + 1e-12
+    assert "0.1 to 33.3 Hz" in page.achieved_table([part]).caption
 
 
-def test_the_table_names_the_motion_and_period_of_the_extremes(assessment):
+def test_the_smallest_ratio_of_the_table_is_that_of_the_limits(assessment):
+    """A table that said 0.98 below a limit on points below 1.00 with 0 of them."""
+    rows = [row for row in assessment.acceptance.rows if row.title.endswith("each component")]
+    least = min(float(row.cells[6]) for row in page.achieved_table(spectra(assessment)).rows)
+    assert least == pytest.approx(min(row.found for row in rows), abs=0.005)
+
+
+def test_the_table_names_the_motion_and_frequency_of_the_extremes(assessment):
     motions = given()
     part = spectra(under(assessment, motions))[1]
     (row,) = page.achieved_table([part]).rows
@@ -71,12 +79,12 @@ def test_the_table_names_the_motion_and_period_of_the_extremes(assessment):
         / G
         / assessment.horizontal_target.at(np.array([freq]))[0]
         for motion in motions
-        for freq in BAND_HZ
+        for freq in POINTS_HZ
     }
     for text, where, pick in ((least, of_least, min), (largest, of_largest, max)):
         name, freq = pick(ratios, key=ratios.get)
         assert text == f"{ratios[name, freq]:.2f}"
-        assert where == f"{name}, {1 / freq:.2f} s"
+        assert where == f"{name}, {freq:.3g} Hz"
 
 
 def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment):
@@ -109,7 +117,7 @@ def test_a_project_spectrum_applies_only_where_it_is_given():
 
 
 def test_a_project_spectrum_of_long_periods_alone_gives_no_ratios_in_the_band():
-    rows = [{"period_s": t, "horizontal_g": 0.1} for t in (4.0, 9.0)]
+    rows = [{"period_s": t, "horizontal_g": 0.1} for t in (12.0, 18.0)]
     done = stand_in.assessed(stand_in.book(stand_in.project(spectrum=rows), given()))
     parts = spectra(under(done, given()))
     assert [row.cells[0] for row in page.achieved_table(parts).rows] == ["Vertical"]
@@ -159,8 +167,8 @@ def test_motions_that_reach_their_target_or_have_none_are_not_said_to_miss_it():
 def test_motions_below_their_target_are_named_with_ratio_period_band_and_what_follows():
     (text,) = said(relative("Ground, horizontal", [1.1, 1.0, 0.7, 0.4, 0.1], is_ground=True))
     assert text == (
-        "Ground, horizontal: the mean of the motions falls to 0.40 times the target (AC156) at a "
-        "period of 5 s; it is below the target at periods from 2 to 5 s. Weaker shaking gives "
+        "Ground, horizontal: the mean of the motions falls to 0.40 times the target (AC156) at 0.2 "
+        "Hz; it is below the target from 0.2 to 0.5 Hz. Weaker shaking gives "
         "smaller displacements: scale or replace the motions, or justify the difference."
     )
 
@@ -173,9 +181,9 @@ def test_the_component_farthest_above_the_target_speaks_for_those_of_one_target(
     )
     short, excess = texts
     assert short.startswith("Transverse: the mean of the motions falls to 0.90 times the target")
-    assert "period of 5 s; it is below the target there alone." in short
+    assert "at 0.2 Hz; it is below the target there alone." in short
     assert excess == (
         "Transverse (horizontal likewise): the mean of the motions reaches 1.60 times the target "
-        "(AC156) at a period of 1 s; it exceeds 1.30 times the target at periods from 0.5 to 1 s. "
+        "(AC156) at 1 Hz; it exceeds 1.30 times the target from 1 to 2 Hz. "
         "The displacements are those of the stronger motions, and are not reduced."
     )

@@ -119,7 +119,7 @@ def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
                    is_ground=False)  # fmt: skip
     (said,) = acceptance_table(acceptance, [part]).notes
     assert said.endswith(
-        "the smallest ratio of those shown below is 0.91 (M2, horizontal, at 7.35 s)."
+        "the smallest ratio of those shown below is 0.91 (M2, horizontal, at 0.136 Hz)."
     )
     (of_ground,) = acceptance_table(acceptance, [replace(part, is_ground=True)]).notes
     (higher,) = acceptance_table(acceptance, [replace(part, sa_g=part.sa_g + 0.1)]).notes

@@ -72,6 +72,14 @@ def test_the_rows_have_the_order_of_a_permit_sheet(full):
     assert names.count("F_p/W_p") == 3
 
 
+def test_the_numbers_of_the_component_name_their_own_clauses(full):
+    """ASCE 7: I_p of 13.1.3; a_p, R_p of the tables for architectural and mechanical parts."""
+    clauses = {row.symbol: row.clause for row in site_parameters(full)}
+    assert clauses["I_p"] == "ASCE 7-16 13.1.3"
+    assert clauses["a_p"] == clauses["R_p"] == "ASCE 7-16 Tables 13.5-1, 13.6-1"
+    assert clauses["F_p/W_p"] == clauses["z"] == "ASCE 7-16 13.3.1"
+
+
 def test_the_values_are_those_of_a_permit_sheet(full):
     """Permit sheet of provisions.md: S_S 1.271, F_a 1.2, S_1 0.455, F_v 1.845, h 30 ft."""
     found = values(full)
