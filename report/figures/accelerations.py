@@ -5,7 +5,6 @@ Computes only the layout. Read `report.figures.base` first.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -15,12 +14,13 @@ from matplotlib.figure import Figure
 from report.figures.base import GREY, INK, WIDTH_IN, Broken, style, svg_text, tick_text
 from report.figures.history import envelope
 from report.kept import kept
-from report.words.units import G_MPS2
+from report.words.units import G_MPS2, round_below
 from solver.model import Floats, Motion
 
 _ROW_IN, _TOP_IN, _BOTTOM_IN = 0.37, 0.22, 0.3
 _POINTS = 360  # in a history; with fewer the peaks stand apart as if the motion were slow
 _LABELS = 0.14  # width of the labels of the rows, in columns
+_BAR = 0.8  # a bar at most, of the largest peak and of the longest motion; at least 0.32 of them
 _COLUMNS = ("Record", "Transverse", "Vertical")
 
 
@@ -81,10 +81,10 @@ def _words(axes: Axes, motions: Sequence[Motion], scaled: Sequence[Sequence[Floa
 
 
 def _scales(axes: Axes, rows: int, reach: float, seconds: float) -> None:
-    """Draw the scale of the accelerations and of the times below the panels."""
-    level = 10.0 ** math.floor(math.log10(reach))
-    low = -rows - 0.1
+    """Draw bars of round lengths below the panels: of the accelerations and of the times."""
+    level, span_s = round_below(_BAR * reach), round_below(_BAR * seconds)
+    low, wide = -rows - 0.1, 0.94 * span_s / seconds
     axes.plot([0.0, 0.0], [low, low - 0.46 * level / reach], color=INK, linewidth=1.0)
     axes.text(0.02, low, f"{level:g} g", va="top")
-    axes.plot([1.0, 1.94], [low, low], color=INK, linewidth=1.0)
-    axes.text(1.47, low - 0.06, f"{seconds:g} s", va="top", ha="center")
+    axes.plot([1.0, 1.0 + wide], [low, low], color=INK, linewidth=1.0)
+    axes.text(1.0 + 0.5 * wide, low - 0.06, f"{span_s:g} s", va="top", ha="center")
