@@ -16,7 +16,7 @@ from report.assessment.overrides import override_rows
 from report.assessment.verdict import NOT_GIVEN, Row, Verdict
 from report.motions.history import PreparedMotion
 from report.sheet.schema import Array, ProjectInput
-from report.words.units import Quantity, compared, number, pair
+from report.words.units import Quantity, compared, number, pair, rounding
 from solver.records.acceptance import Acceptance
 from solver.records.acceptance_row import AcceptanceRow, Consequence
 
@@ -153,7 +153,8 @@ def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, st
     gap = pair(neighbor.gap_m, Quantity.SIZE, us_first, had)
     required = NO_DESIGN
     if not math.isnan(neighbor.required_m):
-        required = f"≥ {pair(neighbor.required_m, Quantity.SIZE, us_first, shown)}"
+        up = rounding(neighbor.required_m, neighbor.gap_m, Quantity.SIZE)
+        required = f"≥ {pair(neighbor.required_m, Quantity.SIZE, us_first, shown)}{up}"
     return f"{NOT_GIVEN}; {gap} in plan", required
 
 
@@ -193,13 +194,15 @@ def interconnection(data: ProjectInput, array: Array, required: float) -> Row:
     """Return whether the strength between the parts of an array is as required [N]."""
     us_first = data.project.units_first == "US"
     provided = array.interconnection_n
-    shown, had = compared(required, math.nan if provided is None else provided)
+    given = math.nan if provided is None else provided
+    shown, had = compared(required, given)
     return Row(
         id="interconnection",
         title="Interconnection strength provided",
         subject=array.id,
         found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first, had),
-        limit=f"≥ {pair(required, Quantity.WEIGHT, us_first, shown)}",
+        limit=f"≥ {pair(required, Quantity.WEIGHT, us_first, shown)}"
+        + rounding(required, given, Quantity.WEIGHT),
         basis=data.site.rule_set,
         is_satisfied=provided is not None and provided >= required,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
@@ -211,13 +214,15 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
     us_first = data.project.units_first == "US"
     provided, design = assessed.array.slack_m, assessed.permitted_m
     has_value = not math.isnan(design)
-    shown, had = compared(design, math.nan if provided is None else provided)
+    given = math.nan if provided is None else provided
+    shown, had = compared(design, given)
+    least = f"≥ {pair(design, Quantity.SIZE, us_first, shown)}"
     return Row(
         id="electrical_slack",
         title="Electrical slack provided",
         subject=assessed.array.id,
         found=NOT_GIVEN if provided is None else pair(provided, Quantity.SIZE, us_first, had),
-        limit=f"≥ {pair(design, Quantity.SIZE, us_first, shown)}" if has_value else NO_DESIGN,
+        limit=least + rounding(design, given, Quantity.SIZE) if has_value else NO_DESIGN,
         basis="design displacement",
         is_satisfied=provided is not None and has_value and provided >= design,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,

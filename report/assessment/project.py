@@ -39,13 +39,14 @@ from report.assessment.friction_velocity import (
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
 from report.assessment.rough import run_roughly, told_by_rough_runs
+from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
 from report.assessment.verdict import Row, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
 from report.sheet.read import Sheet
 from report.sheet.schema import Array, ProjectInput
-from solver.model import Motion, SlideResult, Status
+from solver.model import Motion, Status
 from solver.records.acceptance import Acceptance
 from solver.rules import provisions
 from solver.rules.provisions import Check, RuleSet
@@ -173,36 +174,12 @@ class Assessment:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Runs whose displacement is missing or not final, in words."""
-        return tuple(text for array in self.arrays for text in run_warnings(array))
+        return run_warnings(self.arrays, self.project.project.units_first == "US")
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
         """Return the clearance of an array, from either side, with the largest D/C, if any."""
         of_array = self.gaps_of(array_id)
         return max(of_array, key=lambda c: nan_is_worst(c.demand_capacity), default=None)
-
-
-def run_warnings(array: ArrayAssessment) -> tuple[str, ...]:
-    """Return in words the runs of an array whose displacement is missing or not final."""
-    return tuple(
-        f"Array {array.id}, motion {motion.motion.id}, "
-        f"{', '.join(run.heading.name for run in runs)}: "
-        f"{_trouble([run.result for run in runs])}."
-        for motion in array.motions
-        for status in Status
-        if status is not Status.OK
-        and (runs := [run for run in motion.runs if run.result.status is status])
-    )
-
-
-def _trouble(results: Sequence[SlideResult]) -> str:
-    """Return the outcome of runs without a final displacement, in words."""
-    status = results[0].status
-    if status is Status.UPLIFT:
-        return f"{status.sentence} (at {min(result.t_uplift_s for result in results):.3f} s)"
-    if status is not Status.SLIDING_AT_END:
-        return status.sentence
-    fastest = max(abs(result.end_speed_mps) for result in results)
-    return f"{status.sentence} (at {fastest:.3f} m/s)"
 
 
 def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> Assessment:

@@ -17,7 +17,7 @@ from report.pages.parts import (
 )
 from report.pages.remedies import table
 from report.sheet.schema import Array, Direction, ObjectKind
-from report.words.units import Quantity, compared, number
+from report.words.units import Quantity, compared, number, rounded_apart
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 
@@ -61,9 +61,23 @@ def table_of(
             TableColumn(head="Verdict", align="center", share=0.95),
         ),
         rows=tuple(_clearance_row(package, count, gap, brief) for count, gap in gaps.items()),
-        notes=tuple(_without_verdict(package, gaps.values())),
+        notes=(*_rounded(gaps), *_without_verdict(package, gaps.values())),
         kind="" if brief else "compact",
     )
+
+
+def _rounded(gaps: Mapping[int, ClearanceCheck]) -> Iterator[str]:
+    """Yield which separations print rounded apart, if any do."""
+    numbers = [
+        str(count)
+        for count, gap in gaps.items()
+        if rounded_apart(gap.required_m, gap.clearance.provided_m, Quantity.DISPLACEMENT)
+    ]
+    if numbers:
+        yield (
+            f"No. {', '.join(numbers)}: required and provided are rounded apart: both would "
+            "print alike, and less is provided."
+        )
 
 
 def _without_verdict(package: PackageData, gaps: Iterable[ClearanceCheck]) -> Iterator[str]:

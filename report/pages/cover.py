@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from markupsafe import Markup
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import mu_words
 from report.pages.front import verdict_sentence
@@ -45,12 +46,13 @@ def _verdict(package: PackageData) -> Markup:
 
 
 def _governing(package: PackageData) -> Iterator[tuple[str, str]]:
-    array = package.governing
+    array = _governing_array(package)
+    verdict = package.assessment.array_verdict(array)
     design = package.fmt.both(array.design_m) + package.design_mark(array)
     yield (
         "Governing array",
-        f"{array.id}: μ {mu_words(array.array.friction)}; design displacement {design}, governed "
-        f"by: {array.source}",
+        f"{array.id}: {verdict.value}; μ {mu_words(array.array.friction)}; design displacement "
+        f"{design}, governed by: {array.source}",
     )
     gap = governing_clearance(package)
     yield (
@@ -58,6 +60,15 @@ def _governing(package: PackageData) -> Iterator[tuple[str, str]]:
         "none given"
         if gap is None
         else f"{gap.clearance.array} to {gap.clearance.object}: D/C {gap.ratio_words}",
+    )
+
+
+def _governing_array(package: PackageData) -> ArrayAssessment:
+    """Return the array with the largest design displacement, of those that are NG if any is."""
+    arrays, verdict_of = package.assessment.arrays, package.assessment.array_verdict
+    return max(
+        [array for array in arrays if not verdict_of(array).is_permitted] or arrays,
+        key=lambda array: nan_is_worst(array.design_m),
     )
 
 

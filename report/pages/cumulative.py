@@ -16,32 +16,40 @@ def page(package: PackageData, sums: Sequence[Cumulative]) -> dict[str, object]:
 
 def _text(package: PackageData) -> str:
     """Return what is added, and on what basis."""
+    factor = number(_factor(package), 2) + package.mark("analysis_factor")
     factors = ", ".join(number(factor, 2) for factor in package.data.options.smaller_factors)
     return (
         "Each motion acts once as the design event and once more by each of these factors: "
         f"{factors}. The PRDs are added: however the events follow each other, the array is "
-        "nowhere farther from where it began than their sum. This is practice and no requirement "
+        "nowhere farther from where it began than their sum. Mean and largest sum carry the factor "
+        f"{factor} of the value from analysis. This is practice and no requirement "
         "of the codes cited: neither the design displacement nor a verdict contains it."
     )
 
 
+def _factor(package: PackageData) -> float:
+    """Return the factor on the peaks, which is that of every array."""
+    return package.governing.analysis.factor
+
+
 def _table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
     """Return mean and largest sum of each array."""
-    fmt = package.fmt
+    fmt, factor = package.fmt, _factor(package)
+    times = f"{number(factor, 2)} × "
     return Table(
         caption="Cumulative displacement over the motions, for information",
         columns=(
             TableColumn(head="Array", align="left"),
-            *fmt.columns("Mean sum"),
-            *fmt.columns("Largest sum"),
+            *fmt.columns(f"{times}mean sum"),
+            *fmt.columns(f"{times}largest sum"),
             *fmt.columns("Design displacement"),
         ),
         rows=tuple(
             TableRow(
                 cells=(
                     item.array.id,
-                    *fmt.cells(item.mean_m),
-                    *fmt.cells(item.largest_m),
+                    *fmt.cells(factor * item.mean_m),
+                    *fmt.cells(factor * item.largest_m),
                     *fmt.cells(item.array.design_m),
                 )
             )

@@ -14,6 +14,7 @@ from report.assessment.friction_rows import basis_words, tested
 from report.assessment.remedies import Remedy
 from report.assessment.spectra import Spectra, departures
 from report.assessment.verdict import Verdict
+from report.pages.causes import array_stamp
 from report.pages.certainty import directions
 from report.pages.clearances import clearance_table
 from report.pages.limits import all_checks, conditions, troubles
@@ -219,7 +220,7 @@ def _array_row(package: PackageData, array: ArrayAssessment) -> TableRow:
             array.source,
             verdict(array.is_permitted and all(check.ok for check in array.limits)),
             "none given" if gap is None else gap.ratio_words,
-            stamp(package.assessment.array_verdict(array)),
+            array_stamp(package.assessment, array),
         ),
         kind=package.bar(array.id in package.changes.arrays),
     )

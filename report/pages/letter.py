@@ -10,6 +10,7 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mu_words
 from report.assessment.overrides import LOWERING
+from report.pages.causes import array_stamp
 from report.pages.front import verdict_sentence
 from report.pages.parts import PackageData, Table, TableColumn, TableRow, stamp
 from report.pages.review import review_sentences
@@ -81,7 +82,7 @@ def _array(package: PackageData, item: ArrayAssessment) -> tuple[str, ...]:
         item.source,
         "—" if gap is None else gap.ratio_words,
         "none given" if gap is None else f"to {gap.across_from(item.id)}",
-        stamp(package.assessment.array_verdict(item)),
+        array_stamp(package.assessment, item),
     )
 
 

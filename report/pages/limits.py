@@ -26,7 +26,7 @@ from report.pages.parts import (
 from report.pages.symbols import with_symbols
 from report.sheet.findings import Level, located
 from report.typeset.equations import symbol
-from report.words.units import Quantity, compared, ratio
+from report.words.units import Quantity, compared, ratio, rounded_apart
 from solver.records.acceptance_row import Consequence
 from solver.rules.provisions import Basis, Check
 
@@ -282,8 +282,26 @@ def _interconnection(package: PackageData) -> Table:
             )
             for array in package.assessment.arrays
         ),
-        notes=("The lighter part on either side of a section is at most half of the array.",),
+        notes=(
+            "The lighter part on either side of a section is at most half of the array.",
+            *_rounded(package),
+        ),
     )
+
+
+def _rounded(package: PackageData) -> Iterator[str]:
+    """Yield which strengths print rounded apart, if any do."""
+    ids = [
+        array.id
+        for array in package.assessment.arrays
+        if (provided := array.array.interconnection_n) is not None
+        and rounded_apart(array.interconnection_n, provided, Quantity.WEIGHT)
+    ]
+    if ids:
+        yield (
+            f"{', '.join(ids)}: required and provided are rounded apart: both would print alike, "
+            "and less is provided."
+        )
 
 
 def _strengths(package: PackageData, array: ArrayAssessment) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.friction import mu_words
-from report.assessment.project import run_warnings
+from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun
 from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import NO_VALUE, PackageData, Table, TableColumn, TableRow, Wide, statistic
@@ -52,7 +52,7 @@ def array_results(package: PackageData, array: ArrayAssessment) -> Mapping[str, 
     return {
         "table": _peaks(package, array),
         "facts": f"{_facts(array)} {_spread(array)}".rstrip(),
-        "troubles": run_warnings(array),
+        "troubles": run_warnings([array], package.fmt.us_first),
     }
 
 

@@ -6,7 +6,7 @@ Finished lines; computes nothing. Read `summary`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +14,12 @@ from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.foresight import findings, limit_words
 from report.assessment.overrides import MEANING
 from report.assessment.verdict import Verdict
+from report.pages.causes import causes, unshown_cause
 from report.pages.registry import package_data
 from report.sheet.findings import Level, located
 from report.sheet.older import what_is_new
 from report.sheet.schema import Model
-from report.words.units import Quantity, compared, no_less, pair, ratio
+from report.words.units import Quantity, compared, no_less, pair, ratio, rounding
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
         "demand_capacity": _finite(gap.demand_capacity) if gap else None,
         "required_is_overridden": bool(gap and gap.mark),
         "verdict": assessment.array_verdict(item).value,
-        "causes": _causes(assessment, item),
+        "causes": causes(assessment, item),
     }
 
 
@@ -103,48 +104,14 @@ def _row(assessment: Assessment, item: ArrayAssessment) -> tuple[str, ...]:
         shown(item.design_m, item.design_mark)
         + (f", {NOT_PERMITTED}" if item.has_unpermitted_value else ""),
         *(clearance or ("none given", "")),
-        _verdict(assessment, item, gap),
+        _verdict(assessment, item),
     )
 
 
-def _verdict(assessment: Assessment, item: ArrayAssessment, gap: ClearanceCheck | None) -> str:
+def _verdict(assessment: Assessment, item: ArrayAssessment) -> str:
     """Return the verdict on an array; where it is not that of the D/C beside it, with its cause."""
-    verdict = assessment.array_verdict(item)
-    causes = _causes(assessment, item)
-    if not causes or (verdict is Verdict.NG and gap is not None and gap.demand_capacity > 1.0):
-        return verdict.value
-    more = f" and {len(causes) - 1} more" if len(causes) > 1 else ""
-    return f"{verdict.value}: {causes[0]}{more}"
-
-
-def _causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
-    """Return what gives an array its verdict, in a few words each; nothing for OK."""
-    verdict = assessment.array_verdict(item)
-    rows = [row for row in assessment.rows_of(item.id) if row.verdict is verdict]
-    causes = [_lowered(row.title) for row in rows if not row.is_satisfied]
-    if verdict is not Verdict.NG:
-        return causes
-    statuses = {run.result.status for motion in item.motions for run in motion.runs}
-    on_motions = item.governs is not item.governs.PRESCRIPTIVE
-    return [
-        *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
-        *(_lowered(check.title) for check in item.limits if not check.ok),
-        *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
-        *([] if item.is_model_enough else ["requested model"]),
-        *([] if item.tipping.is_ok else ["tipping"]),
-        *(["one rigid block"] if _is_not_rigid(assessment, item) else []),
-        *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
-        *causes,
-    ]
-
-
-def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
-    words = f"clearance to {gap.across_from(item.id)}"
-    return words if gap.is_permitted else f"{words}, no verdict"
-
-
-def _is_not_rigid(assessment: Assessment, item: ArrayAssessment) -> bool:
-    return any(not linked.is_rigid_enough for linked in assessment.linked_of(item))
+    verdict, cause = assessment.array_verdict(item), unshown_cause(assessment, item)
+    return f"{verdict.value}: {cause}" if cause else verdict.value
 
 
 def attention(assessment: Assessment) -> Iterator[Line]:
@@ -200,7 +167,8 @@ def _short(gap: ClearanceCheck, us_first: bool) -> str:
     if math.isnan(gap.required_m):
         return f"{name}; there is no design displacement of {gap.governing_array} to compare with"
     required = pair(gap.required_m, Quantity.SIZE, us_first, shown)
-    return f"{name}; {required}{gap.mark} required (D/C {gap.ratio_words}); provide {enough}"
+    up = rounding(gap.required_m, row.provided_m, Quantity.SIZE)
+    return f"{name}; {required}{gap.mark} required{up} (D/C {gap.ratio_words}); provide {enough}"
 
 
 def _lowered(text: str) -> str:

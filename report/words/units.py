@@ -169,6 +169,22 @@ def compared(required_si: float, provided_si: float) -> tuple[Show, Show]:
     return required, provided
 
 
+def rounded_apart(required_si: float, provided_si: float, quantity: Quantity) -> bool:
+    """Whether `compared` prints either value otherwise than rounded, so that the two differ."""
+    shows = zip(compared(required_si, provided_si), (required_si, provided_si), strict=True)
+    return any(
+        show(value, unit) != measured(value, unit)
+        for show, value in shows
+        for unit in quantity.value
+    )
+
+
+def rounding(required_si: float, provided_si: float, quantity: Quantity) -> str:
+    """Return what follows a required value that is rounded apart from the one provided."""
+    is_apart = rounded_apart(required_si, provided_si, quantity)
+    return " (rounded apart: both would print alike)" if is_apart else ""
+
+
 def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:
     """Return a value in both systems, such as `81.6 in (2072 mm)`, the preferred one first."""
     first, second = (

@@ -12,6 +12,8 @@ import stand_in
 from report.assessment.cumulative import cumulative
 from report.assessment.evidence import support
 from report.package.html import pages
+from report.pages.cumulative import page
+from report.pages.registry import package_data
 from report.results.json import results_json
 from sheets import edit, make, problems, read_workbook
 from solver.sliding.checked import slide
@@ -69,6 +71,22 @@ def test_a_rectangular_pulse_gives_the_closed_form():
             closed += speed**2 / 2 * (1 / resisting - 1 / a)
         if item.array.array.slope_rad == 0.0:
             assert item.sums_m[0] == pytest.approx(closed, rel=3e-3)
+
+
+def test_the_sums_carry_the_factor_of_the_design_value_beside_them():
+    """Three motions: 1.1 times the largest, which is what a sum is compared with."""
+    assessment = made()
+    sums = cumulative(assessment)
+    shown = page(package_data(assessment), sums)
+    assert [column.head for column in shown["sums"].columns][1::2] == [
+        "1.10 × mean sum",
+        "1.10 × largest sum",
+        "Design displacement",
+    ]
+    for item, row in zip(sums, shown["sums"].rows, strict=True):
+        assert row.cells[1] == f"{1.1 * item.mean_m / 0.0254:.1f}"
+        assert row.cells[3] == f"{1.1 * item.largest_m / 0.0254:.1f}"
+    assert "carry the factor 1.10† of the value from analysis" in shown["events"]
 
 
 def test_a_run_without_a_final_value_leaves_no_sum():

@@ -1,6 +1,7 @@
 """The checks against the rule set; a missing value never passes."""
 
 import math
+import re
 import statistics
 from dataclasses import replace
 from functools import partial
@@ -242,6 +243,21 @@ def test_a_motion_that_ends_while_sliding_is_warned_of():
     assert any("CUT" in line and "still sliding" in line for line in done.warnings)
     assert all(math.isnan(item.design_m) for item in done.arrays)
     assert not done.verdict.is_permitted
+
+
+def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
+    ax = np.concatenate([np.zeros(100), np.full(100, -12.0)])
+    cut = [stand_in.motion(f"CUT{k}", ax, signs=(1,)) for k in range(11)]
+    arrays = [stand_in.array("A1", 0.0), stand_in.array("A2", 0.0, x=120)]
+    (line,) = assessed(cut, arrays=arrays, objects=[], clearances=[]).warnings
+    # From rest, (12 - 0.45 g) m/s2 over 99 whole intervals of 0.01 s, and half the first.
+    speed = (12.0 - 0.45 * 9.80665) * 0.99
+    found = re.fullmatch(
+        r"Arrays A1, A2, 22 runs of 11 motions: still sliding at the end of the record: the "
+        r"displacement is not final \(at (\d+\.\d\d) in/s \(\d+\.\d mm/s\)\)\.",
+        line,
+    )
+    assert float(found[1]) * 0.0254 == pytest.approx(speed, rel=0.01)
 
 
 def test_a_limit_of_the_building_fails_the_whole():

@@ -1,0 +1,78 @@
+"""What gives an array its verdict, in a few words, for its row in a table.
+
+Draws no verdict: `Assessment.array_verdict` does. Read `unshown_cause`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from markupsafe import Markup
+
+from report.assessment.verdict import NOT_GIVEN, Row, Verdict
+from report.pages.parts import stamp
+from solver.model import Status
+
+if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
+    from report.assessment.clearances import ClearanceCheck
+    from report.assessment.project import Assessment
+
+
+def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
+    """Return the first cause of a verdict and the count of others; nothing where the D/C shows it.
+
+    Nothing for OK.
+    """
+    verdict, gap = assessment.array_verdict(item), assessment.governing_clearance(item.id)
+    found = causes(assessment, item)
+    if not found or (verdict is Verdict.NG and gap is not None and gap.demand_capacity > 1.0):
+        return ""
+    return found[0] + (f" and {len(found) - 1} more" if len(found) > 1 else "")
+
+
+def array_stamp(assessment: Assessment, item: ArrayAssessment) -> Markup:
+    """Return the verdict on an array for a table, with the cause of an NG that no D/C shows."""
+    verdict = assessment.array_verdict(item)
+    cause = "" if verdict.is_permitted else unshown_cause(assessment, item)
+    return Markup("{} {}").format(stamp(verdict), cause) if cause else stamp(verdict)
+
+
+def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
+    """Return what gives an array its verdict, in a few words each; nothing for OK."""
+    verdict = assessment.array_verdict(item)
+    rows = [row for row in assessment.rows_of(item.id) if row.verdict is verdict]
+    of_rows = [_of_row(row) for row in rows if not row.is_satisfied]
+    if verdict is not Verdict.NG:
+        return of_rows
+    statuses = {run.result.status for motion in item.motions for run in motion.runs}
+    on_motions = item.governs is not item.governs.PRESCRIPTIVE
+    return [
+        *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
+        *(_lowered(check.title) for check in item.limits if not check.ok),
+        *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
+        *([] if item.is_model_enough else ["requested model"]),
+        *([] if item.tipping.is_ok else ["tipping"]),
+        *(["one rigid block"] if _is_not_rigid(assessment, item) else []),
+        *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
+        *of_rows,
+    ]
+
+
+def _of_row(row: Row) -> str:
+    is_missing = row.id == "neighbors" and row.found.startswith(NOT_GIVEN)
+    return f"{_lowered(row.title)}{f' {NOT_GIVEN}' if is_missing else ''}"
+
+
+def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
+    words = f"clearance to {gap.across_from(item.id)}"
+    return words if gap.is_permitted else f"{words}, no verdict"
+
+
+def _is_not_rigid(assessment: Assessment, item: ArrayAssessment) -> bool:
+    return any(not linked.is_rigid_enough for linked in assessment.linked_of(item))
+
+
+def _lowered(text: str) -> str:
+    return text[0].lower() + text[1:]
