@@ -75,7 +75,7 @@ def _plane(package: PackageData, rivals: Rivals) -> str:
     run = rivals.motion.governing
     if run.solution.rung < Rung.TWO_AXES or math.isnan(run.prd_m):
         return ""
-    kind = "a bound" if run.scene.friction.is_monotone else "from two tolerances"
+    kind = "a bound" if run.scene.friction.is_monotone else "an estimate from two tolerances"
     slow = "" if run.scene.friction.is_constant else ", and with the low-velocity friction"
     return (
         "Motion in two axes is computed to a tolerance: the error of this PRD is below "

@@ -70,8 +70,9 @@ class TwoAxesOutcome:
         Largest speed, along the surface of the roof [m/s].
     error_m : float
         Largest difference of any position from the exact motion under the interpolated record [m]:
-        a bound if friction is monotone (`Friction.is_monotone`), otherwise twice the difference
-        between runs at two tolerances.
+        a bound if friction is monotone (`Friction.is_monotone`), otherwise an estimate: twice the
+        difference between runs at two tolerances, at least rounding error. No estimate sees a stop
+        that both runs take and an exact block would not.
     n_stops, n_events, n_steps : int
     step_tolerance : float
         Step tolerance of the last attempt.
@@ -157,13 +158,30 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
     tolerance : float
         Within `TOLERANCES`, relative to the PRD or to one micrometer, whichever is larger. The run
         is repeated with finer steps until `error_m` is below it or rounding error prevents that.
+        Friction that is not monotone takes the default where a larger one is given: a block that
+        nearly stops may go on, and two rough runs may agree on the wrong one.
     """
-    motion = _bounded(scene, tolerance)
-    if scene.friction.is_monotone or motion.status is not Status.OK:
+    if scene.friction.is_monotone:
+        return _bounded(scene, tolerance)
+    motion = _bounded(scene, min(tolerance, DEFAULT_TOLERANCE))
+    if motion.status is not Status.OK:
         return motion
     finer = _run(scene, _FINER * motion.step_tolerance, _NO_EVENTS, _NO_HISTORY)
     changes = np.subtract(_places(finer), _places(motion))
-    return replace(finer, error_m=2.0 * float(np.abs(changes).max()))
+    change = 2.0 * float(np.abs(changes).max())
+    return replace(finer, error_m=max(change, _rounding_m(scene, finer)))
+
+
+def _rounding_m(scene: Scene, outcome: TwoAxesOutcome) -> float:
+    """Return what rounding error of the accelerations and of the positions adds up to [m]."""
+    friction, seconds = scene.friction, scene.dt_s * (scene.ax_mps2.size - 1)
+    along, across, up = (float(np.abs(a).max()) for a in _components(scene))
+    most = max(friction.mu_slow, friction.mu_fast, friction.mu_static)
+    terms = abs(scene.scale) * (along + across) + (1.0 + most) * (
+        scene.g_mps2 + abs(scene.scale) * up
+    )
+    steps = 2.0 * outcome.prd_m + outcome.peak_mps * scene.dt_s
+    return kernel.ROUNDING * terms * 0.5 * seconds**2 + kernel.EPS * outcome.n_steps * steps
 
 
 def follow_history(scene: Scene, outcome: TwoAxesOutcome) -> tuple[Floats, tuple[Event, ...]]:

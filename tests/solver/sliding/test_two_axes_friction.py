@@ -138,3 +138,36 @@ def test_without_friction_at_a_crawl_nothing_sticks():
     left = -np.interp(t, np.arange(5) * 0.1, a) * np.exp(-0.3 * 5.0 * G * (0.4 - t))
     assert outcome.end_mps[0] == pytest.approx(left.sum() * 1e-5, rel=1e-3)
     assert outcome.n_stops == 0
+
+
+NEARLY_STOPS = Friction(mu_slow=0.5, mu_fast=0.403, rate_s_per_m=2.7, mu_static=0.625)
+
+
+def nearly_stops(seed):
+    """A record under which the block of `NEARLY_STOPS` stops in a rough run, or goes on."""
+    rng = np.random.default_rng(seed)
+    ax, ay, az = np.sign(rng.normal(0, 1, (3, 150))) * rng.uniform(4, 8)
+    degrees = float(rng.uniform(0, 8))
+    return scene(ax, ay, 0.2, friction=NEARLY_STOPS, az=0.3 * az, degrees=degrees)
+
+
+@pytest.mark.parametrize(
+    ("seed", "wrong_m", "prd_m"), [(16174, 16.421, 16.621), (3889, 11.346, 11.281)]
+)
+def test_a_rough_tolerance_does_not_decide_whether_a_block_stops(seed, wrong_m, prd_m):
+    block = nearly_stops(seed)
+    rough, fine = follow(block, 1e-3), follow(block, 1e-9)
+    assert np.abs(places(rough) - places(fine)).max() <= rough.error_m + fine.error_m
+    assert rough.prd_m == pytest.approx(prd_m, abs=5e-4)
+    assert abs(rough.prd_m - wrong_m) > 0.05
+
+
+@pytest.mark.parametrize("friction", [FALLING, HELD, BOTH])
+@pytest.mark.parametrize("peak", [0.5, 8.0])
+def test_an_error_is_never_less_than_rounding(friction, peak):
+    ax, ay, az = shaking(12, n=45, dt=0.04, peak=peak)
+    for tolerance in (1e-3, 1e-6, 1e-10):
+        outcome = follow(scene(ax, ay, 0.04, friction=friction, az=az), tolerance)
+        # A block that accelerates wrongly by one part in 2^52 of g for the whole record.
+        assert outcome.error_m >= 0.5 * (44 * 0.04) ** 2 * G * 2.0**-52
+        assert outcome.error_m < 1e-9 + tolerance * outcome.prd_m
