@@ -29,8 +29,9 @@ from solver.sliding.uplift import uplift
 from solver.verification.checks import ROUNDING, check
 from solver.verification.evidence import CheckRow
 
-_INCH = 0.0254
+_INCH, _FOOT = 0.0254, 0.3048
 _PUBLISHED = "Published permit calculation, S_DS = 1.0 g, I_e = 1.25, SEAOC PV1-2012"
+_SHEET = "Permit sheet, S_S = 1.313 g, F_a = 1.2, I_e = 1.0, ASCE 7-16; printed to 0.01 ft"
 _PRINTED = 4.5e-4
 """Half the last digit of 110.0 lb as the calculation prints it, relative."""
 
@@ -41,6 +42,7 @@ def design_checks() -> Iterator[CheckRow]:
     """Run the checks."""
     yield from _prescriptive()
     yield from _published()
+    yield from _permit_sheet()
     yield from _statistics()
     yield _uplift()
     yield from _tipping()
@@ -89,6 +91,28 @@ def _published() -> Iterator[CheckRow]:
             "DV-2", f"Interconnection, {weight_lb:g} lb on the lighter side", _PUBLISHED,
             "Strength", "lb", strength_lb,
             interconnection_strength_n(rules, s_ds_g=1.0, w1_n=weight_lb), _PRINTED,
+        )  # fmt: skip
+
+
+def _permit_sheet() -> Iterator[CheckRow]:
+    rules, s_ds_g = RULE_SETS["ASCE 7-16"], 2.0 / 3.0 * 1.2 * 1.313
+    delta_m = prescriptive_displacement(rules, s_ds_g=s_ds_g, sdc="D", importance=1.0).value_m
+    for kind, feet in (
+        (Neighbor.LIKE, 1.06),
+        (Neighbor.FIXED, 2.12),
+        (Neighbor.PARAPET, 2.12),
+        (Neighbor.EDGE, 4.23),
+    ):
+        found_m = required_separation(rules, kind, design_m=delta_m, importance=1.0)
+        yield check(
+            "DV-8", f"Separation from a neighbor: {kind}", _SHEET, "Separation", "ft", feet,
+            found_m / _FOOT, 0.005 / feet,
+        )  # fmt: skip
+    for s_ds_g, factor in ((1.5, 0.133 * 1.5), (0.5, 0.1)):
+        yield check(
+            "DV-8", f"Interconnection, 1000 lb on the lighter side, S_DS = {s_ds_g:g} g",
+            "By hand: larger of 0.133 S_DS W1 and 0.1 W1", "Strength", "lb", 1000.0 * factor,
+            interconnection_strength_n(rules, s_ds_g=s_ds_g, w1_n=1000.0), ROUNDING,
         )  # fmt: skip
 
 
