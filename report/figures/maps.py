@@ -40,12 +40,12 @@ def stability(maps: Sequence[StabilityMap], first: int = 1) -> str:
     """Return maps in two columns, numbered from `first`; failed cells are hatched."""
     rows = math.ceil(len(maps) / 2)
     with style():
-        height = 2.55 * rows + 0.5
+        height = 2.55 * rows + 0.6
         figure = Figure(figsize=(WIDTH_IN, height))
         figure.subplots_adjust(
             left=0.09,
             right=0.985,
-            top=1 - 0.34 / height,
+            top=1 - 0.42 / height,
             bottom=0.95 / height,
             wspace=0.28,
             hspace=0.52,

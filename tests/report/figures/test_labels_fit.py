@@ -1,15 +1,17 @@
 """In every figure of a package, no text leaves the picture and no two texts overlap."""
 
 import itertools
+import math
 
 import matplotlib.figure
+import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 import stand_in
 from report.assessment.evidence import support
-from report.figures import records
+from report.figures import maps, records
 from report.figures.base import load_fonts
 from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import package_data
@@ -17,6 +19,7 @@ from report.sheet.schema import UnitsFirst
 from report.suite.info import PERIODS_S, spectra_g
 from report.typeset.pdf import TEMPLATES
 from solver.records.record import Record
+from solver.verification.evidence import StabilityMap
 
 DPI = 400  # extents are rounded to pixels
 TOUCH_IN = 0.01
@@ -110,6 +113,27 @@ def test_in_a_package(drawn, units):
 def test_in_pictures_of_records(drawn, noise):
     some = [Record(name=f"HN{k}", dt_s=0.01, a_mps2=noise / (1 + k)) for k in range(4)]
     records.records_png(some, PERIODS_S, spectra_g(some))
+    assert not list(faults(drawn))
+
+
+@pytest.mark.parametrize("count", [1, 3, 4])
+def test_in_the_stability_maps_of_the_manual(drawn, count):
+    x, y = np.geomspace(1e2, 1e8, 7), np.geomspace(1e-5, 1e-2, 5)
+    one = StabilityMap(
+        title="Penalty, explicit: sub-step against stiffness",
+        note="",
+        x_label="Stiffness per unit weight [1/m]",
+        x=x,
+        y_label="Sub-step [s]",
+        y=y,
+        error_percent=np.geomspace(1e-3, 1e3, 35).reshape(5, 7),
+        failed=np.zeros((5, 7), dtype=bool),
+        limit=1e-2 / np.sqrt(x / 1e2),
+        x_mark=math.nan,
+        x_log=True,
+        y_log=True,
+    )
+    maps.stability([one] * count)
     assert not list(faults(drawn))
 
 

@@ -120,7 +120,9 @@ def test_checks_of_rules_spectra_filters_uplift_and_tipping_pass_and_fail_where_
         "solver.verification.design_checks.required_separation", lambda *_, design_m, **__: design_m
     )
     wrong = [row.problem for row in design_checks() if not row.passed]
-    assert len(wrong) == 5  # like arrays and edges of both documents, and the parapet beside I_e 1.25
+    assert (
+        len(wrong) == 5
+    )  # like arrays and edges of both documents, and the parapet beside I_e 1.25
     assert all("Separation" in problem for problem in wrong)
 
 
