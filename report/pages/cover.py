@@ -48,10 +48,11 @@ def _verdict(package: PackageData) -> Markup:
 def _governing(package: PackageData) -> Iterator[tuple[str, str]]:
     array = _governing_array(package)
     verdict = package.assessment.array_verdict(array)
+    mark = "" if verdict.is_permitted else f"{verdict.value}; "
     design = package.fmt.both(array.design_m) + package.design_mark(array)
     yield (
         "Governing array",
-        f"{array.id}: {verdict.value}; μ {mu_words(array.array.friction)}; design displacement "
+        f"{array.id}: {mark}μ {mu_words(array.array.friction)}; design displacement "
         f"{design}, governed by: {array.source}",
     )
     gap = governing_clearance(package)

@@ -18,7 +18,7 @@ from report.pages.causes import array_stamp
 from report.pages.certainty import directions
 from report.pages.clearances import clearance_table
 from report.pages.limits import all_checks, conditions, troubles
-from report.pages.motions import departure_sentence
+from report.pages.motions import departure_place, departure_sentence
 from report.pages.parts import (
     PackageData,
     Table,
@@ -170,14 +170,16 @@ def _numbers(package: PackageData) -> Sequence[tuple[str, str, str]]:
 def _missed_targets(
     package: PackageData, spectra: Sequence[Spectra]
 ) -> Sequence[tuple[str, str, str]]:
-    """Return where the motions miss their target, and what follows."""
+    """Return where the motions miss their targets; what follows is said once, with the last."""
+    found = departures(spectra)
+    last = {departure.is_short: departure for departure in found}.values()
     return [
         (
-            f"Motions {'below' if found.is_short else 'above'} their target",
-            departure_sentence(found),
+            f"Motions {'below' if departure.is_short else 'above'} their target",
+            departure_sentence(departure) if departure in last else departure_place(departure),
             package.part("motions"),
         )
-        for found in departures(spectra)
+        for departure in found
     ]
 
 

@@ -249,9 +249,9 @@ def achieved_table(spectra: Sequence[Spectra]) -> Table:
             TableColumn(head="Mean below 1.3 Hz", unit="min.", share=0.9),
             TableColumn(head="Mean below 1.3 Hz", unit="max.", share=0.9),
             TableColumn(head="Single motion", unit="min.", share=0.7),
-            TableColumn(head="Single motion", unit="motion, f", align="left", share=1.6),
+            TableColumn(head="Single motion", unit="motion, Hz", align="left", share=1.6),
             TableColumn(head="Single motion", unit="max.", share=0.7),
-            TableColumn(head="Single motion", unit="motion, f", align="left", share=1.6),
+            TableColumn(head="Single motion", unit="motion, Hz", align="left", share=1.6),
         ),
         rows=tuple(_achieved(part) for part in spectra if part.in_band.any()),
         kind="compact",
@@ -282,7 +282,7 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
     motion, period = np.unravel_index(at, each.shape)
     return (
         number(float(each[motion, period]), 2),
-        f"{part.ids[motion]}, {frequency(part.periods_s[part.in_band][period])}",
+        f"{part.ids[motion]}, {1.0 / part.periods_s[part.in_band][period]:.3g}",
     )
 
 
@@ -306,6 +306,11 @@ def target_words(package: PackageData) -> Sequence[str]:
 
 def departure_sentence(found: Departure) -> str:
     """Return where the motions miss their target, and what follows."""
+    return f"{departure_place(found)} {departure_effect(found)}"
+
+
+def departure_place(found: Departure) -> str:
+    """Return where the motions miss their target, and by how much."""
     first, *others = found.titles
     also = f" ({'; '.join(others).lower()} likewise)" if others else ""
     ratio, at = number(found.ratio, 2), f"at {frequency(found.period_s)}"
@@ -317,14 +322,22 @@ def departure_sentence(found: Departure) -> str:
     if found.is_short:
         return (
             f"{first}{also}: the mean of the motions falls to {ratio} times the target "
-            f"({found.target}) {at}; it is below the target {where}. Weaker shaking gives smaller "
-            "displacements: scale or replace the motions, or justify the difference."
+            f"({found.target}) {at}; it is below the target {where}."
         )
     return (
         f"{first}{also}: the mean of the motions reaches {ratio} times the target "
-        f"({found.target}) {at}; it exceeds {number(MOST_EXCESS, 2)} times the target {where}. The "
-        "displacements are those of the stronger motions, and are not reduced."
+        f"({found.target}) {at}; it exceeds {number(MOST_EXCESS, 2)} times the target {where}."
     )
+
+
+def departure_effect(found: Departure) -> str:
+    """Return what follows from motions that miss their target."""
+    if found.is_short:
+        return (
+            "Weaker shaking gives smaller displacements: scale or replace the motions, or justify "
+            "the difference."
+        )
+    return "The displacements are those of the stronger motions, and are not reduced."
 
 
 _GROUND = {

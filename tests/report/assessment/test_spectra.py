@@ -84,7 +84,7 @@ def test_the_table_names_the_motion_and_frequency_of_the_extremes(assessment):
     for text, where, pick in ((least, of_least, min), (largest, of_largest, max)):
         name, freq = pick(ratios, key=ratios.get)
         assert text == f"{ratios[name, freq]:.2f}"
-        assert where == f"{name}, {freq:.3g} Hz"
+        assert where == f"{name}, {freq:.3g}"
 
 
 def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment):
