@@ -24,11 +24,18 @@ _INDEXES = {
     *("point", "points", "pt", "row", "sample", "samples", "step"),
 }
 
+_NOT_ACCELERATIONS = re.compile(
+    r"(?<![a-z])(?:vel|veloc|velocity|velocities|disp|displ|displacement|displacements)(?![a-z])",
+    re.IGNORECASE,
+)
+_ACCELERATION = re.compile(r"(?<![a-z])acc", re.IGNORECASE)
+
 _BRACKETED = re.compile(r"([^\[(]*)[\[(]([^\])]*)[\])]\s*")
 _IN = re.compile(r"(.*\S)\s+in\s+(\S+)", re.IGNORECASE)
 _WORD = re.compile(r"[^\s\[(]+(?:\s?[\[(][^\])]*[\])])?")
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]{1,16})[\])]")
 _UNITS_OF = re.compile(r"\bunits?\b[\s:=]*(?:(?:of|in|are|is)\b)?[\s:=]*([^\s,;]+)", re.IGNORECASE)
+_STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;]+)", re.IGNORECASE)
 _STEP = re.compile(
     r"\b(?:dt|time[ _]step)(?:_s\b|\b)\s*(?:[\[(]s[\])])?\s*[:=]\s*([+-]?[0-9.]+(?:[eE][+-]?\d+)?)"
@@ -95,7 +102,7 @@ def settled(headings: list[Heading]) -> list[Heading]:
         return headings
     return [
         replace(heading, name=heading.text, kind=Kind.UNSAID, unit="")
-        if heading.text.lower().endswith("_g")
+        if heading.kind is Kind.ACCELERATION and heading.text.lower().endswith("_g")
         else heading
         for heading in headings
     ]
@@ -124,6 +131,11 @@ def units_in(line: str) -> list[str]:
     places += [heading.unit for heading in named if heading.kind is Kind.ACCELERATION]
     plain = [place.rstrip(".") for place in places]
     return [place for place in plain if not math.isnan(unit_size(place))]
+
+
+def stated_units(line: str) -> list[str]:
+    """Units of acceleration in a line of text that says that it states units."""
+    return units_in(line) if _STATES_UNITS.search(line) else []
 
 
 def step_in(line: str) -> tuple[str, float]:
@@ -173,6 +185,9 @@ def _is_time_unit(text: str) -> bool:
 def _kind(name: str, unit: str) -> tuple[Kind, float]:
     if _is_time_unit(unit):
         return Kind.TIME, _SECONDS.get(unit.strip().lower(), math.nan)
+    # A velocity in g is a velocity or an acceleration: no unit decides what a name denies.
+    if _NOT_ACCELERATIONS.search(name) and not _ACCELERATION.search(name):
+        return Kind.OTHER, 1.0
     if not math.isnan(unit_size(unit)):
         return Kind.ACCELERATION, 1.0
     if unit and is_other_unit(unit):

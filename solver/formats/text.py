@@ -227,13 +227,30 @@ def _stated_step(source: Source, table: _Table) -> float:
 
 def _scale(source: Source, table: _Table, column: int) -> float:
     """Value [m/s2] of a column's unit: from its heading, the text above, or the caller."""
-    if table.headings and (unit := table.headings[column].unit):
-        return source.scale(unit, table.heading_index)
+    if table.headings and table.headings[column].unit:
+        return _heading_scale(source, table, table.headings[column])
     stated = [(unit, i) for i, line in table.remarks for unit in headings.units_in(line)]
     if len({unit_size(unit) for unit, _ in stated}) > 1:
         units = " and ".join(dict.fromkeys(unit for unit, _ in stated))
         raise InputError(f"{source.at(stated[-1][1])}: found units {units}; give one")
     return source.scale(*stated[0]) if stated else source.given_scale()
+
+
+def _heading_scale(source: Source, table: _Table, heading: Heading) -> float:
+    """Value [m/s2] of a heading's unit; where a comment states another, the caller's decides."""
+    size = unit_size(heading.unit)
+    for index, line in table.remarks:
+        stated = {unit_size(unit): unit for unit in headings.stated_units(line)}
+        if not stated or size in stated:
+            continue
+        if source.units and unit_size(source.units) in {size, *stated}:
+            return unit_size(source.units)
+        raise InputError(
+            f"{source.at(index)}: the comment states {' and '.join(stated.values())}, the heading"
+            f" {shown(heading.text)} states {heading.unit}: which is it? Correct one of them, or"
+            " give the units"
+        )
+    return source.scale(heading.unit, table.heading_index)
 
 
 def _table(source: Source) -> _Table:

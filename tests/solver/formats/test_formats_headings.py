@@ -81,6 +81,11 @@ def test_units_to_choose_from_are_those_of_records_and_gal() -> None:
         ("a in gal", "a", Kind.ACCELERATION, "gal"),
         ("[g]", "", Kind.ACCELERATION, "g"),
         ("vel_cm/s", "vel", Kind.OTHER, "cm/s"),
+        ("velocity_g", "velocity", Kind.OTHER, "g"),
+        ("Ground Vel (gal)", "Ground Vel", Kind.OTHER, "gal"),
+        ("displacement", "displacement", Kind.OTHER, ""),
+        ("pseudo-velocity accel_g", "pseudo-velocity accel", Kind.ACCELERATION, "g"),
+        ("level_g", "level", Kind.ACCELERATION, "g"),
         ("acc_km/s2", "acc", Kind.OTHER, "km/s2"),
         ("EW [yd/s^2]", "EW", Kind.OTHER, "yd/s^2"),
         ("EW (NS)", "EW (NS)", Kind.UNSAID, ""),
@@ -141,6 +146,7 @@ def test_a_remark_names_columns_only_where_it_begins_with_time() -> None:
 def test_a_letter_g_is_a_unit_only_where_all_state_one() -> None:
     assert [h.unit for h in settled([*map(parse, ("t", "ch_f", "ch_g"))])] == ["", "", ""]
     assert [h.unit for h in settled([*map(parse, ("t", "ch_gal", "ch_g"))])] == ["", "gal", "g"]
+    assert settled([*map(parse, ("t", "EW", "vel_g"))])[2].kind is Kind.OTHER
 
 
 @pytest.mark.parametrize(

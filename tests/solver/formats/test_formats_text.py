@@ -116,12 +116,34 @@ class TestUnits:
         (problem,) = problems_of(file("# in g\n# units: gal\n0,1\n1,2\n"), units="")
         assert problem == "roof.csv:2: found units g and gal; give one"
 
-    def test_velocities_are_no_accelerations(self, file: Any) -> None:
-        (problem,) = problems_of(file("time_s,vel_cm/s\n0,1\n1,2\n"))
+    @pytest.mark.parametrize("heading", ["vel_cm/s", "velocity_g", "velocity", "Disp. [gal]"])
+    def test_velocities_and_displacements_are_no_accelerations(
+        self, file: Any, heading: str
+    ) -> None:
+        (problem,) = problems_of(file(f"time_s,{heading}\n0,1\n1,2\n"))
         assert problem == (
-            "roof.csv: found no column of accelerations beside 'vel_cm/s'; give one a heading"
+            f"roof.csv: found no column of accelerations beside '{heading}'; give one a heading"
             " such as acc_g"
         )
+
+    def test_a_comment_that_contradicts_the_heading_is_a_question(self, file: Any) -> None:
+        content = "# north wall\n# units: gal\ntime_s,acc_g\n0,1\n1,2\n"
+        (problem,) = problems_of(file(content), units="")
+        assert problem == (
+            "roof.csv:2: the comment states gal, the heading 'acc_g' states g: which is it?"
+            " Correct one of them, or give the units"
+        )
+        for units, size in (("g", G), ("gal", 0.01), ("cm/s2", 0.01)):
+            assert read_record(file(content), units=units).a_mps2.tolist() == [size, 2.0 * size]
+        (problem,) = problems_of(file(content), units="m/s2")
+        assert problem.startswith("roof.csv:2: the comment states gal, the heading 'acc_g'")
+
+    @pytest.mark.parametrize("remark", ["converted from gal", "PGA [cm/s2] 300", "units: g or gal"])
+    def test_a_comment_that_may_mean_something_else_asks_nothing(
+        self, file: Any, remark: str
+    ) -> None:
+        record = read_record(file(f"# {remark}\ntime_s,acc_g\n0,1\n1,2\n"))
+        assert record.a_mps2.tolist() == [G, 2.0 * G]
 
 
 class TestStep:
