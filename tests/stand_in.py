@@ -254,7 +254,9 @@ def book(data=None, shaking=None):
                     notes=(),
                     hold_s=math.nan,
                     size=100_000,
+                    spikes=(),
                     peak_g=float(np.abs(values).max() / G),
+                    others_g=float(np.abs(values).max() / G),
                 )
                 for motion in shaking
                 for component, values in (

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from report.motions.files import Component, Reader, find_file, find_heading, read_component
+from report.motions.spikes import spikes
 from report.sheet.archive import OpenBook
 from report.sheet.fields import Fault, Place
 from report.sheet.motion_checks import LABELS
@@ -52,6 +53,10 @@ class RecordFile:
         to its last sample; otherwise NaN.
     size : int
         Of the file [bytes]; 0 for a pasted column.
+    spikes : tuple of int
+        Indexes of samples far above all others (`report.motions.spikes`).
+    others_g : float
+        Largest magnitude of the other samples [g].
     unseen : tuple of Unseen
         Of a pasted column: cells that the workbook keeps from sight.
     """
@@ -68,6 +73,8 @@ class RecordFile:
     notes: tuple[str, ...]
     hold_s: float
     size: int
+    spikes: tuple[int, ...]
+    others_g: float
     unseen: tuple[Unseen, ...] = ()
 
     @property
@@ -260,6 +267,7 @@ def _file(row: MotionInput, field: str, component: Component, trimmed: int) -> R
     a = component.record.a_mps2
     is_whole = row.from_s is None and row.to_s is None and trimmed == 0
     last = f"last {trimmed} of {len(a)} samples trimmed, to the length of the shortest component"
+    far_above, others_mps2 = spikes(a)
     return RecordFile(
         motion_id=row.id,
         component=LABELS[field],
@@ -273,5 +281,7 @@ def _file(row: MotionInput, field: str, component: Component, trimmed: int) -> R
         notes=(*component.notes, *([last] if trimmed else [])),
         hold_s=component.hold_s if is_whole else math.nan,
         size=component.size,
+        spikes=far_above,
+        others_g=others_mps2 / G_MPS2,
         unseen=component.unseen,
     )

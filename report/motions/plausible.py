@@ -1,4 +1,4 @@
-"""Warnings and notes on records: time step, duration, unequal components, how each file was read.
+"""Warnings and notes on records: step, duration, unequal components, spikes, how each was read.
 
 Measures nothing that the files do not state. Read `record_findings`.
 """
@@ -35,6 +35,7 @@ def record_findings(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
             yield from _duration(index, files)
             yield from _unequal(index, files)
         for file in files:
+            yield from _spikes(index, file)
             place = Place("motions", index, _FIELDS[file.component])
             yield from (note(place, f"{file.name}: {text}") for text in file.notes)
 
@@ -69,6 +70,19 @@ def _unequal(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
             " shortest component; give components of one recording"
         )
         yield warning(f"length {longest.motion_id}", _place(index, longest), text)
+
+
+def _spikes(index: int, file: RecordFile) -> Iterator[Finding]:
+    if not file.spikes:
+        return
+    first, more = file.spikes[0], len(file.spikes) - 1
+    which = f"sample {first + 1:,}" + (f" and {more} more" if more else "")
+    text = (
+        f"{file.name}: {which}, at {first * file.dt_s:.6g} s, {'reach' if more else 'is'}"
+        f" {file.peak_g:.4g} g, and no other is more than {file.others_g:.4g} g; correct the file,"
+        " or give another record"
+    )
+    yield warning(f"spike {file.motion_id} {file.component}", _place(index, file), text)
 
 
 def _seconds(file: RecordFile) -> float:

@@ -144,6 +144,8 @@ def test_a_record_shows_its_format_and_what_was_noted():
         npts_trimmed=0,
         hold_s=math.nan,
         size=1000,
+        spikes=(),
+        others_g=0.25,
         notes=("uneven times were resampled",),
     )
     other = replace(record, motion_id="M2", npts=200, notes=())

@@ -1,5 +1,7 @@
 """Warnings on values that are permitted and improbable, and how a workbook answers them."""
 
+import math
+
 import pytest
 
 from report.assessment.foresight import findings
@@ -215,6 +217,25 @@ def test_a_record_of_six_minutes_gives_a_warning(tmp_path):
     assert list(found) == ["duration M1"]
     assert "lasts 360 s at a time step of 0.02 s; 300 s or less" in found["duration M1"]
     assert records(tmp_path / "b", steps=(0.02, 0.02), counts=(15001, 15001)) == {}
+
+
+@pytest.mark.parametrize(
+    ("at", "which"),
+    [((70,), "sample 71, at 0.7 s, is"), ((250, 70), "sample 71 and 1 more, at 0.7 s, reach")],
+)
+def test_a_sample_far_above_all_others_gives_a_warning_that_names_it(tmp_path, at, which):
+    path = make(tmp_path, motions=[{"id": "M1", "record": "records/x.csv", "dt_s": 0.01}])
+    values = [0.3 * math.sin(0.2 * i) for i in range(300)]
+    for index in at:
+        values[index] = -99.99
+    lines = ["acc_g", *(f"{value:.5f}" for value in values), ""]
+    (path.parent / "records" / "x.csv").write_text("\n".join(lines))
+    book = read_workbook(path)
+    found = {finding.id: finding.text for finding in findings(*book.__dict__.values())}
+    assert found["spike M1 horizontal"] == (
+        f"records/x.csv: {which} 99.99 g, and no other is more than 0.3 g; correct the file, or"
+        " give another record"
+    )
 
 
 def test_a_few_samples_are_trimmed_with_a_note_and_many_with_a_warning(tmp_path):
