@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Set
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain, islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 import numpy as np
@@ -19,12 +20,16 @@ from report.motions.pasted import heading_on, read_column
 from report.sheet.archive import OpenBook
 from report.sheet.fields import Place
 from report.sheet.positions import CellPosition
+from report.sheet.references import nearest
 from report.sheet.unseen import Unseen, unseen
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
 from solver.records.record import Record
 
 MAX_BYTES = 64_000_000
+
+MOST_LISTED = 2_000
+"""Files among which one is sought whose name nearly fits."""
 
 BAR = "|"
 """Separates a file from its channel; not allowed in Windows file names."""
@@ -129,7 +134,7 @@ def _path(folder: Path, name: str) -> Path:
         if not path.is_relative_to(folder.resolve()):
             raise InputError(f"'{name}' is a link to a file outside the workbook's folder; {where}")
         if not path.exists():
-            raise InputError(f"'{name}' does not exist; {where}")
+            raise InputError(f"'{name}' does not exist; {_meant(folder, name) or where}")
         if not path.is_file():
             raise InputError(f"'{name}' is not a file; {where}")
         size = path.stat().st_size
@@ -142,6 +147,18 @@ def _path(folder: Path, name: str) -> Path:
     if size > MAX_BYTES:
         raise InputError(f"'{name}' has {size / 1e6:.0f} MB; give at most {MAX_BYTES / 1e6:.0f} MB")
     return path
+
+
+def _meant(folder: Path, name: str) -> str:
+    """Ask for the file whose name nearly fits, in the named folder or one of the workbook's."""
+    wanted = PurePosixPath(name)
+    near = islice(chain((folder / wanted).parent.glob("*"), folder.glob("*/*")), MOST_LISTED)
+    by_stem: dict[str, list[str]] = {}
+    for path in near:
+        if path.is_file():
+            by_stem.setdefault(path.stem, []).append(path.relative_to(folder).as_posix())
+    files = by_stem.get(nearest(wanted.stem, by_stem), [])
+    return f"did you mean '{nearest(name, files) or files[0]}'?" if files else ""
 
 
 def find_heading(book: OpenBook, name: str) -> CellPosition | None:

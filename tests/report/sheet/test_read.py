@@ -344,6 +344,25 @@ def test_names_of_records_may_have_the_slashes_of_windows(tmp_path):
 WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
 
 
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("records/long_nmae.csv", "records/long_name.csv"),
+        ("records/Long_Name.CSV", "records/long_name.csv"),
+        ("records/long_name.at", "records/long_name.at2"),
+        ("recs/long_name.at2", "records/long_name.at2"),
+        ("long_name.csv | EW", "records/long_name.csv"),
+    ],
+)
+def test_a_file_name_that_nearly_fits_is_asked_about(tmp_path, name, meant):
+    path = type_into(make(tmp_path), {"Motions!C8": name})
+    for kind in ("at2", "csv"):
+        (path.parent / "records" / f"long_name.{kind}").write_text("acc_g\n0\n1\n")
+    (problem,) = problems(path)
+    asked = name.partition(" |")[0]
+    assert problem.endswith(f"'{asked}' does not exist; did you mean '{meant}'?")
+
+
 REFUSED = [
     ("records/none.csv", f"'records/none.csv' does not exist; {WITHIN}"),
     ("records", f"'records' is not a file; {WITHIN}"),
