@@ -23,7 +23,8 @@ from report.sheet.schema import (
 from report.sheet.shapes import closest, gap_m
 from report.sheet.site_checks import ROUNDING_OF_COEFFICIENTS
 from report.sheet.usual import spoken, unusual
-from report.words.units import PRESSURES, Quantity, pair
+from report.words.counts import counted
+from report.words.units import LENGTHS, PRESSURES, Quantity, pair
 from solver.rules.rulesets import usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
@@ -34,6 +35,11 @@ MOST_ASKEW_DEG = 60.0
 """Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
 lie at 45 deg."""
 
+LEAST_ALIKE = 3
+"""Number of clearances at the ratio of two units from which they are one warning."""
+
+_UNITS = {"in": "inches", "ft": "feet", "mm": "mm", "cm": "cm", "m": "meters"}
+
 _FROM_DOWNSLOPE_DEG: Mapping[Direction, tuple[float, ...]] = {
     Direction.DOWN: (0.0,),
     Direction.UP: (180.0,),
@@ -43,8 +49,10 @@ _FROM_DOWNSLOPE_DEG: Mapping[Direction, tuple[float, ...]] = {
 
 def implausible(data: ProjectInput) -> Iterator[Finding]:
     """Yield a warning for each value that is permitted and improbable, one for a cell."""
-    found = list(_contradictory(data))
+    short = _short_of_plan(data)
+    found = [*_contradictory(data), *_provided(data, short)]
     told = {finding.place for finding in found if finding.level is Level.WARNING}
+    told |= {Place("clearances", index, "provided_m") for index in short}
     yield from found
     yield from (finding for finding in unusual(data) if finding.place not in told)
 
@@ -57,15 +65,34 @@ def _contradictory(data: ProjectInput) -> Iterator[Finding]:
     for index, array in enumerate(data.arrays):
         yield from _weight(index, array, us_first)
         yield from _friction(index, array)
+    yield from _overrides(data)
     arrays = {array.id: array for array in data.arrays}
+    for index, other in _objects_in_plan(data):
+        row = data.clearances[index]
+        yield from _direction(index, row, arrays[row.array], other)
+
+
+def _objects_in_plan(data: ProjectInput) -> Iterator[tuple[int, Shape]]:
+    """Yield the row of each clearance to what is placed in plan, and its shape."""
     plan = {item.id: item.placed for item in data.objects}
     plan |= {array.id: array.shape for array in data.arrays}
-    yield from _overrides(data)
     for index, row in enumerate(data.clearances):
         other = plan[row.object]
         if other is not None:
-            yield from _direction(index, row, arrays[row.array], other)
-            yield from _provided(index, row, gap_m(arrays[row.array].shape, other), us_first)
+            yield index, other
+
+
+def _short_of_plan(data: ProjectInput) -> dict[int, float]:
+    """Return the gap in plan [m] of each clearance that is less, by row; more is an error."""
+    shapes = {array.id: array.shape for array in data.arrays}
+    gaps = {
+        i: gap_m(shapes[data.clearances[i].array], other) for i, other in _objects_in_plan(data)
+    }
+    return {
+        index: gap
+        for index, gap in gaps.items()
+        if data.clearances[index].provided_m < gap - gap_tolerance_m(gap)
+    }
 
 
 def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
@@ -155,10 +182,33 @@ def _askew_deg(turned_deg: float, direction: Direction) -> float:
     return min(min(turn, 360.0 - turn) for turn in turns)
 
 
-def _provided(index: int, row: Clearance, gap: float, us_first: bool) -> Iterator[Finding]:
-    if row.provided_m >= gap - gap_tolerance_m(gap):
-        return  # a larger one is an error
-    given, plan = (pair(value, Quantity.SIZE, us_first) for value in (row.provided_m, gap))
-    text = f"provided clearance is {given}, but {row.array} and {row.object} are {plan} apart in"
-    place = Place("clearances", index, "provided_m")
-    yield warning(f"clearance {spoken(row)}", place, f"{text} plan; correct it or the plan")
+def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Finding]:
+    """Yield clearances below the gap of the plan [m], by row; those in one wrong unit together."""
+    us_first = data.project.units_first == "US"
+    by_unit: dict[tuple[float, str], list[int]] = {}
+    for index, gap in short.items():
+        by_unit.setdefault(_mistaken(data.clearances[index].provided_m, gap), []).append(index)
+    for (ratio, unit), rows in by_unit.items():
+        place = Place("clearances", rows[0], "provided_m")
+        if unit and len(rows) >= LEAST_ALIKE:
+            text = f"{counted(len(rows), 'clearance')} are 1/{ratio:.4g} of the plan: in {unit}?"
+            text += f" The first is {spoken(data.clearances[rows[0]])}; correct them or the plan"
+            yield warning(f"clearances in {unit}", place, text)
+            continue
+        for index in rows:
+            row, place = data.clearances[index], Place("clearances", index, "provided_m")
+            given, plan = (
+                pair(value, Quantity.SIZE, us_first) for value in (row.provided_m, short[index])
+            )
+            text = f"provided clearance is {given}, but {row.array} and {row.object} are {plan}"
+            text += " apart in plan; correct it or the plan"
+            yield warning(f"clearance {spoken(row)}", place, text)
+
+
+def _mistaken(provided_m: float, gap: float) -> tuple[float, str]:
+    """Return how many times too small a clearance is, and the unit it may be in; 1 for none."""
+    for unit, size in LENGTHS.items():
+        for read in LENGTHS.values():
+            if size > read and abs(provided_m * size / read - gap) <= gap_tolerance_m(gap):
+                return size / read, _UNITS[unit]
+    return 1.0, ""

@@ -53,6 +53,34 @@ CASES = [
 ]  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("ratio", "words", "name"),
+    [
+        (12.0, "1/12 of the plan: in feet?", "clearances in feet"),
+        (25.4, "1/25.4 of the plan: in inches?", "clearances in inches"),
+        (1000.0, "1/1000 of the plan: in meters?", "clearances in meters"),
+    ],
+)
+def test_clearances_in_one_wrong_unit_are_one_warning(ratio, words, name):
+    given = project().model_dump()["clearances"]
+    rows = [row | {"provided_m": row["provided_m"] / ratio} for row in given]
+    found = list(implausible(project(clearances=rows)))
+    in_plan = [f for f in found if f.place.field == "provided_m" and "OLD" not in f.id]
+    (one,) = in_plan
+    assert one.id == name
+    assert one.text == (
+        f"four clearances are {words} The first is A1 to A2 across; correct them or the plan"
+    )
+
+
+def test_two_clearances_in_feet_keep_their_own_warnings():
+    given = project().model_dump()["clearances"]
+    rows = [row | {"provided_m": row["provided_m"] / (12 if i < 2 else 1)}
+            for i, row in enumerate(given)]  # fmt: skip
+    found = warnings(project(clearances=rows))
+    assert list(found) == ["clearance A1 to A2 across", "clearance A1 to S down"]
+
+
 @pytest.mark.parametrize(("section", "index", "change", "name", "text"), CASES)
 def test_an_improbable_value_gives_one_warning(section, index, change, name, text):
     found = warnings(changed(section, index, **change))
