@@ -108,14 +108,14 @@ def _repaired(source: Path) -> list[str]:
 
 
 def lines(sheet: Sheet, found: Iterable[Finding]) -> Iterator[str]:
-    """Yield each finding as a line: level, cell, what was found, the name of a warning."""
-    from report.sheet.findings import located
+    """Yield findings as lines: level, cells, what was found, the names of warnings."""
+    from report.sheet import findings
 
-    found = tuple(found)
-    for finding, cell in zip(found, located(found, sheet.addresses), strict=True):
-        name = f" [{finding.id}]" if finding.id else ""
+    for line in findings.lines(found, sheet.addresses):
+        finding = line.finding
+        name = f" [{line.names}]" if line.names else ""
         answered = f" Acknowledged: {finding.reason}" if finding.reason else ""
-        yield f"{finding.level}: {cell}: {finding.text}{name}{answered}"
+        yield f"{finding.level}: {line.cells}: {finding.text}{name}{answered}"
 
 
 def as_data(sheet: Sheet, found: Iterable[Finding]) -> list[Mapping[str, str]]:

@@ -24,7 +24,7 @@ from report.pages.parts import (
     verdict,
 )
 from report.pages.symbols import with_symbols
-from report.sheet.findings import Level, located
+from report.sheet.findings import Level, lines
 from report.typeset.equations import symbol
 from report.words.units import Quantity, compared, ratio, rounded_apart
 from solver.records.acceptance_row import Consequence
@@ -241,7 +241,6 @@ def _warnings(package: PackageData) -> Iterator[Table]:
         if finding.level is Level.WARNING
     ]
     if found:
-        cells = located(found, sheet.addresses)
         yield Table(
             caption="Warnings on the input",
             columns=(
@@ -250,8 +249,14 @@ def _warnings(package: PackageData) -> Iterator[Table]:
                 TableColumn(head="Reason given in the workbook", align="left", share=3.2),
             ),
             rows=tuple(
-                TableRow(cells=(cell, f"{finding.text}.", finding.reason or "not acknowledged"))
-                for finding, cell in zip(found, cells, strict=True)
+                TableRow(
+                    cells=(
+                        line.cells,
+                        f"{line.finding.text}.",
+                        line.finding.reason or "not acknowledged",
+                    )
+                )
+                for line in lines(found, sheet.addresses)
             ),
         )
 

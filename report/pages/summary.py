@@ -16,7 +16,7 @@ from report.assessment.overrides import MEANING
 from report.assessment.verdict import Verdict
 from report.pages.causes import causes, unshown_cause
 from report.pages.registry import package_data
-from report.sheet.findings import Level, located
+from report.sheet.findings import Level, lines
 from report.sheet.older import what_is_new
 from report.sheet.schema import Model
 from report.words.units import Quantity, compared, no_less, pair, ratio, rounding
@@ -135,10 +135,11 @@ def attention(assessment: Assessment) -> Iterator[Line]:
     for finding in what_is_new(assessment.sheet.book):
         yield Line(finding.level.value, finding.text)
     found = findings(assessment.sheet, assessment.shaking)
-    for finding, cell in zip(found, located(found, assessment.sheet.addresses), strict=True):
-        if finding.level is Level.WARNING:
-            answer = f" Acknowledged: {finding.reason}" if finding.reason else ""
-            yield Line("warning", f"{cell}: {finding.text} [{finding.id}]{answer}")
+    for line in lines(found, assessment.sheet.addresses):
+        if line.finding.level is Level.WARNING:
+            reason = line.finding.reason
+            answer = f" Acknowledged: {reason}" if reason else ""
+            yield Line("warning", f"{line.cells}: {line.finding.text} [{line.names}]{answer}")
 
 
 def _models(assessment: Assessment) -> Iterator[Line]:

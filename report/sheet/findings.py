@@ -14,6 +14,9 @@ from report.sheet.fields import Place
 from report.sheet.references import suggestion
 from report.sheet.schema import SECTIONS, ProjectInput
 
+MOST_LISTED = 3
+"""Cells and ids named of equal findings."""
+
 
 class Level(StrEnum):
     """Weight of a finding that does not stop the work."""
@@ -92,6 +95,43 @@ def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iter
         place = finding.place
         table = addresses.get(Place(place.section), _SHEETS[place.section])
         yield finding.cell or addresses.get(place, table)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Line:
+    """Findings that differ only in their cells and ids, printed as one.
+
+    Attributes
+    ----------
+    finding : Finding
+        The first of them.
+    cells, names : str
+        Addresses and ids, the first few of them with the count of the others; names are empty
+        if there are no ids.
+    """
+
+    finding: Finding
+    cells: str
+    names: str
+
+
+def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[Line]:
+    """Yield findings with their cells, in order; equal ones once, at the place of the first."""
+    found = tuple(findings)
+    alike: dict[tuple[str, ...], list[tuple[Finding, str]]] = {}
+    for finding, cell in zip(found, located(found, addresses), strict=True):
+        has_id = "id" if finding.id else ""
+        key = (finding.level, finding.place.section, finding.text, finding.reason, has_id)
+        alike.setdefault(key, []).append((finding, cell))
+    for group in alike.values():
+        cells, names = _listed(cell for _, cell in group), _listed(one.id for one, _ in group)
+        yield Line(finding=group[0][0], cells=cells, names=names if group[0][0].id else "")
+
+
+def _listed(names: Iterable[str]) -> str:
+    given = list(dict.fromkeys(names))
+    more = len(given) - MOST_LISTED
+    return ", ".join(given[:MOST_LISTED]) + (f" and {more:,} more" if more > 0 else "")
 
 
 _SHEETS = {section.key: section.sheet for section in SECTIONS}

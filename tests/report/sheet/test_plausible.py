@@ -1,11 +1,13 @@
 """Warnings on values that are permitted and improbable, and how a workbook answers them."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from report.assessment.foresight import findings
-from report.sheet.findings import Level, located
+from report.sheet.fields import Place
+from report.sheet.findings import Level, lines, located, note, warning
 from report.sheet.plausible import implausible
 from sheets import make, project, read_workbook
 
@@ -202,6 +204,19 @@ def test_a_warning_names_its_cell(tmp_path):
     assert (finding.level, finding.id, finding.reason) == (Level.WARNING, "weight A1", "")
     (cell,) = located([finding], sheet.addresses)
     assert cell == "Arrays!H8"
+
+
+def test_equal_findings_are_one_line_with_a_count():
+    places = [Place("clearances", index, "provided_m") for index in range(1500)]
+    found = [warning(f"usual {i}", place, "provided is 4 in") for i, place in enumerate(places)]
+    addresses = {place: f"Clearances!F{8 + i}" for i, place in enumerate(places)}
+    answered = replace(found[0], reason="Seen")
+    equal, other = lines([*found[1:], answered], addresses)
+    assert equal.cells == "Clearances!F9, Clearances!F10, Clearances!F11 and 1,496 more"
+    assert equal.names == "usual 1, usual 2, usual 3 and 1,496 more"
+    assert (other.finding, other.cells, other.names) == (answered, "Clearances!F8", "usual 0")
+    (note_of_two,) = lines([note(place, "read") for place in places[:2]], addresses)
+    assert (note_of_two.cells, note_of_two.names) == ("Clearances!F8, Clearances!F9", "")
 
 
 def test_an_acknowledged_warning_carries_its_reason(tmp_path):
