@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import io
 import posixpath
+import re
 import warnings
 import zipfile
 from collections import Counter
@@ -44,6 +45,8 @@ OTHER_KINDS = {
     ".numbers": "a Numbers sheet",
 }
 _WORKBOOK = "xl/workbook.xml"
+_RELATIONS = "xl/_rels/workbook.xml.rels"
+_DOTTED = re.compile(rb"""(\bTarget\s*=\s*["'])(/[^"']*)(["'])""")
 SAVE_AS = "save it as .xlsx (Excel Workbook)"
 REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
 
@@ -105,7 +108,7 @@ def open_book(path: Path) -> OpenBook:
         _check_kind(archive)
         parts = scan_parts({name: _content(archive, name) for name in archive.namelist()})
         scans = _scans_by_title(archive, parts)
-    book = _load(data)
+        book = _load(_plainly_named(archive, data))
     if book.sheetnames != list(scans):
         raise InputError(f"its sheets cannot all be read; {REOPEN}")
     return OpenBook(
@@ -217,7 +220,7 @@ def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict
 
 def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
     """Return each sheet's title with the name of its part, as openpyxl resolves it."""
-    relations = _tree(archive, "xl/_rels/workbook.xml.rels")
+    relations = _tree(archive, _RELATIONS)
     targets = {item.get("Id"): _part(item.get("Target", "")) for item in relations}
     listed = [
         (element.get("name", ""), targets.get(element.get(REL), ""))
@@ -234,9 +237,21 @@ def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
 
 def _part(target: str) -> str:
     """Return the name of the part that a relationship of the workbook names (ECMA-376-2, 9.3)."""
-    if target.startswith("/"):
-        return target[1:]
-    return posixpath.normpath(posixpath.join("xl", target))
+    return posixpath.normpath(posixpath.join("/xl", target)).lstrip("/") if target else ""
+
+
+def _plainly_named(archive: zipfile.ZipFile, data: bytes) -> bytes:
+    """Return a workbook whose relationships openpyxl resolves: it keeps the dots of `/xl/./`."""
+    old = archive.read(_RELATIONS)
+    plain = _DOTTED.sub(lambda m: m[1] + posixpath.normpath(m[2]) + m[3], old)
+    if plain == old:
+        return data
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as packed:
+        for member in archive.infolist():
+            is_this = member.filename == _RELATIONS
+            packed.writestr(member, plain if is_this else archive.read(member))
+    return out.getvalue()
 
 
 def _tree(archive: zipfile.ZipFile, name: str) -> Any:

@@ -345,6 +345,15 @@ def test_a_part_is_found_by_every_legal_spelling_of_its_target(tmp_path, prefix)
     assert problems(far)[0].startswith("Arrays!XFD1048576: contains data more than")
 
 
+@pytest.mark.parametrize("prefix", [b"/xl/./", b"/./xl/", b"/xl/worksheets/../"])
+def test_a_part_is_found_where_openpyxl_keeps_the_dots_of_its_target(tmp_path, prefix):
+    path = make(tmp_path)
+    target = arrays_target(path)
+    relations(path, lambda old: re.sub(rb"(/xl/|)" + target, prefix + target, old))
+    assert prefix + target in zipfile.ZipFile(path).read("xl/_rels/workbook.xml.rels")
+    assert [array.id for array in read_workbook(path).input.arrays] == ["A1", "A2"]
+
+
 @pytest.mark.parametrize(
     "spelled",
     [lambda name: name.upper(), lambda name: name.replace(b"s", b"%73"), lambda name: b"gone.xml"],
