@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterator, Mapping
 from xml.etree import ElementTree as ET
 
+from report.sheet.schema import RecordedAt
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.words import NO_NUMBER, both
@@ -27,13 +28,30 @@ DEMANDS: Mapping[Intensity, tuple[str, str]] = {
 }
 """Demand type and unit of pelicun; it has none for S_DS. Its PRD is peak roof drift ratio."""
 
-MEASURES: Mapping[Intensity, str] = {
-    Intensity.PPA: "PGA",
-    Intensity.PGA: "PGA",
-    Intensity.SA1: "SA(1.0)",
-    Intensity.PPV: "PGV",
+MEASURES: Mapping[Intensity, tuple[str, str, float]] = {
+    Intensity.PPA: ("PGA", "g", 1.0),
+    Intensity.PGA: ("PGA", "g", 1.0),
+    Intensity.SA1: ("SA(1.0)", "g", 1.0),
+    Intensity.PPV: ("PGV", "cm/s", 100.0),
 }
-"""Intensity measure types of OpenQuake; at the roof, PGA and PGV are those of the roof motion."""
+"""Intensity measure type of OpenQuake, its unit and how many of it are one of ours.
+
+OpenQuake reads no unit: accelerations are in g and PGV is in cm/s (openquake.hazardlib.imt).
+"""
+
+QUANTITIES: Mapping[Intensity, str] = {
+    Intensity.PPA: "peak horizontal acceleration",
+    Intensity.PPV: "peak horizontal velocity",
+    Intensity.PGA: "peak horizontal acceleration",
+    Intensity.SA1: "horizontal spectral acceleration at 1 s with 5 % damping",
+}
+
+NO_DAMAGE_SHARE = 1e-3
+"""Share of the lowest intensity below which OpenQuake takes no damage.
+
+OpenQuake interpolates linearly from there to the lowest intensity. It has a value for no intensity
+below the lowest one without a limit, and warns of a limit of zero.
+"""
 
 NRML = "http://openquake.org/xmlns/nrml/0.5"
 MOST_STATES = 4
@@ -128,7 +146,8 @@ def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
             f"Mat {array.mat}, friction coefficient {one.plan.mu:g}, slope {array.slope_deg:g} "
             "deg, "
             f"clearance {both(results, array.clearance_m)}. Limit states are on the peak relative "
-            "displacement of a motion, not on a design displacement. Study "
+            "displacement of a motion, not on a design displacement. "
+            f"{_of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])} Study "
             f"{results.manifest['identity'][:16]}."
         ),
         "SuggestedComponentBlockSize": "1 EA",
@@ -149,8 +168,10 @@ def _placement(results: StudyResults, known: list[ArrayResult]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment"])
+    about = _of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])
     for one in known:
-        row = ["ea", "roof", 0, 1, "", f"Array {one.plan.array.id}"]
+        comment = f"Array {one.plan.array.id}. {about}"
+        row = ["ea", "roof", 0, 1, "", comment]
         writer.writerow([component_id(results, one), *row])
     return text.getvalue()
 
@@ -167,7 +188,7 @@ def _nrml(results: StudyResults) -> bytes:
         f"{{{NRML}}}fragilityModel",
         {"id": "roofslip", "assetCategory": "contents", "lossCategory": "contents"},
     )
-    study = results.plan.input.study
+    imt, _, per_unit = MEASURES[results.plan.input.study.intensity]
     ET.SubElement(model, f"{{{NRML}}}description").text = _description(results)
     states = [state.name for state in results.arrays[0].states]
     ET.SubElement(model, f"{{{NRML}}}limitStates").text = " ".join(states)
@@ -177,13 +198,10 @@ def _nrml(results: StudyResults) -> bytes:
             f"{{{NRML}}}fragilityFunction",
             {"id": component_id(results, one), "format": "discrete"},
         )
-        unit = "m/s" if study.intensity is Intensity.PPV else "g"
-        levels = ET.SubElement(
-            function,
-            f"{{{NRML}}}imls",
-            {"imt": MEASURES[study.intensity], "noDamageLimit": "0", "unit": unit},
-        )
-        levels.text = " ".join(f"{x:g}" for x in one.states[0].fragility.levels)
+        levels = per_unit * one.states[0].fragility.levels
+        limit = f"{NO_DAMAGE_SHARE * levels[0]:.9g}"
+        imls = ET.SubElement(function, f"{{{NRML}}}imls", {"imt": imt, "noDamageLimit": limit})
+        imls.text = " ".join(f"{x:.9g}" for x in levels)
         for state in one.states:
             chances = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
             chances.text = " ".join(f"{round_up(p, 6):.6f}" for p in chances_of(state.fragility))
@@ -198,7 +216,19 @@ def _description(results: StudyResults) -> str:
         + " ".join(f"{state.name}: {sentence(state)}" for state in one.states)
         for one in results.arrays
     ]
-    return " ".join([f"{results.plan.input.study.title}.", *states])
+    imt, unit, _ = MEASURES[results.plan.input.study.intensity]
+    title = f"{results.plan.input.study.title}."
+    return " ".join([title, _of_which_motion(results, imt, unit), *states])
+
+
+def _of_which_motion(results: StudyResults, name: str, unit: str) -> str:
+    """Return what a measure of a format is here: those of the roof and of the ground differ."""
+    study = results.plan.input.study
+    is_roof = study.intensity in (Intensity.PPA, Intensity.PPV) or (
+        study.intensity is Intensity.SA1 and study.recorded_at is RecordedAt.ROOF
+    )
+    which = "roof motion, not of the ground" if is_roof else "ground motion, not of the roof"
+    return f"{name} in {unit} is the {QUANTITIES[study.intensity]} of the {which}."
 
 
 def chances_of(found: Fragility) -> list[float]:

@@ -415,39 +415,90 @@ def test_the_metadata_have_the_keys_of_fema_p58(made, results):
     assert all(row[1] == "ea" for row in rows)
 
 
+# Of openquake.commonlib.nrml and openquake.hazardlib.valid
+SIMPLE_ID = re.compile(r"[\w_\-]{1,75}")
+IMT = re.compile(r"PGA|PGV|SA\(\d+\.\d+\)")
+
+
 def read_nrml(content):
-    """Read a discrete fragility model of NRML 0.5, refusing what its schema does not allow."""
+    """Read a discrete fragility model of NRML 0.5 as OpenQuake does, which reads no unit.
+
+    Its functions have (imt, limit of no damage, levels, chances by limit state).
+    """
     space = "{http://openquake.org/xmlns/nrml/0.5}"
     root = defusedxml.ElementTree.fromstring(content)
     assert root.tag == f"{space}nrml"
     (model,) = root
     assert model.tag == f"{space}fragilityModel"
     assert set(model.attrib) == {"id", "assetCategory", "lossCategory"}
+    assert SIMPLE_ID.fullmatch(model.attrib["id"])
     description, states, *functions = model
     assert (description.tag, states.tag) == (f"{space}description", f"{space}limitStates")
+    assert description.text.strip()
     names = states.text.split()
+    assert all(SIMPLE_ID.fullmatch(name) for name in names)
     found = {}
     for function in functions:
         assert function.tag == f"{space}fragilityFunction"
         assert function.attrib["format"] == "discrete"
         levels, *chances = function
         assert levels.tag == f"{space}imls"
-        assert {"imt", "noDamageLimit"} <= set(levels.attrib)
+        assert set(levels.attrib) == {"imt", "noDamageLimit"}
+        assert IMT.fullmatch(levels.attrib["imt"])
         x = np.array(levels.text.split(), float)
+        assert x[0] > 0.0
         assert (np.diff(x) > 0.0).all()
+        limit = float(levels.attrib["noDamageLimit"])
+        assert 0.0 < limit < x[0]  # 0 is warned of; without one nothing is known below x[0]
         assert [c.attrib["ls"] for c in chances] == names
         p = np.array([c.text.split() for c in chances], float)
         assert p.shape == (len(names), x.size)
         assert ((p >= 0.0) & (p <= 1.0)).all()
-        found[function.attrib["id"]] = levels.attrib["imt"], x, p
+        assert function.attrib["id"] not in found
+        found[function.attrib["id"]] = levels.attrib["imt"], limit, x, p
     return names, found
+
+
+@pytest.mark.parametrize(
+    ("changes", "imt", "per_unit", "said"),
+    [({}, "PGA", 1.0, "PGA in g is the peak horizontal acceleration of the roof motion, not of"),
+     ({"intensity": Intensity.PPV}, "PGV", 100.0,
+      "PGV in cm/s is the peak horizontal velocity of the roof motion, not of the ground."),
+     ({"intensity": Intensity.SA1}, "SA(1.0)", 1.0,
+      "SA(1.0) in g is the horizontal spectral acceleration at 1 s with 5 % damping of the roof")],
+)  # fmt: skip
+def test_openquake_takes_the_levels_in_its_unit_and_is_told_that_they_are_of_the_roof(
+    results, changes, imt, per_unit, said
+):
+    study = results.plan.input.study.model_copy(update=changes)
+    given_ = dataclasses.replace(results.plan.input, study=study)
+    plan = dataclasses.replace(results.plan, input=given_)
+    made = export_files(dataclasses.replace(results, plan=plan))
+    _, found = read_nrml(made["fragility.xml"])
+    for name, _, x, _ in found.values():
+        assert name == imt
+        assert x == pytest.approx(per_unit * np.array(plan.input.intensities))
+    assert said in made["fragility.xml"].decode()
+    placed = list(csv.DictReader(io.StringIO(made["placement.csv"].decode())))
+    comments = [json.loads(made["fragility.json"])[row[""]]["Comments"] for row in placed]
+    for text in (*comments, *(row["Comment"] for row in placed)):
+        assert "of the roof motion, not of the ground." in text
+
+
+def test_pga_of_the_ground_is_told_to_be_of_the_ground(results):
+    study = results.plan.input.study.model_copy(update={"intensity": Intensity.PGA})
+    plan = dataclasses.replace(
+        results.plan, input=dataclasses.replace(results.plan.input, study=study)
+    )
+    made = export_files(dataclasses.replace(results, plan=plan))
+    assert "of the ground motion, not of the roof." in made["fragility.xml"].decode()
 
 
 def test_openquake_has_the_chances_at_every_intensity(made, results):
     names, found = read_nrml((made[0] / "out/study/fragility.xml").read_bytes())
     assert names == ["LS1", "LS2", "LS3"]
     assert list(found) == ["BSA.S1", "BSA.S-2"]
-    for (imt, x, p), array in zip(found.values(), results.arrays, strict=True):
+    for (imt, _, x, p), array in zip(found.values(), results.arrays, strict=True):
         assert imt == "PGA"
         assert x == pytest.approx(results.plan.input.intensities)
         for row, state in zip(p, array.states, strict=True):
