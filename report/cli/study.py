@@ -28,8 +28,18 @@ _SOURCE = click.Path(path_type=Path)
 @click.option("--dry-run", is_flag=True, help="Print runs, processor time and disk; run nothing.")
 @click.option("--scheduler", metavar="tcp://HOST:PORT", default="",
               help="Run on an existing Dask cluster instead of this machine.")  # fmt: skip
+@click.option("--allow-matched", is_flag=True,
+              help="Export fragilities of motions matched to one spectrum, with a warning in each"
+              " file.")  # fmt: skip
 @QUIET
-def study(source: Path, out: Path | None, dry_run: bool, scheduler: str, quiet: bool) -> None:
+def study(
+    source: Path,
+    out: Path | None,
+    dry_run: bool,
+    scheduler: str,
+    allow_matched: bool,
+    quiet: bool,
+) -> None:
     """Run a study workbook: write study.pdf, curves.csv, study.xlsx, fragilities and every run.
 
     A study that was killed goes on where it was. `roofslip new DIR --study` writes a blank
@@ -52,7 +62,7 @@ def study(source: Path, out: Path | None, dry_run: bool, scheduler: str, quiet: 
         check_writable(folder)
         check_apart([TABLE], folder, [source, source / "input.xlsx"])
         with Progress(quiet=quiet) as progress, no_collections():
-            results, files = make(plan, folder, scheduler, progress)
+            results, files = make(plan, folder, scheduler, progress, allow_matched=allow_matched)
     if not quiet:
         for line in summary(results):
             click.echo(plain(line))
@@ -61,10 +71,16 @@ def study(source: Path, out: Path | None, dry_run: bool, scheduler: str, quiet: 
 
 
 def make(
-    plan: StudyPlan, folder: Path, scheduler: str, progress: Callable[[str], None]
+    plan: StudyPlan,
+    folder: Path,
+    scheduler: str,
+    progress: Callable[[str], None],
+    *,
+    allow_matched: bool,
 ) -> tuple[StudyResults, Mapping[str, bytes]]:
     """Run a study and publish its files; another run to the same folder waits until it ends."""
     from report.results.publish import locked, publish
+    from report.study.exports import EXPORTS
     from report.study.files import study_files
     from report.study.run import RUNS, run_study
     from solver.model import InputError
@@ -74,10 +90,15 @@ def make(
     runs.mkdir(parents=True, exist_ok=True)
     try:
         with locked(runs):
-            results = run_study(plan, folder, scheduler=scheduler, progress=progress)
+            results = run_study(
+                plan, folder, scheduler=scheduler, progress=progress, allow_matched=allow_matched
+            )
             progress("writing the report")
             files = study_files(results)
             publish(files, folder)
+            for name in EXPORTS:
+                if name not in files:
+                    (folder / name).unlink(missing_ok=True)
     except InputError:
         # Such as a cluster that does not answer: nothing ran, and nothing new stays.
         with suppress(OSError):

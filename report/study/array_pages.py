@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterator
 from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Table, TableColumn, TableRow
 from report.study import figures
+from report.study.dispersion import dispersions, exported, refusal
 from report.study.page_parts import axis, chart, level, on_building
 from report.study.results import ArrayResult, StudyResults
-from report.study.schema import NoValue, Sampling
+from report.study.schema import Intensity, NoValue, Sampling
 from report.study.tables import length_unit
 from report.study.words import NO_NUMBER, both, chance_words
 from report.words.units import digits_down, digits_up
@@ -30,7 +31,7 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
     block = Block(
         texts=[*_procedure(results, one), *_unknown(one)],
         charts=(picture,),
-        tables=(_states(results, one),),
+        tables=(_states(results, one), *_exported(results, one)),
     )
     return ManualSection(
         id=f"array-{slug(name)}",
@@ -87,6 +88,37 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
                 )
             )
             for state in one.states
+        ),
+    )
+
+
+def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
+    """Yield the dispersions of the exported fragilities by name, if there are any."""
+    states = [state for state in one.states if state.fragility.fitted.is_known]
+    parts = [dispersions(results, state) for state in states]
+    if not parts or results.plan.input.study.intensity is Intensity.S_DS:
+        return
+    yield Table(
+        caption="Dispersions of the capacity by name; β of an exported fragility is the square root"
+        " of the sum of their squares",
+        columns=(
+            TableColumn(head="State", align="left", share=0.7),
+            *(
+                TableColumn(head=f"{part.name.capitalize()}: {part.source}", share=1.7)
+                for part in parts[0]
+            ),
+            TableColumn(head="β exported"),
+        ),
+        rows=tuple(
+            TableRow(
+                cells=(
+                    state.name,
+                    *(digits_up(part.beta, 3) if part.beta else "none" for part in row),
+                    "not exported" if refusal(results) else digits_up(total.beta, 3),
+                )
+            )
+            for state, row in zip(states, parts, strict=True)
+            for total in [exported(results, state)]
         ),
     )
 

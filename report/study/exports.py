@@ -10,10 +10,11 @@ import io
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from xml.etree import ElementTree as ET
 
 from report.sheet.schema import RecordedAt
+from report.study.dispersion import dispersions, exported, refusal, warning
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.words import NO_NUMBER, both
@@ -53,6 +54,8 @@ OpenQuake interpolates linearly from there to the lowest intensity. It has a val
 below the lowest one without a limit, and warns of a limit of zero.
 """
 
+EXPORTS = ("fragility.csv", "fragility.json", "placement.csv", "fragility.xml")
+
 NRML = "http://openquake.org/xmlns/nrml/0.5"
 MOST_STATES = 4
 _COLUMNS = ("Family", "Theta_0", "Theta_1", "DamageStateWeights", "Description")
@@ -60,7 +63,12 @@ _COLUMNS = ("Family", "Theta_0", "Theta_1", "DamageStateWeights", "Description")
 
 
 def export_files(results: StudyResults) -> Mapping[str, bytes]:
-    """Return the files of the exports; none without an array, or where a format has no measure."""
+    """Return the files of `EXPORTS`.
+
+    None without an array, where a format has no measure, or where `refusal` gives a reason.
+    """
+    if refusal(results):
+        return {}
     kind = results.plan.input.study.intensity
     files: dict[str, bytes] = {}
     known = [one for one in results.arrays if known_states(one)]
@@ -99,18 +107,22 @@ def _library(results: StudyResults, known: list[ArrayResult]) -> str:
     for one in known:
         cells: list[object] = []
         for state in one.states:
-            cells += _cells(state)
+            cells += _cells(results, state)
         cells += [""] * (len(states) - len(cells))
         writer.writerow([component_id(results, one), 0, demand, unit, 0, 0, *cells])
     return text.getvalue()
 
 
-def _cells(state: LimitState) -> list[str]:
+def _cells(results: StudyResults, state: LimitState) -> list[str]:
     """Return the columns of a limit state; an undetermined one has its description alone."""
-    f = state.fragility.fitted
+    f = exported(results, state)
     if not f.is_known:
         return ["", "", "", "", f"{sentence(state)} {_sentence(NO_NUMBER)}"]
-    return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", sentence(state)]
+    return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", _words(results, state)]
+
+
+def _words(results: StudyResults, state: LimitState) -> str:
+    return f"{sentence(state)}{_warned(results)}"
 
 
 def sentence(state: LimitState) -> str:
@@ -126,7 +138,8 @@ def _metadata(results: StudyResults, known: list[ArrayResult]) -> str:
     study = results.plan.input.study
     about = {
         "ShortName": "Ballasted solar arrays",
-        "Description": f"{study.title}. Sliding of ballasted rooftop solar arrays.",
+        "Description": f"{study.title}. Sliding of ballasted rooftop solar arrays."
+        f"{_warned(results)}",
         "Version": results.manifest["program"]["roofslip"],
         "ComponentGroups": {
             "BSA - Ballasted solar arrays": [component_id(results, one) for one in known]
@@ -147,7 +160,8 @@ def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
             "deg, "
             f"clearance {both(results, array.clearance_m)}. Limit states are on the peak relative "
             "displacement of a motion, not on a design displacement. "
-            f"{_of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])} Study "
+            f"{_of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])} "
+            f"{_dispersions(results, known_states(one))}{_warned(results)} Study "
             f"{results.manifest['identity'][:16]}."
         ),
         "SuggestedComponentBlockSize": "1 EA",
@@ -169,6 +183,7 @@ def _placement(results: StudyResults, known: list[ArrayResult]) -> str:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment"])
     about = _of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])
+    about += _warned(results)
     for one in known:
         comment = f"Array {one.plan.array.id}. {about}"
         row = ["ea", "roof", 0, 1, "", comment]
@@ -204,7 +219,7 @@ def _nrml(results: StudyResults) -> bytes:
         imls.text = " ".join(f"{x:.9g}" for x in levels)
         for state in one.states:
             chances = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
-            chances.text = " ".join(f"{round_up(p, 6):.6f}" for p in chances_of(state.fragility))
+            chances.text = " ".join(f"{round_up(p, 6):.6f}" for p in chances_of(results, state))
     ET.indent(root)
     return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
 
@@ -214,11 +229,32 @@ def _description(results: StudyResults) -> str:
     states = [
         f"{component_id(results, one)}: "
         + " ".join(f"{state.name}: {sentence(state)}" for state in one.states)
+        + f" {_dispersions(results, known_states(one))}".rstrip()
         for one in results.arrays
     ]
     imt, unit, _ = MEASURES[results.plan.input.study.intensity]
     title = f"{results.plan.input.study.title}."
-    return " ".join([title, _of_which_motion(results, imt, unit), *states])
+    measure = _of_which_motion(results, imt, unit)
+    return " ".join([title, measure, *states]) + _warned(results)
+
+
+def _warned(results: StudyResults) -> str:
+    return f" {text}" if (text := warning(results)) else ""
+
+
+def _dispersions(results: StudyResults, states: Sequence[LimitState]) -> str:
+    """Return the dispersions of each state by name; nothing without a state."""
+    return " ".join(
+        f"Dispersions of {state.name}: "
+        + ", ".join(
+            f"{one.name} {digits_up(one.beta, 2)} ({one.source})"
+            if one.beta
+            else f"{one.name} {one.source}"
+            for one in dispersions(results, state)
+        )
+        + "."
+        for state in states
+    )
 
 
 def _of_which_motion(results: StudyResults, name: str, unit: str) -> str:
@@ -231,10 +267,11 @@ def _of_which_motion(results: StudyResults, name: str, unit: str) -> str:
     return f"{name} in {unit} is the {QUANTITIES[study.intensity]} of the {which}."
 
 
-def chances_of(found: Fragility) -> list[float]:
+def chances_of(results: StudyResults, state: LimitState) -> list[float]:
     """Return the chance at each level: of the lognormal, or the fractions where there is none."""
-    if found.fitted.is_known:
-        return [float(p) for p in found.fitted.at(found.levels)]
+    found, lognormal = state.fragility, exported(results, state)
+    if lognormal.is_known:
+        return [float(p) for p in lognormal.at(found.levels)]
     return list(_never_decreasing(found))
 
 

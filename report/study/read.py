@@ -177,6 +177,7 @@ def _faults(draft: Draft) -> Iterator[Fault]:
         yield _at("mus", "friction coefficients are missing and there is no mat; give either")
     yield from _about_size(study, mats, draft["buildings"])
     yield from _about_intensity(study)
+    yield from _about_dispersion(study)
     yield from _about_motions(study, draft)
     for section in ("mats", "study_arrays", "motions", "buildings"):
         yield from _repeated(draft, section)
@@ -217,6 +218,15 @@ def _about_intensity(study: Any) -> Iterator[Fault]:
         yield _at("s_ds_g", "S_DS of the motions is missing; the intensity measure needs it")
     if kind is Intensity.PGA and study.get("recorded_at") is RecordedAt.ROOF:
         yield _at("intensity", "is PGA, but the motions are roof motions; choose PPA or PPV")
+
+
+def _about_dispersion(study: Any) -> Iterator[Fault]:
+    if "record_source" not in study or "record_beta" not in study:
+        return
+    if study["record_beta"] is not None and not study["record_source"]:
+        yield _at("record_source", "the record-to-record dispersion needs its source; give it")
+    if study["record_source"] and study["record_beta"] is None:
+        yield _at("record_beta", "a source is given without the dispersion; give it, or clear both")
 
 
 def _about_motions(study: Any, draft: Draft) -> Iterator[Fault]:

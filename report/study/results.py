@@ -94,6 +94,8 @@ class StudyResults:
     fits : tuple of Fit or str
         By building; a text says why there is none.
     arrays : tuple of ArrayResult
+    allow_matched : bool
+        Whether fragilities without a record-to-record dispersion are exported, with a warning.
     """
 
     plan: StudyPlan
@@ -105,6 +107,7 @@ class StudyResults:
     ppa_g: Floats
     fits: tuple[Fit | str, ...]
     arrays: tuple[ArrayResult, ...]
+    allow_matched: bool
 
     @property
     def displacements(self) -> Mapping[str, Floats]:
@@ -162,7 +165,12 @@ def _down(slope: float, slopes: Floats) -> float:
 
 
 def results_of(
-    plan: StudyPlan, folder: Path, done: Mapping[int, Done], manifest: Mapping[str, Any]
+    plan: StudyPlan,
+    folder: Path,
+    done: Mapping[int, Done],
+    manifest: Mapping[str, Any],
+    *,
+    allow_matched: bool,
 ) -> StudyResults:
     """Return the results of a study whose parts are all there."""
     campaign = plan.campaign
@@ -203,6 +211,7 @@ def results_of(
             _array(plan, array, prd, slip, on_grid, number)
             for number, array in enumerate(plan.arrays)
         ),
+        allow_matched=allow_matched,
     )
 
 

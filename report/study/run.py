@@ -76,6 +76,7 @@ def run_study(
     out: Path,
     *,
     scheduler: str = "",
+    allow_matched: bool = False,
     progress: Callable[[str], None] = lambda _: None,
 ) -> StudyResults:
     """Run what is missing of a study and return its results.
@@ -87,6 +88,8 @@ def run_study(
         Folder of the outputs; the parts are in its folder `RUNS`.
     scheduler : str
         Address of a Dask scheduler; empty for the cores of this machine.
+    allow_matched : bool
+        Export fragilities without a record-to-record dispersion, with a warning.
     progress : callable
         Called with a line of text.
 
@@ -122,7 +125,7 @@ def run_study(
     full["design_displacement"] = plan.design_rule.about
     write_whole(out / NAME, json.dumps(full, indent=1).encode() + b"\n")
     progress("computing the curves")
-    return results_of(plan, folder, done, full)
+    return results_of(plan, folder, done, full, allow_matched=allow_matched)
 
 
 class _Meter:

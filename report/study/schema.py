@@ -94,6 +94,9 @@ def values(text: str) -> tuple[float, ...]:
     return tuple(found) if is_row and len(found) <= MOST_VALUES else ()
 
 
+Dispersion = Annotated[float, Field(gt=0, le=2)]
+
+
 class Study(Frozen):
     """What is studied."""
 
@@ -218,6 +221,35 @@ class Study(Frozen):
         Annotated[int, Field(ge=0, le=2**31)],
         Cell("Seed", "The same seed gives the same samples.", 1),
     ] = 1
+    record_beta: Annotated[
+        Dispersion | None,
+        Cell(
+            "Record-to-record dispersion",
+            "Of the exported fragilities, in place of that of the motions. Required for motions"
+            " matched to one spectrum. Blank: that of the motions.",
+            0.4,
+        ),
+    ] = None
+    record_source: Annotated[
+        Text,
+        Cell("Record-to-record source", "Required with the value.", "Hazard analysis, 2026"),
+    ] = ""
+    modeling_beta: Annotated[
+        Dispersion | None,
+        Cell(
+            "Modeling dispersion",
+            "Of the exported fragilities. FEMA P-58 has about 0.1 to 0.5. Blank: not included.",
+            0.25,
+        ),
+    ] = None
+    quality_beta: Annotated[
+        Dispersion | None,
+        Cell(
+            "Quality of data dispersion",
+            "Of the exported fragilities. FEMA P-58 has about 0.1 to 0.5. Blank: not included.",
+            0.25,
+        ),
+    ] = None
 
 
 class Mat(Frozen):

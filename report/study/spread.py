@@ -39,6 +39,11 @@ class Spread:
         """Whether the motions differ by less than motions matched to one spectrum may."""
         return self.median < 1.0 - LEAST_RATIO
 
+    @property
+    def is_record_to_record(self) -> bool:
+        """Whether the motions are known to differ by more than those matched to one spectrum."""
+        return self.is_known and not self.is_one_spectrum
+
 
 def spectral_spread(buildings: Sequence[Sequence[Motion]]) -> Spread:
     """Return the spread of the motions at the roof of each building, as they are scaled."""

@@ -6,6 +6,7 @@ import math
 
 from report.pages.parts import dagger
 from report.study.design import I_E, SDC
+from report.study.dispersion import notice
 from report.study.results import MEAN, SLOPE_DECIMALS, StudyResults
 from report.words.units import Quantity, digits_down, digits_up, no_less, pair
 from solver.rules.provisions import SEPARATION_KEYS, RuleSet
@@ -115,7 +116,7 @@ def headline(results: StudyResults) -> list[str]:
                 f"{both(results, one.plan.array.clearance_m)} is exceeded at {measure.letters} "
                 f"{given.study.site_intensity:g} {measure.unit}: {chance_words(chance)}"
             )
-    return lines
+    return [*lines, *filter(None, [notice(results)])]
 
 
 def chance_words(chance: Chance) -> str:

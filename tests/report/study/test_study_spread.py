@@ -1,16 +1,32 @@
 """The spread of the motions' spectra, and what the limits of a study say of it."""
 
+import csv
 import dataclasses
+import io
+import json
 import math
+from statistics import NormalDist
 
+import defusedxml.ElementTree
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from report.cli.main import main
+from report.study import files
+from report.study.array_pages import fragility
 from report.study.basis_pages import limits
+from report.study.dispersion import warning
+from report.study.exports import export_files
+from report.study.plan import ArrayPlan
+from report.study.results import ArrayResult, LimitState
 from report.study.run import planned, run_study
+from report.study.schema import StudyArray
 from report.study.spread import spectral_spread
+from report.study.words import headline
+from solver.studies.fragility import Fragility, Lognormal
 from studied import motion
-from test_study_read import given, write
+from test_study_read import given, problems, write
 
 
 def like(number, factor):
@@ -65,6 +81,120 @@ def test_the_limits_name_the_spread_and_call_it_small_only_where_it_is(results):
     assert "differ by a standard deviation of ln Sa of" in other
     assert "almost no record-to-record spread" not in other
     assert "spectra of the" not in said(results, [motion(1)])
+
+
+# What is exported of motions matched to one spectrum
+
+FILES = {"fragility.csv", "fragility.json", "placement.csv", "fragility.xml"}
+LEVELS = np.array([0.5, 1.0, 1.5, 2.0])
+
+
+def with_state(results, motions, *, allow_matched=False, **changes):
+    """The results with an array of one limit state (median 1.2, beta 0.06), and other motions."""
+    state = LimitState(
+        name="LS1",
+        words="slip begins",
+        limit_m=0.0,
+        fragility=Fragility(
+            levels=LEVELS, exceeded=np.zeros(4, int), counted=np.full(4, 3), censored=0,
+            fitted=Lognormal(theta=1.2, beta=0.06), theta_range=(1.1, 1.3),
+            beta_range=(0.03, 0.1), unfitted=0,
+        ),
+    )  # fmt: skip
+    array = ArrayPlan(
+        array=StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1), building=0, mu=0.4,
+        spreads={}, fragility=slice(0), samples=slice(0), bars=slice(0),
+    )  # fmt: skip
+    one = ArrayResult(plan=array, states=(state,), chances=(), bars=(), center_m=math.nan)
+    given_ = results.plan.input
+    study = given_.study.model_copy(update=changes)
+    plan = dataclasses.replace(results.plan, input=dataclasses.replace(given_, study=study))
+    return dataclasses.replace(
+        results,
+        plan=plan,
+        arrays=(one,),
+        spread=spectral_spread([motions]),
+        allow_matched=allow_matched,
+    )
+
+
+MATCHED = [like(1, 1.0), like(1, 1.02), like(1, 0.98)]
+UNMATCHED = [motion(k) for k in range(4)]
+
+
+@pytest.mark.parametrize("motions", [MATCHED, [motion(1)]])
+def test_a_fragility_without_record_to_record_dispersion_is_not_exported(results, motions):
+    found = with_state(results, motions)
+    assert export_files(found) == {}
+    assert "The fragility files are not written: the " in headline(found)[-1]
+    assert headline(found)[-1].endswith("or write the files with --allow-matched")
+    (row,) = fragility(found, found.arrays[0]).blocks[0].tables[1].rows
+    assert row.cells[-1] == "not exported"
+
+
+def test_allow_matched_writes_the_warning_in_each_file(results):
+    found = with_state(results, MATCHED, allow_matched=True)
+    made = export_files(found)
+    assert made.keys() == FILES
+    wanted = (
+        "Warning: the spectra of the 3 motions differ by a standard deviation of ln Sa of 0.021 in "
+        "the median, as motions matched to one spectrum do, and β does not contain the "
+        "record-to-record dispersion of earthquakes. Written with --allow-matched."
+    )
+    assert warning(found) == wanted
+    assert all(wanted in content.decode() for content in made.values())
+    assert headline(found)[-1] == wanted.rstrip(".")
+
+
+def test_motions_that_differ_are_exported_without_a_warning(results):
+    for allow in (False, True):
+        made = export_files(with_state(results, UNMATCHED, allow_matched=allow))
+        assert made.keys() == FILES
+        assert not any("Warning" in content.decode() for content in made.values())
+
+
+def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_file(results):
+    entered = {"record_beta": 0.3, "record_source": "Site & hazard"}
+    found = with_state(results, MATCHED, modeling_beta=0.4, **entered)
+    made = export_files(found)
+    assert made.keys() == FILES
+    (row,) = csv.DictReader(io.StringIO(made["fragility.csv"].decode()))
+    assert (row["LS1-Theta_0"], row["LS1-Theta_1"]) == ("1.20000", "0.500000")
+    chances = defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][2][1].text.split()
+    wanted = [NormalDist(math.log(1.2), 0.5).cdf(math.log(x)) for x in LEVELS]
+    assert [float(p) for p in chances] == pytest.approx(wanted, abs=1.01e-6)
+    said = (
+        "Dispersions of LS1: record-to-record 0.30 (Site & hazard), modeling 0.40 (entered), "
+        "quality of data not included."
+    )
+    assert said in json.loads(made["fragility.json"])["BSA.S1"]["Comments"]
+    assert said in defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][0].text
+    (shown,) = fragility(found, found.arrays[0]).blocks[0].tables[1].rows
+    assert shown.cells == ("LS1", "0.300", "0.400", "none", "0.500")
+
+
+def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "lay_out", str.encode)
+    folder = write(tmp_path, given(intensities="0.2 to 2.4 by 0.2"), motions=1)
+    first = CliRunner().invoke(main, ["study", str(folder), "--allow-matched"])
+    assert first.exit_code == 0, first.output
+    out = folder / "out" / "study"
+    assert (out / "fragility.xml").exists()
+    assert "Warning: the record-to-record spread of 1 motion cannot be measured" in first.output
+    again = CliRunner().invoke(main, ["study", str(folder)])
+    assert again.exit_code == 0, again.output
+    assert "The fragility files are not written" in again.output
+    assert not FILES & {path.name for path in out.iterdir()}
+
+
+def test_a_dispersion_and_its_source_need_each_other(tmp_path):
+    cell = {"record_beta": "Study!B28", "record_source": "Study!B29"}
+    assert f"{cell['record_source']}: the record-to-record dispersion needs its source" in problems(
+        write(tmp_path, given(record_beta=0.4))
+    )
+    assert f"{cell['record_beta']}: a source is given without the dispersion" in problems(
+        write(tmp_path, given(record_source="A paper"))
+    )
 
 
 def test_the_limits_state_the_validation(results):

@@ -1,0 +1,98 @@
+"""The dispersions of an exported fragility by name, as FEMA P-58 has them; none is assumed.
+
+Runs nothing. Read `exported`, then `refusal`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from report.study.results import LimitState, StudyResults
+from report.study.schema import Intensity
+from report.words.units import digits_up
+from solver.studies.fragility import Lognormal
+
+NOT_INCLUDED = "not included"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Dispersion:
+    """A part of the dispersion of a capacity, independent of the others.
+
+    Attributes
+    ----------
+    name, source : str
+    beta : float
+        Standard deviation of the logarithm of the capacity; 0 where it is not included.
+    """
+
+    name: str
+    source: str
+    beta: float
+
+
+def dispersions(results: StudyResults, state: LimitState) -> tuple[Dispersion, ...]:
+    """Return the dispersions of a limit state that has a lognormal."""
+    study = results.plan.input.study
+    if study.record_beta is None:
+        record = "these motions", state.fragility.fitted.beta
+    else:
+        record = study.record_source, study.record_beta
+    given = [("record-to-record", *record)]
+    for name, beta in (("modeling", study.modeling_beta), ("quality of data", study.quality_beta)):
+        given.append((name, "entered", beta) if beta is not None else (name, NOT_INCLUDED, 0.0))
+    return tuple(Dispersion(name=name, source=source, beta=beta) for name, source, beta in given)
+
+
+def exported(results: StudyResults, state: LimitState) -> Lognormal:
+    """Return the lognormal of a limit state with all its dispersions; unknown if it has none."""
+    fitted = state.fragility.fitted
+    if not fitted.is_known:
+        return fitted
+    total = math.hypot(*(one.beta for one in dispersions(results, state)))
+    return Lognormal(theta=fitted.theta, beta=total)
+
+
+def lacks_record_spread(results: StudyResults) -> bool:
+    """Whether neither the motions nor the workbook give a record-to-record dispersion."""
+    return results.plan.input.study.record_beta is None and not results.spread.is_record_to_record
+
+
+def refusal(results: StudyResults) -> str:
+    """Return why no fragility is exported; empty if there is no reason."""
+    study = results.plan.input.study
+    is_exported = results.arrays and study.intensity is not Intensity.S_DS
+    if not is_exported or results.allow_matched or not lacks_record_spread(results):
+        return ""
+    return (
+        f"The fragility files are not written: {_little(results)} Enter a record-to-record "
+        "dispersion with its source on the sheet Study, or write the files with --allow-matched"
+    )
+
+
+def warning(results: StudyResults) -> str:
+    """Return what each file says that is written in spite of that; empty without a reason."""
+    if not (results.allow_matched and lacks_record_spread(results)):
+        return ""
+    return f"Warning: {_little(results)} Written with --allow-matched."
+
+
+def notice(results: StudyResults) -> str:
+    """Return the refusal, or the warning that is in its place; empty for neither."""
+    return refusal(results) or warning(results).rstrip(".")
+
+
+def _little(results: StudyResults) -> str:
+    """Return that the dispersion has no record-to-record part, with what was measured."""
+    spread, count = results.spread, len(results.plan.motions.motions[0])
+    if not spread.is_known:
+        return (
+            f"the record-to-record spread of {count} motion{'s' if count > 1 else ''} cannot be "
+            "measured, and β does not contain it."
+        )
+    return (
+        f"the spectra of the {count} motions differ by a standard deviation of ln Sa of "
+        f"{digits_up(spread.median, 2)} in the median, as motions matched to one spectrum do, and "
+        "β does not contain the record-to-record dispersion of earthquakes."
+    )
