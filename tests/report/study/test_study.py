@@ -17,6 +17,7 @@ from dlml import get_fragility, get_metadata, vocabulary
 from dlml._tabular import load_tabular
 from openpyxl import load_workbook
 from pypdf import PdfReader
+from test_study_exports import read_nrml
 
 import packages
 from report.cli.main import main
@@ -413,50 +414,6 @@ def test_the_metadata_have_the_keys_of_fema_p58(made, results):
     assert header == ["", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment"]
     assert [row[0] for row in rows] == [key for key in ours if not key.startswith("_")]
     assert all(row[1] == "ea" for row in rows)
-
-
-# Of openquake.commonlib.nrml and openquake.hazardlib.valid
-SIMPLE_ID = re.compile(r"[\w_\-]{1,75}")
-IMT = re.compile(r"PGA|PGV|SA\(\d+\.\d+\)")
-
-
-def read_nrml(content):
-    """Read a discrete fragility model of NRML 0.5 as OpenQuake does, which reads no unit.
-
-    Its functions have (imt, limit of no damage, levels, chances by limit state).
-    """
-    space = "{http://openquake.org/xmlns/nrml/0.5}"
-    root = defusedxml.ElementTree.fromstring(content)
-    assert root.tag == f"{space}nrml"
-    (model,) = root
-    assert model.tag == f"{space}fragilityModel"
-    assert set(model.attrib) == {"id", "assetCategory", "lossCategory"}
-    assert SIMPLE_ID.fullmatch(model.attrib["id"])
-    description, states, *functions = model
-    assert (description.tag, states.tag) == (f"{space}description", f"{space}limitStates")
-    assert description.text.strip()
-    names = states.text.split()
-    assert all(SIMPLE_ID.fullmatch(name) for name in names)
-    found = {}
-    for function in functions:
-        assert function.tag == f"{space}fragilityFunction"
-        assert function.attrib["format"] == "discrete"
-        levels, *chances = function
-        assert levels.tag == f"{space}imls"
-        assert set(levels.attrib) == {"imt", "noDamageLimit"}
-        assert IMT.fullmatch(levels.attrib["imt"])
-        x = np.array(levels.text.split(), float)
-        assert x[0] > 0.0
-        assert (np.diff(x) > 0.0).all()
-        limit = float(levels.attrib["noDamageLimit"])
-        assert 0.0 < limit < x[0]  # 0 is warned of; without one nothing is known below x[0]
-        assert [c.attrib["ls"] for c in chances] == names
-        p = np.array([c.text.split() for c in chances], float)
-        assert p.shape == (len(names), x.size)
-        assert ((p >= 0.0) & (p <= 1.0)).all()
-        assert function.attrib["id"] not in found
-        found[function.attrib["id"]] = levels.attrib["imt"], limit, x, p
-    return names, found
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,122 @@
+"""Fragilities in the formats of the field, as their readers take them."""
+
+import csv
+import dataclasses
+import importlib.util
+import io
+import json
+import re
+import shutil
+
+import defusedxml.ElementTree
+import numpy as np
+import pandas as pd
+import pytest
+from dlml import vocabulary
+from dlml._tabular import load_tabular
+
+from places import ROOT
+from report.sheet.schema import UnitsFirst
+from report.study.exports import EXPORTS, chances_of, export_files
+from report.study.run import planned, run_study
+from report.study.template import write_study
+
+PROJECT = ROOT / "projects" / "study"
+
+# Of openquake.commonlib.nrml and openquake.hazardlib.valid
+SIMPLE_ID = re.compile(r"[\w_\-]{1,75}")
+IMT = re.compile(r"PGA|PGV|SA\(\d+\.\d+\)")
+
+
+def read_nrml(content):
+    """Read a discrete fragility model of NRML 0.5 as OpenQuake does, which reads no unit.
+
+    Its functions have (imt, limit of no damage, levels, chances by limit state).
+    """
+    space = "{http://openquake.org/xmlns/nrml/0.5}"
+    root = defusedxml.ElementTree.fromstring(content)
+    assert root.tag == f"{space}nrml"
+    (model,) = root
+    assert model.tag == f"{space}fragilityModel"
+    assert set(model.attrib) == {"id", "assetCategory", "lossCategory"}
+    assert SIMPLE_ID.fullmatch(model.attrib["id"])
+    description, states, *functions = model
+    assert (description.tag, states.tag) == (f"{space}description", f"{space}limitStates")
+    assert description.text.strip()
+    names = states.text.split()
+    assert all(SIMPLE_ID.fullmatch(name) for name in names)
+    found = {}
+    for function in functions:
+        assert function.tag == f"{space}fragilityFunction"
+        assert function.attrib["format"] == "discrete"
+        levels, *chances = function
+        assert levels.tag == f"{space}imls"
+        assert set(levels.attrib) == {"imt", "noDamageLimit"}
+        assert IMT.fullmatch(levels.attrib["imt"])
+        x = np.array(levels.text.split(), float)
+        assert x[0] > 0.0
+        assert (np.diff(x) > 0.0).all()
+        limit = float(levels.attrib["noDamageLimit"])
+        assert 0.0 < limit < x[0]  # 0 is warned of; without one nothing is known below x[0]
+        assert [c.attrib["ls"] for c in chances] == names
+        p = np.array([c.text.split() for c in chances], float)
+        assert p.shape == (len(names), x.size)
+        assert ((p >= 0.0) & (p <= 1.0)).all()
+        assert function.attrib["id"] not in found
+        found[function.attrib["id"]] = levels.attrib["imt"], limit, x, p
+    return names, found
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    """The results of the study of the repository, on the slope of its array alone."""
+    spec = importlib.util.spec_from_file_location("make_study", PROJECT / "make.py")
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    folder = tmp_path_factory.mktemp("project")
+    shutil.copytree(PROJECT / "records", folder / "records")
+    given = script.study()
+    few = {"slopes_deg": "2", "intensities": "1 to 2 by 0.1", "samples": 10}
+    example = dataclasses.replace(given, study=given.study.model_copy(update=few))
+    write_study(folder / "input.xlsx", units=UnitsFirst.US, example=example)
+    return run_study(planned(folder)[0], folder / "out")
+
+
+# The reader sets an option that its pandas no longer needs.
+@pytest.mark.filterwarnings("ignore::pandas.errors.Pandas4Warning")
+def test_the_exports_of_the_project_are_read_by_the_readers_of_pelicun(project, tmp_path):
+    assert project.spread.is_one_spectrum
+    made = export_files(project)
+    assert set(made) == set(EXPORTS)
+    (tmp_path / "fragility.csv").write_bytes(made["fragility.csv"])
+    row = load_tabular(tmp_path / "fragility.csv").iloc[0]
+    demand = row["Demand", "Type"]
+    assert vocabulary.EDP_TYPES[demand]["UnitType"] == "acceleration"
+    assert row["Demand", "Unit"] == "g"
+    (one,) = project.arrays
+    assert one.states[2].fragility.fitted.is_known
+    for state in one.states:
+        if not state.fragility.fitted.is_known:
+            assert pd.isna(row[state.name, "Theta_0"])
+            continue
+        assert row[state.name, "Family"] == "lognormal"
+        fitted = state.fragility.fitted
+        assert float(row[state.name, "Theta_0"]) == pytest.approx(fitted.theta, rel=1e-5)
+        assert float(row[state.name, "Theta_1"]) == 0.4  # entered, in place of that of the motions
+        assert fitted.beta < 0.2
+    (placed,) = csv.DictReader(io.StringIO(made["placement.csv"].decode()))
+    about = json.loads(made["fragility.json"])
+    assert list(about) == ["_GeneralInformation", placed[""]]
+    assert "record-to-record 0.40 (Example: FEMA P695" in about[placed[""]]["Comments"]
+
+
+def test_the_exports_of_the_project_are_read_by_the_rules_of_openquake(project):
+    names, found = read_nrml(export_files(project)["fragility.xml"])
+    assert names == ["LS1", "LS2", "LS3"]
+    ((imt, limit, x, p),) = found.values()
+    assert imt == "PGA"
+    assert limit == pytest.approx(1e-3)
+    assert x == pytest.approx(project.plan.input.intensities)
+    for row, state in zip(p, project.arrays[0].states, strict=True):
+        assert row == pytest.approx(chances_of(project, state), abs=1.01e-6)
+    assert (np.diff(p, axis=0) <= 0.0).all()  # chances of the states between are differences
