@@ -98,14 +98,16 @@ def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
     parts = [dispersions(results, state) for state in states]
     if not parts or results.plan.input.study.intensity is Intensity.S_DS:
         return
+    lacking = joined([part.name for part in parts[0] if not part.beta])
     yield Table(
         caption="Dispersions of the capacity by name; β of an exported fragility is the square root"
-        " of the sum of their squares",
+        f" of the sum of their squares. Not included: {lacking}",
         columns=(
             TableColumn(head="State", align="left", share=0.7),
             *(
                 TableColumn(head=f"{part.name.capitalize()}: {part.source}", share=1.7)
                 for part in parts[0]
+                if part.beta
             ),
             TableColumn(head="β exported"),
         ),
@@ -113,7 +115,7 @@ def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
             TableRow(
                 cells=(
                     state.name,
-                    *(digits_up(part.beta, 3) if part.beta else "none" for part in row),
+                    *(digits_up(part.beta, 3) for part in row if part.beta),
                     "not exported" if refusal(results) else digits_up(total.beta, 3),
                 )
             )

@@ -33,7 +33,10 @@ class Dispersion:
 
 
 def dispersions(results: StudyResults, state: LimitState) -> tuple[Dispersion, ...]:
-    """Return the dispersions of a limit state that has a lognormal."""
+    """Return the dispersions of a limit state that has a lognormal.
+
+    Mass is none of them: it has no effect on a PRD under Coulomb friction.
+    """
     study = results.plan.input.study
     if study.record_beta is None:
         record = "these motions", state.fragility.fitted.beta
@@ -42,6 +45,7 @@ def dispersions(results: StudyResults, state: LimitState) -> tuple[Dispersion, .
     given = [("record-to-record", *record)]
     for name, beta in (("modeling", study.modeling_beta), ("quality of data", study.quality_beta)):
         given.append((name, "entered", beta) if beta is not None else (name, NOT_INCLUDED, 0.0))
+    given += [(name, NOT_INCLUDED, 0.0) for name in ("friction", "slope")]
     return tuple(Dispersion(name=name, source=source, beta=beta) for name, source, beta in given)
 
 

@@ -13,12 +13,15 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from xml.etree import ElementTree as ET
 
+import numpy as np
+
 from report.sheet.schema import RecordedAt
 from report.study.dispersion import dispersions, exported, refusal, warning
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.words import NO_NUMBER, both
 from report.words.units import digits_down, digits_up, round_up
+from solver.model import Floats
 from solver.studies.fragility import Fragility
 
 DEMANDS: Mapping[Intensity, tuple[str, str]] = {
@@ -217,9 +220,9 @@ def _nrml(results: StudyResults) -> bytes:
         limit = f"{NO_DAMAGE_SHARE * levels[0]:.9g}"
         imls = ET.SubElement(function, f"{{{NRML}}}imls", {"imt": imt, "noDamageLimit": limit})
         imls.text = " ".join(f"{x:.9g}" for x in levels)
-        for state in one.states:
+        for state, row in zip(one.states, chances_of(results, one), strict=True):
             chances = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
-            chances.text = " ".join(f"{round_up(p, 6):.6f}" for p in chances_of(results, state))
+            chances.text = " ".join(f"{round_up(float(p), 6):.6f}" for p in row)
     ET.indent(root)
     return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
 
@@ -228,7 +231,7 @@ def _description(results: StudyResults) -> str:
     """Return the title, and what the limit states of each array are."""
     states = [
         f"{component_id(results, one)}: "
-        + " ".join(f"{state.name}: {sentence(state)}" for state in one.states)
+        + " ".join(f"{state.name}: {sentence(state)}{_fractions(state)}" for state in one.states)
         + f" {_dispersions(results, known_states(one))}".rstrip()
         for one in results.arrays
     ]
@@ -236,6 +239,12 @@ def _description(results: StudyResults) -> str:
     title = f"{results.plan.input.study.title}."
     measure = _of_which_motion(results, imt, unit)
     return " ".join([title, measure, *states]) + _warned(results)
+
+
+def _fractions(state: LimitState) -> str:
+    if state.fragility.fitted.is_known:
+        return ""
+    return f" {_sentence(NO_NUMBER)} Fractions of the motions, without any dispersion."
 
 
 def _warned(results: StudyResults) -> str:
@@ -267,12 +276,20 @@ def _of_which_motion(results: StudyResults, name: str, unit: str) -> str:
     return f"{name} in {unit} is the {QUANTITIES[study.intensity]} of the {which}."
 
 
-def chances_of(results: StudyResults, state: LimitState) -> list[float]:
-    """Return the chance at each level: of the lognormal, or the fractions where there is none."""
-    found, lognormal = state.fragility, exported(results, state)
-    if lognormal.is_known:
-        return [float(p) for p in lognormal.at(found.levels)]
-    return list(_never_decreasing(found))
+def chances_of(results: StudyResults, one: ArrayResult) -> Floats:
+    """Return the chance of each limit state at each level, shape (states, levels).
+
+    That of the lognormal, or the fractions where there is none. A state that is exceeded includes
+    those before it: where lognormals of different dispersion cross, the larger chance counts, or
+    OpenQuake would subtract a larger chance from a smaller one.
+    """
+    rows = [
+        lognormal.at(state.fragility.levels)
+        if (lognormal := exported(results, state)).is_known
+        else np.array(list(_never_decreasing(state.fragility)))
+        for state in one.states
+    ]
+    return np.maximum.accumulate(np.array(rows)[::-1])[::-1]
 
 
 def _never_decreasing(found: Fragility) -> Iterator[float]:

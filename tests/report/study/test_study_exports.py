@@ -5,8 +5,10 @@ import dataclasses
 import importlib.util
 import io
 import json
+import math
 import re
 import shutil
+from statistics import NormalDist
 
 import defusedxml.ElementTree
 import numpy as np
@@ -17,9 +19,10 @@ from dlml._tabular import load_tabular
 
 from places import ROOT
 from report.sheet.schema import UnitsFirst
-from report.study.exports import EXPORTS, chances_of, export_files
+from report.study.exports import EXPORTS, export_files
 from report.study.run import planned, run_study
 from report.study.template import write_study
+from solver.studies.fragility import Lognormal
 
 PROJECT = ROOT / "projects" / "study"
 
@@ -61,6 +64,7 @@ def read_nrml(content):
         assert [c.attrib["ls"] for c in chances] == names
         p = np.array([c.text.split() for c in chances], float)
         assert p.shape == (len(names), x.size)
+        assert (np.diff(p, axis=0) <= 0.0).all()  # a damage state is the difference of two
         assert ((p >= 0.0) & (p <= 1.0)).all()
         assert function.attrib["id"] not in found
         found[function.attrib["id"]] = levels.attrib["imt"], limit, x, p
@@ -118,5 +122,27 @@ def test_the_exports_of_the_project_are_read_by_the_rules_of_openquake(project):
     assert limit == pytest.approx(1e-3)
     assert x == pytest.approx(project.plan.input.intensities)
     for row, state in zip(p, project.arrays[0].states, strict=True):
-        assert row == pytest.approx(chances_of(project, state), abs=1.01e-6)
-    assert (np.diff(p, axis=0) <= 0.0).all()  # chances of the states between are differences
+        if state.fragility.fitted.is_known:
+            wanted = NormalDist(math.log(state.fragility.fitted.theta), 0.4)
+            assert row == pytest.approx([wanted.cdf(math.log(v)) for v in x], abs=1.01e-6)
+
+
+def test_limit_states_that_cross_have_no_negative_chance_between_them(project):
+    """OpenQuake's chance of a damage state is the difference of two limit states."""
+    (one,) = project.arrays
+    fits = Lognormal(theta=1.0, beta=0.1), Lognormal(theta=1.2, beta=0.8)
+    states = tuple(
+        dataclasses.replace(state, fragility=dataclasses.replace(state.fragility, fitted=fit))
+        for state, fit in zip(one.states[:2], fits, strict=True)
+    )
+    study = project.plan.input.study.model_copy(update={"record_beta": None, "record_source": ""})
+    plan = dataclasses.replace(
+        project.plan, input=dataclasses.replace(project.plan.input, study=study)
+    )
+    crossing = dataclasses.replace(one, states=states)
+    changed = dataclasses.replace(project, plan=plan, arrays=(crossing,), allow_matched=True)
+    _, found = read_nrml(export_files(changed)["fragility.xml"])
+    ((_, _, x, (first, second)),) = found.values()
+    alone = [[NormalDist(math.log(f.theta), f.beta).cdf(math.log(v)) for v in x] for f in fits]
+    assert second == pytest.approx(alone[1], abs=1.01e-6)
+    assert first == pytest.approx(np.max(alone, axis=0), abs=1.01e-6)

@@ -165,12 +165,14 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_
     assert [float(p) for p in chances] == pytest.approx(wanted, abs=1.01e-6)
     said = (
         "Dispersions of LS1: record-to-record 0.30 (Site & hazard), modeling 0.40 (entered), "
-        "quality of data not included."
+        "quality of data not included, friction not included, slope not included."
     )
     assert said in json.loads(made["fragility.json"])["BSA.S1"]["Comments"]
     assert said in defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][0].text
-    (shown,) = fragility(found, found.arrays[0]).blocks[0].tables[1].rows
-    assert shown.cells == ("LS1", "0.300", "0.400", "none", "0.500")
+    table = fragility(found, found.arrays[0]).blocks[0].tables[1]
+    assert table.caption.endswith(". Not included: quality of data, friction and slope")
+    (shown,) = table.rows
+    assert shown.cells == ("LS1", "0.300", "0.400", "0.500")
 
 
 def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, monkeypatch):
