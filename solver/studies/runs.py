@@ -45,15 +45,19 @@ class Rows:
     rung: NDArray[np.uint8]
 
 
-def run_part(runner: Runner, part: slice) -> Rows:
-    """Run a range of cases under all motions."""
-    cases = runner.campaign.cases[part]
-    shape = (len(cases), len(runner.campaign.columns))
-    rows = Rows(
+def empty_rows(shape: tuple[int, int]) -> Rows:
+    """Return rows to be filled, of shape (cases, columns)."""
+    return Rows(
         lengths=np.empty((len(LENGTHS), *shape)),
         status=np.empty(shape, dtype=np.uint8),
         rung=np.empty(shape, dtype=np.uint8),
     )
+
+
+def run_part(runner: Runner, part: slice) -> Rows:
+    """Run a range of cases under all motions."""
+    cases = runner.campaign.cases[part]
+    rows = empty_rows((len(cases), len(runner.campaign.columns)))
     for building in np.unique(cases.building):
         chosen = np.flatnonzero(cases.building == building)
         for column, track in enumerate(runner.tracks[building]):
@@ -209,7 +213,7 @@ def _demands(track: Track, scenes: Floats) -> Floats:
     """
     if track.z is not None:
         pairs, at = np.unique(scenes[:, [0, 2]], axis=0, return_inverse=True)
-        exact = [_demand(track, np.array([slope, 0.0, scale])) for slope, scale in pairs.tolist()]
+        exact = [demand_at(track, np.array([slope, 0.0, scale])) for slope, scale in pairs.tolist()]
         return np.array(exact, dtype=np.float64)[at.ravel()]
     sn, cs = _by_slope(math.sin, scenes), _by_slope(math.cos, scenes)
     a = np.outer(track.x[:, -1], scenes[:, 2])
@@ -220,9 +224,10 @@ def _demands(track: Track, scenes: Floats) -> Floats:
     near = np.abs(demand - scenes[:, 1]) <= _NEAR * scenes[:, 1]
     near |= (np.abs(normal) <= _NEAR * STANDARD_GRAVITY_MPS2).any(axis=0)
     for one in np.flatnonzero(near):
-        demand[one] = _demand(track, scenes[one])
+        demand[one] = demand_at(track, scenes[one])
     return np.asarray(demand)
 
 
-def _demand(track: Track, slope_mu_scale: Floats) -> float:
+def demand_at(track: Track, slope_mu_scale: Floats) -> float:
+    """Return the friction demand at a slope [rad] and scale; inf for uplift."""
     return forces(scene_of(track.scene, slope_mu_scale)).friction_demand

@@ -1,0 +1,222 @@
+"""The capacity of each motion: the lowest intensity at which its PRD exceeds a limit.
+
+Found by runs of its own, as `solver.solve` makes them, not read off the levels of a study. Fits
+nothing (`fragility` does). Read `capacities`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numba import get_num_threads
+from numpy.typing import NDArray
+
+from solver.model import Floats
+from solver.studies.campaign import Cases
+from solver.studies.runs import STATUSES, Track, demand_at, empty_rows
+
+Flags = NDArray[np.bool_]
+
+ACCURACY = 1e-4
+"""Width of the bracket of a capacity, relative to it."""
+
+SCAN = 64
+"""Equal steps from the beginning of slip to the greatest intensity that every scan has."""
+
+STEEPER = 2.0
+"""How much steeper than at the runs around it the PRD may be between two runs of the scan."""
+
+GREATEST_INTENSITY = 1e9
+"""Up to which the beginning of slip is searched: a record of zeros never has one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Capacities:
+    """The capacities of motions for one limit.
+
+    Attributes
+    ----------
+    intensity : array, shape (motions,)
+        Capacity, from below; of a censored motion the intensity up to which it is not reached.
+    is_censored : array of bool, shape (motions,)
+    end : array, shape (motions,)
+        Intensity above which the motion would be censored.
+    falls : array of bool, shape (motions,)
+        Whether the PRD is at or below the limit again at a greater intensity that was run.
+    """
+
+    intensity: Floats
+    is_censored: Flags
+    end: Floats
+    falls: Flags
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Curve:
+    """The PRD of one motion, the largest of its headings, over intensity.
+
+    Attributes
+    ----------
+    tracks : sequence of Track
+        One for each heading.
+    slope_rad, mu : float
+    """
+
+    tracks: Sequence[Track]
+    slope_rad: float
+    mu: float
+
+    def prd_m(self, intensity: Floats) -> Floats:
+        """Return the PRD at intensities, shape (m,) [m]; NaN without a final value."""
+        every = np.ones_like(intensity)
+        cases = Cases(
+            building=np.zeros(every.size, dtype=np.int64),
+            slope_rad=self.slope_rad * every,
+            mu=self.mu * every,
+            intensity=intensity,
+        )
+        rows = empty_rows((len(cases), len(self.tracks)))
+        for column, track in enumerate(self.tracks):
+            track.fill(cases, np.arange(len(cases)), rows, column)
+        final = rows.status == STATUSES.index(STATUSES[0])
+        return np.asarray(np.where(final, rows.lengths[0], np.nan).max(axis=1))
+
+    def first_slip(self) -> float:
+        """Return the intensity above which the block slips; inf for none.
+
+        The forces at a sample are linear in the intensity, and those without slip are a cone, which
+        is convex: a block that slips at an intensity slips at every greater one.
+        """
+        return min(map(self._first_slip, self.tracks))
+
+    def _first_slip(self, track: Track) -> float:
+        def slips(x: float) -> bool:
+            return (
+                demand_at(track, np.array([self.slope_rad, 0.0, track.scene.scale * x])) > self.mu
+            )
+
+        if slips(0.0):
+            return 0.0
+        low, high = 0.0, 1.0
+        while not slips(high):
+            low, high = high, 2.0 * high
+            if high > GREATEST_INTENSITY:
+                return math.inf
+        while low < (middle := 0.5 * (low + high)) < high and high - low > 1e-14 * high:
+            low, high = (low, middle) if slips(middle) else (middle, high)
+        return low
+
+
+def capacities(
+    curves: Sequence[Curve], limits_m: Sequence[float], levels: Floats, *, is_censoring: bool
+) -> tuple[Capacities, ...]:
+    """Return the capacities of motions, for each limit.
+
+    For a limit of 0 they are where the friction demand reaches the coefficient, at any intensity.
+    Others are searched from there to the greatest level: at the levels and `SCAN` equal steps,
+    closer where the slope of the curve lets the PRD exceed the limit between two runs (`STEEPER`),
+    then by bisection. Where the PRD exceeds the limit several times the first counts.
+
+    Parameters
+    ----------
+    curves : sequence of Curve
+        One for each motion.
+    limits_m : sequence of float
+        0 or above [m].
+    levels : array, shape (m,)
+        Increasing intensities above 0.
+    is_censoring : bool
+        Whether a run without a value ends what is known of its motion; otherwise it counts as an
+        exceedance.
+    """
+    one = partial(_of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring)
+    with ThreadPoolExecutor(get_num_threads()) as pool:
+        rows = np.array(list(pool.map(one, curves))).reshape(len(curves), len(limits_m), 4)
+    return tuple(
+        Capacities(
+            intensity=values[:, 0],
+            is_censored=values[:, 1] > 0.0,
+            end=values[:, 2],
+            falls=values[:, 3] > 0.0,
+        )
+        for values in rows.transpose(1, 0, 2)
+    )
+
+
+def _of_motion(
+    curve: Curve, limits_m: Sequence[float], levels: Floats, is_censoring: bool
+) -> list[tuple[float, bool, float, bool]]:
+    """Return the fields of `Capacities` for each limit."""
+    slip, top = curve.first_slip(), float(levels[-1])
+    if slip >= top:
+        beyond = (top, True, top, False)
+        return [
+            beyond if limit or math.isinf(slip) else (slip, False, slip, False)
+            for limit in limits_m
+        ]
+    if not slip:  # the slope alone exceeds friction: a block at rest does not stay at rest
+        return [(0.0, is_censoring and limit > 0.0, 0.0, False) for limit in limits_m]
+    x = np.union1d(np.linspace(slip, top, SCAN + 1), levels[levels > slip])
+    scan = _Scan(curve, x, np.concatenate([[0.0], curve.prd_m(x[1:])]))
+    found = []
+    for limit in limits_m:
+        if not limit:
+            found.append((slip, False, math.inf, False))
+            continue
+        found.append(scan.capacity(limit, is_censoring))
+    return found
+
+
+class _Scan:
+    """Runs of a curve in the order of their intensity."""
+
+    def __init__(self, curve: Curve, x: Floats, prd_m: Floats) -> None:
+        self._curve, self._x, self._prd_m = curve, x, prd_m
+
+    def capacity(self, limit_m: float, is_censoring: bool) -> tuple[float, bool, float, bool]:
+        """Return the fields of `Capacities` for a limit above 0."""
+        first = self._first_beyond(limit_m)
+        while (close := self._doubtful(first, limit_m)).size:
+            self._add(close)
+            first = self._first_beyond(limit_m)
+        lost = np.flatnonzero(np.isnan(self._prd_m)) if is_censoring else np.array([], dtype=int)
+        end = int(lost[0]) - 1 if lost.size else self._x.size - 1
+        is_censored = first > end
+        falls = bool((self._prd_m[first:] <= limit_m).any())
+        at = end if is_censored else max(first - 1, 0)
+        return float(self._x[at]), is_censored, float(self._x[end]), falls
+
+    def _first_beyond(self, limit_m: float) -> int:
+        """Return the index of the first run beyond a limit, bisected; the number of runs for none."""
+        while True:
+            beyond = np.flatnonzero(~(self._prd_m <= limit_m))
+            if not beyond.size:
+                return self._x.size
+            first = int(beyond[0])
+            low, high = self._x[first - 1], self._x[first]
+            if high - low <= ACCURACY * high:
+                return first
+            self._add(np.array([0.5 * (low + high)]))
+
+    def _doubtful(self, first: int, limit_m: float) -> Floats:
+        """Return the middles of the steps before a run between which the limit may be exceeded."""
+        steps = np.diff(self._x)
+        with np.errstate(invalid="ignore"):
+            steep = np.nan_to_num(np.abs(np.diff(self._prd_m)) / steps, nan=0.0)
+        padded = np.concatenate([[0.0], steep, [0.0]])
+        around = np.maximum(np.maximum(padded[:-2], padded[2:]), steep)[: first - 1]
+        low, high = self._x[: first - 1], self._x[1:first]
+        mean = 0.5 * (self._prd_m[: first - 1] + self._prd_m[1:first])
+        may = mean + 0.5 * STEEPER * around * (high - low) > limit_m
+        may &= high - low > ACCURACY * high
+        return np.asarray(0.5 * (low + high)[may])
+
+    def _add(self, intensity: Floats) -> None:
+        at = np.searchsorted(self._x, intensity)
+        self._x = np.insert(self._x, at, intensity)
+        self._prd_m = np.insert(self._prd_m, at, self._curve.prd_m(intensity))

@@ -1,0 +1,158 @@
+"""Capacities against dense scans by single runs, and slip against the forces at each sample."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from solver import solve
+from solver.model import coulomb
+from solver.studies.campaign import Campaign, grid
+from solver.studies.capacity import ACCURACY, Curve, capacities
+from solver.studies.runs import Runner
+from studied import frozen, motion
+
+G = 9.80665
+LEVELS = np.linspace(0.2, 2.4, 12)
+
+
+def curve_of(one, slope_deg, mu):
+    """The curve of a motion, prepared as a study prepares it."""
+    slope = math.radians(slope_deg)
+    runner = Runner(Campaign(motions=((one,),), cases=grid(1, [slope], [mu], [1.0])))
+    return Curve(tracks=runner.tracks[0], slope_rad=slope, mu=mu)
+
+
+def single(one, slope_deg, mu, x):
+    """PRD of single runs, the largest of the headings; NaN for none."""
+    scaled = dataclasses.replace(one, scale=one.scale * x)
+    found = [
+        solve(scaled.scene(h, slope_rad=math.radians(slope_deg), friction=coulomb(mu))).result
+        for h in one.headings
+    ]
+    return max(r.prd_m for r in found) if all(r.status == "ok" for r in found) else math.nan
+
+
+CASES = [
+    ("x", 2.0, 0.3, 0.02),
+    ("x", 0.0, 0.5, 0.01),
+    ("xz", 2.0, 0.4, 0.05),
+    ("xz", 6.0, 0.3, 0.1),
+]
+
+
+@pytest.mark.parametrize(("letters", "slope", "mu", "limit"), CASES)
+@pytest.mark.parametrize("number", range(4))
+def test_one_axis_capacity_is_the_first_of_a_dense_scan(letters, slope, mu, limit, number):
+    curve = curve_of(motion(number, letters), slope, mu)
+    (found,) = capacities([curve], [limit], LEVELS, is_censoring=False)
+    x = np.linspace(1e-4, LEVELS[-1], 24_000)
+    beyond = x[~(curve.prd_m(x) <= limit)]
+    if not beyond.size:
+        assert found.is_censored[0]
+        assert found.intensity[0] == LEVELS[-1]
+        return
+    assert not found.is_censored[0]
+    at = found.intensity[0]
+    assert beyond[0] - (x[1] - x[0]) - ACCURACY * at <= at < beyond[0]
+    assert single(motion(number, letters), slope, mu, at) <= limit
+    assert not single(motion(number, letters), slope, mu, at * (1.0 + 1.1 * ACCURACY)) <= limit
+
+
+def test_two_axes_capacity_is_bracketed_by_single_runs_and_none_before_it_exceeds():
+    one = motion(1, "xyz")
+    (found,) = capacities([curve_of(one, 2.0, 0.4)], [0.05], LEVELS, is_censoring=False)
+    at = found.intensity[0]
+    assert LEVELS[0] < at < LEVELS[-1]
+    assert single(one, 2.0, 0.4, at) <= 0.05 < single(one, 2.0, 0.4, at * (1.0 + 1.1 * ACCURACY))
+    assert all(single(one, 2.0, 0.4, x) <= 0.05 for x in np.linspace(0.05, at, 60))
+
+
+class Formula:
+    """A curve in closed form whose slip begins at a tenth of an intensity."""
+
+    def __init__(self, prd_m):
+        self.prd_m = prd_m
+
+    def first_slip(self):
+        return 0.1
+
+
+def test_a_capacity_in_closed_form():
+    found = capacities(
+        [Formula(lambda x: 0.1 * (x - 0.1) ** 2)], [0.01, 0.1], LEVELS, is_censoring=False
+    )
+    for one, exact in zip(found, (0.1 + math.sqrt(0.1), 1.1), strict=True):
+        assert one.intensity[0] <= exact <= one.intensity[0] * (1.0 + 1.1 * ACCURACY)
+        assert not one.falls[0]
+
+
+@pytest.mark.parametrize("center", np.linspace(0.9, 0.95, 7))
+def test_a_curve_that_falls_again_counts_the_first_crossing_and_says_so(center):
+    """A peak between two levels that are both below the limit, and a rise beyond both."""
+
+    def prd(x):
+        return 0.05 * x + 0.02 * np.exp(-(((x - center) / 0.03) ** 2))
+
+    limit = 0.05 * center + 0.0195
+    exact = brentq(lambda x: prd(x) - limit, center - 0.06, center)
+    coarse = np.array([0.8, 1.05, 2.4])
+    assert (prd(coarse) <= limit).tolist() == [True, True, False]
+    (found,) = capacities([Formula(prd)], [limit], coarse, is_censoring=False)
+    assert found.falls[0]
+    assert found.intensity[0] <= exact <= found.intensity[0] * (1.0 + 1.1 * ACCURACY)
+
+
+@pytest.mark.parametrize("letters", ["x", "xz", "xyz"])
+@pytest.mark.parametrize(("slope", "mu"), [(0.0, 0.3), (3.0, 0.5)])
+def test_slip_begins_where_the_forces_at_a_sample_reach_the_cone(letters, slope, mu):
+    """Per sample a quadratic in the intensity, |shear|^2 = (mu N)^2, solved in closed form."""
+    one = motion(2, letters)
+    sn, cs = math.sin(math.radians(slope)), math.cos(math.radians(slope))
+    least = math.inf
+    for heading in one.headings:
+        s = one.scene(heading, slope_rad=math.radians(slope), friction=coulomb(mu))
+        zero = np.zeros_like(s.ax_mps2)
+        ax = s.ax_mps2
+        ay = s.ay_mps2 if s.ay_mps2.size else zero
+        az = s.az_mps2 if s.az_mps2.size else zero
+        # Shear t0 + x t1 and normal force n0 + x n1 per mass; both headings have both signs.
+        t0, n0 = G * sn, G * cs
+        for sign in (1.0, -1.0):
+            t1, n1 = az * sn - sign * ax * cs, az * cs + sign * ax * sn
+            a = t1**2 + ay**2 - (mu * n1) ** 2
+            b = 2.0 * (t0 * t1 - mu**2 * n0 * n1)
+            c = t0**2 - (mu * n0) ** 2
+            roots = np.concatenate(
+                [np.roots(row) for row in np.stack([a, b, c + zero], axis=-1) if np.any(row[:2])]
+            )
+            real = roots.real[(np.abs(roots.imag) < 1e-12) & (roots.real > 0.0)]
+            least = min(least, float(real.min()))
+    (found,) = capacities([curve_of(one, slope, mu)], [0.0], LEVELS, is_censoring=False)
+    assert found.intensity[0] == pytest.approx(least, rel=1e-9)
+    assert not found.is_censored[0]
+
+
+def test_a_run_without_a_value_is_an_exceedance_or_censors_its_motion():
+    one = motion(1, "xz")
+    curve = curve_of(one, 2.0, 0.6)
+    levels, limit = np.linspace(0.5, 12.0, 24), 1e6
+    (exceeding,) = capacities([curve], [limit], levels, is_censoring=False)
+    (censored,) = capacities([curve], [limit], levels, is_censoring=True)
+    assert (exceeding.is_censored[0], censored.is_censored[0]) == (False, True)
+    assert exceeding.intensity == censored.intensity
+    at = float(censored.intensity[0])
+    assert math.isfinite(single(one, 2.0, 0.6, at))
+    assert math.isnan(single(one, 2.0, 0.6, at * (1.0 + 1.1 * ACCURACY)))
+
+
+def test_a_record_of_zeros_and_a_slope_beyond_friction_have_the_ends_of_the_range():
+    still = dataclasses.replace(motion(1), ax_mps2=frozen(np.zeros(400)))
+    for limit in (0.0, 0.1):
+        (found,) = capacities([curve_of(still, 2.0, 0.4)], [limit], LEVELS, is_censoring=False)
+        assert (found.intensity[0], found.is_censored[0]) == (LEVELS[-1], True)
+    for limit in (0.0, 0.1):
+        (found,) = capacities([curve_of(motion(1), 30.0, 0.4)], [limit], LEVELS, is_censoring=False)
+        assert found.intensity[0] == pytest.approx(0.0, abs=ACCURACY)
