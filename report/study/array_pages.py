@@ -15,7 +15,8 @@ from report.study.schema import Intensity, NoValue, Sampling
 from report.study.tables import length_unit
 from report.study.words import NO_NUMBER, both, chance_words
 from report.words.units import digits_down, digits_up
-from solver.studies.fragility import CONFIDENCE
+from solver.studies.capacity import ACCURACY
+from solver.studies.fragility import CONFIDENCE, REPEATS
 from solver.studies.uncertainty import HIGH, LOW, Chance
 
 
@@ -40,7 +41,7 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
     )
 
 
-def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, str]:
+def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, ...]:
     plan, counts = one.plan, one.states[0].fragility
     no_value = results.plan.input.study.no_value
     lost = "an exceedance" if no_value is NoValue.EXCEEDANCE else f"censored; {counts.censored} are"
@@ -49,18 +50,38 @@ def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, str]:
         f"{plan.array.slope_deg:g}°, clearance {both(results, plan.array.clearance_m)}"
         f"{f' to {plan.array.reaches}' if plan.array.reaches else ''}.",
         "Incremental dynamic analysis of the PRD, not of the design displacement: "
-        f"{counts.levels.size} intensities, {int(counts.counted.max())} motions; lognormal by "
-        f"maximum likelihood (Baker 2015), {100 * CONFIDENCE:g}\u00a0% confidence by bootstrap "
-        f"over the motions. A run without a value is {lost}.",
+        f"the capacity of each of {counts.capacities.intensity.size} motions, the lowest "
+        f"intensity at which its PRD exceeds the limit, by bisection to {ACCURACY:g} of it, and "
+        "for slip from the required friction coefficient; lognormal by maximum likelihood, "
+        f"censored capacities included. {100 * CONFIDENCE:g}\u00a0% confidence: Student t for the "
+        "median and chi-square for β, and where a capacity is censored by likelihood ratio and "
+        f"standard error with {REPEATS:,} samples. The data points are fractions at "
+        f"{counts.levels.size} intensities. A run without a value is {lost}.",
+        *_of_capacities(one),
     )
+
+
+def _of_capacities(one: ArrayResult) -> Iterator[str]:
+    """Yield what a lognormal of capacities does not show: censored ones, and curves that fall."""
+    for state in one.states:
+        found = state.fragility.capacities
+        count = found.intensity.size
+        if found.is_censored.any():
+            lost = int(found.is_censored.sum())
+            yield f"{state.name}: {lost} of {count} capacities are censored."
+        if found.falls.any():
+            yield (
+                f"{state.name}: for {int(found.falls.sum())} of {count} motions the PRD is below "
+                "the limit again at a greater intensity; the first crossing counts."
+            )
 
 
 def _unknown(one: ArrayResult) -> Iterator[str]:
     names = [state.name for state in one.states if not state.fragility.fitted.is_known]
     if names:
         yield (
-            f"{joined(names)}: {NO_NUMBER}. No motion exceeds the limit at a lower intensity than "
-            "one that does not; the intensities are too far apart, or too low."
+            f"{joined(names)}: {NO_NUMBER}. A lognormal needs two different capacities above 0 up "
+            "to the greatest intensity."
         )
 
 

@@ -1,6 +1,6 @@
 """The results of a study from its parts: curves, fragilities, chances and the fitted formula.
 
-Reads one part at a time. Read `results_of`.
+Reads one part at a time; runs the capacities of the motions. Read `results_of`.
 """
 
 from __future__ import annotations
@@ -20,9 +20,11 @@ from report.study.schema import NoValue
 from report.study.spread import Spread, spectral_spread
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
+from solver.studies.capacity import Curve, capacities
 from solver.studies.curves import Statistics, largest_slope, least_friction, statistics
 from solver.studies.fit import Fit, fit_prd
 from solver.studies.fragility import Fragility, fragility
+from solver.studies.runs import Runner
 from solver.studies.uncertainty import Bar, Chance, exceedance, tornado
 
 MEAN = "mean PRD"
@@ -198,6 +200,7 @@ def results_of(
         ]
     )
     analysis = plan.design_rule.analysis_m(curves)
+    runner = Runner(campaign)
     return StudyResults(
         plan=plan,
         manifest=manifest,
@@ -208,7 +211,7 @@ def results_of(
         ppa_g=ppa,
         fits=tuple(_fit(plan, analysis[b], float(ppa[b])) for b in range(plan.shape[0])),
         arrays=tuple(
-            _array(plan, array, prd, slip, on_grid, number)
+            _array(plan, array, runner, prd, slip, on_grid, number)
             for number, array in enumerate(plan.arrays)
         ),
         allow_matched=allow_matched,
@@ -231,6 +234,7 @@ def _fit(plan: StudyPlan, analysis_m: Floats, ppa_g: float) -> Fit | str:
 def _array(
     plan: StudyPlan,
     array: ArrayPlan,
+    runner: Runner,
     prd: Floats,
     slip: NDArray[np.bool_],
     offset: int,
@@ -245,28 +249,27 @@ def _array(
     lost = np.isnan(peaks_m)
     counts = ~lost if study.no_value is NoValue.CENSORED else np.ones_like(lost)
     levels = np.array(plan.input.intensities)
+    reaches = array.array.reaches or "the object or edge"
+    limits = (
+        ("LS1", "slip begins", 0.0, slips | lost),
+        ("LS2", "half the clearance is used", 0.5 * clearance, ~(peaks_m <= 0.5 * clearance)),
+        ("LS3", f"{reaches} is reached", clearance, ~(peaks_m <= clearance)),
+    )
+    found = capacities(
+        _curves(runner, array),
+        [limit_m for *_, limit_m, _ in limits],
+        levels,
+        is_censoring=study.no_value is NoValue.CENSORED,
+    )
     states = [
         LimitState(
-            name="LS1",
-            words="slip begins",
-            limit_m=0.0,
-            fragility=fragility(levels, slips | lost, counts, seed=seed),
+            name=name,
+            words=words,
+            limit_m=limit_m,
+            fragility=fragility(levels, exceeds, counts, one, seed=seed),
         )
+        for (name, words, limit_m, exceeds), one in zip(limits, found, strict=True)
     ]
-    reaches = array.array.reaches or "the object or edge"
-    for name, share, words in (
-        ("LS2", 0.5, "half the clearance is used"),
-        ("LS3", 1.0, f"{reaches} is reached"),
-    ):
-        exceeds = ~(peaks_m <= share * clearance)
-        states.append(
-            LimitState(
-                name=name,
-                words=words,
-                limit_m=share * clearance,
-                fragility=fragility(levels, exceeds, counts, seed=seed),
-            )
-        )
     chances: tuple[Chance, ...] = ()
     bars: tuple[Bar, ...] = ()
     center = math.nan
@@ -277,3 +280,16 @@ def _array(
     return ArrayResult(
         plan=array, states=tuple(states), chances=chances, bars=bars, center_m=center
     )
+
+
+def _curves(runner: Runner, array: ArrayPlan) -> list[Curve]:
+    """Return the PRD of each motion over intensity, at the slope and friction of an array."""
+    columns, tracks = runner.campaign.columns, runner.tracks[array.building]
+    return [
+        Curve(
+            tracks=[t for (at, _), t in zip(columns, tracks, strict=True) if at == number],
+            slope_rad=math.radians(array.array.slope_deg),
+            mu=array.mu,
+        )
+        for number in range(len(runner.campaign.motions[0]))
+    ]

@@ -1,11 +1,12 @@
-"""Lognormal fragility by maximum likelihood, jitted: a probit line through counts of exceedances.
+"""Lognormal fragility by maximum likelihood, jitted: a normal distribution of censored values.
 
-Never raises; numpy and numba only. Read `fit_probit`; `solver.studies.fragility` explains it.
+Never raises; numpy and numba only. Read `fit_censored`; `solver.studies.fragility` explains it.
 
 Letters:
-    x     logarithm of the intensity
-    k, n  number of exceedances and of runs at x
-    a, b  the line: chance of exceedance = Phi(a + b x)
+    y      logarithm of a capacity, or of the intensity up to which it is not reached
+    a, b   mean / deviation and 1 / deviation, in which the log-likelihood is concave (Olsen 1978,
+           Econometrica 46, 1211-1215)
+    haa, hab, hbb   negative second derivatives of the log-likelihood
 """
 
 import math
@@ -15,7 +16,7 @@ from numba import njit
 
 FITTED = 0
 NOT_FINITE = 1
-"""The likelihood has no maximum at a finite, increasing line."""
+"""Fewer than two different capacities are known."""
 
 MOST_STEPS = 100
 SETTLED = 1e-12
@@ -40,57 +41,124 @@ def _inverse_mills(z):
 
 
 @njit(cache=True)
-def is_finite(x, k, n):
-    """Whether the maximum is finite: some exceedance lies below some non-exceedance."""
-    first, last = np.inf, -np.inf
-    for i in range(x.size):
-        if k[i] > 0.0:
-            first = min(first, x[i])
-        if n[i] > k[i]:
-            last = max(last, x[i])
-    return first < last
+def fit_censored(y, is_censored):
+    """Return mean, deviation, standard errors of both, and the status of the most likely normal.
 
-
-@njit(cache=True)
-def fit_probit(x, k, n):
-    """Return a, b and the status of the most likely line, by Newton's method.
-
-    The log-likelihood is concave, so its maximum is the only stationary point. For a decreasing
-    line it may have none: the steps then grow until the second derivatives vanish.
+    The error of the deviation is that of its logarithm. By Newton's method on values reduced by
+    their known ones.
     """
-    if not is_finite(x, k, n):
-        return np.nan, np.nan, NOT_FINITE
-    a, b = 0.0, 0.0
+    known, shift, spread = 0, 0.0, 0.0
+    for i in range(y.size):
+        if not is_censored[i]:
+            known += 1
+            shift += y[i]
+    if known < 2:
+        return np.nan, np.nan, np.nan, np.nan, NOT_FINITE
+    shift /= known
+    for i in range(y.size):
+        if not is_censored[i]:
+            spread += (y[i] - shift) ** 2
+    spread = math.sqrt(spread / known)
+    if not spread > SETTLED * (1.0 + abs(shift)):
+        return np.nan, np.nan, np.nan, np.nan, NOT_FINITE
+    a, b, haa, hab, hbb = 0.0, 1.0, 0.0, 0.0, 0.0
     for _ in range(MOST_STEPS):
-        ga = gb = haa = hab = hbb = 0.0
-        for i in range(x.size):
-            z = a + b * x[i]
-            up, down = _inverse_mills(z), _inverse_mills(-z)
-            slope = k[i] * up - (n[i] - k[i]) * down
-            bend = k[i] * up * (z + up) + (n[i] - k[i]) * down * (down - z)
-            ga, gb = ga + slope, gb + slope * x[i]
-            haa, hab, hbb = haa + bend, hab + bend * x[i], hbb + bend * x[i] * x[i]
+        ga, gb, haa, hab, hbb = 0.0, known / b, 0.0, 0.0, known / (b * b)
+        for i in range(y.size):
+            v = (y[i] - shift) / spread
+            if is_censored[i]:
+                z = a - b * v
+                slope = _inverse_mills(z)
+                bend = slope * (z + slope)
+                ga, gb = ga + slope, gb - v * slope
+            else:
+                bend = 1.0
+                ga, gb = ga + b * v - a, gb - v * (b * v - a)
+            haa, hab, hbb = haa + bend, hab - bend * v, hbb + bend * v * v
         det = haa * hbb - hab * hab
-        if not det > 0.0:  # the levels are equal within rounding error
-            return np.nan, np.nan, NOT_FINITE
         da, db = (hbb * ga - hab * gb) / det, (haa * gb - hab * ga) / det
-        a, b = a + da, b + db
+        share = 1.0 if db > -0.5 * b else -0.5 * b / db  # keeps the deviation positive
+        a, b = a + share * da, b + share * db
         if abs(da) <= SETTLED * (1.0 + abs(a)) and abs(db) <= SETTLED * (1.0 + abs(b)):
             break
-    return a, b, FITTED if b > 0.0 else NOT_FINITE
+    # Of the mean a / b and of -ln b, by the gradients (1 / b, -a / b^2) and (0, -1 / b).
+    det = haa * hbb - hab * hab
+    of_mean = (hbb + 2.0 * (a / b) * hab + (a / b) ** 2 * haa) / (b * b * det)
+    of_log = haa / (b * b * det)
+    return (
+        shift + spread * a / b,
+        spread / b,
+        spread * math.sqrt(of_mean),
+        math.sqrt(of_log),
+        FITTED,
+    )
 
 
 @njit(cache=True)
-def fit_many(x, k, n, lines):
-    """Fit a line to each row of counts.
+def fit_many(y, is_censored, found):
+    """Fit a normal distribution to each row.
 
     Parameters
     ----------
-    x : array, shape (m,)
-    k, n : array, shape (r, m)
-    lines : array, shape (r, 2)
-        Filled with a and b; NaN where there is no finite line.
+    y, is_censored : array, shape (r, m)
+    found : array, shape (r, 4)
+        Filled with mean, deviation and their errors; NaN where there is none.
     """
-    for row in range(k.shape[0]):
-        a, b, status = fit_probit(x, k[row], n[row])
-        lines[row, 0], lines[row, 1] = (a, b) if status == FITTED else (np.nan, np.nan)
+    for row in range(y.shape[0]):
+        mean, deviation, of_mean, of_log, _ = fit_censored(y[row], is_censored[row])
+        found[row, 0], found[row, 1] = mean, deviation
+        found[row, 2], found[row, 3] = of_mean, of_log
+
+
+@njit(cache=True)
+def _log_likelihood(y, is_censored, mean, b):
+    total = 0.0
+    for i in range(y.size):
+        z = b * (y[i] - mean)
+        if is_censored[i]:
+            # ln Phi(-z) = ln phi(z) - ln of the inverse Mills ratio, which is finite far out.
+            total += -0.5 * z * z - math.log(ROOT_TWO_PI) - math.log(_inverse_mills(-z))
+        else:
+            total += math.log(b) - 0.5 * z * z - math.log(ROOT_TWO_PI)
+    return total
+
+
+@njit(cache=True)
+def log_likelihood_at(y, is_censored, mean, deviation):
+    """Return the greatest log-likelihood of a mean, over deviations, from a first guess of them.
+
+    Concave in b = 1 / deviation, by Newton's method. At least one value must be known.
+    """
+    b = 1.0 / deviation
+    for _ in range(MOST_STEPS):
+        g, h = 0.0, 0.0
+        for i in range(y.size):
+            v = y[i] - mean
+            if is_censored[i]:
+                slope = _inverse_mills(-b * v)
+                g, h = g - v * slope, h + v * v * slope * (slope - b * v)
+            else:
+                g, h = g + 1.0 / b - b * v * v, h + 1.0 / (b * b) + v * v
+        step = max(g / h, -0.5 * b)
+        b += step
+        if abs(step) <= SETTLED * b:
+            break
+    return _log_likelihood(y, is_censored, mean, b)
+
+
+@njit(cache=True)
+def deviances(y, is_censored, mean, found):
+    """Fill twice the log of the likelihood ratio of a mean, for each row; NaN where there is none.
+
+    Parameters
+    ----------
+    y, is_censored : array, shape (r, m)
+    mean : float
+    found : array, shape (r,)
+    """
+    for row in range(y.shape[0]):
+        own, deviation, _, _, status = fit_censored(y[row], is_censored[row])
+        found[row] = np.nan
+        if status == FITTED:
+            best = _log_likelihood(y[row], is_censored[row], own, 1.0 / deviation)
+            found[row] = 2.0 * (best - log_likelihood_at(y[row], is_censored[row], mean, deviation))

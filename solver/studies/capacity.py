@@ -156,7 +156,7 @@ def _of_motion(
     if slip >= top:
         beyond = (top, True, top, False)
         return [
-            beyond if limit or math.isinf(slip) else (slip, False, slip, False)
+            beyond if limit or math.isinf(slip) else (slip, False, math.inf, False)
             for limit in limits_m
         ]
     if not slip:  # the slope alone exceeds friction: a block at rest does not stay at rest
@@ -192,7 +192,7 @@ class _Scan:
         return float(self._x[at]), is_censored, float(self._x[end]), falls
 
     def _first_beyond(self, limit_m: float) -> int:
-        """Return the index of the first run beyond a limit, bisected; the number of runs for none."""
+        """Return the index of the first run beyond a limit, bisected; their number for none."""
         while True:
             beyond = np.flatnonzero(~(self._prd_m <= limit_m))
             if not beyond.size:

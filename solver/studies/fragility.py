@@ -1,8 +1,7 @@
-"""Lognormal fragilities from incremental dynamic analysis, with their confidence.
+"""Lognormal fragilities of the capacities of motions, with their confidence.
 
-Runs nothing and reads no files. Source: Baker, J. W. (2015), "Efficient analytical fragility
-function fitting using dynamic structural analysis", Earthquake Spectra 31(1), 579-599. Read
-`fragility` first.
+Runs nothing and reads no files. The intervals of uncensored capacities are exact: Student's t of
+the logarithm of the median, chi-square of beta. Read `fragility` first.
 """
 
 from __future__ import annotations
@@ -12,30 +11,30 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import chi2
+from scipy.stats import t as student
 
 from solver.kernels import fragility as kernel
 from solver.model import Floats
+from solver.studies.capacity import Capacities
 
 Flags = NDArray[np.bool_]
 
 CONFIDENCE = 0.90
 REPEATS = 1000
-"""Bootstrap samples."""
-
-MOST_AT_ONCE = 4_000_000
-"""Runs of bootstrap samples held in memory together."""
+"""Samples drawn where a capacity is censored."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lognormal:
-    """Chance of exceedance Phi(ln(x / theta) / beta); both NaN if the counts determine none."""
+    """Chance of exceedance Phi(ln(x / theta) / beta); both NaN if the capacities determine none."""
 
     theta: float
     beta: float
 
     @property
     def is_known(self) -> bool:
-        """Whether the counts determine it."""
+        """Whether the capacities determine it."""
         return math.isfinite(self.theta)
 
     def at(self, intensity: Floats) -> Floats:
@@ -49,64 +48,62 @@ UNKNOWN = Lognormal(theta=math.nan, beta=math.nan)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fragility:
-    """A fitted fragility with its data points and confidence.
+    """A fragility fitted to capacities, with data points at levels and its confidence.
 
     Attributes
     ----------
     levels : array, shape (m,)
         Intensities.
     exceeded, counted : array of int, shape (m,)
-        Exceedances, and motions that they are counted in.
+        Exceedances, and motions that they are counted in: for plots, not fitted.
     censored : int
         Runs that are in no count, because they have no value and are stated as censored.
+    capacities : Capacities
+        What is fitted.
     fitted : Lognormal
     theta_range, beta_range : tuple of float
-        Confidence interval of `CONFIDENCE`, by bootstrap over the motions; NaN if not determined.
+        Confidence interval of `CONFIDENCE`; NaN if not determined.
     unfitted : int
-        Bootstrap samples that determine no lognormal.
+        Samples drawn for the intervals that determine no lognormal.
     """
 
     levels: Floats
     exceeded: NDArray[np.int64]
     counted: NDArray[np.int64]
     censored: int
+    capacities: Capacities
     fitted: Lognormal
     theta_range: tuple[float, float]
     beta_range: tuple[float, float]
     unfitted: int
 
 
-def fit_lognormal(levels: Floats, exceeded: Floats, counted: Floats) -> Lognormal:
-    """Return the lognormal of maximum likelihood (Baker 2015, Eq. 11).
+Range = tuple[float, float]
+UNKNOWN_RANGE = (math.nan, math.nan)
 
-    Parameters
-    ----------
-    levels, exceeded, counted : array, shape (m,)
-        Intensities, all above 0; exceedances and runs at each.
+
+def fit_lognormal(found: Capacities) -> Lognormal:
+    """Return the lognormal of maximum likelihood, of known and censored capacities.
 
     Returns
     -------
     Lognormal
-        Unknown if no exceedance is at a lower intensity than some non-exceedance: the likelihood
-        then grows as beta goes to zero.
+        Unknown with fewer than two different known capacities, or one of 0.
     """
-    a, b, status = kernel.fit_probit(
-        np.log(levels), np.asarray(exceeded, dtype=float), np.asarray(counted, dtype=float)
-    )
-    return UNKNOWN if status != kernel.FITTED else _lognormal(a, b)
+    if not (found.intensity > 0.0).all():
+        return UNKNOWN
+    mean, deviation, *_ = kernel.fit_censored(np.log(found.intensity), found.is_censored)
+    return Lognormal(theta=math.exp(mean), beta=deviation)
 
 
-def _lognormal(a: float, b: float) -> Lognormal:
-    return Lognormal(theta=math.exp(-a / b), beta=1.0 / b)
+def fragility(
+    levels: Floats, exceeds: Flags, counts: Flags, found: Capacities, *, seed: int
+) -> Fragility:
+    """Fit a fragility to the capacities of a limit state, with its confidence.
 
-
-def fragility(levels: Floats, exceeds: Flags, counts: Flags, *, seed: int) -> Fragility:
-    """Fit a fragility to a limit state, with its confidence.
-
-    Bootstrap over the motions, not the runs: those of one motion at several intensities depend on
-    each other. Each sample has motions that exceed the limit state from a capacity of their own on,
-    drawn from the fitted lognormal. The intervals are those of (ln theta* - ln theta) / beta* and
-    of beta* / beta, which do not depend on theta and beta but for the spacing of the levels.
+    Where a capacity is censored the intervals follow from samples drawn from the fitted lognormal,
+    censored at the same intensities: of the median by the likelihood ratio, whose bound is the
+    quantile of the samples, of beta by its logarithm over its standard error.
 
     Parameters
     ----------
@@ -114,18 +111,22 @@ def fragility(levels: Floats, exceeds: Flags, counts: Flags, *, seed: int) -> Fr
         Intensities above 0.
     exceeds, counts : array of bool, shape (motions, m)
         Whether the limit state is exceeded, and whether the run is counted.
+    found : Capacities
     seed : int
     """
-    k, n = (exceeds & counts).astype(float), counts.astype(float)
-    fitted = fit_lognormal(levels, k.sum(axis=0), n.sum(axis=0))
+    k, n = exceeds & counts, counts
+    fitted = fit_lognormal(found)
     theta_range, beta_range, unfitted = UNKNOWN_RANGE, UNKNOWN_RANGE, 0
-    if fitted.is_known:
-        theta_range, beta_range, unfitted = _ranges(np.log(levels), n, fitted, seed)
+    if fitted.is_known and found.is_censored.any():
+        theta_range, beta_range, unfitted = _drawn_ranges(found, fitted, seed)
+    elif fitted.is_known:
+        theta_range, beta_range = _exact_ranges(found.intensity.size, fitted)
     return Fragility(
         levels=levels,
         exceeded=k.sum(axis=0).astype(np.int64),
         counted=n.sum(axis=0).astype(np.int64),
         censored=int(counts.size - counts.sum()),
+        capacities=found,
         fitted=fitted,
         theta_range=theta_range,
         beta_range=beta_range,
@@ -133,38 +134,52 @@ def fragility(levels: Floats, exceeds: Flags, counts: Flags, *, seed: int) -> Fr
     )
 
 
-Range = tuple[float, float]
-UNKNOWN_RANGE = (math.nan, math.nan)
+TAILS = (0.5 * (1.0 - CONFIDENCE), 0.5 * (1.0 + CONFIDENCE))
 
 
-def _ranges(x: Floats, n: Floats, fitted: Lognormal, seed: int) -> tuple[Range, Range, int]:
+def _exact_ranges(motions: int, fitted: Lognormal) -> tuple[Range, Range]:
+    """Return the intervals of theta and beta of uncensored capacities."""
+    free = motions - 1
+    far = float(student.ppf(TAILS[1], free)) * fitted.beta / math.sqrt(free)
+    low, high = (fitted.beta * math.sqrt(motions / chi2.ppf(1.0 - tail, free)) for tail in TAILS)
+    return (fitted.theta * math.exp(-far), fitted.theta * math.exp(far)), (low, high)
+
+
+def _drawn_ranges(found: Capacities, fitted: Lognormal, seed: int) -> tuple[Range, Range, int]:
     """Return the intervals of theta and beta, and the number of samples without a lognormal."""
-    rng = np.random.default_rng(seed)
-    share = max(1, REPEATS * n.size // MOST_AT_ONCE)
-    counts = [
-        _sample(rng, x, n, fitted, len(part)) for part in np.array_split(range(REPEATS), share)
-    ]
-    exceeded, counted = (np.concatenate(parts) for parts in zip(*counts, strict=True))
-    lines = np.empty((REPEATS, 2))
-    kernel.fit_many(x, exceeded, counted, lines)
-    a, b = lines[~np.isnan(lines[:, 0])].T
-    if not a.size:
-        return UNKNOWN_RANGE, UNKNOWN_RANGE, REPEATS
-    tails = (0.5 * (1.0 - CONFIDENCE), 0.5 * (1.0 + CONFIDENCE))
-    t_low, t_high = np.quantile(-a - b * math.log(fitted.theta), tails)
-    r_low, r_high = np.quantile(1.0 / (b * fitted.beta), tails)
-    theta, beta = fitted.theta, fitted.beta
-    return (
-        (theta * math.exp(-t_high * beta), theta * math.exp(-t_low * beta)),
-        (beta / r_high, beta / r_low),
-        REPEATS - a.size,
+    y, mean = np.log(found.intensity), math.log(fitted.theta)
+    drawn = mean + fitted.beta * np.random.default_rng(seed).standard_normal((REPEATS, y.size))
+    ends = np.log(found.end)
+    is_beyond, drawn = drawn > ends, np.minimum(drawn, ends)
+    fits, ratios = np.empty((REPEATS, 4)), np.empty(REPEATS)
+    kernel.fit_many(drawn, is_beyond, fits)
+    kernel.deviances(drawn, is_beyond, mean, ratios)
+    bound = float(np.nanquantile(ratios, CONFIDENCE))
+    pivots = (np.log(fits[:, 1]) - math.log(fitted.beta)) / fits[:, 3]
+    low, high = np.nanquantile(pivots, TAILS)
+    *_, of_mean, of_log, _ = kernel.fit_censored(y, found.is_censored)
+    theta_range = tuple(
+        math.exp(_where_deviance_is(bound, y, found.is_censored, mean, side * of_mean))
+        for side in (-1.0, 1.0)
     )
+    beta_range = fitted.beta * math.exp(-high * of_log), fitted.beta * math.exp(-low * of_log)
+    return (theta_range[0], theta_range[1]), beta_range, int(np.isnan(ratios).sum())
 
 
-def _sample(
-    rng: np.random.Generator, x: Floats, n: Floats, fitted: Lognormal, size: int
-) -> tuple[Floats, Floats]:
-    """Return exceedances and runs of bootstrap samples, shape (size, m)."""
-    drawn = n[rng.integers(len(n), size=(size, len(n)))]
-    capacity = math.log(fitted.theta) + fitted.beta * rng.standard_normal((size, len(n), 1))
-    return ((x >= capacity) * drawn).sum(axis=1), drawn.sum(axis=1)
+def _where_deviance_is(
+    bound: float, y: Floats, is_censored: Flags, mean: float, step: float
+) -> float:
+    """Return the mean, on the side of a step, at which the deviance reaches a bound."""
+    ratio = np.empty(1)
+
+    def exceeds(distance: float) -> bool:
+        kernel.deviances(y[None], is_censored[None], mean + distance, ratio)
+        return bool(ratio[0] > bound)
+
+    near, far = 0.0, step
+    while not exceeds(far):
+        near, far = far, 2.0 * far
+    for _ in range(60):
+        middle = 0.5 * (near + far)
+        near, far = (near, middle) if exceeds(middle) else (middle, far)
+    return mean + far
