@@ -16,7 +16,7 @@ from report.study.tables import length_unit
 from report.study.words import NO_NUMBER, both, chance_words
 from report.words.units import digits_down, digits_up
 from solver.studies.capacity import ACCURACY
-from solver.studies.fragility import CONFIDENCE, REPEATS
+from solver.studies.fragility import CONFIDENCE, LILLIEFORS_REPEATS, REPEATS
 from solver.studies.uncertainty import HIGH, LOW, Chance
 
 
@@ -69,6 +69,12 @@ def _of_capacities(one: ArrayResult) -> Iterator[str]:
         if found.is_censored.any():
             lost = int(found.is_censored.sum())
             yield f"{state.name}: {lost} of {count} capacities are censored."
+        if not math.isnan(state.fragility.p_value):
+            yield (
+                f"{state.name}: goodness of fit by Lilliefors, p = "
+                f"{digits_down(state.fragility.p_value, 2)} ({LILLIEFORS_REPEATS:,} samples). A "
+                "small p speaks against a lognormal."
+            )
         if found.falls.any():
             yield (
                 f"{state.name}: for {int(found.falls.sum())} of {count} motions the PRD is below "

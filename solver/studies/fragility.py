@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import ndtr
 from scipy.stats import chi2
 from scipy.stats import t as student
 
@@ -21,6 +22,9 @@ from solver.studies.capacity import Capacities
 Flags = NDArray[np.bool_]
 
 CONFIDENCE = 0.90
+LILLIEFORS_REPEATS = 20_000
+"""Samples of the p-value of the goodness of fit."""
+
 REPEATS = 1000
 """Samples drawn where a capacity is censored."""
 
@@ -65,6 +69,8 @@ class Fragility:
         Confidence interval of `CONFIDENCE`; NaN if not determined.
     unfitted : int
         Samples drawn for the intervals that determine no lognormal.
+    p_value : float
+        Of the goodness of fit (`lilliefors_p`); NaN with a censored capacity or fewer than four.
     """
 
     levels: Floats
@@ -76,6 +82,7 @@ class Fragility:
     theta_range: tuple[float, float]
     beta_range: tuple[float, float]
     unfitted: int
+    p_value: float
 
 
 Range = tuple[float, float]
@@ -131,6 +138,7 @@ def fragility(
         theta_range=theta_range,
         beta_range=beta_range,
         unfitted=unfitted,
+        p_value=_p_value(found, fitted, seed),
     )
 
 
@@ -183,3 +191,31 @@ def _where_deviance_is(
         middle = 0.5 * (near + far)
         near, far = (near, middle) if exceeds(middle) else (middle, far)
     return mean + far
+
+
+def lilliefors(values: Floats) -> Floats:
+    """Return the greatest distance of values from the normal of their mean and deviation.
+
+    Of the distribution functions (Lilliefors 1967, J. Am. Stat. Assoc. 62, 399-402).
+
+    Parameters
+    ----------
+    values : array, shape (..., n)
+    """
+    n = values.shape[-1]
+    off = np.sort(values, axis=-1) - values.mean(axis=-1, keepdims=True)
+    below = ndtr(off / values.std(axis=-1, ddof=1, keepdims=True))
+    steps = np.arange(n) / n
+    return np.asarray(np.maximum(below - steps, steps + 1.0 / n - below).max(axis=-1))
+
+
+def lilliefors_p(distance: float, motions: int, *, seed: int) -> float:
+    """Return the fraction of normal samples whose distance is as great, by simulation."""
+    drawn = np.random.default_rng(seed).standard_normal((LILLIEFORS_REPEATS, motions))
+    return float((1 + (lilliefors(drawn) >= distance).sum()) / (1 + LILLIEFORS_REPEATS))
+
+
+def _p_value(found: Capacities, fitted: Lognormal, seed: int) -> float:
+    if not fitted.is_known or found.is_censored.any() or found.intensity.size < 4:
+        return math.nan
+    return lilliefors_p(float(lilliefors(np.log(found.intensity))), found.intensity.size, seed=seed)

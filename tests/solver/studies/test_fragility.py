@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import minimize
-from scipy.stats import norm
+from scipy.stats import goodness_of_fit, norm
 
 from solver.studies.capacity import Capacities
-from solver.studies.fragility import fit_lognormal, fragility
+from solver.studies.fragility import fit_lognormal, fragility, lilliefors, lilliefors_p
 
 LEVELS = np.geomspace(0.25, 4.0, 20)
 
@@ -131,3 +131,27 @@ def test_a_censored_run_is_in_no_count_and_is_stated():
     assert one.counted[-1] == 43
     assert one.exceeded[-1] <= 43
     assert one.counted[0] == 45
+
+
+def test_the_p_value_is_that_of_another_simulation():
+    for seed in (1, 2, 3):
+        found = fitted(drawn(np.random.default_rng(seed), 12, 0.3))
+        logs = np.log(found.capacities.intensity)
+        other = goodness_of_fit(norm, logs, statistic="ks", n_mc_samples=4000, rng=seed)
+        assert float(lilliefors(logs)) == pytest.approx(other.statistic, rel=1e-9)
+        assert found.p_value == pytest.approx(other.pvalue, abs=0.03)
+
+
+@pytest.mark.parametrize(("motions", "critical"), [(7, 0.3041), (10, 0.2616), (20, 0.1920)])
+def test_the_p_value_is_5_percent_at_the_critical_values_of_molin_and_abdi(motions, critical):
+    assert lilliefors_p(critical, motions, seed=3) == pytest.approx(0.05, abs=0.006)
+
+
+def test_a_set_of_two_groups_is_no_lognormal_and_a_censored_one_has_no_p_value():
+    groups = np.concatenate([np.linspace(0.5, 0.51, 10), np.linspace(2.0, 2.02, 10)])
+    found = drawn(np.random.default_rng(1), 20, 0.3)
+    two = Capacities(
+        intensity=groups, is_censored=found.is_censored, end=found.end, falls=found.falls
+    )
+    assert fitted(two).p_value < 0.001
+    assert math.isnan(fitted(drawn(np.random.default_rng(1), 20, 0.3, 1.0)).p_value)
