@@ -38,11 +38,11 @@ def site_table(package: PackageData) -> Table:
     return Table(
         caption="Site and seismic parameters",
         columns=(
-            TableColumn(head="Description", align="left", share=3.4),
-            TableColumn(head="Symbol", align="left", share=0.9),
-            TableColumn(head="Value", share=2.2),
-            TableColumn(head="Reference", align="left", share=2.2),
-            TableColumn(head="Source", align="left", share=1.0),
+            TableColumn(head="Description", align="left", share=3.55),
+            TableColumn(head="Symbol", align="left", share=0.7),
+            TableColumn(head="Value", share=2.0),
+            TableColumn(head="Reference", align="left", share=2.55),
+            TableColumn(head="Source", align="left", share=0.9),
         ),
         rows=tuple(
             TableRow(
