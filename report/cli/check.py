@@ -5,6 +5,7 @@ Parses, calls, prints. Read `report.assessment.foresight`.
 
 from __future__ import annotations
 
+import datetime as dt
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -90,9 +91,21 @@ def checked(
                 *typed_over,
                 *foreseen(sheet, shaking),
                 *findings(sheet, shaking),
+                *_in_future(sheet, dt.date.today()),
             ]
         ),
     )
+
+
+def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
+    """Yield that a package is dated after today; a package itself does not read the clock."""
+    from report.sheet.fields import Place
+    from report.sheet.findings import note
+
+    date = sheet.project.project.date
+    if date > today:
+        text = f"date is {date}, after today, {today}; correct it if that is not intended"
+        yield note(Place("project", 0, "date"), text)
 
 
 def _repaired(source: Path) -> list[str]:

@@ -31,6 +31,8 @@ _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
 _WITH_UNIT = re.compile(
     r"[+-]?[0-9]+\.?[0-9]*\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
 )
+EARLIEST = date(2000, 1, 1)
+"""A date before it is refused, as by the sheet's own check."""
 LARGEST = 1e15
 """Magnitude above which a number is refused, so that no change of units can overflow."""
 
@@ -287,13 +289,18 @@ def _number_in_text(text: str, wanted: str) -> float:
 def _date(cell: Found, wanted: str) -> date:
     value = cell.value
     if isinstance(value, datetime):
-        return value.date()
-    if isinstance(value, date):
-        return value
-    try:
-        return date.fromisoformat(str(value).strip() if isinstance(value, str) else "")
-    except ValueError as error:
-        raise CellError(f"is {_quoted(value)}; {wanted}") from error
+        found = value.date()
+    elif isinstance(value, date):
+        found = value
+    else:
+        try:
+            found = date.fromisoformat(str(value).strip() if isinstance(value, str) else "")
+        except ValueError as error:
+            raise CellError(f"is {_quoted(value)}; {wanted}") from error
+    # A spreadsheet shows a small number, such as 3.5, as a day of 1900.
+    if found < EARLIEST:
+        raise CellError(f"is {found}, before {EARLIEST}; {wanted}")
+    return found
 
 
 def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:

@@ -1,4 +1,4 @@
-"""Warnings on values that are permitted and improbable: height, weight, friction, gaps.
+"""Warnings on values that are permitted and improbable: dates, height, weight, friction, gaps.
 
 Reads no record: `report.motions.plausible` does. Read `implausible`.
 """
@@ -60,6 +60,7 @@ def implausible(data: ProjectInput) -> Iterator[Finding]:
 def _contradictory(data: ProjectInput) -> Iterator[Finding]:
     """Yield what contradicts the plan, a table, the rules or another cell."""
     us_first = data.project.units_first == "US"
+    yield from _dates(data)
     yield from _height(data, us_first)
     yield from _site_coefficients(data.site)
     for index, array in enumerate(data.arrays):
@@ -93,6 +94,25 @@ def _short_of_plan(data: ProjectInput) -> dict[int, float]:
         for index, gap in gaps.items()
         if data.clearances[index].provided_m < gap - gap_tolerance_m(gap)
     }
+
+
+def _dates(data: ProjectInput) -> Iterator[Finding]:
+    """Yield sources that are later than the package, and a revision that its block lacks."""
+    issue = data.project
+    given = [row.revision for row in data.revisions]
+    if issue.revision.casefold() not in (name.casefold() for name in given):
+        text = f"revision is '{issue.revision}', which is not in the revision block; add its row"
+        place = Place("project", 0, "revision")
+        yield warning(f"revision {issue.revision}", place, f"{text}, or correct it")
+    for section, field, noun, dated in (
+        ("site", "hazard_date", "date of hazard", data.site.hazard_date),
+        ("friction_tests", "date", "date of the test report", data.friction_tests.date),
+        ("options", "peer_date", "date of review", data.options.peer_date),
+        ("options", "directional_date", "date for direction", data.options.directional_date),
+    ):
+        if dated is not None and dated > issue.date:
+            text = f"{noun} is {dated}, later than the package, {issue.date}; correct one of them"
+            yield warning(noun, Place(section, 0, field), text)
 
 
 def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:

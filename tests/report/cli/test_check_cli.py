@@ -1,13 +1,16 @@
 """`roofslip check`, and what `report` says on the terminal, as JSON and by its exit code."""
 
+import datetime as dt
 import json
 
 import pytest
 from click.testing import CliRunner
 
 import packages
+from report.assessment.foresight import findings
 from report.cli.main import main
-from sheets import make, project
+from report.motions.prepare import prepare
+from sheets import make, project, read_workbook
 
 LIGHT = 30 * 4.4482216152605
 
@@ -60,6 +63,19 @@ def test_check_as_json_has_a_schema_version_findings_and_errors(tmp_path):
     document = json.loads(wrong.output)
     assert (wrong.exit_code, document["schema_version"]) == (2, 1)
     assert document["errors"][0].startswith("no such file")
+
+
+def test_check_alone_says_that_a_package_is_dated_in_the_future(tmp_path):
+    issue = project().model_dump()["project"] | {"date": dt.date(9999, 1, 1)}
+    folder = make(tmp_path, project=issue)
+    lines = [line for line in run("check", folder).output.splitlines() if "after today" in line]
+    assert lines == [
+        f"note: Project!B11: date is 9999-01-01, after today, {dt.date.today()}; correct it if"
+        " that is not intended"
+    ]
+    sheet = read_workbook(folder)
+    assert not any("after today" in f.text for f in findings(sheet, prepare(sheet)))
+    assert "after today" not in run("check", make(tmp_path / "past")).output
 
 
 def test_quiet_prints_nothing_but_errors(tmp_path):

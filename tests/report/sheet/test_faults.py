@@ -151,6 +151,12 @@ SINGLE_CELLS = [
     ("Arrays", "B8", "\u200b", "ID is missing; give text such as 'A1'"),
     ("Motions", "B9", " \u200b\ufeff\u2060 ", "ID is missing; give text such as 'M1'"),
     ("Project", "B11", "3/5/26", "date is '3/5/26'; give a date such as 2026-03-05"),
+    (
+        "Project",
+        "B11",
+        3.5,  # in a cell that is formatted as a date
+        "date is 1900-01-03, before 2000-01-01; give a date such as 2026-03-05",
+    ),
     ("Project", "B11", True, "date is TRUE; give a date such as 2026-03-05"),
     ("Site", "B15", 1.5, "number of stories is 1.5; give a whole number from 1 to 200"),
     ("Site", "B15", 0, "number of stories is 0; give a whole number from 1 to 200"),

@@ -1,5 +1,6 @@
 """Warnings on values that are permitted and improbable, and how a workbook answers them."""
 
+import datetime as dt
 import math
 from dataclasses import replace
 
@@ -88,6 +89,33 @@ def test_an_improbable_value_gives_one_warning(section, index, change, name, tex
     found = warnings(changed(section, index, **change))
     assert list(found) == [name]
     assert text in found[name]
+
+
+ISSUED, LATER = dt.date(2026, 3, 5), dt.date(2026, 3, 6)
+
+
+@pytest.mark.parametrize(
+    ("section", "field", "noun"),
+    [
+        ("options", "peer_date", "date of review"),
+        ("friction_tests", "date", "date of the test report"),
+        ("site", "hazard_date", "date of hazard"),
+        ("options", "directional_date", "date for direction"),
+    ],
+)
+def test_a_source_later_than_the_package_gives_a_warning(section, field, noun):
+    assert warnings(changed(section, None, **{field: ISSUED})) == {}
+    assert warnings(changed(section, None, **{field: LATER})) == {
+        noun: f"{noun} is 2026-03-06, later than the package, 2026-03-05; correct one of them"
+    }
+
+
+def test_a_revision_without_its_row_gives_a_warning():
+    assert warnings(changed("project", None, revision="C")) == {
+        "revision C": "revision is 'C', which is not in the revision block; add its row, or"
+        " correct it"
+    }
+    assert "revision 1" in warnings(project(revisions=()))
 
 
 SITE = {"rule_set": "ASCE 7-16", "site_class": "C", "s_s_g": 1.5, "s_1_g": 0.6, "s_ds_g": None}
