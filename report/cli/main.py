@@ -1,9 +1,10 @@
 """The command line: every command by name. Only the modules of this folder print and catch.
 
 Heavy imports stay inside the commands so that `--help` is quick. Exit codes: 0 done, whatever the
-verdict; 4 where `verify-package` could not compare or check all; 3 where a package differs, and
-with --fail-on-ng where the verdict is not OK; 2 input error; 1 internal error (with the traceback)
-or failed verification checks. Read `report` for the way from workbook to package.
+verdict; 130 cut off by Ctrl+C; 4 where `verify-package` could not compare or check all; 3 where a
+package differs, and with --fail-on-ng where the verdict is not OK; 2 input error; 1 internal error
+(with the traceback) or failed verification checks.
+Read `report` for the way from workbook to package.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from report.cli.serve import serve
 from report.cli.sign import sign
 from report.cli.slide import slide
 from report.cli.study import study
-from report.cli.terminal import INPUT_ERROR, show_warnings, unwritten
+from report.cli.terminal import INPUT_ERROR, INTERRUPTED, UntilClosed, show_warnings, unwritten
 from report.cli.verify import verify
 from report.cli.verify_package import verify_package
 from report.cli.watch import watch
@@ -35,12 +36,26 @@ class _Commands(click.Group):
     """The group of all commands, which says so where what it prints cannot be written."""
 
     def main(self, *arguments: Any, **options: Any) -> Any:
-        """Run a command; a full disk under the output ends with a message and exit code 2."""
+        """Run a command; a full disk under the output ends with a message and exit code 2.
+
+        A closed pipe ends nothing, and Ctrl+C ends with one line and exit code 130.
+        """
+        for name in ("stdout", "stderr"):
+            if stream := getattr(sys, name):  # closed, it is None
+                setattr(sys, name, UntilClosed(stream))
         try:
             return super().main(*arguments, **options)
         except OSError as error:
             unwritten(error)
             sys.exit(INPUT_ERROR)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Invoke a command that Ctrl+C may cut off."""
+        try:
+            return super().invoke(ctx)
+        except (KeyboardInterrupt, click.Abort):
+            click.echo("Interrupted: the work was cut off.", err=True)
+            sys.exit(INTERRUPTED)
 
 
 @click.group(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
@@ -16,12 +17,12 @@ _THERE = click.Path(exists=True, dir_okay=False, path_type=Path)
 @click.argument("file", metavar="FILE.pdf", type=_THERE, is_eager=True)
 @click.option("--p12", type=_THERE, is_eager=True, required=True, metavar="CERT.p12",
               help="PKCS#12 file with the private key and the certificate.")  # fmt: skip
-@click.option("--password", prompt=True, hide_input=True, envvar="ROOFSLIP_P12_PASSWORD",
+@click.option("--password", envvar="ROOFSLIP_P12_PASSWORD",
               help="Of CERT.p12; without it, from ROOFSLIP_P12_PASSWORD or asked for.")  # fmt: skip
 @click.option("--time-stamp", default="", metavar="URL",
               help="Of a time-stamp authority (RFC 3161): PAdES B-T instead of B-B.")  # fmt: skip
 @click.option("--out", type=SOURCE, help="File to write; default: FILE-signed.pdf beside it.")
-def sign(file: Path, p12: Path, password: str, time_stamp: str, out: Path | None) -> None:
+def sign(file: Path, p12: Path, password: str | None, time_stamp: str, out: Path | None) -> None:
     """Sign a package in the field over its seal box (PAdES baseline).
 
     The package itself stays as it is, and verifies as before. Nothing is sent anywhere but to URL.
@@ -32,8 +33,24 @@ def sign(file: Path, p12: Path, password: str, time_stamp: str, out: Path | None
 
     target = out or file.with_name(f"{file.stem}-signed.pdf")
     with input_errors(file):
+        password = _asked() if password is None else password
         if target.exists() and target.samefile(file):
             raise InputError("the signed package needs a name of its own; choose another --out")
         content = signed(file.read_bytes(), p12.read_bytes(), password, time_stamp)
         write_whole(target, content)
     click.echo(target)
+
+
+def _asked() -> str:
+    """Return the password that is typed; without a terminal nobody can."""
+    from solver.model import InputError
+
+    try:
+        password: str = click.prompt("Password", hide_input=True)
+    except click.Abort as error:
+        if sys.stdin is not None and sys.stdin.isatty():
+            raise
+        raise InputError(
+            "the password cannot be asked for without a terminal; set ROOFSLIP_P12_PASSWORD"
+        ) from error
+    return password

@@ -18,7 +18,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TextIO
 
 import click
 
@@ -54,8 +54,9 @@ def plain(text: object) -> str:
 SCHEMA_VERSION = 1
 """Raised where a key that `--json` prints changes its name or meaning."""
 
-INPUT_ERROR, NOT_OK, NOT_COMPARED = 2, 3, 4
-"""Exit codes: an error in the input; not OK where that is asked for; not all could be compared."""
+INPUT_ERROR, NOT_OK, NOT_COMPARED, INTERRUPTED = 2, 3, 4, 130
+"""Exit codes: an error in the input; not OK where that is asked for; not all could be compared;
+cut off by Ctrl+C."""
 
 QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
 AS_JSON = click.option(
@@ -122,6 +123,37 @@ def unwritten(error: OSError) -> None:
         click.echo(f"The output cannot be written ({error.strerror or error}).", err=True)
     # What is still in the buffers would fail again as the process ends.
     sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115  # until the process ends
+
+
+class UntilClosed:
+    """An output whose reader may leave: the rest is dropped, and the work goes on."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write a text, if anyone reads it."""
+        try:
+            return self._stream.write(text)
+        except BrokenPipeError:
+            self._drop()
+            return len(text)
+
+    def flush(self) -> None:
+        """Write what is in the buffer, if anyone reads it."""
+        try:
+            self._stream.flush()
+        except BrokenPipeError:
+            self._drop()
+
+    def _drop(self) -> None:
+        # The buffer still has the text; it would fail again as the process ends.
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, self._stream.fileno())
+        os.close(nowhere)
 
 
 def show_warnings() -> None:

@@ -19,6 +19,9 @@ from solver.model import InputError
 
 AGAIN = "write it again with `report` of this version, from the workbook of that revision"
 
+MOST_BYTES, MOST_ROWS = 25_000_000, 100_000
+"""Largest file that is read [B], and most rows that are compared."""
+
 
 class _Part(BaseModel):
     """A part of the file; its other keys are ignored."""
@@ -96,11 +99,22 @@ def read_former(path: Path) -> Former:
         If it cannot be read, is damaged or incomplete, or has another schema version.
     """
     try:
-        content = path.read_bytes()
+        # A device is refused here, before it is opened: it may have no end.
+        if path.exists() and not path.is_file():
+            raise InputError(
+                f"{path}: cannot be read (no file); give the results.json of a former revision"
+            )
+        with path.open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise InputError(
             f"{path}: cannot be read ({error.strerror}); give the results.json of a former revision"
         ) from error
+    if len(content) > MOST_BYTES:
+        raise InputError(
+            f"{path}: is larger than {MOST_BYTES / 1e6:g} MB; give the results.json of a former"
+            " revision"
+        )
     return former_from(content, path)
 
 
@@ -127,6 +141,11 @@ def former_from(content: bytes, path: Path) -> Former:
         former = Former.model_validate_json(content)
     except ValidationError as error:
         raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
+    if (count := _rows(former.model_dump())) > MOST_ROWS:
+        raise InputError(
+            f"{path}: has {count:,} rows; at most {MOST_ROWS:,} are compared; give the results.json"
+            " of a former revision"
+        )
     for text in _texts(former.model_dump(mode="json")):
         if letter := UNPRINTABLE.search(text):
             raise InputError(
@@ -134,6 +153,15 @@ def former_from(content: bytes, path: Path) -> Former:
                 f" printed; the file is damaged: {AGAIN}"
             )
     return former
+
+
+def _rows(value: Any) -> int:
+    """Return how many rows the tables of a document have."""
+    if isinstance(value, dict):
+        return sum(map(_rows, value.values()))
+    if isinstance(value, list | tuple):
+        return len(value) + sum(map(_rows, value))
+    return 0
 
 
 def _texts(value: Any) -> Iterator[str]:

@@ -205,6 +205,13 @@ def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_p
     text = packages.words((tmp_path / "out" / "calc-package.pdf").read_text(encoding="utf-8"))
     assert f"{letter} Changes since revision 1" in text
     assert "Friction coefficient" in text
+    assert "of another project" not in done.output
+    document = json.loads(former.read_text(encoding="utf-8"))
+    document["input"]["project"] |= {"name": "Elsewhere", "number": "99-1"}
+    former.write_text(json.dumps(document), encoding="utf-8")
+    with packages.unlaid():
+        done = run("report", make(tmp_path, arrays=arrays), "--since", former)
+    assert "--since is of another project: 99-1, Elsewhere; check that it is" in done.output
 
 
 def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_path):

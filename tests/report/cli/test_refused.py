@@ -4,6 +4,7 @@ import ctypes
 import json
 import os
 import resource
+import signal
 import subprocess
 import sys
 
@@ -144,3 +145,44 @@ def test_without_permission_each_command_says_which_file(tmp_path):
         assert words.strip() in output, output
         assert "running" not in output
     assert [path.name for path in closed.iterdir()] == ["records", "input.xlsx"]
+
+
+def test_a_closed_pipe_stops_no_work_and_has_no_traceback(tmp_path):
+    read, write = os.pipe()
+    os.close(read)
+    made = tmp_path / "made.csv"
+    with os.fdopen(write, "w") as closed:
+        done = roofslip("motion", "convert", RECORD, made, stdout=closed)
+        assert (done.returncode, done.stderr) == (0, "")
+        whole = tmp_path / "whole.csv"
+        assert roofslip("motion", "convert", RECORD, whole, stderr=closed).returncode == 0
+    assert made.read_bytes() == whole.read_bytes()
+
+
+def test_ctrl_c_ends_with_130_and_one_line(tmp_path):
+    """The whole group gets the signal, as from a terminal."""
+    work = subprocess.Popen(
+        [sys.executable, "-m", "report.cli", "report", make(tmp_path), "--out", tmp_path / "out"],
+        cwd=ROOT, text=True, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+        start_new_session=True,
+    )  # fmt: skip
+    try:
+        assert work.stderr.readline().startswith("[")  # the first step after a second
+        os.killpg(work.pid, signal.SIGINT)
+        out, err = work.communicate(timeout=60)
+    finally:
+        work.kill()
+    said = [line for line in err.splitlines() if not line.startswith("[")]
+    assert (work.returncode, out, said) == (130, "", ["Interrupted: the work was cut off."])
+
+
+def test_sign_without_a_terminal_is_an_input_error(tmp_path):
+    for name in ("a.pdf", "a.p12"):
+        (tmp_path / name).write_bytes(b"x")
+    done = roofslip(
+        "sign", tmp_path / "a.pdf", "--p12", tmp_path / "a.p12",
+        stdin=subprocess.DEVNULL, start_new_session=True,
+        env={k: v for k, v in os.environ.items() if k != "ROOFSLIP_P12_PASSWORD"},
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "without a terminal; set ROOFSLIP_P12_PASSWORD" in done.stderr

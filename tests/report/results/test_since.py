@@ -2,6 +2,7 @@
 
 import json
 from html import unescape
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -270,3 +271,20 @@ def test_a_verdict_that_is_lost_with_the_route_is_named():
         (ChangeKind.VERDICT, "Clearance A1 to RTU-1"): ("OK", "none"),
     }
     assert found.clearances == {1}
+
+
+def test_a_device_and_a_file_beyond_25_mb_are_refused_before_they_are_read(tmp_path):
+    with pytest.raises(InputError, match=r"/dev/zero: cannot be read \(no file\)"):
+        read_former(Path("/dev/zero"))
+    large = tmp_path / "large.json"
+    with large.open("wb") as file:
+        file.truncate(25_000_001)
+    with pytest.raises(InputError, match=r"large\.json: is larger than 25 MB"):
+        read_former(large)
+
+
+def test_more_than_100000_rows_are_refused_before_they_are_compared(content):
+    document = json.loads(content)
+    document["records"] += document["records"][:1] * 100_000
+    with pytest.raises(InputError, match=r"x: has 100,\d{3} rows; at most 100,000 are compared"):
+        former_from(json.dumps(document).encode(), "x")
