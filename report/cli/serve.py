@@ -83,6 +83,9 @@ def serve(
             click.launch(address)
         # The server sends itself the signal that stopped it: the folder is removed then as well.
         signal.signal(signal.SIGTERM, signal.default_int_handler)
+        # A closed terminal, which uvicorn does not catch; nohup ignores it.
+        if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
+            signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
         with suppress(KeyboardInterrupt):
             server.run(sockets=[listening])
     if once:

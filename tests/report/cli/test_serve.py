@@ -70,13 +70,16 @@ def test_a_missing_package_is_named(monkeypatch):
     assert "install roofslip[web]" in done.output
 
 
-def test_the_server_answers_and_leaves_nothing_behind(tmp_path):
+@pytest.mark.parametrize("end", ["SIGTERM", "SIGHUP"])
+def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     token = tmp_path / "token"
     token.write_text(f"{TOKEN}\n")
     command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
     command += ["--host", "127.0.0.1", "--token-file", str(token)]
     server = subprocess.Popen(
-        command,
+        # The tests may run under nohup.
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),
+        args=command,
         cwd=ROOT,
         env=os.environ | {"TMPDIR": str(tmp_path)},
         stdout=subprocess.PIPE,
@@ -97,7 +100,7 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path):
         assert "server" not in {name.lower() for name in page.headers}
         assert len(list(tmp_path.glob("roofslip-serve-*"))) == 1
     finally:
-        server.send_signal(signal.SIGTERM)
+        server.send_signal(getattr(signal, end))
         _, warned = server.communicate(timeout=30)
     assert warned.strip() == (
         "warning: the connection is not encrypted; put a reverse proxy with TLS in front of it"
