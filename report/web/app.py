@@ -100,6 +100,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
 
 _VIEWS = {"slide": ("array", "motion", "run"), "contour": ("array",), "paths": ("array",)}
 """Views, each with what names its subject."""
+_NEEDED = ("array", "motion")
 
 
 async def _clean(desk: Desk) -> None:
@@ -175,6 +176,9 @@ async def _assess(request: Request) -> Response:
 async def _view(request: Request) -> Response:
     asked = await receive_json(request)
     kind = request.url.path.rpartition("/")[2]
+    missing = [name for name in _NEEDED if name in _VIEWS[kind] and asked.get(name) is None]
+    if missing:
+        raise InputError(f"the request lacks {' and '.join(missing)}; name what is to be shown")
     job = {"do": kind, "values": asked["values"]}
     job |= {name: str(asked[name]) for name in _VIEWS[kind] if asked.get(name) is not None}
     return JSONResponse(await desk_of(request).ask(session_of(request), job, Rank.VIEW, asked))

@@ -76,6 +76,15 @@ def test_a_form_of_another_page_is_no_request(client):
     assert answer.status_code == 415
 
 
+@pytest.mark.parametrize(
+    ("view", "missing"), [("slide", "array and motion"), ("contour", "array"), ("paths", "array")]
+)
+def test_a_view_without_its_subject_is_refused_by_name(client, view, missing):
+    answer = client.post(f"/api/{view}", json={})
+    assert answer.status_code == 422
+    assert answer.json()["error"].startswith(f"The request lacks {missing};")
+
+
 def test_views_answer_from_the_values_of_the_sliders(client):
     about = {"page": "p", "n": 1, "array": "A2", "motion": "RM6", "values": {}}
     first = client.post("/api/slide", json=about).json()
