@@ -32,6 +32,9 @@ _FORTRAN = str.maketrans("dD", "eE")
 COMPARED, _ENOUGH = 50, 5
 """Last values whose digits are compared, and how many of them show how a file writes numbers."""
 
+_PORTION = 10_000
+"""Lines whose fields are in memory at once."""
+
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 
@@ -121,17 +124,36 @@ def free_values(source: Source, block: Block) -> Floats:
     """Values of all lines of a block, separated by blanks; their number must be that stated."""
     _check_enough(source, block)
     rows = source.lines[block.first : block.stop]
-    fields = _apart(" ".join(rows).translate(_FORTRAN))
-    try:
-        values = np.array([float(field) for field in fields if "_" not in field])
-    except ValueError:
-        values = np.empty(0)
-    if len(values) != len(fields) or not (np.abs(values) < BEYOND).all():
+    values = _free_fast(rows)
+    if values is None:
         values = _row_by_row(source, block, rows, _apart)
     if len(values) != block.count:
         raise InputError(_wrong_count(source, block, len(values)))
-    _check_last(source, block, fields)
+    written = [row for row in rows if row.strip()][-COMPARED:]
+    _check_last(source, block, _fields(written))
     return values
+
+
+def _free_fast(rows: Sequence[str]) -> Floats | None:
+    """Values separated by blanks, or None if one is not a finite number.
+
+    Read in portions: the fields of a whole file take ten times its size.
+    """
+    parts = [np.empty(0)]
+    for begin in range(0, len(rows), _PORTION):
+        fields = _fields(rows[begin : begin + _PORTION])
+        try:
+            values = np.array([float(field) for field in fields if "_" not in field])
+        except ValueError:
+            return None
+        if len(values) != len(fields) or not (np.abs(values) < BEYOND).all():
+            return None
+        parts.append(values)
+    return np.concatenate(parts)
+
+
+def _fields(rows: Sequence[str]) -> list[str]:
+    return _apart(" ".join(rows).translate(_FORTRAN))
 
 
 def _check_last(source: Source, block: Block, fields: Sequence[str]) -> None:
@@ -284,7 +306,7 @@ def _row_by_row(
         for number, row in enumerate(rows)
         for problem in _field_problems(source, block.first + number, split(row))
     )
-    return np.array([_number(field) for row in rows for field in split(row)])
+    return np.fromiter((_number(field) for row in rows for field in split(row)), np.float64)
 
 
 def _problem(field: str) -> str:

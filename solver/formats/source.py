@@ -159,9 +159,11 @@ def _bytes(path: Path) -> bytes:
 
 
 def _lines(name: str, data: bytes) -> list[str]:
-    lines = _decode(name, data).replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    if len(lines) > MAX_LINES:
-        raise InputError(f"{name}: found {len(lines):,} lines; give at most {MAX_LINES:,}")
+    text = _decode(name, data).replace("\r\n", "\n").replace("\r", "\n")
+    count = text.count("\n") + 1
+    if count > MAX_LINES:
+        raise InputError(f"{name}: found {count:,} lines; give at most {MAX_LINES:,}")
+    lines = text.split("\n")
     raise_any(
         f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
         for number, line in enumerate(lines, start=1)

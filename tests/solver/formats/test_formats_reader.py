@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import math
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -178,3 +180,28 @@ def test_lines_lost_doubled_or_swapped_are_read_or_refused(
     path.write_bytes(b"\n".join(lines))
     read_or_refuse(path)
     read_or_refuse(path, **BARE)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("at", [10, -1])
+def test_a_record_of_60_mb_with_a_fault_is_refused_within_400_mb(file: Any, at: int) -> None:
+    rows = ["PEER NGA", "Event", "ACCELERATION TIME SERIES IN UNITS OF G"]
+    rows += ["NPTS= 3750000, DT= .0050 SEC"]
+    rows += [
+        "  0.1234567E-01 -0.1234567E-01  0.9876543E-01 -0.5555555E-01  0.1111111E-01"
+    ] * 750_000
+    rows[at] = rows[at][:-3] + "abc"
+    path = file("\n".join(rows) + "\n", "x.at2")
+    read = (
+        "import sys, pathlib, solver\n"
+        "try: solver.read_record(pathlib.Path(sys.argv[1]))\n"
+        "except solver.InputError as error: assert len(error.problems) == 1, error\n"
+        "else: sys.exit('read')\n"
+        # Of this program alone: ru_maxrss has that of its parent as well.
+        "status = pathlib.Path('/proc/self/status').read_text().split()\n"
+        "print(int(status[status.index('VmHWM:') + 1]) / 1024)"
+    )
+    command = [sys.executable, "-c", read, str(path)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout) <= 400.0
