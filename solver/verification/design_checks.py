@@ -105,8 +105,8 @@ def _permit_sheet() -> Iterator[CheckRow]:
     ):
         found_m = required_separation(rules, kind, design_m=delta_m, importance=1.0)
         yield check(
-            "DV-8", f"Separation from a neighbor: {kind}", _SHEET, "Separation", "ft", feet,
-            found_m / _FOOT, 0.005 / feet,
+            "DV-8", f"Separation from a neighbor, ASCE 7-16: {kind}", _SHEET, "Separation", "ft",
+            feet, found_m / _FOOT, 0.005 / feet,
         )  # fmt: skip
     for s_ds_g, factor in ((1.5, 0.133 * 1.5), (0.5, 0.1)):
         yield check(

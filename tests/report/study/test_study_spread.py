@@ -24,6 +24,7 @@ from report.study.run import planned, run_study
 from report.study.schema import StudyArray
 from report.study.spread import spectral_spread
 from report.study.words import headline
+from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from studied import motion
 from test_study_read import given, problems, write
@@ -97,8 +98,12 @@ def with_state(results, motions, *, allow_matched=False, **changes):
         limit_m=0.0,
         fragility=Fragility(
             levels=LEVELS, exceeded=np.zeros(4, int), counted=np.full(4, 3), censored=0,
+            capacities=Capacities(
+                intensity=np.array([1.13, 1.2, 1.27]), is_censored=np.zeros(3, bool),
+                end=np.full(3, 2.0), falls=np.zeros(3, bool),
+            ),
             fitted=Lognormal(theta=1.2, beta=0.06), theta_range=(1.1, 1.3),
-            beta_range=(0.03, 0.1), unfitted=0,
+            beta_range=(0.03, 0.1), unfitted=0, p_value=0.5,
         ),
     )  # fmt: skip
     array = ArrayPlan(
