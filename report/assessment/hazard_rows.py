@@ -7,6 +7,7 @@ Each row that is not satisfied is a condition, not NG; values below their table 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from report.assessment.verdict import NOT_GIVEN, Row, stated
 from report.sheet.schema import ProjectInput, Site
@@ -116,16 +117,4 @@ def _site_specific(site: Site) -> Iterator[Row]:
     )
 
 
-def _row(
-    *, id: str, title: str, found: str, limit: str, basis: str, is_satisfied: bool, remedy: str
-) -> Row:
-    return Row(
-        id=id,
-        title=title,
-        found=found,
-        limit=limit,
-        basis=basis,
-        is_satisfied=is_satisfied,
-        consequence=Consequence.CONDITION,
-        remedy=remedy,
-    )
+_row = partial(Row, consequence=Consequence.CONDITION)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 from report.assessment.verdict import Row
 from report.sheet.schema import (
@@ -105,14 +106,4 @@ def _takes_plain_mean(data: ProjectInput) -> bool:
     return is_stated and data.options.statistic.value == Basis.MEAN.value
 
 
-def _row(*, id: str, title: str, found: str, limit: str, basis: str) -> Row:
-    return Row(
-        id=id,
-        title=title,
-        found=found,
-        limit=limit,
-        basis=basis,
-        is_satisfied=False,
-        consequence=Consequence.CONDITION,
-        remedy=CONSENT,
-    )
+_row = partial(Row, is_satisfied=False, consequence=Consequence.CONDITION, remedy=CONSENT)
