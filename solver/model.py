@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -120,6 +120,17 @@ class SlideResult:
     end_speed_mps: float
     peak_speed_mps: float
     error_m: float
+
+    def __eq__(self, other: object) -> bool:
+        """Whether every value is equal; one that is NaN in both is, in every version of Python."""
+        return isinstance(other, SlideResult) and self._values == other._values
+
+    def __hash__(self) -> int:
+        return hash(self._values)
+
+    @property
+    def _values(self) -> tuple[object, ...]:
+        return tuple(None if value != value else value for value in astuple(self))
 
 
 class EventKind(StrEnum):

@@ -286,6 +286,16 @@ def test_the_history_ends_where_the_result_says_and_passes_through_its_events(no
     assert np.abs(history.u_m).max() <= result.prd_m
 
 
+def test_results_of_the_same_run_are_equal_though_one_time_is_nan(noise):
+    first, again = (slide(noise, 0.01, slope_rad=0.02, mu=0.5) for _ in range(2))
+    copied = replace(again, t_uplift_s=-float("nan"))  # another object
+    assert math.isnan(first.t_uplift_s)
+    assert first == copied
+    assert hash(first) == hash(copied)
+    assert first != replace(again, n_stops=again.n_stops + 1)
+    assert first != "a result"
+
+
 def test_a_history_at_rest_is_zero_with_no_events():
     history = slide_history([0.0, 1.0, 0.0], 0.1, slope_rad=0.0, mu=0.5)
     assert history.events == ()
