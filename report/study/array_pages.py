@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Table, TableColumn, TableRow
 from report.study import figures
-from report.study.dispersion import dispersions, exported, refusal
+from report.study.dispersion import MASS, Dispersion, dispersions, exported, refusal
 from report.study.page_parts import axis, chart, level, on_building
 from report.study.results import ArrayResult, StudyResults
 from report.study.schema import Intensity, NoValue, Sampling
@@ -122,34 +122,51 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
 def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
     """Yield the dispersions of the exported fragilities by name, if there are any."""
     states = [state for state in one.states if state.fragility.fitted.is_known]
-    parts = [dispersions(results, state) for state in states]
-    if not parts or results.plan.input.study.intensity is Intensity.S_DS:
+    by_name = list(zip(*(dispersions(results, one, state) for state in states), strict=True))
+    if not by_name or results.plan.input.study.intensity is Intensity.S_DS:
         return
-    lacking = joined([part.name for part in parts[0] if not part.beta])
+    given = [parts for parts in by_name if any(part.beta for part in parts)]
+    lacking = [f"{parts[0].name} ({parts[0].source})" for parts in by_name if parts not in given]
+    totals = [exported(results, one, state).beta for state in states]
     yield Table(
         caption="Dispersions of the capacity by name; β of an exported fragility is the square root"
-        f" of the sum of their squares. Not included: {lacking}",
+        " of the sum of their squares"
+        + (f". Not included: {joined(lacking)}" if lacking else "")
+        + f". {MASS}",
         columns=(
             TableColumn(head="State", align="left", share=0.7),
-            *(
-                TableColumn(head=f"{part.name.capitalize()}: {part.source}", share=1.7)
-                for part in parts[0]
-                if part.beta
-            ),
+            *(TableColumn(head=_head(parts), share=1.7) for parts in given),
             TableColumn(head="β exported"),
         ),
         rows=tuple(
             TableRow(
                 cells=(
                     state.name,
-                    *(digits_up(part.beta, 3) for part in row if part.beta),
-                    "not exported" if refusal(results) else digits_up(total.beta, 3),
+                    *(digits_up(p.beta, 3) if p.beta else p.source for p in row),
+                    "not exported" if refusal(results) else digits_up(total, 3),
                 )
             )
-            for state, row in zip(states, parts, strict=True)
-            for total in [exported(results, state)]
+            for state, row, total in zip(states, zip(*given, strict=True), totals, strict=True)
         ),
+        notes=tuple(_first_order(by_name)),
     )
+
+
+def _head(parts: Sequence[Dispersion]) -> str:
+    """Return the heading of a dispersion: its name, and its source in the states that have it."""
+    part = next(part for part in parts if part.beta)
+    return f"{part.name.capitalize()}: {part.source}"
+
+
+def _first_order(by_name: Sequence[Sequence[Dispersion]]) -> Iterator[str]:
+    """Yield how the dispersions of friction and slope are found, if there are any."""
+    *_, friction, slope = by_name
+    names = [parts[0].name for parts in (friction, slope) if any(part.beta for part in parts)]
+    if names:
+        yield (
+            f"{joined(names).capitalize()}: by first-order second moment, half the difference of "
+            "the logarithms of the median capacities at one standard deviation above and below."
+        )
 
 
 def _three(

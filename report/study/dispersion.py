@@ -8,12 +8,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.study.results import LimitState, StudyResults
+from report.study.plan import FRICTION, SLOPE
+from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.words.units import digits_up
 from solver.studies.fragility import Lognormal
 
-NOT_INCLUDED = "not included"
+NOT_GIVEN, NOT_DETERMINED = "not given", "not determined"
+MASS = "Mass has no effect: each array is one rigid block with Coulomb friction"
+"""Each force on such a block is proportional to its mass; a study has no others."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,7 +25,9 @@ class Dispersion:
 
     Attributes
     ----------
-    name, source : str
+    name : str
+    source : str
+        Where it is from, or why it is not included.
     beta : float
         Standard deviation of the logarithm of the capacity; 0 where it is not included.
     """
@@ -32,11 +37,10 @@ class Dispersion:
     beta: float
 
 
-def dispersions(results: StudyResults, state: LimitState) -> tuple[Dispersion, ...]:
-    """Return the dispersions of a limit state that has a lognormal.
-
-    Mass is none of them: it has no effect on a PRD under Coulomb friction.
-    """
+def dispersions(
+    results: StudyResults, one: ArrayResult, state: LimitState
+) -> tuple[Dispersion, ...]:
+    """Return the dispersions of a limit state that has a lognormal; mass is none (`MASS`)."""
     study = results.plan.input.study
     if study.record_beta is None:
         record = "these motions", state.fragility.fitted.beta
@@ -44,17 +48,36 @@ def dispersions(results: StudyResults, state: LimitState) -> tuple[Dispersion, .
         record = study.record_source, study.record_beta
     given = [("record-to-record", *record)]
     for name, beta in (("modeling", study.modeling_beta), ("quality of data", study.quality_beta)):
-        given.append((name, "entered", beta) if beta is not None else (name, NOT_INCLUDED, 0.0))
-    given += [(name, NOT_INCLUDED, 0.0) for name in ("friction", "slope")]
+        given.append((name, "entered", beta) if beta is not None else (name, NOT_GIVEN, 0.0))
+    mat, spreads = one.plan.array.mat, one.plan.spreads
+    for variable, name, tell, lacking in (
+        (FRICTION, "friction", _of_tests, f"mat {mat} has no tests"),
+        (SLOPE, "slope", _of_tolerance, "no tolerance is given"),
+    ):
+        beta = state.effects.get(variable)
+        if beta is None:
+            given.append((name, lacking, 0.0))
+        elif math.isnan(beta):
+            given.append((name, NOT_DETERMINED, 0.0))
+        else:
+            given.append((name, tell(mat, spreads[variable].deviation), beta))
     return tuple(Dispersion(name=name, source=source, beta=beta) for name, source, beta in given)
 
 
-def exported(results: StudyResults, state: LimitState) -> Lognormal:
+def _of_tests(mat: str, deviation: float) -> str:
+    return f"tests of {mat}, standard deviation of ln μ {deviation:.3f}"
+
+
+def _of_tolerance(_: str, deviation: float) -> str:
+    return f"tolerance, standard deviation {deviation:.2g} deg"
+
+
+def exported(results: StudyResults, one: ArrayResult, state: LimitState) -> Lognormal:
     """Return the lognormal of a limit state with all its dispersions; unknown if it has none."""
     fitted = state.fragility.fitted
     if not fitted.is_known:
         return fitted
-    total = math.hypot(*(one.beta for one in dispersions(results, state)))
+    total = math.hypot(*(part.beta for part in dispersions(results, one, state)))
     return Lognormal(theta=fitted.theta, beta=total)
 
 

@@ -10,13 +10,13 @@ import io
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
 from report.sheet.schema import RecordedAt
-from report.study.dispersion import dispersions, exported, refusal, warning
+from report.study.dispersion import MASS, dispersions, exported, refusal, warning
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.words import NO_NUMBER, both
@@ -110,15 +110,15 @@ def _library(results: StudyResults, known: list[ArrayResult]) -> str:
     for one in known:
         cells: list[object] = []
         for state in one.states:
-            cells += _cells(results, state)
+            cells += _cells(results, one, state)
         cells += [""] * (len(states) - len(cells))
         writer.writerow([component_id(results, one), 0, demand, unit, 0, 0, *cells])
     return text.getvalue()
 
 
-def _cells(results: StudyResults, state: LimitState) -> list[str]:
+def _cells(results: StudyResults, one: ArrayResult, state: LimitState) -> list[str]:
     """Return the columns of a limit state; an undetermined one has its description alone."""
-    f = exported(results, state)
+    f = exported(results, one, state)
     if not f.is_known:
         return ["", "", "", "", f"{sentence(state)} {_sentence(NO_NUMBER)}"]
     return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", _words(results, state)]
@@ -164,7 +164,7 @@ def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
             f"clearance {both(results, array.clearance_m)}. Limit states are on the peak relative "
             "displacement of a motion, not on a design displacement. "
             f"{_of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])} "
-            f"{_dispersions(results, known_states(one))}{_warned(results)} Study "
+            f"{_dispersions(results, one)}{_warned(results)} Study "
             f"{results.manifest['identity'][:16]}."
         ),
         "SuggestedComponentBlockSize": "1 EA",
@@ -232,7 +232,7 @@ def _description(results: StudyResults) -> str:
     states = [
         f"{component_id(results, one)}: "
         + " ".join(f"{state.name}: {sentence(state)}{_fractions(state)}" for state in one.states)
-        + f" {_dispersions(results, known_states(one))}".rstrip()
+        + f" {_dispersions(results, one)}".rstrip()
         for one in results.arrays
     ]
     imt, unit, _ = MEASURES[results.plan.input.study.intensity]
@@ -251,19 +251,20 @@ def _warned(results: StudyResults) -> str:
     return f" {text}" if (text := warning(results)) else ""
 
 
-def _dispersions(results: StudyResults, states: Sequence[LimitState]) -> str:
-    """Return the dispersions of each state by name; nothing without a state."""
-    return " ".join(
+def _dispersions(results: StudyResults, one: ArrayResult) -> str:
+    """Return the dispersions of each state that has a lognormal by name; nothing without one."""
+    states = [
         f"Dispersions of {state.name}: "
         + ", ".join(
-            f"{one.name} {digits_up(one.beta, 2)} ({one.source})"
-            if one.beta
-            else f"{one.name} {one.source}"
-            for one in dispersions(results, state)
+            f"{part.name} {digits_up(part.beta, 2)} ({part.source})"
+            if part.beta
+            else f"{part.name} not included ({part.source})"
+            for part in dispersions(results, one, state)
         )
         + "."
-        for state in states
-    )
+        for state in known_states(one)
+    ]
+    return " ".join([*states, f"{MASS}."] if states else [])
 
 
 def _of_which_motion(results: StudyResults, name: str, unit: str) -> str:
@@ -285,7 +286,7 @@ def chances_of(results: StudyResults, one: ArrayResult) -> Floats:
     """
     rows = [
         lognormal.at(state.fragility.levels)
-        if (lognormal := exported(results, state)).is_known
+        if (lognormal := exported(results, one, state)).is_known
         else np.array(list(_never_decreasing(state.fragility)))
         for state in one.states
     ]

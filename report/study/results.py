@@ -6,7 +6,7 @@ Reads one part at a time; runs the capacities of the motions. Read `results_of`.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,15 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.study.parts import Done, peaks, read_part
-from report.study.plan import ArrayPlan, StudyPlan
+from report.study.plan import ArrayPlan, Shift, StudyPlan
 from report.study.schema import NoValue
 from report.study.spread import Spread, spectral_spread
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
-from solver.studies.capacity import Curve, capacities
+from solver.studies.capacity import COARSE_SCAN, SCAN, Capacities, Curve, capacities
 from solver.studies.curves import Statistics, largest_slope, least_friction, statistics
 from solver.studies.fit import Fit, fit_prd
-from solver.studies.fragility import Fragility, fragility
+from solver.studies.fragility import Fragility, first_order_beta, fit_lognormal, fragility
 from solver.studies.runs import Runner
 from solver.studies.uncertainty import Bar, Chance, exceedance, tornado
 
@@ -46,12 +46,16 @@ class LimitState:
     limit_m : float
         PRD above which it is exceeded [m]; 0 for the beginning of slip.
     fragility : Fragility
+    effects : mapping of str to float
+        Dispersion of the capacity due to friction and slope, by the names of `ArrayPlan.shifts`;
+        NaN if not determined.
     """
 
     name: str
     words: str
     limit_m: float
     fragility: Fragility
+    effects: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -255,20 +259,19 @@ def _array(
         ("LS2", "half the clearance is used", 0.5 * clearance, ~(peaks_m <= 0.5 * clearance)),
         ("LS3", f"{reaches} is reached", clearance, ~(peaks_m <= clearance)),
     )
-    found = capacities(
-        _curves(runner, array),
-        [limit_m for *_, limit_m, _ in limits],
-        levels,
-        is_censoring=study.no_value is NoValue.CENSORED,
-    )
+    limits_m = [limit_m for *_, limit_m, _ in limits]
+    at = array.mu, array.array.slope_deg
+    found = _capacities(plan, array, runner, limits_m, at, levels, SCAN)
+    effects = _effects(plan, array, runner, limits_m, found)
     states = [
         LimitState(
             name=name,
             words=words,
             limit_m=limit_m,
             fragility=fragility(levels, exceeds, counts, one, seed=seed),
+            effects={variable: betas[k] for variable, betas in effects.items()},
         )
-        for (name, words, limit_m, exceeds), one in zip(limits, found, strict=True)
+        for k, ((name, words, limit_m, exceeds), one) in enumerate(zip(limits, found, strict=True))
     ]
     chances: tuple[Chance, ...] = ()
     bars: tuple[Bar, ...] = ()
@@ -282,14 +285,74 @@ def _array(
     )
 
 
-def _curves(runner: Runner, array: ArrayPlan) -> list[Curve]:
-    """Return the PRD of each motion over intensity, at the slope and friction of an array."""
+def _capacities(
+    plan: StudyPlan,
+    array: ArrayPlan,
+    runner: Runner,
+    limits_m: Sequence[float],
+    at: Shift,
+    levels: Floats,
+    steps: int,
+) -> tuple[Capacities, ...]:
+    """Return the capacities of an array at a friction and slope [deg], for each limit."""
+    return capacities(
+        curves_of(runner, array, *at),
+        limits_m,
+        levels,
+        is_censoring=plan.input.study.no_value is NoValue.CENSORED,
+        steps=steps,
+    )
+
+
+def _effects(
+    plan: StudyPlan,
+    array: ArrayPlan,
+    runner: Runner,
+    limits_m: Sequence[float],
+    found: Sequence[Capacities],
+) -> Mapping[str, list[float]]:
+    """Return the dispersion of the capacity due to each variable, for each limit."""
+    medians = _medians(found)
+    if np.isnan(medians).all():
+        return dict.fromkeys(array.shifts, medians)
+    effects = {}
+    for name, shifts in array.shifts.items():
+        below, above = (_shifted(plan, array, runner, limits_m, at) for at in shifts)
+        around = zip(below, above, strict=True)
+        effects[name] = [first_order_beta(*one) for one in zip(medians, around, strict=True)]
+    return effects
+
+
+def _shifted(
+    plan: StudyPlan, array: ArrayPlan, runner: Runner, limits_m: Sequence[float], at: Shift
+) -> list[float]:
+    """Return the median capacities of an array at another friction or slope, for each limit.
+
+    Where a block yields later than at the center, it is searched that much farther: otherwise fewer
+    motions would reach a limit.
+    """
+    later = _yield(*at) / _yield(array.mu, array.array.slope_deg)
+    top = np.array([max(1.0, later) * plan.input.intensities[-1]])
+    return _medians(_capacities(plan, array, runner, limits_m, at, top, COARSE_SCAN))
+
+
+def _medians(found: Sequence[Capacities]) -> list[float]:
+    return [fit_lognormal(one).theta for one in found]
+
+
+def _yield(mu: float, slope_deg: float) -> float:
+    """Return the acceleration / g at which a block begins to slide down a slope [deg]."""
+    return math.tan(math.atan(mu) - math.radians(slope_deg))
+
+
+def curves_of(runner: Runner, array: ArrayPlan, mu: float, slope_deg: float) -> list[Curve]:
+    """Return the PRD of each motion over intensity, on the building of an array."""
     columns, tracks = runner.campaign.columns, runner.tracks[array.building]
     return [
         Curve(
             tracks=[t for (at, _), t in zip(columns, tracks, strict=True) if at == number],
-            slope_rad=math.radians(array.array.slope_deg),
-            mu=array.mu,
+            slope_rad=math.radians(slope_deg),
+            mu=mu,
         )
         for number in range(len(runner.campaign.motions[0]))
     ]

@@ -25,8 +25,11 @@ Flags = NDArray[np.bool_]
 ACCURACY = 1e-4
 """Width of the bracket of a capacity, relative to it."""
 
-SCAN = 64
-"""Equal steps from the beginning of slip to the greatest intensity that every scan has."""
+SCAN, COARSE_SCAN = 64, 16
+"""Equal steps from the beginning of slip to the greatest intensity that every scan has.
+
+The coarse one is for medians alone: a crossing of one motion that it misses hardly changes them.
+"""
 
 STEEPER = 2.0
 """How much steeper than at the runs around it the PRD may be between two runs of the scan."""
@@ -113,12 +116,17 @@ class Curve:
 
 
 def capacities(
-    curves: Sequence[Curve], limits_m: Sequence[float], levels: Floats, *, is_censoring: bool
+    curves: Sequence[Curve],
+    limits_m: Sequence[float],
+    levels: Floats,
+    *,
+    is_censoring: bool,
+    steps: int = SCAN,
 ) -> tuple[Capacities, ...]:
     """Return the capacities of motions, for each limit.
 
     For a limit of 0 they are where the friction demand reaches the coefficient, at any intensity.
-    Others are searched from there to the greatest level: at the levels and `SCAN` equal steps,
+    Others are searched from there to the greatest level: at the levels and in equal steps,
     closer where the slope of the curve lets the PRD exceed the limit between two runs (`STEEPER`),
     then by bisection. Where the PRD exceeds the limit several times the first counts.
 
@@ -133,8 +141,12 @@ def capacities(
     is_censoring : bool
         Whether a run without a value ends what is known of its motion; otherwise it counts as an
         exceedance.
+    steps : int
+        Number of the equal steps.
     """
-    one = partial(_of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring)
+    one = partial(
+        _of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring, steps=steps
+    )
     with ThreadPoolExecutor(get_num_threads()) as pool:
         rows = np.array(list(pool.map(one, curves))).reshape(len(curves), len(limits_m), 4)
     return tuple(
@@ -149,7 +161,7 @@ def capacities(
 
 
 def _of_motion(
-    curve: Curve, limits_m: Sequence[float], levels: Floats, is_censoring: bool
+    curve: Curve, limits_m: Sequence[float], levels: Floats, *, is_censoring: bool, steps: int
 ) -> list[tuple[float, bool, float, bool]]:
     """Return the fields of `Capacities` for each limit."""
     slip, top = curve.first_slip(), float(levels[-1])
@@ -161,7 +173,7 @@ def _of_motion(
         ]
     if not slip:  # the slope alone exceeds friction: a block at rest does not stay at rest
         return [(0.0, is_censoring and limit > 0.0, 0.0, False) for limit in limits_m]
-    x = np.union1d(np.linspace(slip, top, SCAN + 1), levels[levels > slip])
+    x = np.union1d(np.linspace(slip, top, steps + 1), levels[levels > slip])
     scan = _Scan(curve, x, np.concatenate([[0.0], curve.prd_m(x[1:])]))
     found = []
     for limit in limits_m:

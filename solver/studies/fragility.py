@@ -103,6 +103,30 @@ def fit_lognormal(found: Capacities) -> Lognormal:
     return Lognormal(theta=math.exp(mean), beta=deviation)
 
 
+def first_order_beta(median: float, around: tuple[float, float]) -> float:
+    """Return the dispersion of a capacity due to one variable, by first-order second moment.
+
+    Half the difference of the logarithms of the medians with the variable at one standard deviation
+    below and above; where one of them is NaN, the difference between the other and the median.
+
+    Parameters
+    ----------
+    median : float
+        With the variable at its center.
+    around : tuple of float
+        Below and above.
+
+    Returns
+    -------
+    float
+        NaN if neither is known.
+    """
+    known = [theta for theta in around if math.isfinite(theta)]
+    if len(known) == 2:
+        return 0.5 * abs(math.log(known[1] / known[0]))
+    return abs(math.log(known[0] / median)) if known else math.nan
+
+
 def fragility(
     levels: Floats, exceeds: Flags, counts: Flags, found: Capacities, *, seed: int
 ) -> Fragility:

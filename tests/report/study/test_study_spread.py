@@ -105,10 +105,11 @@ def with_state(results, motions, *, allow_matched=False, **changes):
             fitted=Lognormal(theta=1.2, beta=0.06), theta_range=(1.1, 1.3),
             beta_range=(0.03, 0.1), unfitted=0, p_value=0.5,
         ),
+        effects={},
     )  # fmt: skip
     array = ArrayPlan(
         array=StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1), building=0, mu=0.4,
-        spreads={}, fragility=slice(0), samples=slice(0), bars=slice(0),
+        spreads={}, shifts={}, fragility=slice(0), samples=slice(0), bars=slice(0),
     )  # fmt: skip
     one = ArrayResult(plan=array, states=(state,), chances=(), bars=(), center_m=math.nan)
     given_ = results.plan.input
@@ -170,12 +171,17 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_
     assert [float(p) for p in chances] == pytest.approx(wanted, abs=1.01e-6)
     said = (
         "Dispersions of LS1: record-to-record 0.30 (Site & hazard), modeling 0.40 (entered), "
-        "quality of data not included, friction not included, slope not included."
+        "quality of data not included (not given), friction not included (mat A has no tests), "
+        "slope not included (no tolerance is given). Mass has no effect: each array is one rigid "
+        "block with Coulomb friction."
     )
     assert said in json.loads(made["fragility.json"])["BSA.S1"]["Comments"]
     assert said in defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][0].text
     table = fragility(found, found.arrays[0]).blocks[0].tables[1]
-    assert table.caption.endswith(". Not included: quality of data, friction and slope")
+    assert (
+        ". Not included: quality of data (not given), friction (mat A has no tests) and slope (no "
+        "tolerance is given). "
+    ) in table.caption
     (shown,) = table.rows
     assert shown.cells == ("LS1", "0.300", "0.400", "0.500")
 
