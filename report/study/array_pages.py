@@ -52,11 +52,12 @@ def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, ...]:
         "Incremental dynamic analysis of the PRD, not of the design displacement: "
         f"the capacity of each of {counts.capacities.intensity.size} motions, the lowest "
         f"intensity at which its PRD exceeds the limit, by bisection to {ACCURACY:g} of it, and "
-        "for slip from the required friction coefficient; lognormal by maximum likelihood, "
-        f"censored capacities included. {100 * CONFIDENCE:g}\u00a0% confidence: Student t for the "
-        "median and chi-square for β, and where a capacity is censored by likelihood ratio and "
-        f"standard error with {REPEATS:,} samples. The data points are fractions at "
-        f"{counts.levels.size} intensities. A run without a value is {lost}.",
+        "for slip from the required friction coefficient. The lognormal has their geometric mean, "
+        "and their standard deviation of the logarithm with n − 1 as in FEMA P-58; where a capacity"
+        f" is censored, both are of maximum likelihood. {100 * CONFIDENCE:g}\u00a0% confidence: "
+        "Student t for the median and chi-square for β, and where a capacity is censored by "
+        f"likelihood ratio and standard error with {REPEATS:,} samples. The data points are "
+        f"fractions at {counts.levels.size} intensities. A run without a value is {lost}.",
         *_of_capacities(one),
     )
 

@@ -144,7 +144,7 @@ def test_fragilities_are_those_of_single_runs(results):
         known = np.log(found.intensity[~found.is_censored])
         if known.size == 6:
             assert math.log(state.fragility.fitted.theta) == pytest.approx(known.mean(), rel=1e-9)
-            assert state.fragility.fitted.beta == pytest.approx(known.std(), rel=1e-9)
+            assert state.fragility.fitted.beta == pytest.approx(known.std(ddof=1), rel=1e-9)
     slips = [sum(peak(plan, k, 0, 2.0, 0.4, x) != 0.0 for k in range(6)) for x in levels]
     assert array.states[0].fragility.exceeded.tolist() == slips
     for k, x in enumerate(array.states[0].fragility.capacities.intensity):
