@@ -16,7 +16,7 @@ from report.study.tables import length_unit
 from report.study.words import NO_NUMBER, both, chance_words
 from report.words.units import digits_down, digits_up
 from solver.studies.capacity import ACCURACY
-from solver.studies.fragility import CONFIDENCE, LILLIEFORS_REPEATS, REPEATS
+from solver.studies.fragility import CONFIDENCE, LEVEL, LILLIEFORS_REPEATS, REPEATS
 from solver.studies.uncertainty import HIGH, LOW, Chance
 
 
@@ -31,7 +31,7 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
     )
     block = Block(
         texts=[*_procedure(results, one), *_unknown(one)],
-        charts=(picture,),
+        charts=(picture, *_goodness(results, one, name)),
         tables=(_states(results, one), *_exported(results, one)),
     )
     return ManualSection(
@@ -39,6 +39,18 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
         title=f"Fragility of {name}",
         blocks=(block, *_chances(results, one, name)),
     )
+
+
+def _goodness(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Chart]:
+    """Yield the chart of the goodness of fit, if a state has one."""
+    states = [state for state in one.states if not math.isnan(state.fragility.p_value)]
+    if states:
+        yield chart(
+            f"goodness-{slug(name)}",
+            figures.goodness(states, axis(results)),
+            "Goodness of fit: the ranks of the capacities, their lognormal, and the band that the "
+            f"ranks leave in {100 * LEVEL:g}\u00a0% of lognormal samples.",
+        )
 
 
 def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, ...]:
@@ -70,12 +82,6 @@ def _of_capacities(one: ArrayResult) -> Iterator[str]:
         if found.is_censored.any():
             lost = int(found.is_censored.sum())
             yield f"{state.name}: {lost} of {count} capacities are censored."
-        if not math.isnan(state.fragility.p_value):
-            yield (
-                f"{state.name}: goodness of fit by Lilliefors, p = "
-                f"{digits_down(state.fragility.p_value, 2)} ({LILLIEFORS_REPEATS:,} samples). A "
-                "small p speaks against a lognormal."
-            )
         if found.falls.any():
             yield (
                 f"{state.name}: for {int(found.falls.sum())} of {count} motions the PRD is below "
@@ -104,6 +110,7 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
             TableColumn(head=interval, share=1.5),
             TableColumn(head="β"),
             TableColumn(head=f"{interval} of β", share=1.5),
+            TableColumn(head="p of fit"),
         ),
         rows=tuple(
             TableRow(
@@ -113,9 +120,15 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
                     both(results, state.limit_m) if state.limit_m else "0",
                     *_three(state.fragility.fitted.theta, state.fragility.theta_range, digits_down),
                     *_three(state.fragility.fitted.beta, state.fragility.beta_range, digits_up),
+                    "—" if math.isnan(p) else digits_down(p, 2),
                 )
             )
             for state in one.states
+            for p in [state.fragility.p_value]
+        ),
+        notes=(
+            f"p of fit: by Lilliefors, with {LILLIEFORS_REPEATS:,} samples. A small p speaks "
+            "against a lognormal. —: a capacity is censored, or there are fewer than four.",
         ),
     )
 

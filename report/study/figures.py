@@ -13,9 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, style, svg_text
 from report.study.results import LimitState
-from report.words.units import Unit
+from report.words.units import Unit, digits_down
 from solver.model import Floats
 from solver.studies.uncertainty import Bar
 
@@ -205,6 +205,50 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
         )
         bare(axes)
         return svg_text(figure)
+
+
+def goodness(states: Sequence[LimitState], along: str) -> str:
+    """Return the ranks of capacities with their lognormal, a panel for each state.
+
+    Parameters
+    ----------
+    states : sequence of LimitState
+        At least one, each with a p-value.
+    """
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 2.9))
+        panels = figure.subplots(1, len(states), sharey=True, squeeze=False)[0]
+        figure.subplots_adjust(left=0.085, right=0.985, bottom=0.29, top=0.92, wspace=0.08)
+        for axes, state in zip(panels, states, strict=True):
+            _ranked(axes, state)
+            axes.set_xlabel(along)
+            bare(axes)
+        panels[0].set_ylabel("Share of the motions")
+        lines, labels = panels[0].get_legend_handles_labels()
+        figure.legend(lines, labels, loc="lower center", ncols=3, handlelength=2.0)
+        return svg_text(figure)
+
+
+def _ranked(axes: Axes, state: LimitState) -> None:
+    f = state.fragility
+    x = np.sort(f.capacities.intensity)
+    far = max(3.0, float(np.abs(np.log(x / f.fitted.theta)).max()) / f.fitted.beta + 0.3)
+    fine = f.fitted.theta * np.exp(f.fitted.beta * np.linspace(-far, far, 200))
+    chance = f.fitted.at(fine)
+    band = np.clip([chance - f.critical, chance + f.critical], 0.0, 1.0)
+    axes.fill_between(fine, *band, color=PALE, linewidth=0.0, label="band of Lilliefors")
+    axes.plot(fine, chance, color=ACCENT, linewidth=1.2, label="lognormal")
+    ranks = np.arange(x.size + 1) / x.size
+    axes.plot(
+        np.concatenate([fine[:1], np.repeat(x, 2), fine[-1:]]), np.repeat(ranks, 2), color=INK,
+        linewidth=0.9, label="capacities by rank",
+    )  # fmt: skip
+    axes.set_title(f"{state.name}: p = {digits_down(f.p_value, 2)}")
+    axes.set_xlim(fine[0], fine[-1])
+    axes.set_ylim(0.0, 1.02)
+    axes.locator_params(axis="x", nbins=5)
+    axes.grid(True)
+    axes.set_axisbelow(True)
 
 
 def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:

@@ -161,7 +161,7 @@ def _slopes(results: StudyResults) -> Iterator[Row]:
 _FRAGILITY = (
     "Building", "Array", "Limit state", "Exceeded when", "Limit on PRD of a motion", "Unit",
     "Median theta", "theta, 5 %", "theta, 95 %", "Dispersion beta", "beta, 5 %", "beta, 95 %",
-    "Censored runs",
+    "Lilliefors p of fit", "Censored capacities", "Motions below the limit again", "Censored runs",
 )  # fmt: skip
 
 
@@ -180,6 +180,9 @@ def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
                 *f.theta_range,
                 f.fitted.beta,
                 *f.beta_range,
+                f.p_value,
+                int(f.capacities.is_censored.sum()),
+                int(f.capacities.falls.sum()),
                 f.censored,
             )
 

@@ -75,6 +75,8 @@ class Fragility:
         Samples drawn for the intervals that determine no lognormal.
     p_value : float
         Of the goodness of fit (`lilliefors_p`); NaN with a censored capacity or fewer than four.
+    critical : float
+        Distance from the ranks of the capacities at which it is `LEVEL`; NaN where it is.
     """
 
     levels: Floats
@@ -87,6 +89,7 @@ class Fragility:
     beta_range: tuple[float, float]
     unfitted: int
     p_value: float
+    critical: float
 
 
 Range = tuple[float, float]
@@ -164,6 +167,7 @@ def fragility(
         theta_range, beta_range, unfitted = _drawn_ranges(found, fitted, seed)
     elif fitted.is_known:
         theta_range, beta_range = _exact_ranges(found.intensity.size, fitted)
+    p_value = _p_value(found, fitted)
     return Fragility(
         levels=levels,
         exceeded=k.sum(axis=0).astype(np.int64),
@@ -174,7 +178,8 @@ def fragility(
         theta_range=theta_range,
         beta_range=beta_range,
         unfitted=unfitted,
-        p_value=_p_value(found, fitted),
+        p_value=p_value,
+        critical=math.nan if math.isnan(p_value) else lilliefors_critical(found.intensity.size),
     )
 
 
