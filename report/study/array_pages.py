@@ -9,6 +9,7 @@ from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Table, TableColumn, TableRow
 from report.study import figures
 from report.study.dispersion import MASS, Dispersion, dispersions, exported, refusal
+from report.study.exports import has_chances
 from report.study.page_parts import axis, chart, level, on_building
 from report.study.results import ArrayResult, StudyResults
 from report.study.schema import Intensity, NoValue, Sampling
@@ -30,7 +31,7 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
         "(bars at 0.5).",
     )
     block = Block(
-        texts=[*_procedure(results, one), *_unknown(one)],
+        texts=[*_procedure(results, one), *_unknown(results, one)],
         charts=(picture, *_goodness(results, one, name)),
         tables=(_states(results, one), *_exported(results, one)),
     )
@@ -89,13 +90,16 @@ def _of_capacities(one: ArrayResult) -> Iterator[str]:
             )
 
 
-def _unknown(one: ArrayResult) -> Iterator[str]:
+def _unknown(results: StudyResults, one: ArrayResult) -> Iterator[str]:
     names = [state.name for state in one.states if not state.fragility.fitted.is_known]
     if names:
         yield (
             f"{joined(names)}: {NO_NUMBER}. A lognormal needs two different capacities above 0 up "
             "to the greatest intensity."
         )
+    is_exported = results.plan.input.study.intensity is not Intensity.S_DS
+    if is_exported and not has_chances(one):
+        yield "The array is not in fragility.xml: a limit state has no lognormal and censored runs."
 
 
 def _states(results: StudyResults, one: ArrayResult) -> Table:

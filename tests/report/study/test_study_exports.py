@@ -23,7 +23,7 @@ from report.study.exports import EXPORTS, export_files
 from report.study.plan import FRICTION
 from report.study.run import planned, run_study
 from report.study.template import write_study
-from solver.studies.fragility import Lognormal
+from solver.studies.fragility import UNKNOWN, Lognormal
 
 PROJECT = ROOT / "projects" / "study"
 
@@ -154,3 +154,37 @@ def test_limit_states_that_cross_have_no_negative_chance_between_them(project):
     alone = [[NormalDist(math.log(f.theta), f.beta).cdf(math.log(v)) for v in x] for f in fits]
     assert second == pytest.approx(alone[1], abs=1.01e-6)
     assert first == pytest.approx(np.max(alone, axis=0), abs=1.01e-6)
+
+
+def without_lognormal(array, name, **changes):
+    """The array under another name, its first limit state undetermined."""
+    found = dataclasses.replace(array.states[0].fragility, fitted=UNKNOWN, **changes)
+    states = (dataclasses.replace(array.states[0], fragility=found), *array.states[1:])
+    row = array.plan.array.model_copy(update={"id": name})
+    return dataclasses.replace(
+        array, states=states, plan=dataclasses.replace(array.plan, array=row)
+    )
+
+
+def test_an_array_whose_runs_are_censored_has_no_chance_of_zero_in_openquake(project):
+    """Of a motion without a value it is not known whether it exceeds: 0 of 0 is no chance."""
+    (one,) = project.arrays
+    levels = len(project.plan.input.intensities)
+    counted = np.array([7] * (levels - 2) + [1, 0])
+    lost = without_lognormal(
+        one, "A2", counted=counted, exceeded=np.zeros(levels, int), censored=13
+    )
+    whole = without_lognormal(
+        one, "A3", counted=np.full(levels, 7), exceeded=np.minimum(np.arange(levels), 7), censored=0
+    )
+    made = export_files(dataclasses.replace(project, arrays=(one, lost, whole)))
+    _, found = read_nrml(made["fragility.xml"])
+    assert list(found) == ["BSA.A1", "BSA.A3"]
+    assert (
+        "BSA.A2 is left out: LS1 has no lognormal and censored runs."
+        in made["fragility.xml"].decode()
+    )
+    *_, p = found["BSA.A3"]
+    wanted = np.maximum(np.minimum(np.arange(levels), 7) / 7.0, p[1])
+    assert p[0] == pytest.approx(wanted, abs=1.01e-6)
+    assert "fragility.xml" not in export_files(dataclasses.replace(project, arrays=(lost,)))
