@@ -39,7 +39,7 @@ def _how(results: StudyResults) -> tuple[str, ...]:
         f"PRD and on every excursion is at most the larger of {1e3 * model['matters_m']:g} mm and "
         f"{100.0 * model['matters_share']:g} % of the PRD.",
         _lost_words(int(without.sum()), without.size * len(motions)),
-        f"All runs are in the folder runs: one row for each run in Parquet files, "
+        f"The runs of the cases are in the folder runs: one row for each run in Parquet files, "
         f"{manifest['agreement']}.",
     )
 
@@ -56,9 +56,15 @@ def _models(results: StudyResults) -> Table:
         rows=tuple(
             TableRow(cells=(title, f"{count:,}", f"{100.0 * count / manifest['rows']:.1f} %"))
             for title, count in manifest["models"].items()
-        ),
+        )
+        + tuple(_for_capacities(results)),
         kind="compact",
     )
+
+
+def _for_capacities(results: StudyResults) -> Iterator[TableRow]:
+    if results.arrays:
+        yield TableRow(cells=("capacities, any model", f"{results.capacity_runs:,}", "beside"))
 
 
 def _mats(results: StudyResults) -> Iterator[Table]:

@@ -6,7 +6,7 @@ Reads one part at a time; runs the capacities of the motions. Read `results_of`.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from report.study.array_capacities import SHARES, array_capacities
 from report.study.parts import Done, peaks, read_part
-from report.study.plan import ArrayPlan, Shift, StudyPlan
+from report.study.plan import ArrayPlan, StudyPlan
 from report.study.schema import NoValue
 from report.study.spread import Spread, spectral_spread
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
-from solver.studies.capacity import COARSE_SCAN, SCAN, Capacities, Curve, capacities
 from solver.studies.curves import Statistics, largest_slope, least_friction, statistics
 from solver.studies.fit import Fit, fit_prd
-from solver.studies.fragility import Fragility, first_order_beta, fit_lognormal, fragility
+from solver.studies.fragility import Fragility, fragility
 from solver.studies.runs import Runner
 from solver.studies.uncertainty import Bar, Chance, exceedance, tornado
 
@@ -47,8 +47,7 @@ class LimitState:
         PRD above which it is exceeded [m]; 0 for the beginning of slip.
     fragility : Fragility
     effects : mapping of str to float
-        Dispersion of the capacity due to friction and slope, by the names of `ArrayPlan.shifts`;
-        NaN if not determined.
+        As in `ArrayCapacities`.
     """
 
     name: str
@@ -71,6 +70,8 @@ class ArrayResult:
     bars : tuple of Bar
     center_m : float
         Mean PRD with all variables at their centers [m]; NaN without an intensity at the site.
+    capacity_runs : int
+        Runs of its own for the capacities.
     """
 
     plan: ArrayPlan
@@ -78,6 +79,7 @@ class ArrayResult:
     chances: tuple[Chance, ...]
     bars: tuple[Bar, ...]
     center_m: float
+    capacity_runs: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,6 +123,11 @@ class StudyResults:
         c = self.curves
         beside = zip(STATISTICS, (c.mean_m, c.p84_m, c.largest_m), strict=True)
         return {self.plan.design_rule.name: self.design_m, **dict(beside)}
+
+    @property
+    def capacity_runs(self) -> int:
+        """Runs for the capacities, beside those of the cases."""
+        return sum(one.capacity_runs for one in self.arrays)
 
     @property
     def leading(self) -> str:
@@ -252,26 +259,24 @@ def _array(
     peaks_m, slips = prd[of(array.fragility)].T, slip[of(array.fragility)].T
     lost = np.isnan(peaks_m)
     counts = ~lost if study.no_value is NoValue.CENSORED else np.ones_like(lost)
-    levels = np.array(plan.input.intensities)
     reaches = array.array.reaches or "the object or edge"
-    limits = (
-        ("LS1", "slip begins", 0.0, slips | lost),
-        ("LS2", "half the clearance is used", 0.5 * clearance, ~(peaks_m <= 0.5 * clearance)),
-        ("LS3", f"{reaches} is reached", clearance, ~(peaks_m <= clearance)),
-    )
-    limits_m = [limit_m for *_, limit_m, _ in limits]
-    at = array.mu, array.array.slope_deg
-    found = _capacities(plan, array, runner, limits_m, at, levels, SCAN)
-    effects = _effects(plan, array, runner, limits_m, found)
+    words = ("slip begins", "half the clearance is used", f"{reaches} is reached")
+    searched = array_capacities(plan, array, runner)
     states = [
         LimitState(
-            name=name,
-            words=words,
-            limit_m=limit_m,
-            fragility=fragility(levels, exceeds, counts, one, seed=seed),
-            effects={variable: betas[k] for variable, betas in effects.items()},
+            name=f"LS{k + 1}",
+            words=words[k],
+            limit_m=share * clearance,
+            fragility=fragility(
+                np.array(plan.input.intensities),
+                ~(peaks_m <= share * clearance) if share else slips | lost,
+                counts,
+                searched.found[k],
+                seed=seed,
+            ),
+            effects=searched.effects[k],
         )
-        for k, ((name, words, limit_m, exceeds), one) in enumerate(zip(limits, found, strict=True))
+        for k, share in enumerate(SHARES)
     ]
     chances: tuple[Chance, ...] = ()
     bars: tuple[Bar, ...] = ()
@@ -281,78 +286,10 @@ def _array(
         means = prd[of(array.bars)].mean(axis=1)
         bars, center = tornado(array.spreads, means), float(means[0])
     return ArrayResult(
-        plan=array, states=tuple(states), chances=chances, bars=bars, center_m=center
+        plan=array,
+        states=tuple(states),
+        chances=chances,
+        bars=bars,
+        center_m=center,
+        capacity_runs=searched.runs,
     )
-
-
-def _capacities(
-    plan: StudyPlan,
-    array: ArrayPlan,
-    runner: Runner,
-    limits_m: Sequence[float],
-    at: Shift,
-    levels: Floats,
-    steps: int,
-) -> tuple[Capacities, ...]:
-    """Return the capacities of an array at a friction and slope [deg], for each limit."""
-    return capacities(
-        curves_of(runner, array, *at),
-        limits_m,
-        levels,
-        is_censoring=plan.input.study.no_value is NoValue.CENSORED,
-        steps=steps,
-    )
-
-
-def _effects(
-    plan: StudyPlan,
-    array: ArrayPlan,
-    runner: Runner,
-    limits_m: Sequence[float],
-    found: Sequence[Capacities],
-) -> Mapping[str, list[float]]:
-    """Return the dispersion of the capacity due to each variable, for each limit."""
-    medians = _medians(found)
-    if np.isnan(medians).all():
-        return dict.fromkeys(array.shifts, medians)
-    effects = {}
-    for name, shifts in array.shifts.items():
-        below, above = (_shifted(plan, array, runner, limits_m, at) for at in shifts)
-        around = zip(below, above, strict=True)
-        effects[name] = [first_order_beta(*one) for one in zip(medians, around, strict=True)]
-    return effects
-
-
-def _shifted(
-    plan: StudyPlan, array: ArrayPlan, runner: Runner, limits_m: Sequence[float], at: Shift
-) -> list[float]:
-    """Return the median capacities of an array at another friction or slope, for each limit.
-
-    Where a block yields later than at the center, it is searched that much farther: otherwise fewer
-    motions would reach a limit.
-    """
-    later = _yield(*at) / _yield(array.mu, array.array.slope_deg)
-    top = np.array([max(1.0, later) * plan.input.intensities[-1]])
-    return _medians(_capacities(plan, array, runner, limits_m, at, top, COARSE_SCAN))
-
-
-def _medians(found: Sequence[Capacities]) -> list[float]:
-    return [fit_lognormal(one).theta for one in found]
-
-
-def _yield(mu: float, slope_deg: float) -> float:
-    """Return the acceleration / g at which a block begins to slide down a slope [deg]."""
-    return math.tan(math.atan(mu) - math.radians(slope_deg))
-
-
-def curves_of(runner: Runner, array: ArrayPlan, mu: float, slope_deg: float) -> list[Curve]:
-    """Return the PRD of each motion over intensity, on the building of an array."""
-    columns, tracks = runner.campaign.columns, runner.tracks[array.building]
-    return [
-        Curve(
-            tracks=[t for (at, _), t in zip(columns, tracks, strict=True) if at == number],
-            slope_rad=math.radians(slope_deg),
-            mu=mu,
-        )
-        for number in range(len(runner.campaign.motions[0]))
-    ]

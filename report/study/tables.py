@@ -89,6 +89,7 @@ def _about(results: StudyResults) -> Iterator[Row]:
     yield "Title", results.plan.input.study.title
     yield "Runs", manifest["rows"]
     yield "Cases", manifest["cases"]["count"]
+    yield "Runs for the capacities", results.capacity_runs
     for title, count in manifest["models"].items():
         yield f"Runs with the model: {title}", count
     yield "Seed", manifest["about"]["seed"]

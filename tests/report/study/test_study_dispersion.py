@@ -6,17 +6,21 @@ import math
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from report.cli.main import main
+from report.study.array_capacities import curves_of
 from report.study.array_pages import fragility
+from report.study.basis_pages import basis
 from report.study.dispersion import dispersions, exported
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE
-from report.study.results import curves_of
-from report.study.run import planned, run_study
+from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, StudyArray
+from report.study.words import headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import fit_lognormal
-from solver.studies.runs import Runner
+from solver.studies.runs import Runner, Track
 from test_study_read import given, write
 
 SIGMA = np.log([0.38, 0.40, 0.42]).std(ddof=1)
@@ -149,6 +153,30 @@ def test_a_dispersion_that_cannot_be_determined_is_said_and_keeps_its_column(res
     *_, row = table.rows
     assert row.cells[heads.index("Friction")] == "not determined"
     assert len(row.cells) == len(heads)
+
+
+def test_the_runs_of_the_capacities_are_counted_and_no_more_than_a_dry_run_says(
+    tmp_path, monkeypatch
+):
+    folder = write(tmp_path, study(study_arrays=study().study_arrays[:1]), motions=2)
+    said = estimate(planned(folder)[0])
+    ran, fill = [], Track.fill
+
+    def counted(self, cases, chosen, rows, column):
+        ran.append(len(chosen))
+        fill(self, cases, chosen, rows, column)
+
+    monkeypatch.setattr(Track, "fill", counted)
+    made = run_study(planned(folder)[0], folder / "out")
+    assert made.capacity_runs == sum(ran) - said.runs > 0
+    written = json.loads((folder / "out" / "manifest.json").read_text())
+    assert written["capacity_runs"] == made.capacity_runs <= said.capacity_runs
+    assert said.capacity_runs < 3 * made.capacity_runs
+    done = CliRunner().invoke(main, ["study", str(folder), "--dry-run"])
+    assert f"at most {said.capacity_runs:,} more runs for the capacities" in done.output
+    assert f", and {made.capacity_runs:,} for the capacities" in headline(made)[0]
+    about = [row.cells for row in basis(made).blocks[0].tables[0].rows]
+    assert about[-1][:2] == ("capacities, any model", f"{made.capacity_runs:,}")
 
 
 def test_without_a_tolerance_or_tests_nothing_more_is_run(tmp_path):

@@ -28,6 +28,7 @@ def state(name, intensity, *, falls=0, is_censored=False):
     found = Capacities(
         intensity=x, is_censored=np.arange(x.size) >= x.size - is_censored,
         end=np.full(x.size, 2.0), falls=np.arange(x.size) < falls,
+        searched=np.zeros(x.size, int),
     )  # fmt: skip
     exceeds = x[:, None] < LEVELS
     return LimitState(

@@ -100,7 +100,7 @@ def with_state(results, motions, *, allow_matched=False, **changes):
             levels=LEVELS, exceeded=np.zeros(4, int), counted=np.full(4, 3), censored=0,
             capacities=Capacities(
                 intensity=np.array([1.13, 1.2, 1.27]), is_censored=np.zeros(3, bool),
-                end=np.full(3, 2.0), falls=np.zeros(3, bool),
+                end=np.full(3, 2.0), falls=np.zeros(3, bool), searched=np.zeros(3, int),
             ),
             fitted=Lognormal(theta=1.2, beta=0.06), theta_range=(1.1, 1.3),
             beta_range=(0.03, 0.1), unfitted=0, p_value=0.5, critical=0.3,
@@ -111,7 +111,9 @@ def with_state(results, motions, *, allow_matched=False, **changes):
         array=StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1), building=0, mu=0.4,
         spreads={}, shifts={}, fragility=slice(0), samples=slice(0), bars=slice(0),
     )  # fmt: skip
-    one = ArrayResult(plan=array, states=(state,), chances=(), bars=(), center_m=math.nan)
+    one = ArrayResult(
+        plan=array, states=(state,), chances=(), bars=(), center_m=math.nan, capacity_runs=0
+    )
     given_ = results.plan.input
     study = given_.study.model_copy(update=changes)
     plan = dataclasses.replace(results.plan, input=dataclasses.replace(given_, study=study))

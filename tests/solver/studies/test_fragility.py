@@ -27,6 +27,7 @@ def drawn(rng, motions, beta, end=math.inf, theta=1.0):
         is_censored=capacity > end,
         end=np.full(motions, min(end, 1e9)),
         falls=np.zeros(motions, dtype=bool),
+        searched=np.zeros(motions, dtype=int),
     )
 
 
@@ -78,7 +79,13 @@ def test_the_exact_intervals_of_seven_capacities():
 def test_capacities_that_determine_no_lognormal_give_none(values):
     zeros = np.zeros(len(values), dtype=bool)
     found = fitted(
-        Capacities(intensity=np.array(values), is_censored=zeros, end=np.array(values), falls=zeros)
+        Capacities(
+            intensity=np.array(values),
+            is_censored=zeros,
+            end=np.array(values),
+            falls=zeros,
+            searched=zeros,
+        )
     )
     assert not found.fitted.is_known
     assert all(map(math.isnan, (found.fitted.beta, *found.theta_range, *found.beta_range)))
@@ -178,7 +185,11 @@ def test_a_set_of_two_groups_is_no_lognormal_and_a_censored_one_has_no_p_value()
     groups = np.concatenate([np.linspace(0.5, 0.51, 10), np.linspace(2.0, 2.02, 10)])
     found = drawn(np.random.default_rng(1), 20, 0.3)
     two = Capacities(
-        intensity=groups, is_censored=found.is_censored, end=found.end, falls=found.falls
+        intensity=groups,
+        is_censored=found.is_censored,
+        end=found.end,
+        falls=found.falls,
+        searched=found.searched,
     )
     assert fitted(two).p_value < 0.001
     assert math.isnan(fitted(drawn(np.random.default_rng(1), 20, 0.3, 1.0)).p_value)
