@@ -15,7 +15,7 @@ from report.study.results import ArrayResult, StudyResults
 from report.study.schema import Intensity, NoValue, Sampling
 from report.study.tables import length_unit
 from report.study.words import NO_NUMBER, both, chance_words
-from report.words.units import digits_down, digits_up
+from report.words.units import digits_down, digits_up, number, round_up
 from solver.studies.capacity import ACCURACY
 from solver.studies.fragility import CONFIDENCE, LEVEL, LILLIEFORS_REPEATS, REPEATS
 from solver.studies.uncertainty import HIGH, LOW, Chance
@@ -132,7 +132,12 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
         ),
         notes=(
             f"p of fit: by Lilliefors, with {LILLIEFORS_REPEATS:,} samples. A small p speaks "
-            "against a lognormal. —: a capacity is censored, or there are fewer than four.",
+            "against a lognormal."
+            + (
+                " —: a capacity is censored, or there are fewer than four."
+                if any(math.isnan(state.fragility.p_value) for state in one.states)
+                else ""
+            ),
         ),
     )
 
@@ -148,9 +153,7 @@ def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
     totals = [exported(results, one, state).beta for state in states]
     yield Table(
         caption="Dispersions of the capacity by name; β of an exported fragility is the square root"
-        " of the sum of their squares"
-        + (f". Not included: {joined(lacking)}" if lacking else "")
-        + f". {MASS}",
+        " of the sum of their squares" + (f". Not included: {joined(lacking)}" if lacking else ""),
         columns=(
             TableColumn(head="State", align="left", share=0.7),
             *(TableColumn(head=_head(parts), share=1.7) for parts in given),
@@ -160,14 +163,18 @@ def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
             TableRow(
                 cells=(
                     state.name,
-                    *(digits_up(p.beta, 3) if p.beta else p.source for p in row),
-                    "not exported" if refusal(results) else digits_up(total, 3),
+                    *(_beta(p.beta) if p.beta else p.source for p in row),
+                    "not exported" if refusal(results) else _beta(total),
                 )
             )
             for state, row, total in zip(states, zip(*given, strict=True), totals, strict=True)
         ),
-        notes=tuple(_first_order(by_name)),
+        notes=(*_first_order(by_name), f"{MASS}."),
     )
+
+
+def _beta(value: float) -> str:
+    return number(round_up(value, 3), 3)
 
 
 def _head(parts: Sequence[Dispersion]) -> str:

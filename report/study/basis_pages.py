@@ -40,7 +40,13 @@ def _how(results: StudyResults) -> tuple[str, ...]:
         f"{100.0 * model['matters_share']:g} % of the PRD.",
         _lost_words(int(without.sum()), without.size * len(motions)),
         f"The runs of the cases are in the folder runs: one row for each run in Parquet files, "
-        f"{manifest['agreement']}.",
+        f"{manifest['agreement']}."
+        + (
+            f" {results.capacity_runs:,} more runs find the capacities of the arrays; they are not "
+            "kept."
+            if results.arrays
+            else ""
+        ),
     )
 
 
@@ -56,15 +62,9 @@ def _models(results: StudyResults) -> Table:
         rows=tuple(
             TableRow(cells=(title, f"{count:,}", f"{100.0 * count / manifest['rows']:.1f} %"))
             for title, count in manifest["models"].items()
-        )
-        + tuple(_for_capacities(results)),
+        ),
         kind="compact",
     )
-
-
-def _for_capacities(results: StudyResults) -> Iterator[TableRow]:
-    if results.arrays:
-        yield TableRow(cells=("capacities, any model", f"{results.capacity_runs:,}", "beside"))
 
 
 def _mats(results: StudyResults) -> Iterator[Table]:
@@ -85,7 +85,7 @@ def _mats(results: StudyResults) -> Iterator[Table]:
                 cells=(
                     mat.id,
                     f"{given.friction(mat.id).center:.3g}",
-                    f"{given.friction(mat.id).beta:.3f}",
+                    f"{given.friction(mat.id).beta:.3f}" if mat.tested else "none",
                     mat.tested or "none",
                     mat.report or "none",
                 )

@@ -43,7 +43,7 @@ def curves(
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.6))
-        axes = figure.add_axes((0.085, 0.285, 0.9, 0.69))
+        axes = figure.add_axes((0.085, 0.285, 0.89, 0.69))
         for count, (label, prd_m) in enumerate(family):
             axes.plot(
                 x,
@@ -102,7 +102,7 @@ def contours(
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 7.6))
-        axes = figure.add_axes((0.085, 0.06, 0.9, 0.925))
+        axes = figure.add_axes((0.085, 0.075, 0.89, 0.91))
         grid, levels = (x, slopes_deg), _levels(unit)
         allowed = allowed_m / unit.si
         others = [value for value in levels if value != round(allowed, 6)]
@@ -138,12 +138,14 @@ def _contour(
     found = [v for v in levels if np.nanmin(shown) < v < np.nanmax(shown)]
     if found:
         drawn = axes.contour(*grid, shown, found, **look)
-        axes.clabel(
+        labels = axes.clabel(
             drawn,
             fmt=lambda value: f"{value:g} {unit.symbol}",
             inline_spacing=2,
             manual=list(_places(drawn, grid, height)),
         )
+        for label in labels:
+            label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.2})
 
 
 def _places(
@@ -153,7 +155,7 @@ def _places(
     low, span = np.array([v[0] for v in grid]), np.array([np.ptp(v) for v in grid])
     for count, parts in enumerate(drawn.allsegs):
         shares = (max(parts, key=len) - low) / span
-        inside = shares[(shares[:, 0] > 0.04) & (shares[:, 0] < 0.96)]
+        inside = shares[((shares > 0.04) & (shares < 0.96)).all(axis=1)]
         if inside.size:
             nearest = np.abs(inside[:, 1] - height - 0.1 * (count % 3)).argmin()
             x, y = low + span * inside[nearest]
@@ -169,8 +171,8 @@ def _levels(unit: Unit) -> tuple[float, ...]:
 def fragilities(states: Sequence[LimitState], along: str) -> str:
     """Return fitted fragilities with their data points and the confidence of the medians."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.1))
-        axes = figure.add_axes((0.085, 0.29, 0.9, 0.68))
+        figure = Figure(figsize=(WIDTH_IN, 2.9))
+        axes = figure.add_axes((0.085, 0.345, 0.89, 0.635))
         levels = states[0].fragility.levels
         fine = np.linspace(levels[-1] / 300.0, levels[-1], 300)
         for count, state in enumerate(states):
@@ -198,7 +200,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
         axes.set_axisbelow(True)
         axes.legend(
             loc="upper center",
-            bbox_to_anchor=(0.5, -0.2),
+            bbox_to_anchor=(0.5, -0.22),
             ncols=3,
             handlelength=2.0,
             columnspacing=0.8,
@@ -216,9 +218,9 @@ def goodness(states: Sequence[LimitState], along: str) -> str:
         At least one, each with a p-value.
     """
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.9))
+        figure = Figure(figsize=(WIDTH_IN, 2.4))
         panels = figure.subplots(1, len(states), sharey=True, squeeze=False)[0]
-        figure.subplots_adjust(left=0.085, right=0.985, bottom=0.29, top=0.92, wspace=0.08)
+        figure.subplots_adjust(left=0.085, right=0.985, bottom=0.34, top=0.91, wspace=0.08)
         for axes, state in zip(panels, states, strict=True):
             _ranked(axes, state)
             axes.set_xlabel(along)
@@ -254,9 +256,9 @@ def _ranked(axes: Axes, state: LimitState) -> None:
 def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
     """Return the tornado chart: mean PRD with each variable at its 5 % and 95 % quantile."""
     with style():
-        height = 0.75 + 0.36 * len(bars)
+        height = 0.85 + 0.36 * len(bars)
         figure = Figure(figsize=(WIDTH_IN, height))
-        axes = figure.add_axes((0.2, 0.45 / height, 0.78, 1.0 - 0.6 / height))
+        axes = figure.add_axes((0.2, 0.55 / height, 0.78, 1.0 - 0.65 / height))
         for row, bar in enumerate(bars):
             ends = np.array([bar.prd_low_m, bar.prd_high_m]) / unit.si
             if np.isnan(ends).any():
@@ -277,7 +279,11 @@ def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
         axes.set_yticks(range(len(bars)), [bar.name for bar in bars])
         axes.set_ylim(len(bars) - 0.45, -0.55)
         reached = [v for bar in bars for v in (bar.prd_low_m, bar.prd_high_m)]
-        axes.set_xlim(0.0, 1.12 * float(np.nanmax([*reached, center_m])) / unit.si)
+        top = float(np.nanmax([*reached, center_m])) / unit.si
+        # A number left of the shortest end keeps clear of the names.
+        low = min(0.0, float(np.nanmin([*reached, center_m])) / unit.si - 0.1 * top)
+        axes.set_xlim(low, 1.12 * top)
+        axes.set_xticks([tick for tick in axes.get_xticks() if 0.0 <= tick <= 1.12 * top])
         axes.set_xlabel(f"Mean PRD [{unit.symbol}]")
         bare(axes)
         return svg_text(figure)
