@@ -11,6 +11,7 @@ from report.study import figures
 from report.study.dispersion import MASS, Dispersion, dispersions, exported, refusal
 from report.study.exports import has_chances
 from report.study.page_parts import axis, chart, level, on_building
+from report.study.plan import SLOPE
 from report.study.results import ArrayResult, StudyResults
 from report.study.schema import Intensity, NoValue, Sampling
 from report.study.tables import length_unit
@@ -169,7 +170,7 @@ def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
             )
             for state, row, total in zip(states, zip(*given, strict=True), totals, strict=True)
         ),
-        notes=(*_first_order(by_name), f"{MASS}."),
+        notes=(*_first_order(one, by_name), f"{MASS}."),
     )
 
 
@@ -183,15 +184,18 @@ def _head(parts: Sequence[Dispersion]) -> str:
     return f"{part.name.capitalize()}: {part.source}"
 
 
-def _first_order(by_name: Sequence[Sequence[Dispersion]]) -> Iterator[str]:
+def _first_order(one: ArrayResult, by_name: Sequence[Sequence[Dispersion]]) -> Iterator[str]:
     """Yield how the dispersions of friction and slope are found, if there are any."""
     *_, friction, slope = by_name
     names = [parts[0].name for parts in (friction, slope) if any(part.beta for part in parts)]
     if names:
         yield (
             f"{joined(names).capitalize()}: by first-order second moment, half the difference of "
-            "the logarithms of the median capacities at one standard deviation above and below."
+            "the logarithms of the median capacities at one standard deviation above and below "
+            "(where one is not determined, the difference of the other from the median)."
         )
+    if SLOPE in one.plan.shifts and one.plan.shifts[SLOPE][0][1] == 0.0:
+        yield "The slope below is 0: the roof is the same whichever way it tilts."
 
 
 def _three(
@@ -230,7 +234,9 @@ def _chance(results: StudyResults, one: ArrayResult, chance: Chance) -> str:
 
 
 def _what_matters(one: ArrayResult) -> Iterator[str]:
-    if one.bars:
+    if one.bars and math.isnan(one.center_m):
+        yield "A motion has no final PRD with all variables at their medians: no effect is shown."
+    elif one.bars:
         yield (
             "Effect of one variable at a time on the mean PRD, from its "
             f"{100 * LOW:g} % to its {100 * HIGH:g} % quantile: {one.bars[0].name} matters most."
@@ -238,7 +244,7 @@ def _what_matters(one: ArrayResult) -> Iterator[str]:
 
 
 def _tornado(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Chart]:
-    if one.bars:
+    if one.bars and not math.isnan(one.center_m):
         yield chart(
             f"tornado-{slug(name)}",
             figures.tornado(one.bars, one.center_m, length_unit(results)),

@@ -25,6 +25,7 @@ from report.pages.symbols import with_symbols
 from report.results.publish import locked
 from report.sheet.schema import UnitsFirst
 from report.study import files
+from report.study.array_pages import fragility
 from report.study.basis_pages import basis
 from report.study.exports import chances_of, component_id, export_files, known_states
 from report.study.files import study_files, study_html
@@ -163,6 +164,17 @@ def test_the_chance_is_that_of_the_samples(results):
     assert array.chances[0].value == pytest.approx(np.mean(over), abs=1e-12)
     assert array.chances[0].runs == 120
     assert {bar.name for bar in array.bars} == {"friction coefficient", "slope", "intensity"}
+
+
+def test_a_chance_without_a_value_at_the_medians_has_no_chart_and_says_so(results):
+    """Such as uplift in a motion: a chart over no number would end the report after all runs."""
+    one = results.arrays[0]
+    bars = tuple(
+        dataclasses.replace(bar, prd_low_m=math.nan, prd_high_m=math.nan) for bar in one.bars
+    )
+    *_, block = fragility(results, dataclasses.replace(one, bars=bars, center_m=math.nan)).blocks
+    assert block.charts == ()
+    assert "no final PRD with all variables at their medians" in block.texts[-1]
 
 
 def test_a_mat_without_tests_has_no_bar_for_friction(results):

@@ -79,6 +79,12 @@ def test_a_slope_about_none_disperses_as_its_size(results):
     mu = results.arrays[1].plan.mu
     wanted = half_log(yields(mu, 0.0), yields(mu, OFF_RAD))
     assert results.arrays[1].states[0].effects[SLOPE] == pytest.approx(wanted, rel=1e-9)
+    said = ["The slope below is 0" in notes_of(results, one) for one in results.arrays]
+    assert said == [False, True, False]
+
+
+def notes_of(results, one):
+    return " ".join(fragility(results, one).blocks[0].tables[1].notes)
 
 
 def test_the_dispersion_of_friction_of_a_limit_obeys_the_scaling_of_a_level_roof(results):
