@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Table, TableColumn, TableRow
+from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.dispersion import MASS, Dispersion, dispersions, exported, refusal
 from report.study.exports import has_chances
@@ -29,7 +30,7 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
         f"fragility-{slug(name)}",
         figures.fragilities(one.states, axis(results)),
         "Fractions of the motions, lognormal fits, and the confidence interval of each median "
-        "(bars at 0.5).",
+        "(bars near 0.5).",
     )
     block = Block(
         texts=[*_procedure(results, one), *_unknown(results, one)],
@@ -106,7 +107,7 @@ def _unknown(results: StudyResults, one: ArrayResult) -> Iterator[str]:
 def _states(results: StudyResults, one: ArrayResult) -> Table:
     interval = f"{50 * (1 - CONFIDENCE):g} to {50 * (1 + CONFIDENCE):g} %"
     return Table(
-        caption=f"Fragilities, median {axis(results)}",
+        caption=with_symbols(f"Fragilities, median {axis(results)}"),
         columns=(
             TableColumn(head="State", align="left", share=0.7),
             TableColumn(head="Exceeded when", align="left", share=2.4),

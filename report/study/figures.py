@@ -154,12 +154,19 @@ def _places(
     """Yield where the labels of contours are: three heights in turn, and none beyond the edge."""
     low, span = np.array([v[0] for v in grid]), np.array([np.ptp(v) for v in grid])
     for count, parts in enumerate(drawn.allsegs):
-        shares = (max(parts, key=len) - low) / span
+        shares = (_dense(max(parts, key=len)) - low) / span
         inside = shares[((shares > 0.04) & (shares < 0.96)).all(axis=1)]
         if inside.size:
             nearest = np.abs(inside[:, 1] - height - 0.1 * (count % 3)).argmin()
             x, y = low + span * inside[nearest]
             yield float(x), float(y)
+
+
+def _dense(line: Floats) -> Floats:
+    """Return a line with many points, shape (m, 2): its own may all be at the edges."""
+    at = np.arange(len(line))
+    fine = np.linspace(0.0, at[-1], 300)
+    return np.stack([np.interp(fine, at, values) for values in line.T], axis=-1)
 
 
 def _levels(unit: Unit) -> tuple[float, ...]:
@@ -189,8 +196,13 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
                     fine, f.fitted.at(fine), linestyle=LINES[count], color=color, linewidth=1.2,
                     label=f"{state.name}: lognormal",
                 )  # fmt: skip
+                height = 0.55 - 0.05 * count  # where medians are close, their bars are apart
                 axes.plot(
-                    f.theta_range, (0.5, 0.5), color=color, linewidth=2.6, solid_capstyle="butt"
+                    f.theta_range,
+                    (height, height),
+                    color=color,
+                    linewidth=2.6,
+                    solid_capstyle="butt",
                 )
         axes.set_xlim(0.0, levels[-1])
         axes.set_ylim(0.0, 1.02)
@@ -264,15 +276,16 @@ def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
             if np.isnan(ends).any():
                 axes.text(center_m / unit.si, row, "no value at an end", va="center")
                 continue
-            low, high = sorted(ends)
+            low, high = min(*ends, center_m / unit.si), max(*ends, center_m / unit.si)
             axes.barh(
                 [row], [high - low], 0.55, left=[low], facecolor="#b8c7d9", edgecolor=INK,
                 linewidth=0.8,
             )  # fmt: skip
-            for end, value in zip(ends, (bar.at_low, bar.at_high), strict=True):
-                is_right = end == high
+            ended = list(zip(ends, (bar.at_low, bar.at_high), strict=True))
+            for is_right, at in ((False, low), (True, high)):
+                here = [f"{v:.3g}" for end, v in ended if (end > center_m / unit.si) == is_right]
                 axes.annotate(
-                    f"{value:.3g}", (end, row), (3 if is_right else -3, 0),
+                    ", ".join(here), (at, row), (3 if is_right else -3, 0),
                     textcoords="offset points", va="center", ha="left" if is_right else "right",
                 )  # fmt: skip
         axes.axvline(center_m / unit.si, color=INK, linewidth=1.0)

@@ -168,6 +168,11 @@ def test_in_the_charts_of_a_study(drawn):
         limit_state("LS2", "half the clearance is used", [1.3, 1.4, 1.5, 1.52, 1.55, 1.6, 1.7]),
         limit_state("LS3", "RTU-1 is reached", [1.65, 1.68, 1.75, 1.8, 1.81, 1.86, 1.94]),
     ]
+    few = np.linspace(0.3, 1.5, 5)
+    study.contours(
+        few, slopes[:2], design[:2, :5] * 40, design[:2, :5] * 20, inch, along="PPA [g]",
+        allowed_m=math.nan,
+    )  # fmt: skip
     study.fragilities(states, "PPA [g]")
     study.goodness(states, "PPA [g]")
     study.goodness(states[:1], "PPA [g]")
@@ -177,10 +182,13 @@ def test_in_the_charts_of_a_study(drawn):
             ("intensity", 0.938, 1.54, (0.02, 0.36)),
             ("friction coefficient", 0.538, 0.464, (0.07, 0.15)),
             ("slope", 1.77, 2.23, (0.1, 0.11)),
+            ("slope about none", -0.225, 0.225, (0.12, 0.12)),
         )
     ]
     study.tornado(bars, 0.105, inch)
-    assert len(drawn.figures) == 6
+    assert len(drawn.figures) == 7
+    contour_labels = [t.get_text() for t in drawn.figures[2][0] if t.get_text().endswith(" in")]
+    assert len(contour_labels) > 8, contour_labels
     assert not list(faults(drawn))
 
 
