@@ -53,7 +53,7 @@ def curves(
                 markersize=3.2,
                 linewidth=0.9,
                 color=INK if count % 2 == 0 else ACCENT,
-                label=label,
+                label=f"{label}: none" if np.isnan(prd_m).all() else label,
             )
         for count, prd_m in enumerate(v for v in beside if not np.isnan(v).all()):
             label = "_" if count else "mean PRD"  # an underscore: not in the legend

@@ -159,6 +159,7 @@ def test_in_the_charts_of_a_study(drawn):
     slopes, levels = np.arange(8.0), np.arange(0.1, 2.05, 0.1)
     design = 0.05 * (1.0 + slopes[:, None]) * levels**3
     family = [(f"{slope:g}°", design[k]) for k, slope in enumerate(slopes)]
+    family[-1] = family[-1][0], np.full_like(levels, math.nan)
     study.curves(levels, family, inch, along="PPA [g]", beside=list(design / 1.1))
     study.contours(
         levels, slopes, design, design / 1.1, inch, along="PPA [g]", allowed_m=24 * inch.si
@@ -187,6 +188,7 @@ def test_in_the_charts_of_a_study(drawn):
     ]
     study.tornado(bars, 0.105, inch)
     assert len(drawn.figures) == 7
+    assert "7°: none" in [text.get_text() for text in drawn.figures[0][0]]
     contour_labels = [t.get_text() for t in drawn.figures[2][0] if t.get_text().endswith(" in")]
     assert len(contour_labels) > 8, contour_labels
     assert not list(faults(drawn))
