@@ -9,12 +9,12 @@ from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Table, TableColumn, TableRow
 from report.pages.symbols import with_symbols
 from report.study import figures
-from report.study.dispersion import MASS, Dispersion, dispersions, exported, refusal
+from report.study.dispersion import MASS, Dispersion, dispersions, exported, is_exportable, refusal
 from report.study.exports import has_chances
 from report.study.page_parts import axis, chart, level, on_building
 from report.study.plan import SLOPE
 from report.study.results import ArrayResult, StudyResults
-from report.study.schema import Intensity, NoValue, Sampling
+from report.study.schema import NoValue, Sampling
 from report.study.tables import length_unit
 from report.study.words import NO_NUMBER, both, chance_words
 from report.words.units import digits_down, digits_up, number, round_up
@@ -99,8 +99,7 @@ def _unknown(results: StudyResults, one: ArrayResult) -> Iterator[str]:
             f"{joined(names)}: {NO_NUMBER}. A lognormal needs two different capacities above 0 up "
             "to the greatest intensity."
         )
-    is_exported = results.plan.input.study.intensity is not Intensity.S_DS
-    if is_exported and not has_chances(one):
+    if is_exportable(results) and not has_chances(one):
         yield "The array is not in fragility.xml: a limit state has no lognormal and censored runs."
 
 
@@ -148,7 +147,7 @@ def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
     """Yield the dispersions of the exported fragilities by name, if there are any."""
     states = [state for state in one.states if state.fragility.fitted.is_known]
     by_name = list(zip(*(dispersions(results, one, state) for state in states), strict=True))
-    if not by_name or results.plan.input.study.intensity is Intensity.S_DS:
+    if not by_name or not is_exportable(results):
         return
     given = [parts for parts in by_name if any(part.beta for part in parts)]
     lacking = [f"{parts[0].name} ({parts[0].source})" for parts in by_name if parts not in given]

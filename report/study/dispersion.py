@@ -8,12 +8,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.study.plan import FRICTION, SLOPE
+from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.words.units import digits_up
 from solver.studies.fragility import Lognormal
 
+NAMES = ("record-to-record", "modeling", "quality of data", "friction", "slope")
 NOT_GIVEN, NOT_DETERMINED = "not given", "not determined"
 MASS = "Mass has no effect: each array is one rigid block with Coulomb friction"
 """Each force on such a block is proportional to its mass; a study has no others."""
@@ -26,6 +27,7 @@ class Dispersion:
     Attributes
     ----------
     name : str
+        One of `NAMES`.
     source : str
         Where it is from, or why it is not included.
     beta : float
@@ -41,35 +43,41 @@ def dispersions(
     results: StudyResults, one: ArrayResult, state: LimitState
 ) -> tuple[Dispersion, ...]:
     """Return the dispersions of a limit state that has a lognormal; mass is none (`MASS`)."""
-    study = results.plan.input.study
-    if study.record_beta is None:
-        record = "these motions", state.fragility.fitted.beta
-    else:
+    study, plan = results.plan.input.study, one.plan
+    record = "these motions", state.fragility.fitted.beta
+    if study.record_beta is not None:
         record = study.record_source, study.record_beta
-    given = [("record-to-record", *record)]
-    for name, beta in (("modeling", study.modeling_beta), ("quality of data", study.quality_beta)):
-        given.append((name, "entered", beta) if beta is not None else (name, NOT_GIVEN, 0.0))
-    mat, spreads = one.plan.array.mat, one.plan.spreads
-    for variable, name, tell, lacking in (
-        (FRICTION, "friction", _of_tests, f"mat {mat} has no tests"),
-        (SLOPE, "slope", _of_tolerance, "no tolerance is given"),
-    ):
-        beta = state.effects.get(variable)
-        if beta is None:
-            given.append((name, lacking, 0.0))
-        elif math.isnan(beta):
-            given.append((name, NOT_DETERMINED, 0.0))
-        else:
-            given.append((name, tell(mat, spreads[variable].deviation), beta))
-    return tuple(Dispersion(name=name, source=source, beta=beta) for name, source, beta in given)
+    found = (
+        record,
+        _entered(study.modeling_beta),
+        _entered(study.quality_beta),
+        _of_effect(state, FRICTION, f"mat {plan.array.mat} has no tests", _tests(plan)),
+        _of_effect(state, SLOPE, "no tolerance is given", _tolerance(plan)),
+    )
+    return tuple(
+        Dispersion(name=name, source=source, beta=beta)
+        for name, (source, beta) in zip(NAMES, found, strict=True)
+    )
 
 
-def _of_tests(mat: str, deviation: float) -> str:
-    return f"tests of {mat}, standard deviation of ln μ {deviation:.3f}"
+def _entered(beta: float | None) -> tuple[str, float]:
+    return (NOT_GIVEN, 0.0) if beta is None else ("entered", beta)
 
 
-def _of_tolerance(_: str, deviation: float) -> str:
-    return f"tolerance, standard deviation {deviation:.2g} deg"
+def _of_effect(state: LimitState, variable: str, lacking: str, source: str) -> tuple[str, float]:
+    beta = state.effects.get(variable)
+    if beta is None:
+        return lacking, 0.0
+    return (NOT_DETERMINED, 0.0) if math.isnan(beta) else (source, beta)
+
+
+def _tests(plan: ArrayPlan) -> str:
+    deviation = plan.spreads[FRICTION].deviation
+    return f"tests of {plan.array.mat}, standard deviation of ln μ {deviation:.3f}"
+
+
+def _tolerance(plan: ArrayPlan) -> str:
+    return f"tolerance, standard deviation {plan.spreads[SLOPE].deviation:.2g} deg"
 
 
 def exported(results: StudyResults, one: ArrayResult, state: LimitState) -> Lognormal:
@@ -81,6 +89,11 @@ def exported(results: StudyResults, one: ArrayResult, state: LimitState) -> Logn
     return Lognormal(theta=fitted.theta, beta=total)
 
 
+def is_exportable(results: StudyResults) -> bool:
+    """Whether any format has the measure of intensity."""
+    return results.plan.input.study.intensity is not Intensity.S_DS
+
+
 def lacks_record_spread(results: StudyResults) -> bool:
     """Whether neither the motions nor the workbook give a record-to-record dispersion."""
     return results.plan.input.study.record_beta is None and not results.spread.is_record_to_record
@@ -88,9 +101,9 @@ def lacks_record_spread(results: StudyResults) -> bool:
 
 def refusal(results: StudyResults) -> str:
     """Return why no fragility is exported; empty if there is no reason."""
-    study = results.plan.input.study
-    is_exported = results.arrays and study.intensity is not Intensity.S_DS
-    if not is_exported or results.allow_matched or not lacks_record_spread(results):
+    if not (results.arrays and is_exportable(results)):
+        return ""
+    if results.allow_matched or not lacks_record_spread(results):
         return ""
     return (
         f"The fragility files are not written: {_little(results)} Enter a record-to-record "

@@ -15,7 +15,8 @@ from typing import Any
 import xlsxwriter
 
 from report.pages.parts import UNVERIFIED
-from report.study.results import StudyResults
+from report.study.dispersion import NAMES, dispersions, exported, is_exportable, refusal
+from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words
 from report.words.units import Quantity, Unit
 from solver.studies.fit import Fit
@@ -163,6 +164,7 @@ _FRAGILITY = (
     "Building", "Array", "Limit state", "Exceeded when", "Limit on PRD of a motion", "Unit",
     "Median theta", "theta, 5 %", "theta, 95 %", "Dispersion beta", "beta, 5 %", "beta, 95 %",
     "Lilliefors p of fit", "Censored capacities", "Motions below the limit again", "Censored runs",
+    *(f"Beta, {name}" for name in NAMES), "Beta exported",
 )  # fmt: skip
 
 
@@ -185,7 +187,16 @@ def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
                 int(f.capacities.is_censored.sum()),
                 int(f.capacities.falls.sum()),
                 f.censored,
+                *_dispersions(results, one, state),
             )
+
+
+def _dispersions(results: StudyResults, one: ArrayResult, state: LimitState) -> Row:
+    """Return the dispersions of a limit state by name, and that exported; NaN for none."""
+    if not (is_exportable(results) and state.fragility.fitted.is_known):
+        return [math.nan] * (len(NAMES) + 1)
+    total = math.nan if refusal(results) else exported(results, one, state).beta
+    return [*(part.beta or math.nan for part in dispersions(results, one, state)), total]
 
 
 _CHANCES = (

@@ -1,12 +1,14 @@
 """The dispersions of a fragility by name: friction and slope against closed forms and scaling."""
 
 import dataclasses
+import io
 import json
 import math
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from openpyxl import load_workbook
 
 from report.cli.main import main
 from report.study.array_capacities import curves_of
@@ -17,6 +19,7 @@ from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, StudyArray
+from report.study.tables import study_xlsx
 from report.study.words import headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import fit_lognormal
@@ -132,6 +135,22 @@ def test_the_exported_dispersion_is_the_square_root_of_the_sum_of_squares(result
     assert "(tests of A, standard deviation of ln μ 0.050)" in said["BSA.S1"]["Comments"]
     assert "friction not included (mat B has no tests)" in said["BSA.S3"]["Comments"]
     assert "Mass has no effect: each array is one rigid block" in said["BSA.S1"]["Comments"]
+
+
+def test_the_workbook_has_the_dispersions_by_name_and_the_exported_one(results):
+    sheet = load_workbook(io.BytesIO(study_xlsx(results)))["Fragility"]
+    heads = [cell.value for cell in sheet[1]]
+    rows = [dict(zip(heads, (c.value for c in row), strict=True)) for row in sheet.iter_rows(2)]
+    states = [(one, state) for one in results.arrays for state in one.states]
+    for row, (one, state) in zip(rows, states, strict=True):
+        if not state.fragility.fitted.is_known:
+            continue
+        for part in dispersions(results, one, state):
+            wanted = pytest.approx(part.beta) if part.beta else "none"
+            assert row[f"Beta, {part.name}"] == wanted
+        assert row["Beta exported"] == pytest.approx(exported(results, one, state).beta)
+    assert rows[-1]["Beta, friction"] == "none"
+    assert rows[0]["Beta, friction"] > 0.0
 
 
 def test_each_dispersion_that_is_not_given_is_named_with_its_reason(results):

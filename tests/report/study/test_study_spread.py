@@ -18,7 +18,7 @@ from report.study.array_pages import fragility
 from report.study.basis_pages import limits
 from report.study.dispersion import warning
 from report.study.exports import export_files
-from report.study.plan import ArrayPlan
+from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayResult, LimitState
 from report.study.run import planned, run_study
 from report.study.schema import StudyArray
@@ -26,6 +26,7 @@ from report.study.spread import spectral_spread
 from report.study.words import headline
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
+from solver.studies.uncertainty import Spread
 from studied import motion
 from test_study_read import given, problems, write
 
@@ -109,7 +110,8 @@ def with_state(results, motions, *, allow_matched=False, **changes):
     )  # fmt: skip
     array = ArrayPlan(
         array=StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1), building=0, mu=0.4,
-        spreads={}, shifts={}, fragility=slice(0), samples=slice(0), bars=slice(0),
+        spreads={FRICTION: Spread(center=0.4), SLOPE: Spread(center=2.0)}, shifts={},
+        fragility=slice(0), samples=slice(0), bars=slice(0),
     )  # fmt: skip
     one = ArrayResult(
         plan=array, states=(state,), chances=(), bars=(), center_m=math.nan, capacity_runs=0
