@@ -109,8 +109,12 @@ def make(
 
 
 def _print_estimate(found: Estimate) -> None:
-    click.echo(f"{found.cases:,} cases, {found.runs:,} runs in {found.parts:,} parts")
-    click.echo(f"{found.processor_s:,.1f} s of processor time, by the cost model")
+    more, seconds = "", ""
+    if found.capacity_runs:
+        more = f"; at most {found.capacity_runs:,} more runs for the capacities"
+        seconds = f" and at most {found.capacity_s:,.1f} s for the capacities"
+    click.echo(f"{found.cases:,} cases, {found.runs:,} runs in {found.parts:,} parts{more}")
+    click.echo(f"{found.processor_s:,.1f} s of processor time{seconds}, by the cost model")
     click.echo(f"{found.disk_bytes / 1e6:,.1f} MB on disk")
 
 

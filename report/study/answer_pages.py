@@ -9,6 +9,7 @@ import numpy as np
 
 from report.manual.blocks import Block, ManualSection
 from report.pages.parts import Table, TableColumn, TableRow
+from report.pages.symbols import with_symbols
 from report.study.page_parts import MOST_LINES, axis, level, on_building, some
 from report.study.results import (
     FRICTION_DECIMALS,
@@ -78,8 +79,9 @@ def _frictions(results: StudyResults, building: int, name: str, allowed_m: float
     first, last = (shown(mu, FRICTION_DECIMALS) for mu in (given.mus[0], given.mus[-1]))
     columns = _columns(results)
     return Table(
-        caption=f"Least friction coefficient, {name}, by slope (rows) and {axis(results)} "
-        "(columns)",
+        caption=with_symbols(
+            f"Least friction coefficient, {name}, by slope (rows) and {axis(results)} (columns)"
+        ),
         columns=(TableColumn(head="Slope", unit="deg"), *columns.values()),
         rows=tuple(
             TableRow(
@@ -105,7 +107,9 @@ def _slopes(results: StudyResults, building: int, name: str, allowed_m: float) -
     first, last = (shown(slope, SLOPE_DECIMALS) for slope in (given.slopes_deg[0], top))
     columns = _columns(results)
     return Table(
-        caption=f"Largest slope [deg], {name}, by friction (rows) and {axis(results)} (columns)",
+        caption=with_symbols(
+            f"Largest slope [deg], {name}, by friction (rows) and {axis(results)} (columns)"
+        ),
         columns=(TableColumn(head="μ"), *columns.values()),
         rows=tuple(
             TableRow(cells=(f"{mu:g}", *(_steepest(values[m, x], top, last) for x in columns)))

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from report.manual.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.parts import Table, TableColumn, TableRow
+from report.pages.symbols import with_symbols
 from report.study import figures
-from report.study.dispersion import dispersions, exported, refusal
+from report.study.dispersion import MASS, Dispersion, dispersions, exported, is_exportable, refusal
+from report.study.exports import has_chances
 from report.study.page_parts import axis, chart, level, on_building
+from report.study.plan import SLOPE
 from report.study.results import ArrayResult, StudyResults
-from report.study.schema import Intensity, NoValue, Sampling
+from report.study.schema import NoValue, Sampling
 from report.study.tables import length_unit
 from report.study.words import NO_NUMBER, both, chance_words
-from report.words.units import digits_down, digits_up
+from report.words.units import digits_down, digits_up, number, round_up
 from solver.studies.capacity import ACCURACY
-from solver.studies.fragility import CONFIDENCE, LILLIEFORS_REPEATS, REPEATS
+from solver.studies.fragility import CONFIDENCE, LEVEL, LILLIEFORS_REPEATS, REPEATS
 from solver.studies.uncertainty import HIGH, LOW, Chance
 
 
@@ -27,11 +30,11 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
         f"fragility-{slug(name)}",
         figures.fragilities(one.states, axis(results)),
         "Fractions of the motions, lognormal fits, and the confidence interval of each median "
-        "(bars at 0.5).",
+        "(bars near 0.5).",
     )
     block = Block(
-        texts=[*_procedure(results, one), *_unknown(one)],
-        charts=(picture,),
+        texts=[*_procedure(results, one), *_unknown(results, one)],
+        charts=(picture, *_goodness(results, one, name)),
         tables=(_states(results, one), *_exported(results, one)),
     )
     return ManualSection(
@@ -39,6 +42,18 @@ def fragility(results: StudyResults, one: ArrayResult) -> ManualSection:
         title=f"Fragility of {name}",
         blocks=(block, *_chances(results, one, name)),
     )
+
+
+def _goodness(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Chart]:
+    """Yield the chart of the goodness of fit, if a state has one."""
+    states = [state for state in one.states if not math.isnan(state.fragility.p_value)]
+    if states:
+        yield chart(
+            f"goodness-{slug(name)}",
+            figures.goodness(states, axis(results)),
+            "Goodness of fit: the ranks of the capacities, their lognormal, and the band that the "
+            f"ranks leave in {100 * LEVEL:g}\u00a0% of lognormal samples.",
+        )
 
 
 def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, ...]:
@@ -52,11 +67,12 @@ def _procedure(results: StudyResults, one: ArrayResult) -> tuple[str, ...]:
         "Incremental dynamic analysis of the PRD, not of the design displacement: "
         f"the capacity of each of {counts.capacities.intensity.size} motions, the lowest "
         f"intensity at which its PRD exceeds the limit, by bisection to {ACCURACY:g} of it, and "
-        "for slip from the required friction coefficient; lognormal by maximum likelihood, "
-        f"censored capacities included. {100 * CONFIDENCE:g}\u00a0% confidence: Student t for the "
-        "median and chi-square for β, and where a capacity is censored by likelihood ratio and "
-        f"standard error with {REPEATS:,} samples. The data points are fractions at "
-        f"{counts.levels.size} intensities. A run without a value is {lost}.",
+        "for slip from the required friction coefficient. The lognormal has their geometric mean, "
+        "and their standard deviation of the logarithm with n − 1 as in FEMA P-58; where a capacity"
+        f" is censored, both are of maximum likelihood. {100 * CONFIDENCE:g}\u00a0% confidence: "
+        "Student t for the median and chi-square for β, and where a capacity is censored by "
+        f"likelihood ratio and standard error with {REPEATS:,} samples. The data points are "
+        f"fractions at {counts.levels.size} intensities. A run without a value is {lost}.",
         *_of_capacities(one),
     )
 
@@ -69,12 +85,6 @@ def _of_capacities(one: ArrayResult) -> Iterator[str]:
         if found.is_censored.any():
             lost = int(found.is_censored.sum())
             yield f"{state.name}: {lost} of {count} capacities are censored."
-        if not math.isnan(state.fragility.p_value):
-            yield (
-                f"{state.name}: goodness of fit by Lilliefors, p = "
-                f"{digits_down(state.fragility.p_value, 2)} ({LILLIEFORS_REPEATS:,} samples). A "
-                "small p speaks against a lognormal."
-            )
         if found.falls.any():
             yield (
                 f"{state.name}: for {int(found.falls.sum())} of {count} motions the PRD is below "
@@ -82,19 +92,21 @@ def _of_capacities(one: ArrayResult) -> Iterator[str]:
             )
 
 
-def _unknown(one: ArrayResult) -> Iterator[str]:
+def _unknown(results: StudyResults, one: ArrayResult) -> Iterator[str]:
     names = [state.name for state in one.states if not state.fragility.fitted.is_known]
     if names:
         yield (
             f"{joined(names)}: {NO_NUMBER}. A lognormal needs two different capacities above 0 up "
             "to the greatest intensity."
         )
+    if is_exportable(results) and not has_chances(one):
+        yield "The array is not in fragility.xml: a limit state has no lognormal and censored runs."
 
 
 def _states(results: StudyResults, one: ArrayResult) -> Table:
     interval = f"{50 * (1 - CONFIDENCE):g} to {50 * (1 + CONFIDENCE):g} %"
     return Table(
-        caption=f"Fragilities, median {axis(results)}",
+        caption=with_symbols(f"Fragilities, median {axis(results)}"),
         columns=(
             TableColumn(head="State", align="left", share=0.7),
             TableColumn(head="Exceeded when", align="left", share=2.4),
@@ -103,6 +115,7 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
             TableColumn(head=interval, share=1.5),
             TableColumn(head="β"),
             TableColumn(head=f"{interval} of β", share=1.5),
+            TableColumn(head="p of fit"),
         ),
         rows=tuple(
             TableRow(
@@ -112,9 +125,20 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
                     both(results, state.limit_m) if state.limit_m else "0",
                     *_three(state.fragility.fitted.theta, state.fragility.theta_range, digits_down),
                     *_three(state.fragility.fitted.beta, state.fragility.beta_range, digits_up),
+                    "—" if math.isnan(p) else digits_down(p, 2),
                 )
             )
             for state in one.states
+            for p in [state.fragility.p_value]
+        ),
+        notes=(
+            f"p of fit: by Lilliefors, with {LILLIEFORS_REPEATS:,} samples. A small p speaks "
+            "against a lognormal."
+            + (
+                " —: a capacity is censored, or there are fewer than four."
+                if any(math.isnan(state.fragility.p_value) for state in one.states)
+                else ""
+            ),
         ),
     )
 
@@ -122,34 +146,56 @@ def _states(results: StudyResults, one: ArrayResult) -> Table:
 def _exported(results: StudyResults, one: ArrayResult) -> Iterator[Table]:
     """Yield the dispersions of the exported fragilities by name, if there are any."""
     states = [state for state in one.states if state.fragility.fitted.is_known]
-    parts = [dispersions(results, state) for state in states]
-    if not parts or results.plan.input.study.intensity is Intensity.S_DS:
+    by_name = list(zip(*(dispersions(results, one, state) for state in states), strict=True))
+    if not by_name or not is_exportable(results):
         return
-    lacking = joined([part.name for part in parts[0] if not part.beta])
+    given = [parts for parts in by_name if any(part.beta for part in parts)]
+    lacking = [f"{parts[0].name} ({parts[0].source})" for parts in by_name if parts not in given]
+    totals = [exported(results, one, state).beta for state in states]
     yield Table(
         caption="Dispersions of the capacity by name; β of an exported fragility is the square root"
-        f" of the sum of their squares. Not included: {lacking}",
+        " of the sum of their squares" + (f". Not included: {joined(lacking)}" if lacking else ""),
         columns=(
             TableColumn(head="State", align="left", share=0.7),
-            *(
-                TableColumn(head=f"{part.name.capitalize()}: {part.source}", share=1.7)
-                for part in parts[0]
-                if part.beta
-            ),
+            *(TableColumn(head=_head(parts), share=1.7) for parts in given),
             TableColumn(head="β exported"),
         ),
         rows=tuple(
             TableRow(
                 cells=(
                     state.name,
-                    *(digits_up(part.beta, 3) for part in row if part.beta),
-                    "not exported" if refusal(results) else digits_up(total.beta, 3),
+                    *(_beta(p.beta) if p.beta else p.source for p in row),
+                    "not exported" if refusal(results) else _beta(total),
                 )
             )
-            for state, row in zip(states, parts, strict=True)
-            for total in [exported(results, state)]
+            for state, row, total in zip(states, zip(*given, strict=True), totals, strict=True)
         ),
+        notes=(*_first_order(one, by_name), f"{MASS}."),
     )
+
+
+def _beta(value: float) -> str:
+    return number(round_up(value, 3), 3)
+
+
+def _head(parts: Sequence[Dispersion]) -> str:
+    """Return the heading of a dispersion: its name, and its source in the states that have it."""
+    part = next(part for part in parts if part.beta)
+    return f"{part.name.capitalize()}: {part.source}"
+
+
+def _first_order(one: ArrayResult, by_name: Sequence[Sequence[Dispersion]]) -> Iterator[str]:
+    """Yield how the dispersions of friction and slope are found, if there are any."""
+    *_, friction, slope = by_name
+    names = [parts[0].name for parts in (friction, slope) if any(part.beta for part in parts)]
+    if names:
+        yield (
+            f"{joined(names).capitalize()}: by first-order second moment, half the difference of "
+            "the logarithms of the median capacities at one standard deviation above and below "
+            "(where one is not determined, the difference of the other from the median)."
+        )
+    if SLOPE in one.plan.shifts and one.plan.shifts[SLOPE][0][1] == 0.0:
+        yield "The slope below is 0: the roof is the same whichever way it tilts."
 
 
 def _three(
@@ -188,7 +234,9 @@ def _chance(results: StudyResults, one: ArrayResult, chance: Chance) -> str:
 
 
 def _what_matters(one: ArrayResult) -> Iterator[str]:
-    if one.bars:
+    if one.bars and math.isnan(one.center_m):
+        yield "A motion has no final PRD with all variables at their medians: no effect is shown."
+    elif one.bars:
         yield (
             "Effect of one variable at a time on the mean PRD, from its "
             f"{100 * LOW:g} % to its {100 * HIGH:g} % quantile: {one.bars[0].name} matters most."
@@ -196,7 +244,7 @@ def _what_matters(one: ArrayResult) -> Iterator[str]:
 
 
 def _tornado(results: StudyResults, one: ArrayResult, name: str) -> Iterator[Chart]:
-    if one.bars:
+    if one.bars and not math.isnan(one.center_m):
         yield chart(
             f"tornado-{slug(name)}",
             figures.tornado(one.bars, one.center_m, length_unit(results)),

@@ -39,8 +39,14 @@ def _how(results: StudyResults) -> tuple[str, ...]:
         f"PRD and on every excursion is at most the larger of {1e3 * model['matters_m']:g} mm and "
         f"{100.0 * model['matters_share']:g} % of the PRD.",
         _lost_words(int(without.sum()), without.size * len(motions)),
-        f"All runs are in the folder runs: one row for each run in Parquet files, "
-        f"{manifest['agreement']}.",
+        f"The runs of the cases are in the folder runs: one row for each run in Parquet files, "
+        f"{manifest['agreement']}."
+        + (
+            f" {results.capacity_runs:,} more runs find the capacities of the arrays; they are not "
+            "kept."
+            if results.arrays
+            else ""
+        ),
     )
 
 
@@ -79,7 +85,7 @@ def _mats(results: StudyResults) -> Iterator[Table]:
                 cells=(
                     mat.id,
                     f"{given.friction(mat.id).center:.3g}",
-                    f"{given.friction(mat.id).beta:.3f}",
+                    f"{given.friction(mat.id).beta:.3f}" if mat.tested else "none",
                     mat.tested or "none",
                     mat.report or "none",
                 )

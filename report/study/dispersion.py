@@ -8,12 +8,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.study.results import LimitState, StudyResults
+from report.study.plan import FRICTION, SLOPE, ArrayPlan
+from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.words.units import digits_up
 from solver.studies.fragility import Lognormal
 
-NOT_INCLUDED = "not included"
+NAMES = ("record-to-record", "modeling", "quality of data", "friction", "slope")
+NOT_GIVEN, NOT_DETERMINED = "not given", "not determined"
+MASS = "Mass has no effect: each array is one rigid block with Coulomb friction"
+"""Each force on such a block is proportional to its mass; a study has no others."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,7 +26,10 @@ class Dispersion:
 
     Attributes
     ----------
-    name, source : str
+    name : str
+        One of `NAMES`.
+    source : str
+        Where it is from, or why it is not included.
     beta : float
         Standard deviation of the logarithm of the capacity; 0 where it is not included.
     """
@@ -32,30 +39,59 @@ class Dispersion:
     beta: float
 
 
-def dispersions(results: StudyResults, state: LimitState) -> tuple[Dispersion, ...]:
-    """Return the dispersions of a limit state that has a lognormal.
-
-    Mass is none of them: it has no effect on a PRD under Coulomb friction.
-    """
-    study = results.plan.input.study
-    if study.record_beta is None:
-        record = "these motions", state.fragility.fitted.beta
-    else:
+def dispersions(
+    results: StudyResults, one: ArrayResult, state: LimitState
+) -> tuple[Dispersion, ...]:
+    """Return the dispersions of a limit state that has a lognormal; mass is none (`MASS`)."""
+    study, plan = results.plan.input.study, one.plan
+    record = "these motions", state.fragility.fitted.beta
+    if study.record_beta is not None:
         record = study.record_source, study.record_beta
-    given = [("record-to-record", *record)]
-    for name, beta in (("modeling", study.modeling_beta), ("quality of data", study.quality_beta)):
-        given.append((name, "entered", beta) if beta is not None else (name, NOT_INCLUDED, 0.0))
-    given += [(name, NOT_INCLUDED, 0.0) for name in ("friction", "slope")]
-    return tuple(Dispersion(name=name, source=source, beta=beta) for name, source, beta in given)
+    found = (
+        record,
+        _entered(study.modeling_beta),
+        _entered(study.quality_beta),
+        _of_effect(state, FRICTION, f"mat {plan.array.mat} has no tests", _tests(plan)),
+        _of_effect(state, SLOPE, "no tolerance is given", _tolerance(plan)),
+    )
+    return tuple(
+        Dispersion(name=name, source=source, beta=beta)
+        for name, (source, beta) in zip(NAMES, found, strict=True)
+    )
 
 
-def exported(results: StudyResults, state: LimitState) -> Lognormal:
+def _entered(beta: float | None) -> tuple[str, float]:
+    return (NOT_GIVEN, 0.0) if beta is None else ("entered", beta)
+
+
+def _of_effect(state: LimitState, variable: str, lacking: str, source: str) -> tuple[str, float]:
+    beta = state.effects.get(variable)
+    if beta is None:
+        return lacking, 0.0
+    return (NOT_DETERMINED, 0.0) if math.isnan(beta) else (source, beta)
+
+
+def _tests(plan: ArrayPlan) -> str:
+    deviation = plan.spreads[FRICTION].deviation
+    return f"tests of {plan.array.mat}, standard deviation of ln μ {deviation:.3f}"
+
+
+def _tolerance(plan: ArrayPlan) -> str:
+    return f"tolerance, standard deviation {plan.spreads[SLOPE].deviation:.2g} deg"
+
+
+def exported(results: StudyResults, one: ArrayResult, state: LimitState) -> Lognormal:
     """Return the lognormal of a limit state with all its dispersions; unknown if it has none."""
     fitted = state.fragility.fitted
     if not fitted.is_known:
         return fitted
-    total = math.hypot(*(one.beta for one in dispersions(results, state)))
+    total = math.hypot(*(part.beta for part in dispersions(results, one, state)))
     return Lognormal(theta=fitted.theta, beta=total)
+
+
+def is_exportable(results: StudyResults) -> bool:
+    """Whether any format has the measure of intensity."""
+    return results.plan.input.study.intensity is not Intensity.S_DS
 
 
 def lacks_record_spread(results: StudyResults) -> bool:
@@ -65,9 +101,9 @@ def lacks_record_spread(results: StudyResults) -> bool:
 
 def refusal(results: StudyResults) -> str:
     """Return why no fragility is exported; empty if there is no reason."""
-    study = results.plan.input.study
-    is_exported = results.arrays and study.intensity is not Intensity.S_DS
-    if not is_exported or results.allow_matched or not lacks_record_spread(results):
+    if not (results.arrays and is_exportable(results)):
+        return ""
+    if results.allow_matched or not lacks_record_spread(results):
         return ""
     return (
         f"The fragility files are not written: {_little(results)} Enter a record-to-record "

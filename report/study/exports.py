@@ -8,21 +8,20 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
+from report.manual.blocks import joined
 from report.sheet.schema import RecordedAt
-from report.study.dispersion import dispersions, exported, refusal, warning
+from report.study.dispersion import MASS, dispersions, exported, refusal, warning
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.words import NO_NUMBER, both
 from report.words.units import digits_down, digits_up, round_up
 from solver.model import Floats
-from solver.studies.fragility import Fragility
 
 DEMANDS: Mapping[Intensity, tuple[str, str]] = {
     Intensity.PPA: ("Peak Floor Acceleration", "g"),
@@ -79,7 +78,7 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
         files["fragility.csv"] = _library(results, known).encode()
         files["fragility.json"] = _metadata(results, known).encode()
         files["placement.csv"] = _placement(results, known).encode()
-    if results.arrays and kind in MEASURES:
+    if kind in MEASURES and any(map(has_chances, results.arrays)):
         files["fragility.xml"] = _nrml(results)
     return files
 
@@ -87,6 +86,22 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
 def known_states(one: ArrayResult) -> tuple[LimitState, ...]:
     """Return the limit states that have a lognormal; each has the same name in every file."""
     return tuple(state for state in one.states if state.fragility.fitted.is_known)
+
+
+def has_chances(one: ArrayResult) -> bool:
+    """Whether the chance of each limit state is known at every level.
+
+    A state without a lognormal has the fractions of the motions, if none of its runs is censored.
+    """
+    return not _lost_states(one)
+
+
+def _lost_states(one: ArrayResult) -> list[str]:
+    return [
+        state.name
+        for state in one.states
+        if state.fragility.censored and not state.fragility.fitted.is_known
+    ]
 
 
 def component_id(results: StudyResults, one: ArrayResult) -> str:
@@ -110,15 +125,15 @@ def _library(results: StudyResults, known: list[ArrayResult]) -> str:
     for one in known:
         cells: list[object] = []
         for state in one.states:
-            cells += _cells(results, state)
+            cells += _cells(results, one, state)
         cells += [""] * (len(states) - len(cells))
         writer.writerow([component_id(results, one), 0, demand, unit, 0, 0, *cells])
     return text.getvalue()
 
 
-def _cells(results: StudyResults, state: LimitState) -> list[str]:
+def _cells(results: StudyResults, one: ArrayResult, state: LimitState) -> list[str]:
     """Return the columns of a limit state; an undetermined one has its description alone."""
-    f = exported(results, state)
+    f = exported(results, one, state)
     if not f.is_known:
         return ["", "", "", "", f"{sentence(state)} {_sentence(NO_NUMBER)}"]
     return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", _words(results, state)]
@@ -164,7 +179,7 @@ def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
             f"clearance {both(results, array.clearance_m)}. Limit states are on the peak relative "
             "displacement of a motion, not on a design displacement. "
             f"{_of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])} "
-            f"{_dispersions(results, known_states(one))}{_warned(results)} Study "
+            f"{_dispersions(results, one)}{_warned(results)} Study "
             f"{results.manifest['identity'][:16]}."
         ),
         "SuggestedComponentBlockSize": "1 EA",
@@ -210,7 +225,7 @@ def _nrml(results: StudyResults) -> bytes:
     ET.SubElement(model, f"{{{NRML}}}description").text = _description(results)
     states = [state.name for state in results.arrays[0].states]
     ET.SubElement(model, f"{{{NRML}}}limitStates").text = " ".join(states)
-    for one in results.arrays:
+    for one in filter(has_chances, results.arrays):
         function = ET.SubElement(
             model,
             f"{{{NRML}}}fragilityFunction",
@@ -228,12 +243,18 @@ def _nrml(results: StudyResults) -> bytes:
 
 
 def _description(results: StudyResults) -> str:
-    """Return the title, and what the limit states of each array are."""
+    """Return the title, what the limit states of each array are, and which arrays it lacks."""
     states = [
         f"{component_id(results, one)}: "
         + " ".join(f"{state.name}: {sentence(state)}{_fractions(state)}" for state in one.states)
-        + f" {_dispersions(results, known_states(one))}".rstrip()
+        + f" {_dispersions(results, one)}".rstrip()
+        for one in filter(has_chances, results.arrays)
+    ]
+    states += [
+        f"{component_id(results, one)} is left out: {joined(lost)} "
+        f"{'have' if len(lost) > 1 else 'has'} no lognormal and censored runs."
         for one in results.arrays
+        if (lost := _lost_states(one))
     ]
     imt, unit, _ = MEASURES[results.plan.input.study.intensity]
     title = f"{results.plan.input.study.title}."
@@ -251,19 +272,20 @@ def _warned(results: StudyResults) -> str:
     return f" {text}" if (text := warning(results)) else ""
 
 
-def _dispersions(results: StudyResults, states: Sequence[LimitState]) -> str:
-    """Return the dispersions of each state by name; nothing without a state."""
-    return " ".join(
+def _dispersions(results: StudyResults, one: ArrayResult) -> str:
+    """Return the dispersions of each state that has a lognormal by name; nothing without one."""
+    states = [
         f"Dispersions of {state.name}: "
         + ", ".join(
-            f"{one.name} {digits_up(one.beta, 2)} ({one.source})"
-            if one.beta
-            else f"{one.name} {one.source}"
-            for one in dispersions(results, state)
+            f"{part.name} {digits_up(part.beta, 2)} ({part.source})"
+            if part.beta
+            else f"{part.name} not included ({part.source})"
+            for part in dispersions(results, one, state)
         )
         + "."
-        for state in states
-    )
+        for state in known_states(one)
+    ]
+    return " ".join([*states, f"{MASS}."] if states else [])
 
 
 def _of_which_motion(results: StudyResults, name: str, unit: str) -> str:
@@ -279,21 +301,15 @@ def _of_which_motion(results: StudyResults, name: str, unit: str) -> str:
 def chances_of(results: StudyResults, one: ArrayResult) -> Floats:
     """Return the chance of each limit state at each level, shape (states, levels).
 
-    That of the lognormal, or the fractions where there is none. A state that is exceeded includes
-    those before it: where lognormals of different dispersion cross, the larger chance counts, or
-    OpenQuake would subtract a larger chance from a smaller one.
+    That of the lognormal, or the fractions of the motions where there is none; the array must have
+    them (`has_chances`). A state that is exceeded includes those before it: where lognormals of
+    different dispersion cross, the larger chance counts, or OpenQuake would subtract a larger
+    chance from a smaller one.
     """
     rows = [
         lognormal.at(state.fragility.levels)
-        if (lognormal := exported(results, state)).is_known
-        else np.array(list(_never_decreasing(state.fragility)))
+        if (lognormal := exported(results, one, state)).is_known
+        else np.maximum.accumulate(state.fragility.exceeded / state.fragility.counted)
         for state in one.states
     ]
     return np.maximum.accumulate(np.array(rows)[::-1])[::-1]
-
-
-def _never_decreasing(found: Fragility) -> Iterator[float]:
-    reached = 0.0
-    for k, n in zip(found.exceeded, found.counted, strict=True):
-        reached = max(reached, float(k) / float(n) if n else math.nan)
-        yield reached

@@ -13,9 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, style, svg_text
 from report.study.results import LimitState
-from report.words.units import Unit
+from report.words.units import Unit, digits_down
 from solver.model import Floats
 from solver.studies.uncertainty import Bar
 
@@ -43,7 +43,7 @@ def curves(
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 3.6))
-        axes = figure.add_axes((0.085, 0.285, 0.9, 0.69))
+        axes = figure.add_axes((0.085, 0.285, 0.89, 0.69))
         for count, (label, prd_m) in enumerate(family):
             axes.plot(
                 x,
@@ -53,7 +53,7 @@ def curves(
                 markersize=3.2,
                 linewidth=0.9,
                 color=INK if count % 2 == 0 else ACCENT,
-                label=label,
+                label=f"{label}: none" if np.isnan(prd_m).all() else label,
             )
         for count, prd_m in enumerate(v for v in beside if not np.isnan(v).all()):
             label = "_" if count else "mean PRD"  # an underscore: not in the legend
@@ -102,7 +102,7 @@ def contours(
     """
     with style():
         figure = Figure(figsize=(WIDTH_IN, 7.6))
-        axes = figure.add_axes((0.085, 0.06, 0.9, 0.925))
+        axes = figure.add_axes((0.085, 0.075, 0.89, 0.91))
         grid, levels = (x, slopes_deg), _levels(unit)
         allowed = allowed_m / unit.si
         others = [value for value in levels if value != round(allowed, 6)]
@@ -138,12 +138,14 @@ def _contour(
     found = [v for v in levels if np.nanmin(shown) < v < np.nanmax(shown)]
     if found:
         drawn = axes.contour(*grid, shown, found, **look)
-        axes.clabel(
+        labels = axes.clabel(
             drawn,
             fmt=lambda value: f"{value:g} {unit.symbol}",
             inline_spacing=2,
             manual=list(_places(drawn, grid, height)),
         )
+        for label in labels:
+            label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.2})
 
 
 def _places(
@@ -152,12 +154,19 @@ def _places(
     """Yield where the labels of contours are: three heights in turn, and none beyond the edge."""
     low, span = np.array([v[0] for v in grid]), np.array([np.ptp(v) for v in grid])
     for count, parts in enumerate(drawn.allsegs):
-        shares = (max(parts, key=len) - low) / span
-        inside = shares[(shares[:, 0] > 0.04) & (shares[:, 0] < 0.96)]
+        shares = (_dense(max(parts, key=len)) - low) / span
+        inside = shares[((shares > 0.04) & (shares < 0.96)).all(axis=1)]
         if inside.size:
             nearest = np.abs(inside[:, 1] - height - 0.1 * (count % 3)).argmin()
             x, y = low + span * inside[nearest]
             yield float(x), float(y)
+
+
+def _dense(line: Floats) -> Floats:
+    """Return a line with many points, shape (m, 2): its own may all be at the edges."""
+    at = np.arange(len(line))
+    fine = np.linspace(0.0, at[-1], 300)
+    return np.stack([np.interp(fine, at, values) for values in line.T], axis=-1)
 
 
 def _levels(unit: Unit) -> tuple[float, ...]:
@@ -169,8 +178,8 @@ def _levels(unit: Unit) -> tuple[float, ...]:
 def fragilities(states: Sequence[LimitState], along: str) -> str:
     """Return fitted fragilities with their data points and the confidence of the medians."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.1))
-        axes = figure.add_axes((0.085, 0.29, 0.9, 0.68))
+        figure = Figure(figsize=(WIDTH_IN, 2.9))
+        axes = figure.add_axes((0.085, 0.345, 0.89, 0.635))
         levels = states[0].fragility.levels
         fine = np.linspace(levels[-1] / 300.0, levels[-1], 300)
         for count, state in enumerate(states):
@@ -187,8 +196,13 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
                     fine, f.fitted.at(fine), linestyle=LINES[count], color=color, linewidth=1.2,
                     label=f"{state.name}: lognormal",
                 )  # fmt: skip
+                height = 0.55 - 0.05 * count  # where medians are close, their bars are apart
                 axes.plot(
-                    f.theta_range, (0.5, 0.5), color=color, linewidth=2.6, solid_capstyle="butt"
+                    f.theta_range,
+                    (height, height),
+                    color=color,
+                    linewidth=2.6,
+                    solid_capstyle="butt",
                 )
         axes.set_xlim(0.0, levels[-1])
         axes.set_ylim(0.0, 1.02)
@@ -198,7 +212,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
         axes.set_axisbelow(True)
         axes.legend(
             loc="upper center",
-            bbox_to_anchor=(0.5, -0.2),
+            bbox_to_anchor=(0.5, -0.22),
             ncols=3,
             handlelength=2.0,
             columnspacing=0.8,
@@ -207,33 +221,82 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
         return svg_text(figure)
 
 
+def goodness(states: Sequence[LimitState], along: str) -> str:
+    """Return the ranks of capacities with their lognormal, a panel for each state.
+
+    Parameters
+    ----------
+    states : sequence of LimitState
+        At least one, each with a p-value.
+    """
+    with style():
+        figure = Figure(figsize=(WIDTH_IN, 2.4))
+        panels = figure.subplots(1, len(states), sharey=True, squeeze=False)[0]
+        figure.subplots_adjust(left=0.085, right=0.985, bottom=0.34, top=0.91, wspace=0.08)
+        for axes, state in zip(panels, states, strict=True):
+            _ranked(axes, state)
+            axes.set_xlabel(along)
+            bare(axes)
+        panels[0].set_ylabel("Share of the motions")
+        lines, labels = panels[0].get_legend_handles_labels()
+        figure.legend(lines, labels, loc="lower center", ncols=3, handlelength=2.0)
+        return svg_text(figure)
+
+
+def _ranked(axes: Axes, state: LimitState) -> None:
+    f = state.fragility
+    x = np.sort(f.capacities.intensity)
+    far = max(3.0, float(np.abs(np.log(x / f.fitted.theta)).max()) / f.fitted.beta + 0.3)
+    fine = f.fitted.theta * np.exp(f.fitted.beta * np.linspace(-far, far, 200))
+    chance = f.fitted.at(fine)
+    band = np.clip([chance - f.critical, chance + f.critical], 0.0, 1.0)
+    axes.fill_between(fine, *band, color=PALE, linewidth=0.0, label="band of Lilliefors")
+    axes.plot(fine, chance, color=ACCENT, linewidth=1.2, label="lognormal")
+    ranks = np.arange(x.size + 1) / x.size
+    axes.plot(
+        np.concatenate([fine[:1], np.repeat(x, 2), fine[-1:]]), np.repeat(ranks, 2), color=INK,
+        linewidth=0.9, label="capacities by rank",
+    )  # fmt: skip
+    axes.set_title(f"{state.name}: p = {digits_down(f.p_value, 2)}")
+    axes.set_xlim(fine[0], fine[-1])
+    axes.set_ylim(0.0, 1.02)
+    axes.locator_params(axis="x", nbins=5)
+    axes.grid(True)
+    axes.set_axisbelow(True)
+
+
 def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
     """Return the tornado chart: mean PRD with each variable at its 5 % and 95 % quantile."""
     with style():
-        height = 0.75 + 0.36 * len(bars)
+        height = 0.85 + 0.36 * len(bars)
         figure = Figure(figsize=(WIDTH_IN, height))
-        axes = figure.add_axes((0.2, 0.45 / height, 0.78, 1.0 - 0.6 / height))
+        axes = figure.add_axes((0.2, 0.55 / height, 0.78, 1.0 - 0.65 / height))
         for row, bar in enumerate(bars):
             ends = np.array([bar.prd_low_m, bar.prd_high_m]) / unit.si
             if np.isnan(ends).any():
                 axes.text(center_m / unit.si, row, "no value at an end", va="center")
                 continue
-            low, high = sorted(ends)
+            low, high = min(*ends, center_m / unit.si), max(*ends, center_m / unit.si)
             axes.barh(
                 [row], [high - low], 0.55, left=[low], facecolor="#b8c7d9", edgecolor=INK,
                 linewidth=0.8,
             )  # fmt: skip
-            for end, value in zip(ends, (bar.at_low, bar.at_high), strict=True):
-                is_right = end == high
+            ended = list(zip(ends, (bar.at_low, bar.at_high), strict=True))
+            for is_right, at in ((False, low), (True, high)):
+                here = [f"{v:.3g}" for end, v in ended if (end > center_m / unit.si) == is_right]
                 axes.annotate(
-                    f"{value:.3g}", (end, row), (3 if is_right else -3, 0),
+                    ", ".join(here), (at, row), (3 if is_right else -3, 0),
                     textcoords="offset points", va="center", ha="left" if is_right else "right",
                 )  # fmt: skip
         axes.axvline(center_m / unit.si, color=INK, linewidth=1.0)
         axes.set_yticks(range(len(bars)), [bar.name for bar in bars])
         axes.set_ylim(len(bars) - 0.45, -0.55)
         reached = [v for bar in bars for v in (bar.prd_low_m, bar.prd_high_m)]
-        axes.set_xlim(0.0, 1.12 * float(np.nanmax([*reached, center_m])) / unit.si)
+        top = float(np.nanmax([*reached, center_m])) / unit.si
+        # A number left of the shortest end keeps clear of the names.
+        low = min(0.0, float(np.nanmin([*reached, center_m])) / unit.si - 0.1 * top)
+        axes.set_xlim(low, 1.12 * top)
+        axes.set_xticks([tick for tick in axes.get_xticks() if 0.0 <= tick <= 1.12 * top])
         axes.set_xlabel(f"Mean PRD [{unit.symbol}]")
         bare(axes)
         return svg_text(figure)

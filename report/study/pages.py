@@ -13,6 +13,7 @@ import numpy as np
 
 from report.manual.blocks import Block, Chart, ManualSection, slug
 from report.pages.parts import UNVERIFIED, Table, TableColumn, TableRow
+from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.answer_pages import allowed
 from report.study.array_pages import fragility
@@ -175,7 +176,7 @@ def _spread(results: StudyResults, building: int) -> Table:
     given, unit = results.plan.input, length_unit(results)
     x = len(given.intensities) // 2
     return Table(
-        caption=f"Displacements at {level(results, given.intensities[x])}",
+        caption=with_symbols(f"Displacements at {level(results, given.intensities[x])}"),
         columns=(
             TableColumn(head="μ"),
             TableColumn(head="Slope", unit="deg"),

@@ -15,7 +15,14 @@ from report.sheet.fields import Fault, Place
 from report.study.design import DesignRule, design_rule
 from report.study.motions import StudyMotions
 from report.study.read import StudyInput, StudySheet
-from report.study.schema import MOST_CASES, MOST_RUNS, Sampling, StudyArray
+from report.study.schema import (
+    MOST_CASES,
+    MOST_RUNS,
+    Intensity,
+    Sampling,
+    Study,
+    StudyArray,
+)
 from solver.studies.campaign import Campaign, Cases, cases_of, grid, joined
 from solver.studies.uncertainty import (
     Spread,
@@ -25,6 +32,7 @@ from solver.studies.uncertainty import (
 )
 
 FRICTION, SLOPE, INTENSITY = "friction coefficient", "slope", "intensity"
+Shift = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +46,9 @@ class ArrayPlan:
     mu : float
     spreads : mapping of str to Spread
         Friction, slope [deg] and intensity.
+    shifts : mapping of str to pairs of (float, float)
+        Friction and slope [deg] where one of them, by its name, is one standard deviation below and
+        above its center; of those alone whose distribution is given.
     fragility, samples, bars : slice
         Cases of its fragility, of its chance and of its tornado chart; the last two are empty
         without an intensity at the site.
@@ -47,6 +58,7 @@ class ArrayPlan:
     building: int
     mu: float
     spreads: Mapping[str, Spread]
+    shifts: Mapping[str, tuple[Shift, Shift]]
     fragility: slice
     samples: slice
     bars: slice
@@ -126,7 +138,8 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     for number, (array, building) in enumerate(
         (array, building) for array in given.study_arrays for building in range(buildings)
     ):
-        made, parts = _array(given, array, building, start, _seed(given.study.seed, number))
+        seed = _seed(given.study.seed, number)
+        made, parts = _array(given, motions, array, building, start, seed)
         arrays.append(made)
         blocks += parts
         start += sum(map(len, parts))
@@ -155,7 +168,12 @@ def _seed(seed: int, number: int) -> int:
 
 
 def _array(
-    given: StudyInput, array: StudyArray, building: int, start: int, seed: int
+    given: StudyInput,
+    motions: StudyMotions,
+    array: StudyArray,
+    building: int,
+    start: int,
+    seed: int,
 ) -> tuple[ArrayPlan, list[Cases]]:
     study, friction = given.study, given.friction(array.mat)
     slope = math.radians(array.slope_deg)
@@ -178,12 +196,35 @@ def _array(
             building=building,
             mu=friction.center,
             spreads=spreads,
+            shifts=_shifts(study, motions, spreads),
             fragility=slice(edges[0], edges[1]),
             samples=slice(edges[1], edges[2]),
             bars=slice(edges[2], edges[3]),
         ),
         [cases_of([*levels, *samples, *bars])],
     )
+
+
+def _shifts(
+    study: Study, motions: StudyMotions, spreads: Mapping[str, Spread]
+) -> Mapping[str, tuple[Shift, Shift]]:
+    """Return the shifts of an array; none where its fragility is not exported.
+
+    A slope below 0 is one of 0 where each motion has both polarities: the roof is then the same
+    whichever way it tilts, and the capacity depends on the size of the slope.
+    """
+    if study.intensity is Intensity.S_DS:
+        return {}
+    is_even = all(len(motion.signs) > 1 for motion in motions.motions[0])
+    mu, slope_deg = spreads[FRICTION], spreads[SLOPE]
+    shifts: dict[str, tuple[Shift, Shift]] = {}
+    if not mu.is_fixed:
+        low, high = mu.around
+        shifts[FRICTION] = (low, slope_deg.center), (high, slope_deg.center)
+    if not slope_deg.is_fixed:
+        low, high = slope_deg.around
+        shifts[SLOPE] = (mu.center, max(low, 0.0) if is_even else low), (mu.center, high)
+    return shifts
 
 
 def _case(

@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from report.study.array_capacities import SHARES, array_capacities
 from report.study.parts import Done, peaks, read_part
 from report.study.plan import ArrayPlan, StudyPlan
 from report.study.schema import NoValue
 from report.study.spread import Spread, spectral_spread
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
-from solver.studies.capacity import Curve, capacities
 from solver.studies.curves import Statistics, largest_slope, least_friction, statistics
 from solver.studies.fit import Fit, fit_prd
 from solver.studies.fragility import Fragility, fragility
@@ -46,12 +46,15 @@ class LimitState:
     limit_m : float
         PRD above which it is exceeded [m]; 0 for the beginning of slip.
     fragility : Fragility
+    effects : mapping of str to float
+        As in `ArrayCapacities`.
     """
 
     name: str
     words: str
     limit_m: float
     fragility: Fragility
+    effects: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,6 +70,8 @@ class ArrayResult:
     bars : tuple of Bar
     center_m : float
         Mean PRD with all variables at their centers [m]; NaN without an intensity at the site.
+    capacity_runs : int
+        Runs of its own for the capacities.
     """
 
     plan: ArrayPlan
@@ -74,6 +79,7 @@ class ArrayResult:
     chances: tuple[Chance, ...]
     bars: tuple[Bar, ...]
     center_m: float
+    capacity_runs: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,6 +123,11 @@ class StudyResults:
         c = self.curves
         beside = zip(STATISTICS, (c.mean_m, c.p84_m, c.largest_m), strict=True)
         return {self.plan.design_rule.name: self.design_m, **dict(beside)}
+
+    @property
+    def capacity_runs(self) -> int:
+        """Runs for the capacities, beside those of the cases."""
+        return sum(one.capacity_runs for one in self.arrays)
 
     @property
     def leading(self) -> str:
@@ -248,27 +259,24 @@ def _array(
     peaks_m, slips = prd[of(array.fragility)].T, slip[of(array.fragility)].T
     lost = np.isnan(peaks_m)
     counts = ~lost if study.no_value is NoValue.CENSORED else np.ones_like(lost)
-    levels = np.array(plan.input.intensities)
     reaches = array.array.reaches or "the object or edge"
-    limits = (
-        ("LS1", "slip begins", 0.0, slips | lost),
-        ("LS2", "half the clearance is used", 0.5 * clearance, ~(peaks_m <= 0.5 * clearance)),
-        ("LS3", f"{reaches} is reached", clearance, ~(peaks_m <= clearance)),
-    )
-    found = capacities(
-        _curves(runner, array),
-        [limit_m for *_, limit_m, _ in limits],
-        levels,
-        is_censoring=study.no_value is NoValue.CENSORED,
-    )
+    words = ("slip begins", "half the clearance is used", f"{reaches} is reached")
+    searched = array_capacities(plan, array, runner)
     states = [
         LimitState(
-            name=name,
-            words=words,
-            limit_m=limit_m,
-            fragility=fragility(levels, exceeds, counts, one, seed=seed),
+            name=f"LS{k + 1}",
+            words=words[k],
+            limit_m=share * clearance,
+            fragility=fragility(
+                np.array(plan.input.intensities),
+                ~(peaks_m <= share * clearance) if share else slips | lost,
+                counts,
+                searched.found[k],
+                seed=seed,
+            ),
+            effects=searched.effects[k],
         )
-        for (name, words, limit_m, exceeds), one in zip(limits, found, strict=True)
+        for k, share in enumerate(SHARES)
     ]
     chances: tuple[Chance, ...] = ()
     bars: tuple[Bar, ...] = ()
@@ -278,18 +286,10 @@ def _array(
         means = prd[of(array.bars)].mean(axis=1)
         bars, center = tornado(array.spreads, means), float(means[0])
     return ArrayResult(
-        plan=array, states=tuple(states), chances=chances, bars=bars, center_m=center
+        plan=array,
+        states=tuple(states),
+        chances=chances,
+        bars=bars,
+        center_m=center,
+        capacity_runs=searched.runs,
     )
-
-
-def _curves(runner: Runner, array: ArrayPlan) -> list[Curve]:
-    """Return the PRD of each motion over intensity, at the slope and friction of an array."""
-    columns, tracks = runner.campaign.columns, runner.tracks[array.building]
-    return [
-        Curve(
-            tracks=[t for (at, _), t in zip(columns, tracks, strict=True) if at == number],
-            slope_rad=math.radians(array.array.slope_deg),
-            mu=array.mu,
-        )
-        for number in range(len(runner.campaign.motions[0]))
-    ]

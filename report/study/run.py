@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from report.study.array_capacities import most_runs
 from report.study.extra import arrow
 from report.study.manifest import NAME, check_former, manifest_of
 from report.study.motions import study_motions
@@ -35,15 +36,19 @@ class Estimate:
     Attributes
     ----------
     cases, runs, parts : int
-    processor_s : float
-        [s] on one core like the one of the cost model.
+    capacity_runs : int
+        Most runs for the capacities of the arrays, beside those.
+    processor_s, capacity_s : float
+        Of both [s], on one core like the one of the cost model.
     disk_bytes : float
     """
 
     cases: int
     runs: int
     parts: int
+    capacity_runs: int
     processor_s: float
+    capacity_s: float
     disk_bytes: float
 
 
@@ -62,11 +67,17 @@ def planned(source: Path) -> tuple[StudyPlan, Path]:
 def estimate(plan: StudyPlan) -> Estimate:
     """Return what a study takes."""
     campaign = plan.campaign
+    most = [most_runs(plan, array) for array in plan.arrays]
     return Estimate(
         cases=len(campaign.cases),
         runs=campaign.rows,
         parts=len(campaign.parts),
+        capacity_runs=sum(most),
         processor_s=float(campaign.seconds.sum()),
+        capacity_s=sum(
+            runs * float(campaign.seconds[array.fragility].mean()) / len(campaign.columns)
+            for array, runs in zip(plan.arrays, most, strict=True)
+        ),
         disk_bytes=BYTES_A_ROW * campaign.rows,
     )
 
@@ -123,9 +134,11 @@ def run_study(
         run_missing(folder, campaign, identity, names, missing, on_done)
     full = finished(folder, manifest, list(done.values()))
     full["design_displacement"] = plan.design_rule.about
+    progress("computing the curves and the capacities")
+    results = results_of(plan, folder, done, full, allow_matched=allow_matched)
+    full["capacity_runs"] = results.capacity_runs
     write_whole(out / NAME, json.dumps(full, indent=1).encode() + b"\n")
-    progress("computing the curves")
-    return results_of(plan, folder, done, full, allow_matched=allow_matched)
+    return results
 
 
 class _Meter:

@@ -15,7 +15,8 @@ from typing import Any
 import xlsxwriter
 
 from report.pages.parts import UNVERIFIED
-from report.study.results import StudyResults
+from report.study.dispersion import NAMES, dispersions, exported, is_exportable, refusal
+from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words
 from report.words.units import Quantity, Unit
 from solver.studies.fit import Fit
@@ -89,6 +90,7 @@ def _about(results: StudyResults) -> Iterator[Row]:
     yield "Title", results.plan.input.study.title
     yield "Runs", manifest["rows"]
     yield "Cases", manifest["cases"]["count"]
+    yield "Runs for the capacities", results.capacity_runs
     for title, count in manifest["models"].items():
         yield f"Runs with the model: {title}", count
     yield "Seed", manifest["about"]["seed"]
@@ -161,7 +163,8 @@ def _slopes(results: StudyResults) -> Iterator[Row]:
 _FRAGILITY = (
     "Building", "Array", "Limit state", "Exceeded when", "Limit on PRD of a motion", "Unit",
     "Median theta", "theta, 5 %", "theta, 95 %", "Dispersion beta", "beta, 5 %", "beta, 95 %",
-    "Censored runs",
+    "Lilliefors p of fit", "Censored capacities", "Motions below the limit again", "Censored runs",
+    *(f"Beta, {name}" for name in NAMES), "Beta exported",
 )  # fmt: skip
 
 
@@ -180,8 +183,20 @@ def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
                 *f.theta_range,
                 f.fitted.beta,
                 *f.beta_range,
+                f.p_value,
+                int(f.capacities.is_censored.sum()),
+                int(f.capacities.falls.sum()),
                 f.censored,
+                *_dispersions(results, one, state),
             )
+
+
+def _dispersions(results: StudyResults, one: ArrayResult, state: LimitState) -> Row:
+    """Return the dispersions of a limit state by name, and that exported; NaN for none."""
+    if not (is_exportable(results) and state.fragility.fitted.is_known):
+        return [math.nan] * (len(NAMES) + 1)
+    total = math.nan if refusal(results) else exported(results, one, state).beta
+    return [*(part.beta or math.nan for part in dispersions(results, one, state)), total]
 
 
 _CHANCES = (

@@ -96,6 +96,7 @@ def headline(results: StudyResults) -> list[str]:
     lines = [
         f"{manifest['rows']:,} runs of {manifest['cases']['count']:,} cases under {count} "
         f"motion{'s' if count > 1 else ''}"
+        + (f", and {results.capacity_runs:,} for the capacities" if results.arrays else "")
     ]
     if given.study.allowed_m:
         lines += _allowed(results, given.study.allowed_m)

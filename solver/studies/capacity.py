@@ -25,8 +25,14 @@ Flags = NDArray[np.bool_]
 ACCURACY = 1e-4
 """Width of the bracket of a capacity, relative to it."""
 
-SCAN = 64
-"""Equal steps from the beginning of slip to the greatest intensity that every scan has."""
+SCAN, COARSE_SCAN = 64, 16
+"""Equal steps from the beginning of slip to the greatest intensity that every scan has.
+
+The coarse one is for medians alone: a crossing of one motion that it misses hardly changes them.
+"""
+
+MOST_CLOSER = 40
+"""Most intensities between those of a scan that are run for a limit: twice what most need."""
 
 STEEPER = 2.0
 """How much steeper than at the runs around it the PRD may be between two runs of the scan."""
@@ -48,12 +54,15 @@ class Capacities:
         Intensity above which the motion would be censored.
     falls : array of bool, shape (motions,)
         Whether the PRD is at or below the limit again at a greater intensity that was run.
+    searched : array of int, shape (motions,)
+        Intensities run for the capacities of all limits together, each once by heading.
     """
 
     intensity: Floats
     is_censored: Flags
     end: Floats
     falls: Flags
+    searched: NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,14 +122,20 @@ class Curve:
 
 
 def capacities(
-    curves: Sequence[Curve], limits_m: Sequence[float], levels: Floats, *, is_censoring: bool
+    curves: Sequence[Curve],
+    limits_m: Sequence[float],
+    levels: Floats,
+    *,
+    is_censoring: bool,
+    steps: int = SCAN,
 ) -> tuple[Capacities, ...]:
     """Return the capacities of motions, for each limit.
 
     For a limit of 0 they are where the friction demand reaches the coefficient, at any intensity.
-    Others are searched from there to the greatest level: at the levels and `SCAN` equal steps,
+    Others are searched from there to the greatest level: at the levels and in equal steps,
     closer where the slope of the curve lets the PRD exceed the limit between two runs (`STEEPER`),
-    then by bisection. Where the PRD exceeds the limit several times the first counts.
+    then by bisection. Where the PRD exceeds the limit several times the first counts. A search ends
+    after `MOST_CLOSER` further runs, with a capacity from below that is then less accurate.
 
     Parameters
     ----------
@@ -133,43 +148,51 @@ def capacities(
     is_censoring : bool
         Whether a run without a value ends what is known of its motion; otherwise it counts as an
         exceedance.
+    steps : int
+        Number of the equal steps.
     """
-    one = partial(_of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring)
+    one = partial(
+        _of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring, steps=steps
+    )
     with ThreadPoolExecutor(get_num_threads()) as pool:
-        rows = np.array(list(pool.map(one, curves))).reshape(len(curves), len(limits_m), 4)
+        rows = np.array(list(pool.map(one, curves))).reshape(len(curves), len(limits_m), 5)
     return tuple(
         Capacities(
             intensity=values[:, 0],
             is_censored=values[:, 1] > 0.0,
             end=values[:, 2],
             falls=values[:, 3] > 0.0,
+            searched=values[:, 4].astype(np.int64),
         )
         for values in rows.transpose(1, 0, 2)
     )
 
 
+def most_searched(limits_m: Sequence[float], levels: Floats, steps: int = SCAN) -> int:
+    """Return how many intensities of a motion `capacities` may run at most."""
+    return steps + len(levels) + MOST_CLOSER * sum(limit > 0.0 for limit in limits_m)
+
+
 def _of_motion(
-    curve: Curve, limits_m: Sequence[float], levels: Floats, is_censoring: bool
-) -> list[tuple[float, bool, float, bool]]:
+    curve: Curve, limits_m: Sequence[float], levels: Floats, *, is_censoring: bool, steps: int
+) -> list[tuple[float, bool, float, bool, int]]:
     """Return the fields of `Capacities` for each limit."""
     slip, top = curve.first_slip(), float(levels[-1])
     if slip >= top:
-        beyond = (top, True, top, False)
+        beyond = (top, True, top, False, 0)
         return [
-            beyond if limit or math.isinf(slip) else (slip, False, math.inf, False)
+            beyond if limit or math.isinf(slip) else (slip, False, math.inf, False, 0)
             for limit in limits_m
         ]
     if not slip:  # the slope alone exceeds friction: a block at rest does not stay at rest
-        return [(0.0, is_censoring and limit > 0.0, 0.0, False) for limit in limits_m]
-    x = np.union1d(np.linspace(slip, top, SCAN + 1), levels[levels > slip])
+        return [(0.0, is_censoring and limit > 0.0, 0.0, False, 0) for limit in limits_m]
+    x = np.union1d(np.linspace(slip, top, steps + 1), levels[levels > slip])
     scan = _Scan(curve, x, np.concatenate([[0.0], curve.prd_m(x[1:])]))
-    found = []
-    for limit in limits_m:
-        if not limit:
-            found.append((slip, False, math.inf, False))
-            continue
-        found.append(scan.capacity(limit, is_censoring))
-    return found
+    found = [
+        scan.capacity(limit, is_censoring) if limit else (slip, False, math.inf, False)
+        for limit in limits_m
+    ]
+    return [(*one, scan.searched) for one in found]
 
 
 class _Scan:
@@ -178,20 +201,28 @@ class _Scan:
     def __init__(self, curve: Curve, x: Floats, prd_m: Floats) -> None:
         self._curve, self._x, self._prd_m = curve, x, prd_m
 
+    @property
+    def searched(self) -> int:
+        """Intensities that were run: all but that of the beginning of slip."""
+        return self._x.size - 1
+
     def capacity(self, limit_m: float, is_censoring: bool) -> tuple[float, bool, float, bool]:
         """Return the fields of `Capacities` for a limit above 0."""
-        first = self._first_beyond(limit_m)
-        while (close := self._doubtful(first, limit_m)).size:
-            self._add(close)
-            first = self._first_beyond(limit_m)
+        most = self._x.size + MOST_CLOSER
+        first = self._first_beyond(limit_m, most)
+        while (close := self._doubtful(first, limit_m)).size and self._x.size < most:
+            self._add(close[: most - self._x.size])
+            first = self._first_beyond(limit_m, most)
         lost = np.flatnonzero(np.isnan(self._prd_m)) if is_censoring else np.array([], dtype=int)
         end = int(lost[0]) - 1 if lost.size else self._x.size - 1
         is_censored = first > end
         falls = bool((self._prd_m[first:] <= limit_m).any())
         at = end if is_censored else max(first - 1, 0)
+        if close.size:
+            at = min(at, int(np.searchsorted(self._x, close[0])) - 1)
         return float(self._x[at]), is_censored, float(self._x[end]), falls
 
-    def _first_beyond(self, limit_m: float) -> int:
+    def _first_beyond(self, limit_m: float, most: int) -> int:
         """Return the index of the first run beyond a limit, bisected; their number for none."""
         while True:
             beyond = np.flatnonzero(~(self._prd_m <= limit_m))
@@ -199,7 +230,7 @@ class _Scan:
                 return self._x.size
             first = int(beyond[0])
             low, high = self._x[first - 1], self._x[first]
-            if high - low <= ACCURACY * high:
+            if high - low <= ACCURACY * high or self._x.size >= most:
                 return first
             self._add(np.array([0.5 * (low + high)]))
 

@@ -47,6 +47,18 @@ class Spread:
         """Whether the variable has only one value."""
         return self.beta == 0.0 and self.half == 0.0
 
+    @property
+    def around(self) -> tuple[float, float]:
+        """One standard deviation below and above the center: of the logarithm of a lognormal."""
+        if self.beta:
+            return self.center * math.exp(-self.beta), self.center * math.exp(self.beta)
+        return self.center - self.deviation, self.center + self.deviation
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation, of the logarithm of a lognormal."""
+        return self.beta or self.half / math.sqrt(3.0)
+
     def quantile(self, chance: float) -> float:
         """Return the value that is not exceeded with a chance between 0 and 1."""
         if self.beta:

@@ -16,9 +16,15 @@ from report.figures.base import load_fonts
 from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import package_data
 from report.sheet.schema import UnitsFirst
+from report.study import figures as study
+from report.study.results import LimitState
 from report.suite.info import PERIODS_S, spectra_g
 from report.typeset.pdf import TEMPLATES
+from report.words.units import Quantity
 from solver.records.record import Record
+from solver.studies.capacity import Capacities
+from solver.studies.fragility import fragility
+from solver.studies.uncertainty import Bar
 from solver.verification.evidence import StabilityMap
 
 DPI = 400  # extents are rounded to pixels
@@ -134,6 +140,57 @@ def test_in_the_stability_maps_of_the_manual(drawn, count):
         y_log=True,
     )
     maps.stability([one] * count)
+    assert not list(faults(drawn))
+
+
+def limit_state(name, words, capacity):
+    levels, x = np.arange(0.1, 2.05, 0.1), np.array(capacity)
+    none = np.zeros(x.size, dtype=bool)
+    found = Capacities(
+        intensity=x, is_censored=none, end=np.full(x.size, 2.0), falls=none, searched=none
+    )
+    exceeds = levels > x[:, None]
+    fitted = fragility(levels, exceeds, np.ones_like(exceeds), found, seed=1)
+    return LimitState(name=name, words=words, limit_m=0.3, fragility=fitted, effects={})
+
+
+def test_in_the_charts_of_a_study(drawn):
+    inch = Quantity.DISPLACEMENT.us
+    slopes, levels = np.arange(8.0), np.arange(0.1, 2.05, 0.1)
+    design = 0.05 * (1.0 + slopes[:, None]) * levels**3
+    family = [(f"{slope:g}°", design[k]) for k, slope in enumerate(slopes)]
+    family[-1] = family[-1][0], np.full_like(levels, math.nan)
+    study.curves(levels, family, inch, along="PPA [g]", beside=list(design / 1.1))
+    study.contours(
+        levels, slopes, design, design / 1.1, inch, along="PPA [g]", allowed_m=24 * inch.si
+    )
+    states = [
+        limit_state("LS1", "slip begins", [0.41, 0.42, 0.43, 0.44, 0.45, 0.46, 0.47]),
+        limit_state("LS2", "half the clearance is used", [1.3, 1.4, 1.5, 1.52, 1.55, 1.6, 1.7]),
+        limit_state("LS3", "RTU-1 is reached", [1.65, 1.68, 1.75, 1.8, 1.81, 1.86, 1.94]),
+    ]
+    few = np.linspace(0.3, 1.5, 5)
+    study.contours(
+        few, slopes[:2], design[:2, :5] * 40, design[:2, :5] * 20, inch, along="PPA [g]",
+        allowed_m=math.nan,
+    )  # fmt: skip
+    study.fragilities(states, "PPA [g]")
+    study.goodness(states, "PPA [g]")
+    study.goodness(states[:1], "PPA [g]")
+    bars = [
+        Bar(name=name, at_low=low, at_high=high, prd_low_m=ends[0], prd_high_m=ends[1])
+        for name, low, high, ends in (
+            ("intensity", 0.938, 1.54, (0.02, 0.36)),
+            ("friction coefficient", 0.538, 0.464, (0.07, 0.15)),
+            ("slope", 1.77, 2.23, (0.1, 0.11)),
+            ("slope about none", -0.225, 0.225, (0.12, 0.12)),
+        )
+    ]
+    study.tornado(bars, 0.105, inch)
+    assert len(drawn.figures) == 7
+    assert "7°: none" in [text.get_text() for text in drawn.figures[0][0]]
+    contour_labels = [t.get_text() for t in drawn.figures[2][0] if t.get_text().endswith(" in")]
+    assert len(contour_labels) > 8, contour_labels
     assert not list(faults(drawn))
 
 

@@ -20,9 +20,10 @@ from dlml._tabular import load_tabular
 from places import ROOT
 from report.sheet.schema import UnitsFirst
 from report.study.exports import EXPORTS, export_files
+from report.study.plan import FRICTION
 from report.study.run import planned, run_study
 from report.study.template import write_study
-from solver.studies.fragility import Lognormal
+from solver.studies.fragility import UNKNOWN, Lognormal
 
 PROJECT = ROOT / "projects" / "study"
 
@@ -80,7 +81,9 @@ def project(tmp_path_factory):
     folder = tmp_path_factory.mktemp("project")
     shutil.copytree(PROJECT / "records", folder / "records")
     given = script.study()
-    few = {"slopes_deg": "2", "intensities": "1 to 2 by 0.1", "samples": 10}
+    few = {
+        "slopes_deg": "2", "intensities": "1 to 2 by 0.1", "samples": 10, "slope_tolerance_deg": 0.0
+    }  # fmt: skip
     example = dataclasses.replace(given, study=given.study.model_copy(update=few))
     write_study(folder / "input.xlsx", units=UnitsFirst.US, example=example)
     return run_study(planned(folder)[0], folder / "out")
@@ -106,7 +109,9 @@ def test_the_exports_of_the_project_are_read_by_the_readers_of_pelicun(project, 
         assert row[state.name, "Family"] == "lognormal"
         fitted = state.fragility.fitted
         assert float(row[state.name, "Theta_0"]) == pytest.approx(fitted.theta, rel=1e-5)
-        assert float(row[state.name, "Theta_1"]) == 0.4  # entered, in place of that of the motions
+        # Entered, in place of that of the motions
+        wanted = math.hypot(0.4, state.effects[FRICTION])
+        assert float(row[state.name, "Theta_1"]) == pytest.approx(wanted, rel=1e-5)
         assert fitted.beta < 0.2
     (placed,) = csv.DictReader(io.StringIO(made["placement.csv"].decode()))
     about = json.loads(made["fragility.json"])
@@ -123,7 +128,8 @@ def test_the_exports_of_the_project_are_read_by_the_rules_of_openquake(project):
     assert x == pytest.approx(project.plan.input.intensities)
     for row, state in zip(p, project.arrays[0].states, strict=True):
         if state.fragility.fitted.is_known:
-            wanted = NormalDist(math.log(state.fragility.fitted.theta), 0.4)
+            total = math.hypot(0.4, state.effects[FRICTION])
+            wanted = NormalDist(math.log(state.fragility.fitted.theta), total)
             assert row == pytest.approx([wanted.cdf(math.log(v)) for v in x], abs=1.01e-6)
 
 
@@ -132,7 +138,9 @@ def test_limit_states_that_cross_have_no_negative_chance_between_them(project):
     (one,) = project.arrays
     fits = Lognormal(theta=1.0, beta=0.1), Lognormal(theta=1.2, beta=0.8)
     states = tuple(
-        dataclasses.replace(state, fragility=dataclasses.replace(state.fragility, fitted=fit))
+        dataclasses.replace(
+            state, fragility=dataclasses.replace(state.fragility, fitted=fit), effects={}
+        )
         for state, fit in zip(one.states[:2], fits, strict=True)
     )
     study = project.plan.input.study.model_copy(update={"record_beta": None, "record_source": ""})
@@ -146,3 +154,37 @@ def test_limit_states_that_cross_have_no_negative_chance_between_them(project):
     alone = [[NormalDist(math.log(f.theta), f.beta).cdf(math.log(v)) for v in x] for f in fits]
     assert second == pytest.approx(alone[1], abs=1.01e-6)
     assert first == pytest.approx(np.max(alone, axis=0), abs=1.01e-6)
+
+
+def without_lognormal(array, name, **changes):
+    """The array under another name, its first limit state undetermined."""
+    found = dataclasses.replace(array.states[0].fragility, fitted=UNKNOWN, **changes)
+    states = (dataclasses.replace(array.states[0], fragility=found), *array.states[1:])
+    row = array.plan.array.model_copy(update={"id": name})
+    return dataclasses.replace(
+        array, states=states, plan=dataclasses.replace(array.plan, array=row)
+    )
+
+
+def test_an_array_whose_runs_are_censored_has_no_chance_of_zero_in_openquake(project):
+    """Of a motion without a value it is not known whether it exceeds: 0 of 0 is no chance."""
+    (one,) = project.arrays
+    levels = len(project.plan.input.intensities)
+    counted = np.array([7] * (levels - 2) + [1, 0])
+    lost = without_lognormal(
+        one, "A2", counted=counted, exceeded=np.zeros(levels, int), censored=13
+    )
+    whole = without_lognormal(
+        one, "A3", counted=np.full(levels, 7), exceeded=np.minimum(np.arange(levels), 7), censored=0
+    )
+    made = export_files(dataclasses.replace(project, arrays=(one, lost, whole)))
+    _, found = read_nrml(made["fragility.xml"])
+    assert list(found) == ["BSA.A1", "BSA.A3"]
+    assert (
+        "BSA.A2 is left out: LS1 has no lognormal and censored runs."
+        in made["fragility.xml"].decode()
+    )
+    *_, p = found["BSA.A3"]
+    wanted = np.maximum(np.minimum(np.arange(levels), 7) / 7.0, p[1])
+    assert p[0] == pytest.approx(wanted, abs=1.01e-6)
+    assert "fragility.xml" not in export_files(dataclasses.replace(project, arrays=(lost,)))

@@ -18,7 +18,7 @@ from report.study.array_pages import fragility
 from report.study.basis_pages import limits
 from report.study.dispersion import warning
 from report.study.exports import export_files
-from report.study.plan import ArrayPlan
+from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayResult, LimitState
 from report.study.run import planned, run_study
 from report.study.schema import StudyArray
@@ -26,6 +26,7 @@ from report.study.spread import spectral_spread
 from report.study.words import headline
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
+from solver.studies.uncertainty import Spread
 from studied import motion
 from test_study_read import given, problems, write
 
@@ -100,17 +101,21 @@ def with_state(results, motions, *, allow_matched=False, **changes):
             levels=LEVELS, exceeded=np.zeros(4, int), counted=np.full(4, 3), censored=0,
             capacities=Capacities(
                 intensity=np.array([1.13, 1.2, 1.27]), is_censored=np.zeros(3, bool),
-                end=np.full(3, 2.0), falls=np.zeros(3, bool),
+                end=np.full(3, 2.0), falls=np.zeros(3, bool), searched=np.zeros(3, int),
             ),
             fitted=Lognormal(theta=1.2, beta=0.06), theta_range=(1.1, 1.3),
-            beta_range=(0.03, 0.1), unfitted=0, p_value=0.5,
+            beta_range=(0.03, 0.1), unfitted=0, p_value=0.5, critical=0.3,
         ),
+        effects={},
     )  # fmt: skip
     array = ArrayPlan(
         array=StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1), building=0, mu=0.4,
-        spreads={}, fragility=slice(0), samples=slice(0), bars=slice(0),
+        spreads={FRICTION: Spread(center=0.4), SLOPE: Spread(center=2.0)}, shifts={},
+        fragility=slice(0), samples=slice(0), bars=slice(0),
     )  # fmt: skip
-    one = ArrayResult(plan=array, states=(state,), chances=(), bars=(), center_m=math.nan)
+    one = ArrayResult(
+        plan=array, states=(state,), chances=(), bars=(), center_m=math.nan, capacity_runs=0
+    )
     given_ = results.plan.input
     study = given_.study.model_copy(update=changes)
     plan = dataclasses.replace(results.plan, input=dataclasses.replace(given_, study=study))
@@ -170,12 +175,17 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_
     assert [float(p) for p in chances] == pytest.approx(wanted, abs=1.01e-6)
     said = (
         "Dispersions of LS1: record-to-record 0.30 (Site & hazard), modeling 0.40 (entered), "
-        "quality of data not included, friction not included, slope not included."
+        "quality of data not included (not given), friction not included (mat A has no tests), "
+        "slope not included (no tolerance is given). Mass has no effect: each array is one rigid "
+        "block with Coulomb friction."
     )
     assert said in json.loads(made["fragility.json"])["BSA.S1"]["Comments"]
     assert said in defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][0].text
     table = fragility(found, found.arrays[0]).blocks[0].tables[1]
-    assert table.caption.endswith(". Not included: quality of data, friction and slope")
+    assert table.caption.endswith(
+        ". Not included: quality of data (not given), friction (mat A has no tests) and slope (no "
+        "tolerance is given)"
+    )
     (shown,) = table.rows
     assert shown.cells == ("LS1", "0.300", "0.400", "0.500")
 

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from solver import solve
 from solver.model import coulomb
 from solver.studies.campaign import Campaign, grid
-from solver.studies.capacity import ACCURACY, Curve, capacities
+from solver.studies.capacity import ACCURACY, COARSE_SCAN, SCAN, Curve, capacities, most_searched
 from solver.studies.runs import Runner
 from studied import frozen, motion
 
@@ -156,3 +156,34 @@ def test_a_record_of_zeros_and_a_slope_beyond_friction_have_the_ends_of_the_rang
     for limit in (0.0, 0.1):
         (found,) = capacities([curve_of(motion(1), 30.0, 0.4)], [limit], LEVELS, is_censoring=False)
         assert found.intensity[0] == pytest.approx(0.0, abs=ACCURACY)
+
+
+@pytest.mark.parametrize("steps", [COARSE_SCAN, SCAN])
+@pytest.mark.parametrize("letters", ["x", "xz"])
+def test_the_intensities_of_a_search_are_counted_and_are_no_more_than_is_said(steps, letters):
+    for number in range(4):
+        ran = []
+
+        class Counted(Curve):
+            def prd_m(self, intensity, ran=ran):
+                ran.append(intensity.size)
+                return super().prd_m(intensity)
+
+        one = curve_of(motion(number, letters), 2.0, 0.4)
+        curve = Counted(tracks=one.tracks, slope_rad=one.slope_rad, mu=one.mu)
+        limits = [0.0, 0.02, 0.2]
+        for capacity in capacities([curve], limits, LEVELS, is_censoring=False, steps=steps):
+            assert capacity.searched.tolist() == [sum(ran)]
+        assert 0 < sum(ran) <= most_searched(limits, LEVELS, steps)
+
+
+@pytest.mark.parametrize("most", [0, 1, 3, 5])
+def test_a_search_that_may_run_no_more_takes_the_capacity_from_below(monkeypatch, most):
+    monkeypatch.setattr("solver.studies.capacity.MOST_CLOSER", most)
+    limits, levels = [0.5], np.array([3.0])
+    (found,) = capacities(
+        [Formula(lambda x: 0.08 * x * x)], limits, levels, is_censoring=False, steps=12
+    )
+    assert found.searched[0] == 12 + most
+    assert 2.0 < found.intensity[0] < 2.5 * (1.0 - ACCURACY)
+    assert not found.falls[0]

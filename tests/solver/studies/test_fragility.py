@@ -8,7 +8,13 @@ from scipy.optimize import minimize
 from scipy.stats import goodness_of_fit, norm
 
 from solver.studies.capacity import Capacities
-from solver.studies.fragility import fit_lognormal, fragility, lilliefors, lilliefors_p
+from solver.studies.fragility import (
+    fit_lognormal,
+    fragility,
+    lilliefors,
+    lilliefors_critical,
+    lilliefors_p,
+)
 
 LEVELS = np.geomspace(0.25, 4.0, 20)
 
@@ -21,6 +27,7 @@ def drawn(rng, motions, beta, end=math.inf, theta=1.0):
         is_censored=capacity > end,
         end=np.full(motions, min(end, 1e9)),
         falls=np.zeros(motions, dtype=bool),
+        searched=np.zeros(motions, dtype=int),
     )
 
 
@@ -46,11 +53,12 @@ def test_the_likelihood_of_censored_capacities_is_largest_as_another_optimizer_f
     assert (math.log(one.theta), math.log(one.beta)) == pytest.approx(best.x, abs=1e-6)
 
 
-def test_uncensored_capacities_have_their_geometric_mean_and_deviation():
+def test_uncensored_capacities_have_their_geometric_mean_and_the_deviation_of_fema_p58():
+    """Method A of Porter et al. 2007: the divisor of the squares is n - 1."""
     found = drawn(np.random.default_rng(4), 9, 0.2)
     one, logs = fit_lognormal(found), np.log(found.intensity)
     assert one.theta == pytest.approx(math.exp(logs.mean()), rel=1e-12)
-    assert one.beta == pytest.approx(logs.std(), rel=1e-12)
+    assert one.beta == pytest.approx(logs.std(ddof=1), rel=1e-12)
 
 
 def test_the_exact_intervals_of_seven_capacities():
@@ -71,7 +79,13 @@ def test_the_exact_intervals_of_seven_capacities():
 def test_capacities_that_determine_no_lognormal_give_none(values):
     zeros = np.zeros(len(values), dtype=bool)
     found = fitted(
-        Capacities(intensity=np.array(values), is_censored=zeros, end=np.array(values), falls=zeros)
+        Capacities(
+            intensity=np.array(values),
+            is_censored=zeros,
+            end=np.array(values),
+            falls=zeros,
+            searched=zeros,
+        )
     )
     assert not found.fitted.is_known
     assert all(map(math.isnan, (found.fitted.beta, *found.theta_range, *found.beta_range)))
@@ -144,14 +158,38 @@ def test_the_p_value_is_that_of_another_simulation():
 
 @pytest.mark.parametrize(("motions", "critical"), [(7, 0.3041), (10, 0.2616), (20, 0.1920)])
 def test_the_p_value_is_5_percent_at_the_critical_values_of_molin_and_abdi(motions, critical):
-    assert lilliefors_p(critical, motions, seed=3) == pytest.approx(0.05, abs=0.006)
+    assert lilliefors_p(critical, motions) == pytest.approx(0.05, abs=0.006)
+    assert lilliefors_critical(motions) == pytest.approx(critical, rel=0.015)
+
+
+@pytest.mark.parametrize("motions", [7, 20, 40])
+@pytest.mark.parametrize("p", [0.02, 0.05, 0.1])
+def test_the_p_value_is_that_of_the_formula_of_dallal_and_wilkinson(motions, p):
+    """The American Statistician 40 (1986) 294-296; stated for p up to 0.1.
+
+    ln p = -7.01256 d^2 (n + 2.78019) + 2.99587 d sqrt(n + 2.78019) - 0.122119 + 0.974598 / sqrt(n)
+    + 1.67997 / n.
+    """
+    m = motions + 2.78019
+    rest = -0.122119 + 0.974598 / math.sqrt(motions) + 1.67997 / motions - math.log(p)
+    d = (2.99587 + math.sqrt(2.99587**2 + 4.0 * 7.01256 * rest)) / (2.0 * 7.01256 * math.sqrt(m))
+    assert lilliefors_p(d, motions) == pytest.approx(p, abs=0.006)
+
+
+def test_the_critical_value_is_where_the_p_value_reaches_5_percent():
+    at = lilliefors_critical(9)
+    assert lilliefors_p(at, 9) <= 0.05 < lilliefors_p(at * (1.0 - 1e-9), 9) + 1e-4
 
 
 def test_a_set_of_two_groups_is_no_lognormal_and_a_censored_one_has_no_p_value():
     groups = np.concatenate([np.linspace(0.5, 0.51, 10), np.linspace(2.0, 2.02, 10)])
     found = drawn(np.random.default_rng(1), 20, 0.3)
     two = Capacities(
-        intensity=groups, is_censored=found.is_censored, end=found.end, falls=found.falls
+        intensity=groups,
+        is_censored=found.is_censored,
+        end=found.end,
+        falls=found.falls,
+        searched=found.searched,
     )
     assert fitted(two).p_value < 0.001
     assert math.isnan(fitted(drawn(np.random.default_rng(1), 20, 0.3, 1.0)).p_value)

@@ -1,0 +1,124 @@
+"""The capacities of an array, and how friction and slope disperse them: runs of their own.
+
+Fits medians alone; `solver.studies.fragility` fits the rest. Read `array_capacities`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from report.study.plan import ArrayPlan, Shift, StudyPlan
+from report.study.schema import NoValue
+from solver.model import Floats
+from solver.studies.capacity import (
+    COARSE_SCAN,
+    SCAN,
+    Capacities,
+    Curve,
+    capacities,
+    most_searched,
+)
+from solver.studies.fragility import first_order_beta, fit_lognormal
+from solver.studies.runs import Runner
+
+SHARES = (0.0, 0.5, 1.0)
+"""Limits on the PRD of a motion, as shares of the clearance; 0 is the beginning of slip."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrayCapacities:
+    """The capacities of an array.
+
+    Attributes
+    ----------
+    found : tuple of Capacities
+        For each of `SHARES`.
+    effects : tuple of mappings of str to float
+        Dispersion of the capacity due to friction and slope, by the names of `ArrayPlan.shifts`,
+        for each of `SHARES`; NaN if not determined.
+    runs : int
+    """
+
+    found: tuple[Capacities, ...]
+    effects: tuple[Mapping[str, float], ...]
+    runs: int
+
+
+def array_capacities(plan: StudyPlan, array: ArrayPlan, runner: Runner) -> ArrayCapacities:
+    """Return the capacities of an array, and the dispersions that follow from those beside it."""
+    levels = np.array(plan.input.intensities)
+    found = _searched(plan, array, runner, (array.mu, array.array.slope_deg), levels, SCAN)
+    searches = [found]
+    medians = _medians(found)
+    effects: list[dict[str, float]] = [{} for _ in SHARES]
+    for name, shifts in array.shifts.items():
+        around = [medians, medians]
+        if not np.isnan(medians).all():
+            beside = [_shifted(plan, array, runner, at) for at in shifts]
+            searches += beside
+            around = [_medians(one) for one in beside]
+        for effect, median, low, high in zip(effects, medians, *around, strict=True):
+            effect[name] = first_order_beta(median, (low, high))
+    headings = [len(motion.headings) for motion in runner.campaign.motions[0]]
+    runs = sum(int(one[0].searched @ headings) for one in searches)
+    return ArrayCapacities(found=found, effects=tuple(effects), runs=runs)
+
+
+def most_runs(plan: StudyPlan, array: ArrayPlan) -> int:
+    """Return how many runs the capacities of an array take at most."""
+    levels = np.array(plan.input.intensities)
+    searched = most_searched(SHARES, levels)
+    searched += 2 * len(array.shifts) * most_searched(SHARES, levels[-1:], COARSE_SCAN)
+    return searched * len(plan.campaign.columns)
+
+
+def curves_of(runner: Runner, array: ArrayPlan, mu: float, slope_deg: float) -> list[Curve]:
+    """Return the PRD of each motion over intensity, on the building of an array."""
+    columns, tracks = runner.campaign.columns, runner.tracks[array.building]
+    return [
+        Curve(
+            tracks=[t for (at, _), t in zip(columns, tracks, strict=True) if at == number],
+            slope_rad=math.radians(slope_deg),
+            mu=mu,
+        )
+        for number in range(len(runner.campaign.motions[0]))
+    ]
+
+
+def _searched(
+    plan: StudyPlan, array: ArrayPlan, runner: Runner, at: Shift, levels: Floats, steps: int
+) -> tuple[Capacities, ...]:
+    """Return the capacities at a friction and slope [deg], for each of `SHARES`."""
+    return capacities(
+        curves_of(runner, array, *at),
+        [share * array.array.clearance_m for share in SHARES],
+        levels,
+        is_censoring=plan.input.study.no_value is NoValue.CENSORED,
+        steps=steps,
+    )
+
+
+def _shifted(
+    plan: StudyPlan, array: ArrayPlan, runner: Runner, at: Shift
+) -> tuple[Capacities, ...]:
+    """Return the capacities at another friction or slope.
+
+    Where a block yields later than at the center, it is searched that much farther: otherwise fewer
+    motions would reach a limit.
+    """
+    later = _yield(*at) / _yield(array.mu, array.array.slope_deg)
+    top = np.array([max(1.0, later) * plan.input.intensities[-1]])
+    return _searched(plan, array, runner, at, top, COARSE_SCAN)
+
+
+def _medians(found: Sequence[Capacities]) -> list[float]:
+    return [fit_lognormal(one).theta for one in found]
+
+
+def _yield(mu: float, slope_deg: float) -> float:
+    """Return the acceleration / g at which a block begins to slide down a slope [deg]."""
+    return math.tan(math.atan(mu) - math.radians(slope_deg))

@@ -1,0 +1,101 @@
+"""The goodness of fit of a fragility: its chart, its column and its cells in study.xlsx."""
+
+import dataclasses
+import io
+import math
+import re
+
+import numpy as np
+import pytest
+from openpyxl import load_workbook
+
+from report.figures.base import load_fonts
+from report.study.array_pages import fragility as pages
+from report.study.results import LimitState
+from report.study.run import planned, run_study
+from report.study.tables import study_xlsx
+from report.typeset.pdf import TEMPLATES
+from report.words.units import digits_down
+from solver.studies.capacity import Capacities
+from solver.studies.fragility import fragility
+from test_study_read import given, write
+
+LEVELS = np.array([0.5, 1.0, 1.5, 2.0])
+
+
+def state(name, intensity, *, falls=0, is_censored=False):
+    x = np.array(intensity)
+    found = Capacities(
+        intensity=x, is_censored=np.arange(x.size) >= x.size - is_censored,
+        end=np.full(x.size, 2.0), falls=np.arange(x.size) < falls,
+        searched=np.zeros(x.size, int),
+    )  # fmt: skip
+    exceeds = x[:, None] < LEVELS
+    return LimitState(
+        name=name, words="is so", limit_m=0.1, effects={},
+        fragility=fragility(LEVELS, exceeds, np.ones_like(exceeds), found, seed=1),
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    """A study whose array has one state that fits, one of two groups, and one that is censored."""
+    folder = write(tmp_path_factory.mktemp("goodness"), given(), motions=1)
+    found = run_study(planned(folder)[0], folder / "out")
+    rng = np.random.default_rng(3)
+    states = (
+        state("LS1", np.exp(0.2 * rng.standard_normal(7))),
+        state("LS2", [0.90, 0.901, 0.902, 0.903, 1.8, 1.801, 1.802], falls=2),
+        state("LS3", [1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 2.0], is_censored=True),
+    )
+    one = dataclasses.replace(found.arrays[0], states=states)
+    return dataclasses.replace(found, arrays=(one,))
+
+
+def test_the_chart_has_a_panel_for_each_state_with_a_p_value(results):
+    load_fonts(TEMPLATES / "fonts")
+    (block, *_) = pages(results, results.arrays[0]).blocks
+    assert [one.name for one in block.charts] == ["fragility-s1", "goodness-s1"]
+    texts = re.findall(r">(LS\d: [^<]*)<", block.charts[1].picture.svg)
+    p = [digits_down(s.fragility.p_value, 2) for s in results.arrays[0].states[:2]]
+    assert texts == [f"LS1: p = {p[0]}", f"LS2: p = {p[1]}"]
+    assert "5\u00a0%" in block.charts[1].picture.caption
+
+
+def test_without_a_p_value_there_is_no_chart(results):
+    one = dataclasses.replace(results.arrays[0], states=results.arrays[0].states[2:])
+    (block, *_) = pages(results, one).blocks
+    assert [chart.name for chart in block.charts] == ["fragility-s1"]
+
+
+def test_the_band_leaves_out_the_capacities_whose_p_value_is_below_5_percent(results):
+    """A rank beyond the band is what the test of Lilliefors rejects."""
+    for one, is_inside in zip(results.arrays[0].states[:2], (True, False), strict=True):
+        f = one.fragility
+        x = np.sort(f.capacities.intensity)
+        chance = f.fitted.at(x)
+        ranks = np.arange(x.size + 1) / x.size
+        off = np.maximum(ranks[1:] - chance, chance - ranks[:-1]).max()
+        assert (off < f.critical) == is_inside == (f.p_value > 0.05)
+    assert math.isnan(results.arrays[0].states[2].fragility.critical)
+
+
+def test_the_table_has_the_p_value_of_each_state(results):
+    (block, *_) = pages(results, results.arrays[0]).blocks
+    table = block.tables[0]
+    assert table.columns[-1].head == "p of fit"
+    shown = [row.cells[-1] for row in table.rows]
+    p = [digits_down(s.fragility.p_value, 2) for s in results.arrays[0].states[:2]]
+    assert shown == [*p, "—"]
+    assert "Lilliefors" in table.notes[0]
+
+
+def test_the_workbook_has_the_p_value_and_the_motions_that_fall_below_the_limit_again(results):
+    sheet = load_workbook(io.BytesIO(study_xlsx(results)))["Fragility"]
+    heads = [cell.value for cell in sheet[1]]
+    rows = [dict(zip(heads, (c.value for c in row), strict=True)) for row in sheet.iter_rows(2)]
+    assert [row["Motions below the limit again"] for row in rows] == [0, 2, 0]
+    assert [row["Censored capacities"] for row in rows] == [0, 0, 1]
+    p = [row["Lilliefors p of fit"] for row in rows]
+    wanted = [s.fragility.p_value for s in results.arrays[0].states[:2]]
+    assert p == [*map(pytest.approx, wanted), "none"]
