@@ -68,7 +68,10 @@ def test_as_the_difference_vanishes_it_is_coulombs_friction(transverse, sign):
     assert places(follow(replace(block, friction=none), 1e-8)).tolist() == alone.tolist()
 
 
-@pytest.mark.parametrize("friction", [GROWING, FALLING, HELD, BOTH])
+# SciPy's steps are short where friction grows: ten times those of the others.
+@pytest.mark.parametrize(
+    "friction", [pytest.param(GROWING, marks=pytest.mark.nightly), FALLING, HELD, BOTH]
+)
 def test_it_is_as_scipy_follows_it(friction):
     ax, ay, az = shaking(12, n=45, dt=0.04, peak=5.0)
     block = scene(ax, ay, 0.04, degrees=2.0, friction=friction, az=az)

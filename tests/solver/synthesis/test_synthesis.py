@@ -33,7 +33,6 @@ pytestmark = pytest.mark.skipif(
 )
 
 G = 9.80665
-SEEDS = range(10)
 BAND = 0.3 * 2.0 ** (np.arange(82) / 12.0)
 
 
@@ -59,9 +58,15 @@ def counts(record: Record) -> list[int]:
     return [round(a) for a in (record.a_mps2 / G * 1e5).tolist()]
 
 
-@pytest.fixture(scope="module")
-def suites() -> list[SuiteMotion]:
-    return [make_suite(HORIZONTAL, VERTICAL, count=1, seed=seed)[0] for seed in SEEDS]
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(range(3), id="three"),
+        pytest.param(range(10), id="ten", marks=pytest.mark.nightly),
+    ],
+)
+def suites(request: pytest.FixtureRequest) -> list[SuiteMotion]:
+    return [make_suite(HORIZONTAL, VERTICAL, count=1, seed=seed)[0] for seed in request.param]
 
 
 @pytest.fixture(scope="module")
@@ -71,8 +76,7 @@ def components(suites: Any) -> list[tuple[Record, Target]]:
 
 
 class TestSuite:
-    @pytest.mark.nightly
-    def test_every_component_of_ten_seeds_keeps_to_its_target(self, components: Any) -> None:
+    def test_every_component_keeps_to_its_target(self, components: Any) -> None:
         # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:
             fit = spectrum_fit(record, wanted)
@@ -115,7 +119,7 @@ class TestSuite:
         ]
         holds = [one.hold_s for one in suites]
         across, upward = (partial(target_sa_g, wanted) for wanted in (HORIZONTAL, VERTICAL))
-        for part in (slice(0, 3), slice(3, 6), slice(0, None)):
+        for part in (slice(0, 3), slice(-3, None), slice(0, None)):
             found = acceptance(motions[part], holds[part], across, upward)
             assert len(found.rows) == 10
             assert found.missed == ()
@@ -162,8 +166,8 @@ class TestSuite:
 
     @pytest.mark.nightly
     def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites: Any) -> None:
-        again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=3)
-        for component, other in zip(again[0].components, suites[3].components, strict=True):
+        again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=2)
+        for component, other in zip(again[0].components, suites[2].components, strict=True):
             assert np.array_equal(component.a_mps2, other.a_mps2)
         names = [record.name for record in again[1].components]
         assert names == ["motion-02-x", "motion-02-y", "motion-02-z"]
@@ -260,7 +264,7 @@ class TestFit:
         assert ratios == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-4)
 
     def test_scipy_finds_the_same_spectrum_by_a_state_space_model(self, suites: Any) -> None:
-        record, freq_hz = suites[4].y, np.array([0.1, 0.3, 0.9, 2.7, 4.9])
+        record, freq_hz = suites[-1].y, np.array([0.1, 0.3, 0.9, 2.7, 4.9])
         t = record.dt_s * np.arange(len(record.a_mps2))
         peaks_g = []
         for omega in 2.0 * np.pi * freq_hz:
