@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from report.figures.base import GREY, INK, WIDTH_IN, Broken, style, svg_text, tick_text
+from report.figures.base import GRAY, INK, WIDTH_IN, Broken, style, svg_text, tick_text
 from report.figures.history import envelope
 from report.kept import kept
 from report.words.units import G_MPS2, round_below
@@ -66,7 +66,7 @@ def _lines(
                 times, values = envelope(t_s, a_g, _POINTS)
                 histories.add(column + 0.94 * times / seconds, -row - 0.5 + 0.46 * values / reach)
                 zeros.add([column, column + 0.94], [-row - 0.5] * 2)
-    axes.plot(zeros.x, zeros.y, color=GREY, linewidth=0.4)
+    axes.plot(zeros.x, zeros.y, color=GRAY, linewidth=0.4)
     axes.plot(histories.x, histories.y, color=INK, linewidth=0.4)
 
 

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.scales import plain
 from report.words.units import G_MPS2
 from solver.verification.evidence import RoofComparison, RoofPrediction
@@ -46,7 +46,7 @@ def computed(roof: RoofComparison) -> tuple[RoofPrediction, ...]:
 def _spectra(axes: Axes, roof: RoofComparison) -> None:
     label = "roof, recorded" if roof.is_recorded else "roof, integrated directly"
     for sa_mps2, look in (
-        (roof.ground_sa_mps2, {"color": GREY, "linewidth": 0.9, "label": "ground"}),
+        (roof.ground_sa_mps2, {"color": GRAY, "linewidth": 0.9, "label": "ground"}),
         (roof.roof_sa_mps2, {"color": INK, "linewidth": 1.8, "label": label}),
         *(
             (

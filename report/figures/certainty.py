@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Surface
-from report.figures.base import GREY, INK, bare, framed, style, svg_text, tick_text
+from report.figures.base import GRAY, INK, bare, framed, style, svg_text, tick_text
 from report.figures.levels import LEAST_M, is_decade, levels
 from report.kept import kept
 from report.words.units import Quantity
@@ -33,7 +33,7 @@ def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool
         figure, axes = framed(2.3, 0.5, 0.1, 0.14, 0.5)
         grid_mu, grid_deg = np.meshgrid(surface.mus, degrees)
         lost = np.isnan(mean)
-        axes.plot(grid_mu[~lost], grid_deg[~lost], "+", color=GREY, markersize=3.5)
+        axes.plot(grid_mu[~lost], grid_deg[~lost], "+", color=GRAY, markersize=3.5)
         axes.plot(grid_mu[lost], grid_deg[lost], "x", color=INK, markersize=6)
         _lines(axes, surface, mean)
         for array in arrays:

@@ -19,7 +19,7 @@ from report.figures.accelerations import accelerations
 from report.figures.base import (
     ACCENT,
     FAMILY,
-    GREY,
+    GRAY,
     INK,
     framed,
     load_fonts,
@@ -120,7 +120,7 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labele
         [prescriptive],
         0.62,
         facecolor="white",
-        edgecolor=GREY,
+        edgecolor=GRAY,
         linewidth=0.8,
         label=text("prescriptive"),
     )

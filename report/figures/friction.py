@@ -10,7 +10,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 
-from report.figures.base import ACCENT, ACROSS, GREY, INK, WIDTH_IN, bare, framed, style, svg_text
+from report.figures.base import ACCENT, ACROSS, GRAY, INK, WIDTH_IN, bare, framed, style, svg_text
 from report.figures.labels import TYPE_PT, width_in
 from report.kept import kept
 from report.sheet.schema import Array
@@ -117,7 +117,7 @@ def _label_laws(axes: Axes, laws: Mapping[Friction, str], most: float) -> None:
             xycoords="axes fraction",
             textcoords="axes fraction",
             va="center",
-            arrowprops={"arrowstyle": "-", "linewidth": 0.5, "color": GREY, "shrinkB": 0},
+            arrowprops={"arrowstyle": "-", "linewidth": 0.5, "color": GRAY, "shrinkB": 0},
         )
 
 

@@ -16,7 +16,7 @@ from report.assessment.runs import MotionRun
 from report.figures.base import (
     ACCENT,
     ACROSS,
-    GREY,
+    GRAY,
     INK,
     PALE,
     WIDTH_IN,
@@ -118,7 +118,7 @@ def _rules(axes: Axes, grid: _Grid, count: int) -> None:
                 axes.text(left - 0.012, level, label, ha="right", va="center")
         if index >= grid.last:
             _times(axes, grid, index, ticks)
-    for line, color in ((levels, PALE), (zeros, GREY), (ticks, INK)):
+    for line, color in ((levels, PALE), (zeros, GRAY), (ticks, INK)):
         axes.plot(line.x, line.y, color=color, linewidth=0.5, clip_on=False)
 
 

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from report.assessment.runs import MotionRun
-from report.figures.base import GREY, INK, WIDTH_IN, style, svg_text, tick_text
+from report.figures.base import GRAY, INK, WIDTH_IN, style, svg_text, tick_text
 from report.kept import kept
 from report.words.units import Quantity, round_below
 from solver.model import Floats, SlideHistory
@@ -149,4 +149,4 @@ def _scale_bar(axes: Axes, m_per_in: float, us_first: bool) -> None:
     right = WIDTH_IN - 0.9
     axes.plot([right - wide, right], [0.1, 0.1], color=INK, linewidth=2.0, solid_capstyle="butt")
     axes.text(right + 0.06, 0.1, f"{length:g} {unit.symbol}", va="center")
-    axes.axhline(FOOT_IN - 0.03, color=GREY, linewidth=0.4)
+    axes.axhline(FOOT_IN - 0.03, color=GRAY, linewidth=0.4)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import cycle
 from typing import Any
 
-from report.figures.base import ACCENT, GREY, INK
+from report.figures.base import ACCENT, GRAY, INK
 from solver.rivals.methods import METHODS
 
 
@@ -50,9 +50,9 @@ _STYLES = (
     ("s", _DASHED, INK, False),
     ("^", _DASHDOT, ACCENT, True),
     ("v", _DOTTED, INK, True),
-    ("D", _LONG, GREY, True),
-    ("X", _DASHED, GREY, True),
-    ("P", "none", GREY, True),
+    ("D", _LONG, GRAY, True),
+    ("X", _DASHED, GRAY, True),
+    ("P", "none", GRAY, True),
 )
 
 LOOKS: Mapping[str, Look] = {

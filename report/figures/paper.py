@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.history import envelope
 from report.figures.scales import decades
 from solver.model import Floats
@@ -67,7 +67,7 @@ def _errors(axes: Axes, study: Convergence) -> None:
         label=f"against P = {study.substeps[-1]}, as in the paper",
     )
     axes.plot(
-        [64], [PAPER_P64_PERCENT], linestyle="", marker="*", markersize=9, color=GREY,
+        [64], [PAPER_P64_PERCENT], linestyle="", marker="*", markersize=9, color=GRAY,
         label=f"paper, record of the paper: {PAPER_P64_PERCENT} %",
     )  # fmt: skip
     axes.set_yscale("log")

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from report.figures.base import GREY, INK
+from report.figures.base import GRAY, INK
 from report.figures.labels import Frame
 from report.figures.paper_plan import PAD_IN, text_size
 from report.figures.plan_key import FAILED, gap_line, ng_box, ng_size
@@ -59,7 +59,7 @@ def _draw_callout(
     paper, y = plan.paper, label.middle[1]
     plan.leader(gap.middle, label)
     if shown:
-        paper.box(label, facecolor="white", edgecolor=GREY, linewidth=0.4, zorder=2)
+        paper.box(label, facecolor="white", edgecolor=GRAY, linewidth=0.4, zorder=2)
         paper.lines(Frame(label.x0 + 2 * RADIUS_IN, label.y0, label.x1 - mark, label.y1), shown)
     center = label.x0 + RADIUS_IN, y
     paper.circle(center, RADIUS_IN - 0.01, facecolor="white", edgecolor=INK, linewidth=0.7,

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from report.figures.base import ACCENT, GREY, INK, PALE
+from report.figures.base import ACCENT, GRAY, INK, PALE
 from report.figures.labels import LINE_IN, TYPE_PT, Frame, centered, width_in
 from report.figures.paper_plan import FOOT_M, PlanPaper, nice_length, wrapped
 from report.sheet.schema import ObjectKind
 
 FILLS: dict[ObjectKind, dict[str, Any]] = {
     ObjectKind.FIXED: {"facecolor": PALE, "edgecolor": INK, "hatch": "///", "linewidth": 0.8},
-    ObjectKind.UNLIKE_ARRAY: {"facecolor": "white", "edgecolor": GREY, "hatch": "\\\\\\",
+    ObjectKind.UNLIKE_ARRAY: {"facecolor": "white", "edgecolor": GRAY, "hatch": "\\\\\\",
                               "linewidth": 0.8},
 }  # fmt: skip
 EDGES: dict[ObjectKind, dict[str, Any]] = {
@@ -29,7 +29,7 @@ ARRAY: dict[str, Any] = {"facecolor": "#e8eef5", "edgecolor": ACCENT, "linewidth
 RUNS: dict[str, Any] = {"facecolor": "#f0d2b6", "edgecolor": "#c8651b", "linewidth": 0.5}
 DESIGN: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "linewidth": 0.7,
                           "linestyle": (0, (4, 2))}  # fmt: skip
-ROOF: dict[str, Any] = {"facecolor": "white", "edgecolor": GREY, "linewidth": 0.7}
+ROOF: dict[str, Any] = {"facecolor": "white", "edgecolor": GRAY, "linewidth": 0.7}
 BARE: dict[str, Any] = {"linewidth": 1.4, "dashes": (1, 2)}
 FAILED: dict[str, Any] = {"facecolor": "white", "edgecolor": INK, "hatch": "xxxxxx",
                           "linewidth": 1.6}  # fmt: skip

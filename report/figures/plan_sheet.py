@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.figures.base import GREY
+from report.figures.base import GRAY
 from report.figures.labels import Frame
 from report.figures.paper_plan import PlanPaper, text_size
 from report.figures.plan_key import EDGES, FILLS
@@ -154,7 +154,7 @@ class PlanSheet:
         """Draw a line from a point to the nearest point of a label."""
         end = (min(max(start[0], label.x0), label.x1), min(max(start[1], label.y0), label.y1))
         if math.dist(start, end) > 0.0:
-            self.paper.line(start, end, linewidth=0.6, color=GREY)
+            self.paper.line(start, end, linewidth=0.6, color=GRAY)
             self.paper.placer.take_segment(start, end)
 
     def beside(self, frame: Frame, words: str) -> None:
@@ -165,7 +165,7 @@ class PlanSheet:
             self.unnamed.append(words)
             return
         self.leader(frame.middle, label)
-        self.paper.box(label, facecolor="white", edgecolor=GREY, linewidth=0.4, zorder=2)
+        self.paper.box(label, facecolor="white", edgecolor=GRAY, linewidth=0.4, zorder=2)
         self.paper.lines(label, [words])
 
 

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, style, svg_text
 from report.figures.history import envelope
 from report.words.units import G_MPS2
 from solver.model import Floats
@@ -31,7 +31,7 @@ _BOTTOM_IN, _GAP_IN, _LEGEND_IN = 0.42, 0.72, 0.19
 _LEFT, _RIGHT = 0.085, 0.985
 _LEGEND_COLUMNS = 3
 _TICKS_S = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
-_COLORS = (ACCENT, INK, GREY)
+_COLORS = (ACCENT, INK, GRAY)
 _DASHES: tuple[object, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (6, 1.5, 1, 1.5)))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
 from report.figures.scales import decades
 from report.words.letters import lettered
 from solver.verification.rung_evidence import BoundRatios, PlaneWork, RungChange
@@ -70,11 +70,11 @@ _LOOKS = (
     _Look(color=ACCENT, linestyle="-", marker="o"),
     _Look(color=INK, linestyle="-", marker="s"),
     _Look(color=INK, linestyle=(0, (1, 1.2)), marker="s"),
-    _Look(color=GREY, linestyle="-", marker="^"),
-    _Look(color=GREY, linestyle=(0, (5, 1.5)), marker="^"),
-    _Look(color=GREY, linestyle=(0, (6, 1.5, 1, 1.5)), marker="D"),
-    _Look(color=GREY, linestyle=(0, (1, 1.2)), marker="v"),
-    _Look(color=GREY, linestyle=(0, (3, 1, 1, 1, 1, 1)), marker="x"),
+    _Look(color=GRAY, linestyle="-", marker="^"),
+    _Look(color=GRAY, linestyle=(0, (5, 1.5)), marker="^"),
+    _Look(color=GRAY, linestyle=(0, (6, 1.5, 1, 1.5)), marker="D"),
+    _Look(color=GRAY, linestyle=(0, (1, 1.2)), marker="v"),
+    _Look(color=GRAY, linestyle=(0, (3, 1, 1, 1, 1, 1)), marker="x"),
 )
 
 
@@ -96,7 +96,7 @@ def work(points: Sequence[PlaneWork]) -> str:
                 linestyle=look.linestyle,
                 marker=look.marker,
                 markersize=3.6,
-                markerfacecolor="white" if look.color == GREY else look.color,
+                markerfacecolor="white" if look.color == GRAY else look.color,
                 linewidth=1.2,
                 label=lettered(name),
             )

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Polygon
 
 from report.assessment.friction import mu_words
-from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, style, svg_text
 from report.kept import kept
 from report.sheet.schema import Array
 from report.words.units import Quantity, number, pair
@@ -115,7 +115,7 @@ def _slope(axes: Axes, roof: _Roof, array: Array) -> None:
 
 
 def _free_body(axes: Axes, roof: _Roof) -> None:
-    _roof_line(axes, roof, 2.0, color=GREY)
+    _roof_line(axes, roof, 2.0, color=GRAY)
     _block(axes, roof, (0.45, 1.55), (0.0, 0.42), facecolor="#eef2f7")
     center = roof.at(1.0, 0.24)
     _center(axes, center)
@@ -131,7 +131,7 @@ def _free_body(axes: Axes, roof: _Roof) -> None:
     _force(axes, start, tip)
     axes.text(tip[0] + 0.02, tip[1] + 0.08, "μ N", ha="left", va="bottom")
     axes.annotate(
-        "", roof.at(1.75, 0.72), roof.at(1.15, 0.72), arrowprops={**_ARROW, "color": GREY}
+        "", roof.at(1.75, 0.72), roof.at(1.15, 0.72), arrowprops={**_ARROW, "color": GRAY}
     )
     x, y = roof.at(1.1, 0.77)
     axes.text(x, y, "downslope slip", ha="left", va="bottom", color=INK)
@@ -155,7 +155,7 @@ def _center(axes: Axes, at: tuple[float, float]) -> None:
 
 
 def _thin(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
-    axes.plot(*zip(start, end, strict=True), color=GREY, linewidth=0.6)
+    axes.plot(*zip(start, end, strict=True), color=GRAY, linewidth=0.6)
 
 
 def _span(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from report.assessment.spectra import Spectra
-from report.figures.base import ACCENT, GREY, INK, WIDTH_IN, Broken, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, Broken, bare, style, svg_text
 from report.kept import kept
 from solver.model import Floats
 
@@ -106,7 +106,7 @@ def _lines(axes: Axes, periods_s: Floats, rows: Floats) -> None:
     each = Broken()
     for row in rows:
         each.add(periods_s, row)
-    axes.plot(each.x, each.y, color=GREY, linewidth=0.6, label="each motion")
+    axes.plot(each.x, each.y, color=GRAY, linewidth=0.6, label="each motion")
     axes.plot(periods_s, rows.mean(axis=0), color=ACCENT, linewidth=1.8, label="mean")
 
 

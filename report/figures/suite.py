@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, Broken, bare, style
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, Broken, bare, style
 from solver.synthesis import SpectrumFit
 
 _DPI = 200
@@ -75,7 +75,7 @@ def _spectra(axes: Axes, panel: Panel) -> None:
     each = Broken()
     for fit in panel.fits:
         each.add(periods, fit.achieved_g)
-    axes.plot(each.x, each.y, color=GREY, linewidth=0.45, label="each motion")
+    axes.plot(each.x, each.y, color=GRAY, linewidth=0.45, label="each motion")
     mean = np.mean([fit.achieved_g for fit in panel.fits], axis=0)
     axes.plot(periods, mean, color=ACCENT, linewidth=1.6, label="mean")
     axes.plot(
@@ -103,7 +103,7 @@ def _ratios(axes: Axes, panel: Panel) -> None:
     each = Broken()
     for fit in panel.fits:
         each.add(periods, np.clip(fit.ratio, *_RATIO_RANGE))
-    axes.plot(each.x, each.y, color=GREY, linewidth=0.45)
+    axes.plot(each.x, each.y, color=GRAY, linewidth=0.45)
     mean = np.mean([fit.ratio for fit in panel.fits], axis=0)
     axes.plot(periods, np.clip(mean, *_RATIO_RANGE), color=ACCENT, linewidth=1.6)
     least, greatest = panel.limits

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from report.figures.base import GREY, INK, PALE, WIDTH_IN, Broken, bare, style, svg_text
+from report.figures.base import GRAY, INK, PALE, WIDTH_IN, Broken, bare, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades
 from solver.model import Floats
@@ -164,7 +164,7 @@ def _panel(axes: Axes, curve: Curve, shown: Sequence[Curve]) -> None:
         linestyle="",
         marker=".",
         markersize=2.2,
-        color=GREY,
+        color=GRAY,
         zorder=2,
     )
     axes.fill_between(

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GREY, INK, PALE, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, style, svg_text
 from report.study.results import LimitState
 from report.words.units import Unit, digits_down
 from solver.model import Floats
@@ -57,9 +57,9 @@ def curves(
             )
         for count, prd_m in enumerate(v for v in beside if not np.isnan(v).all()):
             label = "_" if count else "mean PRD"  # an underscore: not in the legend
-            axes.plot(x, prd_m / unit.si, color=GREY, linewidth=0.6, label=label, zorder=1.5)
+            axes.plot(x, prd_m / unit.si, color=GRAY, linewidth=0.6, label=label, zorder=1.5)
         for label, prd_m in limits:
-            axes.plot(x, prd_m / unit.si, color=GREY, linewidth=2.0, label=label)
+            axes.plot(x, prd_m / unit.si, color=GRAY, linewidth=2.0, label=label)
         _finish(axes, x, along, f"Displacement [{unit.symbol}]")
         return svg_text(figure)
 
@@ -108,7 +108,7 @@ def contours(
         others = [value for value in levels if value != round(allowed, 6)]
         axes.set_xlim(x[0], x[-1])
         axes.set_ylim(slopes_deg[0], slopes_deg[-1])
-        thin = {"colors": GREY, "linewidths": 0.5, "linestyles": ":"}
+        thin = {"colors": GRAY, "linewidths": 0.5, "linestyles": ":"}
         _contour(axes, grid, mean_m, levels, unit, height=0.1, **thin)
         _contour(axes, grid, design_m, others, unit, height=0.6, colors=INK, linewidths=0.8)
         thick = {"colors": ACCENT, "linewidths": 2.2}

@@ -1,6 +1,6 @@
 """Packages of the sessions: one at a time, the others in a queue with their place.
 
-Each is made by a process of its own (`report.web.maker`), which ends with its cancelling. Read
+Each is made by a process of its own (`report.web.maker`), which ends with its canceling. Read
 `Packages.begin`.
 """
 
@@ -39,7 +39,7 @@ class State(StrEnum):
     RUNNING = "running"
     DONE = "done"
     FAILED = "failed"
-    CANCELLED = "cancelled"
+    CANCELED = "canceled"
 
     @property
     def is_over(self) -> bool:
@@ -120,9 +120,9 @@ class Packages:
         return next((each for each in self._of(session) if not each.state.is_over), None)
 
     def last(self, session: Session) -> Package | None:
-        """Return the last package of what a session has open, unless it was cancelled."""
+        """Return the last package of what a session has open, unless it was canceled."""
         found = [each for each in self._of(session) if each.opened == session.opened]
-        return found[-1] if found and found[-1].state is not State.CANCELLED else None
+        return found[-1] if found and found[-1].state is not State.CANCELED else None
 
     def find(self, session: Session, ticket: str) -> Package | None:
         """Return a package of a session."""
@@ -146,7 +146,7 @@ class Packages:
         """End a package, and the process that makes it."""
         if package.state.is_over:
             return
-        package.state, package.stage = State.CANCELLED, "Cancelled"
+        package.state, package.stage = State.CANCELED, "Canceled"
         if package.process is not None:
             await _end(package.process)
 
@@ -184,7 +184,7 @@ class Packages:
             stdin=DEVNULL, stdout=PIPE, start_new_session=True,
             env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
         )  # fmt: skip
-        if package.state.is_over:  # cancelled while the process started
+        if package.state.is_over:  # canceled while the process started
             await _end(process)
             return
         try:

@@ -24,7 +24,7 @@ G = 9.80665
 def repeat(
     ax: np.ndarray, x: np.ndarray, dt: float, sn: float, mu: float, times: int
 ) -> tuple[float, int]:
-    """Run one scene many times; the sum keeps the work from being optimised away."""
+    """Run one scene many times; the sum keeps the work from being optimized away."""
     sum_m, stops = 0.0, 0
     for _ in range(times):
         out = one_axis.slide_exact(

@@ -54,7 +54,7 @@ def total(a: np.ndarray) -> float:
 
 @njit
 def run_exact(ax: np.ndarray, x: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> float:
-    """Run every row of the grid; the sum of the PRDs keeps the work from being optimised away."""
+    """Run every row of the grid; the sum of the PRDs keeps the work from being optimized away."""
     sum_m = 0.0
     for k in range(grid.shape[0]):
         sn, cs, scale = math.sin(grid[k, 0]), math.cos(grid[k, 0]), grid[k, 2] * G / peak

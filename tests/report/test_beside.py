@@ -73,7 +73,7 @@ def test_an_error_in_the_command_ends_it_in_the_middle_of_a_function():
         fail_while_it_works(asked)
     assert time.monotonic() - started < 100
     assert asked[0].exception(timeout=0)
-    assert asked[1].cancelled()
+    assert asked[1].cancelled()  # codespell:ignore
 
 
 def test_it_ends_when_the_command_is_killed():

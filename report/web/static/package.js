@@ -99,7 +99,7 @@ function showPackage(status, api, told, { cancel, keepsFocus }) {
     if (keepsFocus && hasLostFocus()) status.querySelector("a").focus();
     api.announce("The package is made. Its files can be saved.");
   } else {
-    say(status, api, told.state === "failed" ? told.message : "The package was cancelled.");
+    say(status, api, told.state === "failed" ? told.message : "The package was canceled.");
   }
 }
 

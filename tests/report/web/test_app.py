@@ -237,7 +237,7 @@ def test_the_workbook_with_the_values_is_read_back_as_what_was_assessed(client, 
     assert shown["friction"].startswith("0.465 (A1, A2)")
 
 
-def test_a_package_is_queued_and_cancelled(client):
+def test_a_package_is_queued_and_canceled(client):
     begun = client.post("/api/package", json={"values": {"friction": 0.9}}).json()
     ticket = begun["ticket"]
     assert begun["values"] == {"friction": 0.9}
@@ -246,7 +246,7 @@ def test_a_package_is_queued_and_cancelled(client):
     assert (again["ticket"], again["values"]) == (ticket, {"friction": 0.9})
     assert client.get("/api/state").json()["package"]["ticket"] == ticket
     assert client.get(f"/api/package/{ticket}/calc-package.pdf").status_code == 404
-    assert client.delete(f"/api/package/{ticket}").json()["state"] == "cancelled"
+    assert client.delete(f"/api/package/{ticket}").json()["state"] == "canceled"
     assert client.get("/api/state").json()["package"] is None
     client.cookies.clear()
     client.get(f"/?token={TOKEN}")
@@ -257,7 +257,7 @@ def test_opening_another_project_cancels_the_package_that_is_made(client):
     ticket = client.post("/api/package", json={"values": {}}).json()["ticket"]
     opened = sent(client, folder_of(CONDITIONS)).json()
     assert opened["package"] is None
-    assert client.get(f"/api/package/{ticket}").json()["state"] == "cancelled"
+    assert client.get(f"/api/package/{ticket}").json()["state"] == "canceled"
     assert client.get("/api/state").json()["package"] is None
 
 

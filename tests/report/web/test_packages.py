@@ -9,7 +9,7 @@ from report.web.packages import Packages, State
 from report.web.sessions import Session
 
 
-def test_a_package_that_is_cancelled_while_its_process_starts_leaves_no_process(monkeypatch):
+def test_a_package_that_is_canceled_while_its_process_starts_leaves_no_process(monkeypatch):
     start = asyncio.create_subprocess_exec
     started = []
 
@@ -34,7 +34,7 @@ def test_a_package_that_is_cancelled_while_its_process_starts_leaves_no_process(
         await packages.stop()
         return package.state
 
-    assert asyncio.run(run()) is State.CANCELLED
+    assert asyncio.run(run()) is State.CANCELED
 
 
 def test_a_step_is_named_in_a_sentence_without_what_compiles():

@@ -344,10 +344,10 @@ def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
     assert "before the last change" in page.inner_text("#package-status")
 
 
-def test_a_package_that_is_cancelled_leaves_the_page_as_it_was(page):
+def test_a_package_that_is_canceled_leaves_the_page_as_it_was(page):
     page.click("#make-package")
     page.click("text=Cancel")
-    page.wait_for_selector("text=The package was cancelled.")
+    page.wait_for_selector("text=The package was canceled.")
     assert page.locator("#make-package").is_enabled()
 
 

@@ -207,7 +207,7 @@ TAKEAWAY = """
       announce() {},
       startPackage: async () => state,
       packageState: async () => (asked.push("state"), state),
-      cancelPackage: async () => (asked.push("cancel"), (state = { ...state, state: "cancelled" })),
+      cancelPackage: async () => (asked.push("cancel"), (state = { ...state, state: "canceled" })),
       ...g?.api,
     };
     const all = { values: () => values, words: ({ friction }) => `friction ${friction}`,
@@ -236,14 +236,14 @@ def test_a_package_names_what_it_is_made_with_wherever_the_page_has_other_values
     assert called(page, "takeaway", body) == ["", f"Started {before}", f"Made {before}", ""]
 
 
-def test_a_package_that_is_cancelled_and_made_again_at_once_is_the_one_that_is_followed(page):
+def test_a_package_that_is_canceled_and_made_again_at_once_is_the_one_that_is_followed(page):
     body = f"""{TAKEAWAY}
         make.focus();
         make.click(); await has("progress");
         const focused = [document.activeElement.textContent];
-        const cancelled = {{ ...state, state: "cancelled" }};
+        const canceled = {{ ...state, state: "canceled" }};
         let answer;
-        api.cancelPackage = () => new Promise((done) => {{ answer = () => done(cancelled); }});
+        api.cancelPackage = () => new Promise((done) => {{ answer = () => done(canceled); }});
         status.querySelector("button").click();
         const seen = [make.disabled];
         answer(); await until(() => !make.disabled);
@@ -255,7 +255,7 @@ def test_a_package_that_is_cancelled_and_made_again_at_once_is_the_one_that_is_f
         return [focused, ...seen, make.disabled, status.textContent];"""
     focused, *found = called(page, "takeaway", body)
     assert focused == ["Cancel", True]
-    assert found == [True, "The package was cancelled.", True, "PlansCancel"]
+    assert found == [True, "The package was canceled.", True, "PlansCancel"]
 
 
 def test_a_package_is_found_on_loading_and_gone_with_its_project(page):

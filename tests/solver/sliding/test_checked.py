@@ -25,7 +25,7 @@ def trapezoid(peak, dt, plateau_steps, rest_steps):
 
 
 def assert_agrees(result, exact, tolerance=1e-12, floor_m=1e-3):
-    """Relative to the PRD, and to a millimetre below it."""
+    """Relative to the PRD, and to a millimeter below it."""
     scale = max(float(exact.prd), floor_m)
     for field, name in zip(FIELDS, ("prd", "residual", "down", "up"), strict=True):
         error = abs(float(getattr(result, field) - getattr(exact, name)))

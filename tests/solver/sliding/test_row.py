@@ -108,7 +108,7 @@ def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
     share out; over a second of sliding that is the envelope.
     """
     mus, block = (0.25, 0.55, 0.4), shaken(seed)
-    aways, stretches, shared = [], [], G * (0.55 - 0.4)
+    offs, stretches, shared = [], [], G * (0.55 - 0.4)
     for stiffness in (1e2, 1e4, 1e6, 1e8):
         links = BlockRow(
             mus=mus, stiffness_per_s2=stiffness, damping_per_s=0.2 * stiffness**0.5, shares=shares
@@ -117,9 +117,9 @@ def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
         away = max(abs(prd - result.rigid.prd_m) for prd in result.prd_m)
         assert away <= 1.0 * shared / math.sqrt(stiffness)
         assert abs(result.flexibility_m) <= away
-        aways.append(away)
+        offs.append(away)
         stretches.append(result.stretch_m)
-    assert aways[3] < 1e-2 * aways[0]
+    assert offs[3] < 1e-2 * offs[0]
     assert max(stretches[i + 1] / stretches[i] for i in (1, 2)) < 0.02
     mean = sum(m * w for m, w in zip(mus, shares or (1 / 3,) * 3, strict=True))
     rigid = one_axis.run(replace(block, friction=coulomb(mean)))

@@ -118,7 +118,7 @@ def frictionless(ax, ay, dt):
 
 
 def test_a_block_that_hardly_presses_on_the_roof_is_not_stopped_at_speed():
-    # N = 1e-9 g: the series of the speed comes to zero where the block has millimetres a second.
+    # N = 1e-9 g: the series of the speed comes to zero where the block has millimeters a second.
     weightless = np.full(4, -G * (1.0 - 1e-9))
     block = replace(
         frictionless([0.0, -20.0, 20.0, 20.0], [0.0, 0.02, 0.01, -0.01], 0.2),
