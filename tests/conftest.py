@@ -1,6 +1,9 @@
 """What several tests share: real records, where they lie beside the checkout, and seeded noise."""
 
 import gc
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are small: as in ./roofslip
 
 import numpy as np
 import pytest

@@ -185,12 +185,13 @@ def test_records_seed_the_motions(made, tmp_path):
     }
     assert document["target"]["tail"] == "1/T"
     assert Tail.RECIPROCAL.sentence in done.output
-    # The option may be repeated as well.
-    again = run(tmp_path / "b", *words[1:], "--records", f"{x},{y},{z}", "--records", other)
-    assert again.exit_code == 0
-    assert (tmp_path / "b" / "suite.json").read_bytes() == (
-        tmp_path / "a" / "suite.json"
-    ).read_bytes()
+
+
+@pytest.mark.parametrize("again", [(), ("--records",)])
+def test_records_are_listed_or_the_option_is_repeated(made, tmp_path, again):
+    first, gone = made[0] / "motion-01-x.csv", tmp_path / "gone.csv"
+    words = ("--count", 2, "--records", first, *again, gone)
+    assert "gone.csv: no such file" in refused(tmp_path / "a", *AC156, *words)
 
 
 def columns(path, heading):

@@ -109,6 +109,7 @@ def test_a_motion_of_records_is_the_same_whatever_the_count(made: Any) -> None:
         assert np.array_equal(record.a_mps2, other.a_mps2)
 
 
+@pytest.mark.nightly("solver/synthesis/suite.py", "solver/synthesis/seeds.py")
 def test_phases_of_components_alike_are_turned(made: Any) -> None:
     same = made[0][0]
     motion = make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, records=[(same, same, same)])[0]
