@@ -145,12 +145,15 @@ def _server(folder: Path, token: str, hosts: Sequence[str], port: int) -> uvicor
 
     from report.web.access import Gate
     from report.web.app import made
+    from report.web.connections import TimedProtocol
     from report.web.sessions import Sessions
 
     gate = Gate(token=token, hosts=hosts, cookie=f"roofslip-{port}")
     return uvicorn.Server(
         uvicorn.Config(
             made(gate, Sessions(folder)),
+            http=TimedProtocol,
+            ws="none",  # another protocol has none of its limits
             log_level="warning",
             access_log=False,  # the first address has the token
             server_header=False,

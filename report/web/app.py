@@ -17,7 +17,7 @@ from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
@@ -92,6 +92,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             LostError: _lost,
             OtherProjectError: _other_project,
             HTTPException: _failed,
+            ClientDisconnect: _left,
             OSError: _not_written,
         },
         lifespan=lifespan,
@@ -207,6 +208,10 @@ async def _not_written(_: Request, error: Exception) -> Response:
     if not is_full(error):
         raise error
     return _error("The disk of the server is full. Make room there, then try it again.", 507)
+
+
+async def _left(_: Request, __: Exception) -> Response:
+    return _error("The request did not arrive whole.", 400)
 
 
 async def _failed(_: Request, error: Exception) -> Response:
