@@ -30,6 +30,7 @@ from report.cli.terminal import (
     SCHEMA_VERSION,
     Progress,
     no_collections,
+    system_problem,
 )
 
 INTERNAL_ERROR = 1
@@ -153,6 +154,8 @@ def package(source: Path) -> Outcome:
     started = time.monotonic()
     try:
         done = _package(source)
+    except OSError as error:
+        done = Outcome(source=source, problems=(system_problem(error),))
     except Exception as error:
         from solver.model import InputError
 

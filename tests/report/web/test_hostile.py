@@ -36,7 +36,6 @@ def test_a_body_that_is_too_long_is_not_read_to_its_end(client, monkeypatch):
 
 
 def test_a_visitor_who_leaves_while_files_arrive_is_no_internal_error(client, sessions):
-    folders = [session.folder for session in sessions.alive]
     cookie = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
     headers = {
         "host": client.base_url.netloc.decode(),
@@ -63,7 +62,7 @@ def test_a_visitor_who_leaves_while_files_arrive_is_no_internal_error(client, se
 
     client.portal.call(client.app, scope, receive, send)
     assert sent[0]["status"] == 400
-    assert not any(list(folder.glob("upload-*")) for folder in folders if folder.exists())
+    assert list(sessions.find(client.cookies["roofslip-8765"]).folder.iterdir()) == []
 
 
 def test_a_request_with_more_than_the_page_sends_is_refused(client):
