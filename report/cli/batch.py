@@ -90,6 +90,8 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
     A project with an error stops no other. The exit code is 2 if any input has an error, and 1
     after an internal error.
     """
+    from report.sheet.grouped import grouped
+
     outcomes = run(sources, quiet=quiet or as_json)
     if as_json:
         click.echo(json.dumps(_document(outcomes), ensure_ascii=False))
@@ -97,7 +99,8 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
         for line in table(outcomes):
             click.echo(line)
     for outcome in outcomes:
-        for text in (*(() if as_json else outcome.problems), *outcome.internal.splitlines()):
+        problems = () if as_json else (each.line for each in grouped(outcome.problems))
+        for text in (*problems, *outcome.internal.splitlines()):
             click.echo(f"{outcome.source}: {text}", err=True)
     if any(outcome.internal for outcome in outcomes):
         sys.exit(INTERNAL_ERROR)

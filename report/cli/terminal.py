@@ -97,11 +97,13 @@ def _refuse(source: Path, problems: Sequence[str], *, as_json: bool) -> NoReturn
 
 
 def say_problems(source: Path, problems: Sequence[str]) -> None:
-    """Print the problems of an input, one per line."""
+    """Print the problems of an input, one per line; those of several cells once."""
+    from report.sheet.grouped import grouped
+
     count = len(problems)
     click.echo(f"{plain(source)}: {count} problem{'s' if count > 1 else ''} found.", err=True)
-    for problem in problems:
-        click.echo(f"  {plain(problem)}", err=True)
+    for problem in grouped(problems):
+        click.echo(f"  {plain(problem.line)}", err=True)
 
 
 def system_problem(error: OSError) -> str:
