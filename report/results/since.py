@@ -15,6 +15,7 @@ from report.results.json import SCHEMA_VERSION
 from report.sheet.cells import cut
 from report.sheet.schema import ProjectInput
 from report.words.letters import UNPRINTABLE
+from solver.meant import meant
 from solver.model import InputError
 
 AGAIN = "write it again with `report` of this version, from the workbook of that revision"
@@ -107,9 +108,8 @@ def read_former(path: Path) -> Former:
         with path.open("rb") as file:
             content = file.read(MOST_BYTES + 1)
     except OSError as error:
-        raise InputError(
-            f"{path}: cannot be read ({error.strerror}); give the results.json of a former revision"
-        ) from error
+        wanted = meant(path) or "give the results.json of a former revision"
+        raise InputError(f"{path}: cannot be read ({error.strerror}); {wanted}") from error
     if len(content) > MOST_BYTES:
         raise InputError(
             f"{path}: is larger than {MOST_BYTES / 1e6:g} MB; give the results.json of a former"
