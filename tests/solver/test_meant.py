@@ -1,8 +1,11 @@
 """A path that is not there is asked about, if one nearly fits."""
 
+import shutil
+
 import pytest
 from click.testing import CliRunner
 
+from places import ROOT
 from report.cli.main import main
 from solver.meant import meant
 
@@ -46,6 +49,7 @@ def test_nothing_is_asked_where_nothing_is_near_or_the_path_is_there(folder, giv
     ],
 )
 def test_each_command_asks_about_a_path_that_nearly_fits(folder, monkeypatch, arguments):
+    shutil.copy(ROOT / "projects" / "example" / "input.xlsx", folder / "project")
     monkeypatch.chdir(folder)
     done = CliRunner().invoke(main, arguments)
     assert done.exit_code == 2
