@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from report.results.json import SCHEMA_VERSION
 from report.sheet.cells import cut
 from report.sheet.schema import ProjectInput
+from report.typeset.letters import named, undrawable
 from report.words.letters import UNPRINTABLE
 from solver.meant import meant
 from solver.model import InputError
@@ -151,6 +152,11 @@ def former_from(content: bytes, path: Path) -> Former:
             raise InputError(
                 f"{path}: '{cut(text)}' has the character U+{ord(letter[0]):04X}, which cannot be"
                 f" printed; the file is damaged: {AGAIN}"
+            )
+        if missing := undrawable(text):
+            raise InputError(
+                f"{path}: no font of this machine has {named(missing)} of '{cut(text)}'; install"
+                " one that does"
             )
     return former
 
