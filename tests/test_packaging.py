@@ -99,6 +99,14 @@ def test_every_dependency_is_locked_with_hashes_and_without_addresses():
     assert "://" not in lock
 
 
+def test_every_dependency_is_imported(tracked):
+    sources = [p.read_text() for p in tracked if p.suffix == ".py" and "tests" not in p.parts]
+    lines = {
+        line for text in sources for line in re.findall(r"^ *(?:from|import) (\w+)", text, re.M)
+    }
+    assert set(PROJECT["project"]["dependencies"]) <= lines
+
+
 def test_no_tracked_file_names_a_registry_or_a_path_of_one_machine(tracked):
     hosts = ["py" + "pi.org", "python" + "hosted", "debian" + ".org", "npm" + "js"]
     path = re.compile(r"(?<![\w.])/(?:work|root|home)/\w")

@@ -30,6 +30,7 @@ from report.cli.terminal import (
     SCHEMA_VERSION,
     Progress,
     no_collections,
+    system_problem,
 )
 
 INTERNAL_ERROR = 1
@@ -89,6 +90,8 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
     A project with an error stops no other. The exit code is 2 if any input has an error, and 1
     after an internal error.
     """
+    from report.sheet.grouped import grouped
+
     outcomes = run(sources, quiet=quiet or as_json)
     if as_json:
         click.echo(json.dumps(_document(outcomes), ensure_ascii=False))
@@ -96,7 +99,8 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
         for line in table(outcomes):
             click.echo(line)
     for outcome in outcomes:
-        for text in (*(() if as_json else outcome.problems), *outcome.internal.splitlines()):
+        problems = () if as_json else (each.line for each in grouped(outcome.problems))
+        for text in (*problems, *outcome.internal.splitlines()):
             click.echo(f"{outcome.source}: {text}", err=True)
     if any(outcome.internal for outcome in outcomes):
         sys.exit(INTERNAL_ERROR)
@@ -153,6 +157,8 @@ def package(source: Path) -> Outcome:
     started = time.monotonic()
     try:
         done = _package(source)
+    except OSError as error:
+        done = Outcome(source=source, problems=(system_problem(error),))
     except Exception as error:
         from solver.model import InputError
 

@@ -15,7 +15,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 import click
 
 from report.cli.batch import INTERNAL_ERROR
-from report.cli.terminal import INPUT_ERROR
+from report.cli.terminal import INPUT_ERROR, input_errors
 
 if TYPE_CHECKING:
     import uvicorn
@@ -62,20 +62,22 @@ def serve(
     A reverse proxy must ask for the page under the host and port of the printed address.
     """
     _check_packages()
+    from report.web.own_folder import own_folder
+
     if host is not None and token_file is None:
         raise click.UsageError("--host needs --token-file: a file with the token of the address")
     token = secrets.token_urlsafe(24) if token_file is None else _token(token_file)
-    with (
-        _listening(host or LOOPBACK, port) as listening,
-        tempfile.TemporaryDirectory(prefix="roofslip-serve-") as folder,
-    ):
+    with ExitStack() as stack:
+        listening = stack.enter_context(_listening(host or LOOPBACK, port))
+        with input_errors(Path("serve")):
+            folder = stack.enter_context(own_folder(Path(tempfile.gettempdir())))
         port = listening.getsockname()[1]
         name, hosts = _names(host, port)
         address = f"http://{name}:{port}/?token={token}"
         click.echo(address)
         if host is not None:
             click.echo(_NOT_ENCRYPTED, err=True)
-        server = _server(Path(folder), token, hosts, port)
+        server = _server(folder, token, hosts, port)
         visit = _Visit(server, address)
         if once:
             visit.start()
@@ -145,12 +147,15 @@ def _server(folder: Path, token: str, hosts: Sequence[str], port: int) -> uvicor
 
     from report.web.access import Gate
     from report.web.app import made
+    from report.web.connections import TimedProtocol
     from report.web.sessions import Sessions
 
     gate = Gate(token=token, hosts=hosts, cookie=f"roofslip-{port}")
     return uvicorn.Server(
         uvicorn.Config(
             made(gate, Sessions(folder)),
+            http=TimedProtocol,
+            ws="none",  # another protocol has none of its limits
             log_level="warning",
             access_log=False,  # the first address has the token
             server_header=False,

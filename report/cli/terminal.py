@@ -78,7 +78,7 @@ def input_errors(source: Path, *, as_json: bool = False) -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as error:
-        _refuse(source, [_system_problem(error)], as_json=as_json)
+        _refuse(source, [system_problem(error)], as_json=as_json)
     except Exception as error:
         from solver.model import InputError
 
@@ -97,24 +97,35 @@ def _refuse(source: Path, problems: Sequence[str], *, as_json: bool) -> NoReturn
 
 
 def say_problems(source: Path, problems: Sequence[str]) -> None:
-    """Print the problems of an input, one per line."""
+    """Print the problems of an input, one per line; those of several cells once."""
+    from report.sheet.grouped import grouped
+
     count = len(problems)
     click.echo(f"{plain(source)}: {count} problem{'s' if count > 1 else ''} found.", err=True)
-    for problem in problems:
-        click.echo(f"  {plain(problem)}", err=True)
+    for problem in grouped(problems):
+        click.echo(f"  {plain(problem.line)}", err=True)
 
 
-def _system_problem(error: OSError) -> str:
+def system_problem(error: OSError) -> str:
+    """Return what the system refuses, as a problem of an input."""
     reason = error.strerror or error
     if not error.filename:
         return (
             f"a file cannot be written or read ({reason}); free disk space, also for temporary "
-            f"files in {tempfile.gettempdir()}, or raise the limit on the size of files"
+            f"files{_place()}, or raise the limit on the size of files"
         )
     return (
         f"{error.filename}: the system refuses it ({reason}); correct the path, its rights or the "
         "space on its disk"
     )
+
+
+def _place() -> str:
+    """Return where temporary files are, if there is such a place."""
+    try:
+        return f" in {tempfile.gettempdir()}"
+    except OSError:
+        return ""
 
 
 def unwritten(error: OSError) -> None:

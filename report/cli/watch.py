@@ -29,6 +29,7 @@ from report.cli.terminal import (
     no_collections,
     plain,
     say_problems,
+    system_problem,
 )
 
 if TYPE_CHECKING:
@@ -57,8 +58,8 @@ def watch(source: Path, out: Path | None, once: bool) -> None:
     from report.beside import beside
     from report.kept import forget
 
-    if not source.is_dir():
-        with input_errors(source):
+    with input_errors(source):
+        if not source.is_dir():
             settle(source)
     workbook = source / "input.xlsx" if source.is_dir() else source
     folder = out or workbook.parent / "out"
@@ -100,8 +101,9 @@ class Round:
         started = time.monotonic()
         try:
             files = self._made()
-        except InputError as error:
-            say_problems(self._workbook, error.problems)
+        except (InputError, OSError) as error:
+            problems = [system_problem(error)] if isinstance(error, OSError) else error.problems
+            say_problems(self._workbook, problems)
             if any((self._folder / name).exists() for name in OUTPUTS):
                 click.echo(
                     f"{plain(self._folder)}: not written again; its files are of an earlier save",

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from report.drawing.dxf import APPLICATION
 from report.sheet.shapes import Point, Polygon, ring
 from report.words.letters import UNPRINTABLE, trimmed
+from solver.meant import meant
 from solver.model import InputError
 
 if TYPE_CHECKING:
@@ -128,7 +129,8 @@ def _check(path: Path) -> None:
             )
         data = path.read_bytes()
     except OSError as error:
-        raise InputError(f"cannot be read ({error.strerror})") from error
+        asked = f"; {found}" if (found := meant(path)) else ""
+        raise InputError(f"cannot be read ({error.strerror}){asked}") from error
     if data.startswith(b"AC10"):
         raise InputError("a DWG drawing; save it as DXF (R12 to R2018)")
     if data.startswith(b"AutoCAD Binary DXF"):

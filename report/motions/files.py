@@ -20,9 +20,9 @@ from report.motions.pasted import heading_on, read_column
 from report.sheet.archive import OpenBook
 from report.sheet.fields import Place
 from report.sheet.positions import CellPosition
-from report.sheet.references import nearest
 from report.sheet.unseen import Unseen, unseen
 from solver.formats import MotionFile, read_motion_file
+from solver.meant import nearest
 from solver.model import InputError
 from solver.records.record import Record
 

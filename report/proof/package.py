@@ -21,6 +21,7 @@ from report.motions.files import MAX_BYTES as MAX_RECORD
 from report.proof.numbers import parsed
 from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION
 from report.sheet.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
+from solver.meant import meant
 from solver.model import InputError
 
 _T = TypeVar("_T")
@@ -145,7 +146,7 @@ def guarded(read: Callable[[], _T]) -> _T:
 
 def _read(path: Path) -> bytes:
     if not path.is_file():
-        raise InputError("no such file; give a calc-package.pdf")
+        raise InputError(f"no such file; {meant(path) or 'give a calc-package.pdf'}")
     if path.stat().st_size > MAX_FILE:
         raise InputError(f"larger than {MAX_FILE // MB} MB, which no package is")
     return path.read_bytes()

@@ -29,7 +29,7 @@ _NATIVE = {
 }
 """Libraries that place letters: names of their files, and what returns their version."""
 
-NEVER_DRAWS = frozenset({"click", "ezdxf", "pypdf", "watchfiles", "xlsxwriter", "zlib"})
+NEVER_DRAWS = frozenset({"click", "ezdxf", "pypdf", "xlsxwriter", "zlib"})
 """What serves the terminal, the other files or packing: no letter and no stroke depends on it."""
 
 

@@ -57,7 +57,7 @@ def publish(files: Mapping[str, bytes], folder: Path) -> None:
                 _stage(files, folder, staging)
                 _forward(folder, staging)
             finally:
-                _discard(staging)
+                finish(folder)  # also what Ctrl+C cut off
 
 
 def stamp(files: Mapping[str, bytes]) -> bytes:
@@ -175,7 +175,7 @@ def _stage(files: Mapping[str, bytes], folder: Path, staging: Path) -> None:
 
 
 def finish(folder: Path) -> None:
-    """Finish what a killed run began: complete its set or put the former one back, and sweep up."""
+    """Finish what was cut off: complete its set or put the former one back, and sweep up."""
     for staging in sorted(folder.glob(f"{_HIDDEN}*")):
         if staging.is_symlink() or not staging.is_dir() or not _is_own(staging):
             continue

@@ -14,7 +14,9 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from report.results.json import SCHEMA_VERSION
 from report.sheet.cells import cut
 from report.sheet.schema import ProjectInput
+from report.typeset.letters import named, undrawable
 from report.words.letters import UNPRINTABLE
+from solver.meant import meant
 from solver.model import InputError
 
 AGAIN = "write it again with `report` of this version, from the workbook of that revision"
@@ -107,9 +109,8 @@ def read_former(path: Path) -> Former:
         with path.open("rb") as file:
             content = file.read(MOST_BYTES + 1)
     except OSError as error:
-        raise InputError(
-            f"{path}: cannot be read ({error.strerror}); give the results.json of a former revision"
-        ) from error
+        wanted = meant(path) or "give the results.json of a former revision"
+        raise InputError(f"{path}: cannot be read ({error.strerror}); {wanted}") from error
     if len(content) > MOST_BYTES:
         raise InputError(
             f"{path}: is larger than {MOST_BYTES / 1e6:g} MB; give the results.json of a former"
@@ -125,6 +126,12 @@ def former_from(content: bytes, path: Path) -> Former:
     ------
     InputError
     """
+    # Before they are parsed: millions of empty rows take gigabytes. An object is a row, or in one.
+    if (count := content.count(b"{")) > 2 * MOST_ROWS:
+        raise InputError(
+            f"{path}: has {count:,} objects; at most {MOST_ROWS:,} rows are compared; give the"
+            " results.json of a former revision"
+        )
     try:
         version = _Versioned.model_validate_json(content).schema_version
     except ValidationError as error:
@@ -151,6 +158,11 @@ def former_from(content: bytes, path: Path) -> Former:
             raise InputError(
                 f"{path}: '{cut(text)}' has the character U+{ord(letter[0]):04X}, which cannot be"
                 f" printed; the file is damaged: {AGAIN}"
+            )
+        if missing := undrawable(text):
+            raise InputError(
+                f"{path}: no font of this machine has {named(missing)} of '{cut(text)}'; install"
+                " one that does"
             )
     return former
 

@@ -25,6 +25,7 @@ import defusedxml.ElementTree
 from openpyxl import LXML, Workbook, load_workbook
 
 from report.sheet.scan import REOPEN, Extent, Scan, scan_parts
+from solver.meant import meant
 from solver.model import DefectError, InputError
 
 MB = 1_000_000
@@ -124,7 +125,8 @@ def _located(path: Path) -> Path:
     if path.is_dir():
         path = path / "input.xlsx"
     if not path.exists():
-        raise InputError("no such file; give a workbook, or a folder that holds input.xlsx")
+        wanted = "give a workbook, or a folder that holds input.xlsx"
+        raise InputError(f"no such file; {meant(path) or wanted}")
     if not path.is_file():
         raise InputError("not a file; give a workbook, or a folder that holds input.xlsx")
     if path.suffix.lower() != ".xlsx":

@@ -14,7 +14,7 @@ from report.sheet.cells import cut
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.friction_checks import friction_faults
 from report.sheet.motion_checks import motion_faults
-from report.sheet.plan_checks import plan_faults, shapes_of, us_first
+from report.sheet.plan_checks import places_of, plan_faults, shapes_of, us_first
 from report.sheet.references import suggestion
 from report.sheet.schema import (
     PROVISION_KEYS,
@@ -156,7 +156,7 @@ def _clearances(draft: Draft, where: Where) -> Iterator[Fault]:
     yield from _repeated(draft, where)
     shapes = shapes_of(draft)
     for index, row in enumerate(draft["clearances"]):
-        yield from _room(index, row, shapes, us_first(draft))
+        yield from _room(index, row, shapes, draft, where)
 
 
 def _known(
@@ -181,7 +181,9 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
             yield Fault(Place("clearances", index, "array"), text)
 
 
-def _room(index: int, row: DraftRow, shapes: Mapping[str, Shape], is_us: bool) -> Iterator[Fault]:
+def _room(
+    index: int, row: DraftRow, shapes: Mapping[str, Shape], draft: Draft, where: Where
+) -> Iterator[Fault]:
     array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
     if array is not None and array == other:
         text = f"object is '{other}', the array itself; give an object or another array"
@@ -193,14 +195,16 @@ def _room(index: int, row: DraftRow, shapes: Mapping[str, Shape], is_us: bool) -
     boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
     noun = "rectangles" if boxes else "outlines"
     gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
+    is_us = us_first(draft)
     given = pair(provided, Quantity.SIZE, is_us)
+    at = places_of(draft, (str(array), str(other)), where)
     if gap < -1e-9:
         text = f"provided clearance is {given}, but {array} and {other} overlap in plan; correct"
-        yield Fault(place, f"{text} their {noun}")
+        yield Fault(place, f"{text} their {noun} in {at}")
     elif provided > gap + gap_tolerance_m(gap):
         most = pair(max(gap, 0.0), Quantity.SIZE, is_us)
         text = f"provided clearance is {given}, but {array} and {other} are {most} apart in plan"
-        yield Fault(place, f"{text}; reduce it, or correct the {noun}")
+        yield Fault(place, f"{text}; reduce it, or correct the {noun} in {at}")
 
 
 def _links(draft: Draft, where: Where) -> Iterator[Fault]:

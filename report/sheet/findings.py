@@ -11,11 +11,9 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from report.sheet.fields import Place
+from report.sheet.grouped import listed
 from report.sheet.references import suggestion
 from report.sheet.schema import SECTIONS, ProjectInput
-
-MOST_LISTED = 3
-"""Cells and ids named of equal findings."""
 
 
 class Level(StrEnum):
@@ -124,14 +122,8 @@ def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterat
         key = (finding.level, finding.place.section, finding.text, finding.reason, has_id)
         alike.setdefault(key, []).append((finding, cell))
     for group in alike.values():
-        cells, names = _listed(cell for _, cell in group), _listed(one.id for one, _ in group)
+        cells, names = listed(cell for _, cell in group), listed(one.id for one, _ in group)
         yield Line(finding=group[0][0], cells=cells, names=names if group[0][0].id else "")
-
-
-def _listed(names: Iterable[str]) -> str:
-    given = list(dict.fromkeys(names))
-    more = len(given) - MOST_LISTED
-    return ", ".join(given[:MOST_LISTED]) + (f" and {more:,} more" if more > 0 else "")
 
 
 _SHEETS = {section.key: section.sheet for section in SECTIONS}

@@ -5,7 +5,7 @@ Read `report.sheet.checks` first, which runs them; `report.sheet.shapes` has the
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
@@ -54,9 +54,29 @@ def shapes_of(draft: Draft) -> dict[str, Shape]:
     return {name: shape for name, shape in found.items() if shape is not None}
 
 
+def places_of(draft: Draft, names: Iterable[str], where: Where) -> str:
+    """Return the cells of the rectangles of arrays and objects, or of the first of an outline."""
+    outlines = _outlines(draft)
+    rows = {
+        row["id"]: Place(section, index)
+        for section in _PLACED
+        for index, row in enumerate(draft[section])
+        if "id" in row
+    }
+    return " and ".join(
+        where(outlines[name].place) if name in outlines else _sides(rows[name], where)
+        for name in names
+    )
+
+
+def _sides(row: Place, where: Where) -> str:
+    first, last = (where(row._replace(field=side)) for side in (SIDES[0], SIDES[-1]))
+    return f"{first}:{last.partition('!')[2]}"
+
+
 def plan_faults(draft: Draft, where: Where) -> Iterator[Fault]:
     """Yield what is wrong with the shapes in plan."""
-    yield from _rectangles(draft)
+    yield from _rectangles(draft, where)
     yield from _outline_rows(draft, where)
     yield from _doubled(draft, where)
     yield from _on_the_roof(draft, where)
@@ -104,23 +124,26 @@ def _vertices(rows: list[DraftRow]) -> tuple[Point, ...]:
     return tuple((row["x_m"], row["y_m"]) for row in rows) if is_whole else ()
 
 
-def _rectangles(draft: Draft) -> Iterator[Fault]:
+def _rectangles(draft: Draft, where: Where) -> Iterator[Fault]:
     outlines = _outlines(draft)
     for section in ("roof", *_PLACED):
         for index, row in enumerate(draft[section]):
-            yield from _in_order(section, index, row, us_first(draft))
+            yield from _in_order(section, index, row, us_first(draft), where)
             yield from _whole(section, index, row)
             if section == "arrays" and row.get("id") not in outlines:
                 yield from _somewhere(index, row)
 
 
-def _in_order(section: str, index: int, row: DraftRow, is_us: bool) -> Iterator[Fault]:
+def _in_order(
+    section: str, index: int, row: DraftRow, is_us: bool, where: Where
+) -> Iterator[Fault]:
     for axis in "xy":
         low, high = row.get(f"{axis}_from_m"), row.get(f"{axis}_to_m")
         if low is None or high is None or low < high:
             continue
         given, least = (pair(value, Quantity.PLAN, is_us) for value in (high, low))
-        text = f"{axis} to is {given}; give more than {axis} from, {least}"
+        at = where(Place(section, index, f"{axis}_from_m"))
+        text = f"{axis} to is {given}; give more than {axis} from in {at}, {least}"
         yield Fault(Place(section, index, f"{axis}_to_m"), text)
 
 

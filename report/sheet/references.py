@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 
-
-def nearest(value: str, names: Iterable[str]) -> str:
-    """Return the name that is spelled nearly as a value, ignoring case; empty for none."""
-    folded = {name.casefold(): name for name in names}
-    close = difflib.get_close_matches(value.casefold(), folded, n=1)
-    return folded[close[0]] if close else ""
+from solver.meant import nearest
 
 
 def suggestion(value: str, ids: Collection[str]) -> str:

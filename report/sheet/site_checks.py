@@ -47,7 +47,7 @@ def site_faults(draft: Draft, where: Where) -> Iterator[Fault]:
         yield from _site_class(row, edition)
         for chain, table in zip(_CHAINS, (F_A, F_V), strict=True):
             yield from _agreement(row, edition, chain)
-            yield from _below_table(row, edition, chain, table)
+            yield from _below_table(row, edition, chain, table, where)
         yield from _sdc(row)
 
 
@@ -139,7 +139,7 @@ def _site_class(row: DraftRow, edition: Edition) -> Iterator[Fault]:
 
 
 def _below_table(
-    row: DraftRow, edition: Edition, chain: _Chain, table: CoefficientTable
+    row: DraftRow, edition: Edition, chain: _Chain, table: CoefficientTable, where: Where
 ) -> Iterator[Fault]:
     """Yield what is below that of the mapped value, the site class and the table of its edition.
 
@@ -155,7 +155,8 @@ def _below_table(
     if given is not None:
         if given < tabulated - ROUNDING_OF_COEFFICIENTS:
             text = f"{factor} is {given:g}; give at least {tabulated:.4g} {of_class} and {symbol}"
-            yield _or_study(coefficient, f"{text} of {mapped_g:g} g", table)
+            at = where(Place("site", 0, mapped))
+            yield _or_study(coefficient, f"{text} of {mapped_g:g} g in {at}", table)
         return
     for (name, label), share, words in ((maximum, 1.0, ""), (design, 2.0 / 3.0, "2/3 ")):
         value, least = row.get(name), share * tabulated * mapped_g

@@ -16,6 +16,7 @@ import numpy as np
 from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import CellError, Found, check_saved, number
 from report.sheet.positions import CellPosition, found_at
+from solver.meant import meant
 from solver.model import Floats, InputError
 from solver.synthesis import BAND_HZ, Target
 
@@ -181,9 +182,8 @@ def _text_rows(path: Path) -> _Rows:
 def _text(path: Path) -> str:
     try:
         if not path.is_file():
-            raise InputError(
-                f"{path}: no such file; give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
-            )
+            wanted = f"give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
+            raise InputError(f"{path}: no such file; {meant(path) or wanted}")
         if path.stat().st_size > MAX_BYTES:
             raise InputError(f"{path.name}: larger than 1 MB; give at most {MAX_ROWS} rows")
         text = path.read_bytes().decode("utf-8-sig")

@@ -78,7 +78,7 @@ def check_letters(sheet: Sheet) -> None:
     problems = []
     if missing := undrawable(sheet.path.name):
         problems.append(
-            f"the file name: no font of this machine has {_named(missing)}; rename the workbook"
+            f"the file name: no font of this machine has {named(missing)}; rename the workbook"
         )
     for row in sheet.echo:
         is_in_figures = row.label == _ID
@@ -88,10 +88,11 @@ def check_letters(sheet: Sheet) -> None:
                 if is_in_figures
                 else ("no font of this machine has", "install one that does, or use other letters")
             )
-            problems.append(f"{row.sheet}!{row.cell}: {where} {_named(missing)}; {remedy}")
+            problems.append(f"{row.sheet}!{row.cell}: {where} {named(missing)}; {remedy}")
     if problems:
         raise InputError(problems)
 
 
-def _named(letters: str) -> str:
+def named(letters: str) -> str:
+    """Return the first few letters with their numbers."""
     return ", ".join(f"{letter} (U+{ord(letter):04X})" for letter in letters[:_LISTED])

@@ -15,6 +15,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from report.web.limits import FULL, is_full
 from report.web.sessions import Session, Sessions
 
 HEADERS = {
@@ -69,7 +70,12 @@ class Access:
                     headers.setdefault(name, value)
             await send(message)
 
-        found = self._admitted(scope)
+        try:
+            found = self._admitted(scope)
+        except OSError as error:
+            if not is_full(error):
+                raise
+            found = PlainTextResponse(FULL, 507)
         if isinstance(found, Response):
             await found(scope, receive, with_headers)
             return

@@ -17,7 +17,7 @@ from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
@@ -25,7 +25,7 @@ from starlette.staticfiles import StaticFiles
 from report.web.access import Access, Gate
 from report.web.desk import Desk, RefusedError, desk_of, session_of
 from report.web.downloads import package_routes, workbook
-from report.web.limits import is_full
+from report.web.limits import FULL, is_full
 from report.web.receiving import receive_json, received
 from report.web.sessions import EXAMPLE, OtherProjectError, Sessions
 from report.web.uploads import is_alone, remove
@@ -92,6 +92,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             LostError: _lost,
             OtherProjectError: _other_project,
             HTTPException: _failed,
+            ClientDisconnect: _left,
             OSError: _not_written,
         },
         lifespan=lifespan,
@@ -203,10 +204,13 @@ async def _other_project(_: Request, __: Exception) -> Response:
 
 
 async def _not_written(_: Request, error: Exception) -> Response:
-    assert isinstance(error, OSError)
     if not is_full(error):
         raise error
-    return _error("The disk of the server is full. Make room there, then try it again.", 507)
+    return _error(FULL, 507)
+
+
+async def _left(_: Request, __: Exception) -> Response:
+    return _error("The request did not arrive whole.", 400)
 
 
 async def _failed(_: Request, error: Exception) -> Response:

@@ -18,6 +18,7 @@ from report.making import OUTPUTS
 from report.web.desk import RefusedError, desk_of, session_of
 from report.web.packages import Package, State, copied
 from report.web.receiving import receive_json
+from report.web.uploads import remove
 from report.web.workers import Rank
 from solver.model import InputError
 
@@ -43,9 +44,11 @@ async def workbook(request: Request) -> Response:
     """Return the workbook with the values written into its cells."""
     session, values = session_of(request), (await receive_json(request))["values"]
     path = session.folder / f"written-{secrets.token_hex(8)}.xlsx"
-    await desk_of(request).ask(session, _writing(values, str(path)), Rank.AT_REST)
-    data = await run_in_threadpool(path.read_bytes)
-    await run_in_threadpool(path.unlink)
+    try:
+        await desk_of(request).ask(session, _writing(values, str(path)), Rank.AT_REST)
+        data = await run_in_threadpool(path.read_bytes)
+    finally:
+        await run_in_threadpool(path.unlink, missing_ok=True)
     return _attached(Response(data, media_type=_TYPES[".xlsx"]), session.workbook.name)
 
 
@@ -59,6 +62,7 @@ async def _begin(request: Request) -> Response:
         await run_in_threadpool(copied, opened, path.parent)
         await desk.ask(session, writing, Rank.AT_REST)
     except (OSError, RefusedError):
+        await run_in_threadpool(remove, path.parent)
         if session.workbook == opened:
             raise
     if session.workbook != opened:

@@ -9,6 +9,8 @@ import errno
 import importlib
 import os
 
+FULL = "The disk of the server is full. Make room there, then try it again."
+
 
 def limit_memory(most_bytes: int) -> None:
     """Limit the address space of this process and of those it starts."""
@@ -31,9 +33,9 @@ def give_way(nice: int) -> None:
         os.nice(nice)
 
 
-def is_full(error: OSError) -> bool:
+def is_full(error: BaseException | None) -> bool:
     """Whether there is no room for what was to be written."""
-    return error.errno in (errno.ENOSPC, errno.EDQUOT)
+    return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
 
 
 def _limit(name: str, value: int) -> None:

@@ -9,9 +9,10 @@ from __future__ import annotations
 import json
 import sys
 import traceback
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from report.web.limits import give_way, limit_files, limit_memory, limit_processor
+from report.web.limits import FULL, give_way, is_full, limit_files, limit_memory, limit_processor
 
 MEMORY_BYTES = 8 << 30
 FILE_BYTES = 1 << 30
@@ -27,21 +28,36 @@ def main() -> None:
     give_way(NICE)
     from report.beside import beside
     from report.making import make
-    from solver.model import InputError
 
     workbook, out = (Path(each) for each in sys.argv[1:])
-    try:
+
+    def made() -> None:
         with beside() as second:
             make(workbook, out, None, lambda stage: _say(stage=in_words(stage)), second)
-    except InputError as error:
-        _say(stage="failed", message=error.problems[0])
+
+    _say(**outcome(made))
+
+
+def outcome(make: Callable[[], None]) -> Mapping[str, str]:
+    """Make a package, and return what became of it, in the words of the page."""
+    try:
+        make()
     except MemoryError:
-        _say(stage="failed", message="It needs more memory than a package may use.")
-    except Exception:
+        return _failed("It needs more memory than a package may use.")
+    except Exception as error:
+        from solver.model import InputError
+
+        if is_full(error) or is_full(error.__cause__):
+            return _failed(FULL)
+        if isinstance(error, InputError):
+            return _failed(error.problems[0])
         traceback.print_exc()
-        _say(stage="failed", message="An internal error; see what roofslip serve printed.")
-    else:
-        _say(stage="done")
+        return _failed("An internal error; see what roofslip serve printed.")
+    return {"stage": "done"}
+
+
+def _failed(message: str) -> Mapping[str, str]:
+    return {"stage": "failed", "message": message}
 
 
 def in_words(stage: str) -> str:

@@ -182,7 +182,8 @@ class Packages:
             sys.executable, "-P", "-m", "report.web.maker", str(package.workbook),
             str(package.out),
             stdin=DEVNULL, stdout=PIPE, start_new_session=True,
-            env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+            # What it leaves among the temporary files where it is ended goes with the package.
+            env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "TMPDIR": str(package.workbook.parent)},
         )  # fmt: skip
         if package.state.is_over:  # canceled while the process started
             await _end(process)

@@ -1,11 +1,10 @@
 """Input errors as data: cell, what was found, what would do, and the row of the sheet around it.
 
-Takes the finished lines of `InputError` apart; writes none. Read `problems`.
+Read `problems`.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,34 +14,36 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import cut, plain
+from report.sheet.grouped import Problem, grouped, listed
 from report.sheet.locate_tables import find_table
 from report.sheet.positions import CellPosition, found_at
 from report.sheet.schema import SECTIONS
 from solver.model import InputError
 
-_LINE = re.compile(r"(?P<sheet>[^!:]+)!(?P<cell>[A-Z]{1,3}[0-9]{1,7}): (?P<text>.+)", re.DOTALL)
 _MOST_COLUMNS = 40
 
 
 def problems(path: Path, lines: Sequence[str]) -> list[Mapping[str, Any]]:
-    """Return the lines of an input error, each with the row of its cell."""
+    """Return the errors of lines, each with the row of its first cell."""
     try:
         book = [open_book(path)]
     except InputError:
         book = []
-    return [_problem(path, book, line) for line in lines]
+    return [_shown(path, book, problem) for problem in grouped(lines)]
 
 
-def _problem(path: Path, book: Sequence[OpenBook], line: str) -> Mapping[str, Any]:
-    match = _LINE.fullmatch(line)
-    found, _, remedy = (match["text"] if match else line).partition("; ")
-    about = {"file": path.name, "text": line, "found": found, "remedy": remedy}
-    if match is None:
-        return about | {"sheet": "", "cell": "", "row": None}
-    rows = [_row(each, match["sheet"], match["cell"]) for each in book]
-    return about | {
-        "sheet": match["sheet"],
-        "cell": match["cell"],
+def _shown(path: Path, book: Sequence[OpenBook], problem: Problem) -> Mapping[str, Any]:
+    found, _, remedy = problem.text.partition("; ")
+    first = next(iter(problem.cells), "")
+    rows = [_row(each, problem.sheet, first) for each in book if first]
+    return {
+        "file": path.name,
+        "text": problem.line,
+        "found": found,
+        "remedy": remedy,
+        "sheet": problem.sheet,
+        "cell": first,
+        "cells": listed(problem.cells),
         "row": next((row for row in rows if row), None),
     }
 

@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from solver.meant import nearest
 from solver.model import InputError
 from solver.records.record import Record, shown
 
@@ -61,7 +62,9 @@ class MotionFile:
             names = "; ".join(f"{i} {record.name}" for i, record in [*by_number.items()][:_LISTED])
             more = len(by_number) - _LISTED
             names += f"; ... and {more} more" if more > 0 else ""
-            raise InputError(f"{self.name}: {what}; give one by name or number: {names}")
+            near = nearest(name, (record.name for record in self.channels)) if wanted else ""
+            asked = f"did you mean '{near}'? Give" if near else "give"
+            raise InputError(f"{self.name}: {what}; {asked} one by name or number: {names}")
         return chosen
 
 

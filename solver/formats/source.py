@@ -10,6 +10,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from solver.meant import meant
 from solver.model import InputError
 from solver.records.record import is_finite_number, raise_any, shown
 from solver.records.units import UNIT_CHOICES, unit_size
@@ -147,7 +148,7 @@ def _bytes(path: Path) -> bytes:
     name = _name(path)
     try:
         if not path.exists():
-            raise InputError(f"{name}: no such file; give the path of a record")
+            raise InputError(f"{name}: no such file; {meant(path) or 'give the path of a record'}")
         if not path.is_file():
             raise InputError(f"{name}: not a file; give the path of a record")
         size = path.stat().st_size

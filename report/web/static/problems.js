@@ -31,7 +31,7 @@ function head(text) {
 }
 
 function line(problem, k) {
-  const where = [problem.sheet, problem.cell].filter(Boolean).join("!");
+  const where = [problem.sheet, problem.cells].filter(Boolean).join("!");
   return html(
     "tr",
     {},

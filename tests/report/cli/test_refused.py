@@ -9,8 +9,10 @@ import subprocess
 import sys
 
 import pytest
+from click.testing import CliRunner
 
 from places import ROOT
+from report.cli.main import main
 from sheets import make
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
@@ -52,6 +54,26 @@ def test_errors_on_a_full_disk_keep_the_exit_code():
 
 def small_files():
     resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+
+def test_serve_says_where_no_disk_has_room_for_its_folder():
+    def no_files():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+    done = roofslip("serve", "--once", "--port", "0", preexec_fn=no_files)
+    assert done.returncode == 2
+    assert done.stderr.startswith(
+        "serve: 1 problem found.\n  a file cannot be written or read (No "
+    )
+    assert "free disk space" in done.stderr
+
+
+@pytest.mark.parametrize("command", [["batch"], ["watch", "--once"]])
+def test_what_the_system_refuses_is_a_problem_of_the_input(command):
+    done = CliRunner().invoke(main, [*command, "a" * 300])
+    assert done.exit_code == 2
+    assert "the system refuses it (File name too long)" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import socket
 import subprocess
 import sys
 import urllib.request
+from contextlib import ExitStack
 from http.cookiejar import CookieJar
 
 import pytest
@@ -16,6 +17,7 @@ from click.testing import CliRunner
 from places import ROOT
 from report.cli.main import main
 from report.cli.serve import _listening, _names
+from report.web.connections import TimedProtocol
 
 WAIT_S = 120.0
 TOKEN = "a-token-of-twenty-letters"
@@ -70,6 +72,15 @@ def test_a_missing_package_is_named(monkeypatch):
     assert "install roofslip[web]" in done.output
 
 
+def assert_connections_are_limited(page):
+    port = int(page.rpartition(":")[2].rstrip("/"))
+    with ExitStack() as stack:
+        for _ in range(TimedProtocol.most + 1):
+            last = stack.enter_context(socket.create_connection(("127.0.0.1", port)))
+        last.settimeout(WAIT_S)
+        assert last.recv(100).startswith(b"HTTP/1.1 503")
+
+
 @pytest.mark.parametrize("end", ["SIGTERM", "SIGHUP"])
 def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     token = tmp_path / "token"
@@ -99,6 +110,7 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
         assert state["answer"]["verdict"] == "OK with conditions"
         assert "server" not in {name.lower() for name in page.headers}
         assert len(list(tmp_path.glob("roofslip-serve-*"))) == 1
+        assert_connections_are_limited(match[1])
     finally:
         server.send_signal(getattr(signal, end))
         _, warned = server.communicate(timeout=30)

@@ -56,6 +56,25 @@ def test_a_locked_file_changes_nothing_and_is_named(tmp_path, monkeypatch):
     assert is_whole(tmp_path)
 
 
+@pytest.mark.parametrize("at", ["forward.json", "a.txt", "b.txt", STAMP])
+def test_ctrl_c_while_files_are_replaced_leaves_one_whole_set(tmp_path, monkeypatch, at):
+    publish({"a.txt": b"old a", "b.txt": b"old b"}, tmp_path)
+    replace, interrupts = os.replace, [KeyboardInterrupt]
+
+    def interrupted(source, target):
+        if str(target).endswith(at) and interrupts:
+            raise interrupts.pop()
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        publish({"a.txt": b"new a", "b.txt": b"new b"}, tmp_path)
+    assert names_in(tmp_path) == ["a.txt", "b.txt", STAMP]
+    assert is_whole(tmp_path)
+    found = {(tmp_path / name).read_bytes()[:3] for name in ("a.txt", "b.txt")}
+    assert found == {b"old" if at == "forward.json" else b"new"}
+
+
 def test_a_folder_in_place_of_a_file_is_reported(tmp_path):
     (tmp_path / "a.txt").mkdir()
     with pytest.raises(InputError, match=r"a\.txt: cannot be replaced"):

@@ -228,6 +228,18 @@ def test_a_character_that_no_page_can_print_is_named(content, where, letter):
     assert letter not in str(error.value)
 
 
+def test_millions_of_empty_rows_are_refused_before_they_are_parsed():
+    with pytest.raises(InputError, match="has 1,000,000 objects; at most 100,000 rows"):
+        former_from(b"[" + b"{}," * 1_000_000 + b"]", "x")
+
+
+def test_a_letter_that_no_font_has_is_named(content):
+    document = json.loads(content)
+    document["input"]["project"]["revision"] = "a\u0378b"  # assigned to no letter
+    with pytest.raises(InputError, match=r"^x: no font of this machine has .* \(U\+0378\)"):
+        former_from(json.dumps(document).encode(), "x")
+
+
 @pytest.mark.parametrize(
     "text", [b"", b"[]", b"null", b"{", b"\xff\xfe", b"[" * 100000, b"1" * 9999]
 )

@@ -6,10 +6,12 @@ import re
 import pytest
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
+from places import ROOT
 from report.sheet.fields import Place
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from sheets import edit, make, problems, read_workbook, type_into
+from solver.model import InputError
 
 
 def together(folder, cases, touched):
@@ -240,28 +242,30 @@ CONTRADICTIONS = [
         {"Clearances!E10": 61},
         [
             "Clearances!E10: provided clearance is 61.0 in (1549 mm), but A2 and RTU-1 are 60.0 in"
-            " (1524 mm) apart in plan; reduce it, or correct the rectangles"
+            " (1524 mm) apart in plan; reduce it, or correct the rectangles in"
+            " Arrays!K9:N9 and Objects!E8:H8"
         ],
     ),
     (
         {"Objects!G8": 70},
         [
             "Clearances!E10: provided clearance is 60.0 in (1524 mm), but A2 and RTU-1 overlap in"
-            " plan; correct their rectangles"
+            " plan; correct their rectangles in Arrays!K9:N9 and Objects!E8:H8"
         ],
     ),
     (
         {"Clearances!E8": 121},
         [
             "Clearances!E8: provided clearance is 121.0 in (3073 mm), but A1 and A2 are 120.0 in"
-            " (3048 mm) apart in plan; reduce it, or correct the rectangles"
+            " (3048 mm) apart in plan; reduce it, or correct the rectangles in"
+            " Arrays!K8:N8 and Arrays!K9:N9"
         ],
     ),
     (
         {"Arrays!L8": 120},
         [
             "Clearances!E8: provided clearance is 120.0 in (3048 mm), but A1 and A2 overlap in"
-            " plan; correct their rectangles"
+            " plan; correct their rectangles in Arrays!K8:N8 and Arrays!K9:N9"
         ],
     ),
     (
@@ -340,11 +344,17 @@ CONTRADICTIONS = [
     ),
     (
         {"Arrays!L8": 20},
-        ["Arrays!L8: x to is 20.00 ft (6.10 m); give more than x from, 20.00 ft (6.10 m)"],
+        [
+            "Arrays!L8: x to is 20.00 ft (6.10 m); give more than x from in Arrays!K8, 20.00 ft"
+            " (6.10 m)"
+        ],
     ),
     (
         {"Objects!H8": 70},
-        ["Objects!H8: y to is 70.00 ft (21.34 m); give more than y from, 80.00 ft (24.38 m)"],
+        [
+            "Objects!H8: y to is 70.00 ft (21.34 m); give more than y from in Objects!G8, 80.00 ft"
+            " (24.38 m)"
+        ],
     ),
     ({"Motions!I9": None}, ["Motions!I9: factor or PPA is missing; give the factor"]),
     ({"Motions!I10": None}, ["Motions!I10: factor or PPA is missing; give the PPA in g"]),
@@ -486,7 +496,8 @@ def test_nothing_else_is_reported_beside_inconsistencies(of_contradictions):
 
 def test_lengths_are_given_in_the_units_of_the_project_first(tmp_path):
     assert problems(type_into(make(tmp_path), {"Project!B13": "SI", "Arrays!N8": 10})) == (
-        "Arrays!N8: y to is 3.05 m (10.00 ft); give more than y from, 4.57 m (15.00 ft)",
+        "Arrays!N8: y to is 3.05 m (10.00 ft); give more than y from in Arrays!M8, 4.57 m"
+        " (15.00 ft)",
     )
 
 
@@ -752,3 +763,30 @@ def test_cells_merged_beside_a_single_field_do_not_matter(tmp_path):
 def test_characters_of_no_width_at_the_ends_of_a_text_are_not_read(tmp_path):
     book = type_into(make(tmp_path), {"Motions!B8": "\ufeffM7\u200b \u200b"})
     assert read_workbook(book).input.motions[0].id == "M7"
+
+
+@pytest.mark.parametrize(
+    ("cell", "value"),
+    [
+        ("Site!B8", 1e-9),
+        ("Site!B9", 1e-9),
+        ("Site!B34", 1e9),
+        ("Arrays!K8", 1e9),
+        ("Arrays!M9", 1e9),
+        ("Arrays!M8", 1e-9),
+        ("Arrays!M10", 1e-9),
+    ],
+)
+def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it(
+    tmp_path, cell, value
+):
+    path = tmp_path / "input.xlsx"
+    path.write_bytes((ROOT / "projects" / "example" / "input.xlsx").read_bytes())
+    with pytest.raises(InputError) as caught:
+        _ = read(type_into(path, {cell: value})).project
+    sheet, name = cell.split("!")
+    named = re.findall(rf"{sheet}!([A-Z]+)(\d+)(?::([A-Z]+)\2)?", str(caught.value))
+    assert any(
+        low <= name.rstrip("0123456789") <= (high or low) and name.endswith(row)
+        for low, row, high in named
+    ), caught.value

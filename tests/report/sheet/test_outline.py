@@ -62,7 +62,8 @@ def test_sides_are_in_order(tmp_path):
     path = make(tmp_path)
     at = changed(path, x_from_m=300, x_to_m=0, y_from_m=0, y_to_m=120)
     assert problems(path) == (
-        f"{at['x_to_m']}: x to is 0.00 ft (0.00 m); give more than x from, 300.00 ft (91.44 m)",
+        f"{at['x_to_m']}: x to is 0.00 ft (0.00 m); give more than x from in {at['x_from_m']}, "
+        "300.00 ft (91.44 m)",
     )
 
 

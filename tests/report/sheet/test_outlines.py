@@ -152,7 +152,7 @@ def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
     changes = outlined(clearances=[row(6.0)]) | {"objects": [unit]}
     (found,) = problems(make(tmp_path / "short", **changes))
     assert "A1 and RTU-1 are 60.0 in (1524 mm) apart in plan" in found
-    assert found.endswith("reduce it, or correct the outlines")
+    assert found.endswith("reduce it, or correct the outlines in Outlines!B8 and Objects!E8:H8")
 
 
 def test_an_object_may_have_an_outline():

@@ -5,12 +5,17 @@ import io
 import json
 import time
 import zipfile
+from pathlib import Path
 
 import pytest
+from starlette.testclient import TestClient
 
 from places import ROOT
 from report.sheet.read import read
 from report.web import receiving
+from report.web.access import Gate
+from report.web.app import made
+from report.web.sessions import Sessions
 from report.web.worker import _answered
 from sheets import edit
 
@@ -166,7 +171,7 @@ def full(*_, **__):
         (["os.link", "shutil.copyfile"], "/api/package"),
     ],
 )
-def test_a_full_disk_is_said(client, monkeypatch, fails, address):
+def test_a_full_disk_is_said(client, sessions, monkeypatch, fails, address):
     with monkeypatch.context() as patch:
         for name in fails:
             patch.setattr(name, full)
@@ -176,16 +181,33 @@ def test_a_full_disk_is_said(client, monkeypatch, fails, address):
     assert answer.status_code == 507
     assert answer.json()["error"].startswith("The disk of the server is full")
     assert client.get("/api/state").json()["project"]
+    folder = sessions.find(client.cookies["roofslip-8765"]).folder
+    assert list(folder.iterdir()) == []
 
 
-def test_a_full_disk_is_said_where_another_process_writes(client, monkeypatch):
-    async def ask(*_):
+class FullSessions(Sessions):
+    """Sessions without room for another one."""
+
+    def begin(self):
+        full()
+
+
+def test_a_full_disk_is_said_to_a_visitor_who_comes(tmp_path):
+    gate = Gate(token=TOKEN, hosts=[], cookie="c")
+    found = TestClient(made(gate, FullSessions(tmp_path))).get(f"/?token={TOKEN}")
+    assert (found.status_code, found.text[:31]) == (507, "The disk of the server is full.")
+
+
+def test_a_full_disk_is_said_where_another_process_writes(client, sessions, monkeypatch):
+    async def ask(_, job, *__):
+        Path(job["to"]).write_bytes(b"half")
         return json.loads(_answered(full, "{}"))
 
     monkeypatch.setattr("report.web.workers.Workers.ask", ask)
     answer = client.post("/api/workbook", json={"values": {}})
     assert answer.status_code == 507
     assert answer.json()["error"].startswith("The disk of the server is full")
+    assert not list(sessions.find(client.cookies["roofslip-8765"]).folder.glob("written-*"))
 
 
 def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_path):

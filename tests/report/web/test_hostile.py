@@ -35,6 +35,36 @@ def test_a_body_that_is_too_long_is_not_read_to_its_end(client, monkeypatch):
     assert client.post("/api/upload", content=body(), headers=headers).status_code == 413
 
 
+def test_a_visitor_who_leaves_while_files_arrive_is_no_internal_error(client, sessions):
+    cookie = "; ".join(f"{name}={value}" for name, value in client.cookies.items())
+    headers = {
+        "host": client.base_url.netloc.decode(),
+        "origin": client.headers["origin"],
+        "cookie": cookie,
+        "content-type": "multipart/form-data; boundary=x",
+    }
+    scope = {
+        "type": "http",
+        "method": "POST",
+        "scheme": "http",
+        "path": "/api/upload",
+        "query_string": b"",
+        "headers": [(name.encode(), value.encode()) for name, value in headers.items()],
+    }
+    messages = [{"type": "http.request", "body": b"--x", "more_body": True}]
+    sent = []
+
+    async def receive():
+        return messages.pop() if messages else {"type": "http.disconnect"}
+
+    async def send(message):
+        sent.append(message)
+
+    client.portal.call(client.app, scope, receive, send)
+    assert sent[0]["status"] == 400
+    assert list(sessions.find(client.cookies["roofslip-8765"]).folder.iterdir()) == []
+
+
 def test_a_request_with_more_than_the_page_sends_is_refused(client):
     values = {f"x{k}": 1.0 for k in range(1000)}
     assert client.post("/api/assess", json={"values": values}).status_code == 422

@@ -1,12 +1,16 @@
 """Packages of a session, with processes that only wait."""
 
 import asyncio
+import errno
 import sys
 from pathlib import Path
 
-from report.web.maker import in_words
+import pytest
+
+from report.web.maker import in_words, outcome
 from report.web.packages import Packages, State
 from report.web.sessions import Session
+from solver.model import InputError
 
 
 def test_a_package_that_is_canceled_while_its_process_starts_leaves_no_process(monkeypatch):
@@ -43,6 +47,23 @@ def test_a_step_is_named_in_a_sentence_without_what_compiles():
     assert (
         in_words("running the motions (about 3 minutes)") == "Running the motions (about 3 minutes)"
     )
+
+
+def full():
+    raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def full_folder():
+    try:
+        full()
+    except OSError as error:
+        raise InputError("/srv/out: cannot be written; choose another folder with --out") from error
+
+
+@pytest.mark.parametrize("fails", [full, full_folder])
+def test_a_full_disk_is_the_reason_that_a_package_failed(fails, capsys):
+    assert outcome(fails)["message"].startswith("The disk of the server is full")
+    assert capsys.readouterr().err == ""
 
 
 def test_the_last_five_packages_of_a_session_are_kept(monkeypatch):

@@ -54,6 +54,15 @@ def test_a_channel_that_is_not_there_is_refused(name: str) -> None:
     )
 
 
+def test_a_channel_whose_name_nearly_fits_is_asked_about() -> None:
+    with pytest.raises(InputError) as caught:
+        made("North", "Vertical").channel("vertcal")
+    assert caught.value.problems == (
+        "a.v2: found no channel 'vertcal'; did you mean 'Vertical'? Give one by name or number: "
+        "1 North; 2 Vertical",
+    )
+
+
 def test_a_long_list_of_channels_is_cut() -> None:
     with pytest.raises(InputError, match=r"30 c29; \.\.\. and 10 more$"):
         made(*(f"c{i}" for i in range(40))).channel("roof")
