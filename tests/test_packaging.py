@@ -16,7 +16,7 @@ from places import ROOT
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 TOP_LEVEL = {
     "pyproject.toml", "requirements.lock", "README.md", "roofslip", "solver", "report", "templates",
-    "projects", "tests", ".ci", ".gitignore",
+    "projects", "tests", ".ci", ".gitignore", ".pre-commit-config.yaml",
 }  # fmt: skip
 
 
