@@ -41,11 +41,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if which == "all" or any("::" in argument for argument in config.args):
         return
     quick = is_quick(read(DURATIONS), {function_of(item.nodeid) for item in items})
-    changed = changed_files()
+    nights = nightly(items, changed_files())
     left_out = []
     for item in items:
-        mark = item.get_closest_marker("nightly")
-        is_nightly = mark is not None and changed.isdisjoint(mark.args)
+        is_nightly = item in nights
         runs = {
             "usual": not is_nightly,
             "quick": not is_nightly and function_of(item.nodeid) in quick,
@@ -56,6 +55,26 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     config.hook.pytest_deselected(items=left_out)
     gone = set(left_out)
     items[:] = [item for item in items if item not in gone]
+
+
+def nightly(items: list[pytest.Item], changed: set[str]) -> set[pytest.Item]:
+    """Return the tests that are left out by day.
+
+    Of a function marked `by_day(n)`, n cases run by day, evenly spaced, and the others at night.
+    """
+    found, cases = set(), defaultdict(list)
+    for item in items:
+        night = item.get_closest_marker("nightly")
+        if night is not None and changed.isdisjoint(night.args):
+            found.add(item)
+        elif item.get_closest_marker("by_day"):
+            cases[function_of(item.nodeid)].append(item)
+    for of in cases.values():
+        n = of[0].get_closest_marker("by_day").args[0]
+        found.update(
+            item for k, item in enumerate(of) if k * n // len(of) == (k - 1) * n // len(of)
+        )
+    return found
 
 
 def changed_files() -> set[str]:

@@ -268,6 +268,7 @@ def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, second):
         gc.enable()
 
 
+@pytest.mark.nightly("report/cli/watch.py")
 def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
     path = make(tmp_path)
     watching = Watching(tmp_path)

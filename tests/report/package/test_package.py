@@ -211,6 +211,7 @@ def crowded():
     return pages(made(data, tuple(level)))
 
 
+@pytest.mark.nightly("report/package/html.py")
 def test_markup_in_a_field_is_printed_not_obeyed(crowded):
     assert "<script>alert('x')</script>" in flat(crowded[0])
     assert "<img src='file:///etc/hostname'>" in flat(crowded[0])
@@ -218,10 +219,12 @@ def test_markup_in_a_field_is_printed_not_obeyed(crowded):
     assert all(f"Sheet {n} of {len(crowded)}" in flat(text) for n, text in enumerate(crowded, 1))
 
 
+@pytest.mark.nightly("report/package/html.py")
 def test_twelve_arrays_have_room(crowded):
     assert sum("every motion in every run" in text for text in crowded) >= 12
 
 
+@pytest.mark.nightly("report/package/html.py")
 def test_motions_without_a_vertical_component_are_counted(crowded):
     assert "0 of 3 a vertical component" in flat(" ".join(crowded))
 

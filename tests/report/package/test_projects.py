@@ -162,6 +162,7 @@ def test_the_script_writes_the_workbook_again_byte_for_byte(name, tmp_path):
 
 
 @pytest.mark.parametrize(("name", "letters"), [("school", "xyz"), ("conditions", "x")])
+@pytest.mark.nightly
 def test_the_first_motion_is_reproduced_to_the_last_digit(name, letters):
     """One alone, to keep the test short; sines may differ in the last digit between machines."""
     motion = script(name).suite(1)[0]

@@ -255,6 +255,7 @@ def test_a_hidden_field_with_an_action_is_found_though_it_is_signed(sign, data, 
     assert is_found == (entry != "/Lock")  # which a field may have
 
 
+@pytest.mark.nightly("report/cli/verify_package.py", "report/proof/sign.py")
 def test_a_signature_that_cannot_be_checked_is_said_not_to_be(job, p12, tmp_path, monkeypatch):
     path = tmp_path / "calc-package-signed.pdf"
     package = str(job / "out" / "calc-package.pdf")

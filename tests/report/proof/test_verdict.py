@@ -53,6 +53,7 @@ def test_other_versions_are_named_and_the_same_drawings_are_still_the_same(tampe
 
 
 @pytest.mark.parametrize("change", tampering.REFUSED, ids=lambda change: change.__name__)
+@pytest.mark.by_day(5)
 def test_what_no_report_writes_is_refused_whatever_software_is_named(tampered, few_sheets, change):
     found = tampered(few_sheets, tampering.of_other_software, change)
     assert found.versions
@@ -95,6 +96,7 @@ def test_a_text_that_is_copied_as_another_one_differs(tampered, few_sheets):
 
 
 @pytest.mark.parametrize("name", ["numpy", "click", "another"])
+@pytest.mark.by_day(1)
 def test_another_version_beside_an_old_bill_of_materials_differs(tampered, few_sheets, name):
     found = tampered(few_sheets, lambda pdf: tampering.of_other_software(pdf, name))
     (text,) = found.differences
@@ -114,6 +116,7 @@ ENTRIES = {
 
 
 @pytest.mark.parametrize("entry", ENTRIES)
+@pytest.mark.by_day(2)
 def test_every_entry_of_the_manifest_is_compared(tampered, few_sheets, entry):
     found = tampered(few_sheets, relisted(ENTRIES[entry]))
     assert any(text.startswith(f"roofslip.json: {entry}") for text in found.differences)
@@ -130,6 +133,7 @@ def test_a_package_of_other_versions_has_the_same_words_and_numbers(proof, data,
     assert not found.is_same
 
 
+@pytest.mark.nightly
 def test_a_package_of_other_versions_is_compared_as_well(proof, data, of_others):
     def change(pdf):
         tampering.opens_with_a_script(pdf)

@@ -124,6 +124,7 @@ BAD = {
 
 @pytest.mark.parametrize("name", ["roofslip.json", "results.json"])
 @pytest.mark.parametrize("why", BAD)
+@pytest.mark.by_day(2)
 def test_an_attachment_that_is_no_json_of_ours_makes_no_package(tmp_path, few_sheets, name, why):
     path = tmp_path / "given.pdf"
     path.write_bytes(
@@ -141,6 +142,7 @@ def test_an_attachment_that_is_no_json_of_ours_makes_no_package(tmp_path, few_sh
      {"sbom_sha256": "OK"}, {"schema_version": "1"}, {"schema_version": 99}, {"has_records": "no"}],
     ids=str,
 )  # fmt: skip
+@pytest.mark.by_day(2)
 def test_an_entry_of_another_type_makes_no_package(tmp_path, few_sheets, entries):
     path = tmp_path / "given.pdf"
     path.write_bytes(changed_manifest(few_sheets, lambda manifest: manifest.update(entries)))
@@ -177,6 +179,7 @@ def test_a_package_that_needs_no_password_and_is_encrypted_differs(proof, few_sh
     assert "document /Encrypt" in " ".join(found.differences)
 
 
+@pytest.mark.nightly
 def test_drawings_that_cannot_be_compared_end_with_a_code_of_their_own(tmp_path, data):
     path = tmp_path / "given.pdf"
 
@@ -202,6 +205,7 @@ def test_a_file_that_was_only_written_again_has_the_same_content(proof, data):
 
 
 @pytest.mark.parametrize("kind", tampering.OF_THE_FILE, ids=lambda kind: kind.__name__)
+@pytest.mark.by_day(3)
 def test_tampering_is_found(proof, data, few_sheets, kind):
     # Every sheet after one that is missing is compared by its words.
     whole = few_sheets if kind is tampering.without_sheet else data

@@ -115,6 +115,7 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
         assert compared(clearances, row, "EM") == [governing, gap.verdict.value]
 
 
+@pytest.mark.nightly
 def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
     sheet = changed[1]["Clearances"]
     assert sheet["E5"].value == f"{other_array(reviewed)}, any"

@@ -336,6 +336,7 @@ def arrays_target(path):
 
 
 @pytest.mark.parametrize("prefix", [b"./", b"../xl/", b"../xl/./", b"/xl/"])
+@pytest.mark.by_day(1)
 def test_a_part_is_found_by_every_legal_spelling_of_its_target(tmp_path, prefix):
     path = make(tmp_path)
     target = arrays_target(path)

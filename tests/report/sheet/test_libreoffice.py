@@ -54,6 +54,7 @@ def test_cells_of_a_saved_book_are_changed_and_read(saved):
     assert after.project.arrays[1] == before.arrays[1]
 
 
+@pytest.mark.nightly
 def test_a_saved_book_gives_no_warning_and_is_repaired(saved, tmp_path):
     book = saved["filled"]
     assert formulas(book) != formulas(make(tmp_path))  # it spells some of them in another way

@@ -91,6 +91,7 @@ def project(tmp_path_factory):
 
 # The reader sets an option that its pandas no longer needs.
 @pytest.mark.filterwarnings("ignore::pandas.errors.Pandas4Warning")
+@pytest.mark.nightly("report/study/exports.py")
 def test_the_exports_of_the_project_are_read_by_the_readers_of_pelicun(project, tmp_path):
     assert project.spread.is_one_spectrum
     made = export_files(project)

@@ -167,6 +167,7 @@ def test_motions_of_an_earlier_suite_never_remain_beside_the_new_ones(made):
     assert "motion-02-x.csv and 2 other files of an earlier suite would remain" in output
 
 
+@pytest.mark.nightly("report/suite/files.py", "report/suite/inputs.py")
 def test_records_seed_the_motions(made, tmp_path):
     x, y, z = (made[0] / f"motion-01-{axis}.csv" for axis in "xyz")
     other = made[0] / "motion-02-x.csv"
@@ -223,6 +224,7 @@ def test_too_many_channels_and_every_unreadable_file_are_reported(tmp_path):
     assert problems[2].startswith("a.csv: no such file")
 
 
+@pytest.mark.nightly("report/suite/target_table.py", "report/suite/inputs.py")
 def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
     workbook = Workbook()
     workbook.active.title = "Site"

@@ -226,6 +226,7 @@ def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_pat
 
 
 @pytest.mark.parametrize("name", ["assess", "slide", "contour", "paths", "workbook", "package"])
+@pytest.mark.by_day(2)
 def test_a_page_that_shows_another_project_than_is_open_is_told(client, name):
     shown = sent(client, folder_of(EXAMPLE)).json()["opened"]
     body = {"values": {}, "array": "A1", "motion": "RM1"}

@@ -169,6 +169,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("how", CHANGES)
+@pytest.mark.by_day(1)
 def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, how):
     """However late the answer is, no verdict stands beside values that it is not of."""
     moved(page, "slope", 1.5)  # some clearances are NG
@@ -310,6 +311,7 @@ def sent(page, project, folder):
     page.set_input_files("#folder", folder)
 
 
+@pytest.mark.nightly
 def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
     # Its package is made in half the time of the example's, with clearances OK and NG.
     sent(page, CONDITIONS, tmp_path / "conditions")
@@ -415,6 +417,7 @@ def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back
         page.wait_for_selector("#error", state="hidden")
 
 
+@pytest.mark.nightly
 def test_two_visitors_see_nothing_of_each_other(browser, address, tmp_path):
     with quiet_page(browser) as one, quiet_page(browser) as two:
         for page in (one, two):

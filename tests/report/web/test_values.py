@@ -49,6 +49,7 @@ def written(project, values, folder):
         ("school", {"friction": 0.9, "intensity": 1.04, "clearance": 50.0}),
     ],
 )
+@pytest.mark.by_day(2)
 def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
     project, values, tmp_path
 ):

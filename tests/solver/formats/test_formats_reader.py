@@ -148,6 +148,7 @@ def test_a_file_cut_anywhere_is_read_or_refused(tmp_path: Path, name: str, data:
 @hostile
 @pytest.mark.parametrize("name", sorted(FORMATS))
 @given(data=st.data())
+@pytest.mark.by_day(5)
 def test_a_file_changed_anywhere_is_read_or_refused(tmp_path: Path, name: str, data: Any) -> None:
     content = bytearray((SAMPLES / name).read_bytes())
     inserts = [b"-", b"*", b"9", b"e", b" ", b".", b"\n", b",", b"nan", b"9e99", b"9" * 9, b"#"]
@@ -165,6 +166,7 @@ def test_a_file_changed_anywhere_is_read_or_refused(tmp_path: Path, name: str, d
 @hostile
 @pytest.mark.parametrize("name", sorted(FORMATS))
 @given(data=st.data())
+@pytest.mark.by_day(5)
 def test_lines_lost_doubled_or_swapped_are_read_or_refused(
     tmp_path: Path, name: str, data: Any
 ) -> None:

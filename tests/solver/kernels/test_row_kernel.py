@@ -42,6 +42,7 @@ def run_all(follow):
     return np.array(numbers, dtype=float)
 
 
+@pytest.mark.nightly("solver/kernels/row.py")
 def test_compiled_and_plain_kernels_give_the_same_motion():
     """To rounding: the compiler may contract a product and a sum."""
     follow = row.slide_row

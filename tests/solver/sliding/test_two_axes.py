@@ -207,6 +207,7 @@ TRAPS = {
 
 @pytest.mark.parametrize("name", TRAPS)
 @pytest.mark.parametrize("mu", [0.2, 2.0 / G])
+@pytest.mark.by_day(5)
 def test_traps_are_followed_as_scipy_follows_them(name, mu):
     ax, ay = TRAPS[name]
     exact = plane_oracle.slide(ax, ay, 0.05, slope_rad=0.0, mu=mu, g=G)
@@ -241,6 +242,7 @@ def assert_every_tolerance_is_kept_to(block):
 
 
 @pytest.mark.parametrize(("degrees", "mu"), [(0.0, 0.3), (5.0, 0.4)])
+@pytest.mark.by_day(1)
 def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
     ax, ay, az = shaking(7, n=45, dt=0.04)
     assert_every_tolerance_is_kept_to(scene(ax, ay, 0.04, degrees=degrees, friction=mu, az=az))

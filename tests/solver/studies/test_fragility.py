@@ -108,12 +108,14 @@ def held(motions, beta, end, sets):
 
 @pytest.mark.parametrize("beta", [0.05, 0.2, 0.4])
 @pytest.mark.parametrize("motions", [7, 20, 40])
+@pytest.mark.by_day(3)
 def test_the_intervals_hold_the_truth_in_88_to_92_percent_of_sets(motions, beta):
     share = held(motions, beta, math.inf, 2000)
     assert ((share >= 0.88) & (share <= 0.92)).all(), share
 
 
 @pytest.mark.parametrize(("motions", "beyond"), [(7, 0.1), (20, 0.25), (40, 0.25), (40, 0.5)])
+@pytest.mark.by_day(1)
 def test_the_intervals_of_censored_capacities_hold_it_about_as_often(motions, beyond):
     """400 sets: 0.90 within three standard errors of 0.015."""
     share = held(motions, 0.2, math.exp(0.2 * norm.isf(beyond)), 400)

@@ -95,6 +95,7 @@ class TestSuite:
             assert 1.0 <= ratio.min() < 1.003
             assert ratio.max() <= 1.3
 
+    @pytest.mark.nightly("solver/synthesis/suite.py")
     def test_the_suite_that_failed_between_the_points_keeps_every_row_on_every_grid(self) -> None:
         # 1.3 x 2^(k/6) Hz: 4 of 18 components were below the target at 2.6 and 2.92 Hz.
         across, upward = corners(1.6 * 1.7, 0.4 * 1.7 * 2.25 / 1.3), corners(0.67 * 1.7, 0.27 * 1.7)
@@ -196,6 +197,7 @@ class TestSuite:
 
 class TestSynthesis:
     @pytest.mark.parametrize(("dt_s", "duration_s"), [(0.01, 20.0), (0.0025, 12.0), (0.005, 60.0)])
+    @pytest.mark.by_day(1)
     def test_a_long_period_tail_is_met_at_other_samplings(
         self, dt_s: float, duration_s: float
     ) -> None:

@@ -1,0 +1,41 @@
+"""Which tests run by day, at night and as quick ones."""
+
+from dataclasses import dataclass, field
+
+import pytest
+
+import selection
+
+
+@dataclass(frozen=True)
+class Item:
+    """A test as pytest gives it to the selection."""
+
+    nodeid: str
+    marks: dict = field(default_factory=dict, hash=False)
+
+    def get_closest_marker(self, name):
+        return self.marks.get(name)
+
+
+def of(name, *marks, cases=1):
+    found = {mark.name: mark.mark for mark in marks}
+    return [Item(f"{name}[{k}]", found) for k in range(cases)]
+
+
+@pytest.mark.parametrize(("n", "cases", "kept"), [(1, 8, [0]), (2, 8, [0, 4]), (3, 3, [0, 1, 2])])
+def test_so_many_cases_run_by_day_evenly_spaced(n, cases, kept):
+    items = of("f", pytest.mark.by_day(n), cases=cases)
+    left = selection.nightly(items, set())
+    assert [item for item in items if item not in left] == [items[k] for k in kept]
+
+
+def test_a_nightly_test_runs_by_day_where_one_of_its_files_changed():
+    items = of("f", pytest.mark.nightly("a.py")) + of("g", pytest.mark.nightly())
+    assert selection.nightly(items, {"b.py"}) == set(items)
+    assert selection.nightly(items, {"a.py"}) == {items[1]}
+
+
+def test_of_each_file_the_shortest_test_is_quick_and_every_one_that_is_short():
+    durations = {"a::f": 3.0, "a::g": 2.0, "b::f": 0.4, "b::g": 0.6}
+    assert selection.is_quick(durations, [*durations, "b::h"]) == {"a::g", "b::f", "b::h"}
