@@ -56,6 +56,13 @@ def test_the_period_dependent_height_factor_at_the_roof():
     assert factors == ["3.50", "3.50", "3.36", "2.84", "2.46"]
 
 
+def test_below_the_roof_the_factors_are_those_of_the_height_and_of_the_importance():
+    # By hand: a1 = 1, a2 = 1 - 0.4^2 = 0.84.
+    assert period_height_factor(0.5, 1.0) == pytest.approx(1.0 + 0.5 + 0.84 / 1024, rel=1e-12)
+    force = component_force(E16, s_ds_g=1.2, factor=1.0, divisor=2.5, i_p=1.5, z_over_h=0.5)
+    assert force.formula == pytest.approx(0.4 * 1.2 * 1.5 * 2.0 / 2.5, rel=1e-12)
+
+
 def test_an_ac156_report_that_envelopes_roof_and_grade():
     roof = ac156_horizontal(E22, s_ds_g=2.0, z_over_h=1.0).sa_g[[1, 3]]
     grade = ac156_horizontal(E22, s_ds_g=2.5, z_over_h=0.0).sa_g[[1, 3]]

@@ -338,3 +338,13 @@ def test_the_reciprocal_tail_falls_as_one_over_the_period_beyond_0_77_s():
         assert np.array_equal(reciprocal.sa_g[1:], line.sa_g[1:])
     assert "1/T" in Tail.RECIPROCAL.sentence
     assert "AC156 line" in Tail.AC156.sentence
+
+
+@pytest.mark.parametrize(
+    ("s_ds", "basis", "value_in"),
+    [(0.7, "MINIMUM", 24.0), (1.4, "FORMULA", 60.0)],
+)
+def test_what_governs_is_the_formula_from_where_it_reaches_the_minimum(s_ds, basis, value_in):
+    found = prescriptive_displacement(A16, s_ds_g=s_ds, sdc="D", importance=1.0)
+    assert found.governs.name == basis
+    assert found.value_m / INCH == pytest.approx(value_in, rel=1e-12)
