@@ -1,17 +1,13 @@
-"""Cost of a study beside a bare sweep: overhead, use of the cores, memory, queries of its rows.
+"""Claim: a study costs little more than its bare runs, and its rows are quick to ask.
 
-    PYTHONPATH=tests .venv/bin/python tests/bench/study_cost.py [RUNS [RECORDS [FOLDER]]]
-
-RUNS (10,000,000) in one axis under the example's seven motions; then the paper's grid under RECORDS
-(500) records: those of a folder, and made ones of 1,000 to 26,000 samples. Both cores should be
-idle.
+Runs in one axis under the example's seven motions, beside `solver.sweep` over the same cases; then
+the paper's grid under many records: those of --records, and made ones of 1,000 to 26,000 samples.
 """
 
 from __future__ import annotations
 
 import resource
 import statistics
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -21,8 +17,8 @@ from pathlib import Path
 import duckdb
 import numpy as np
 import pandas as pd
+from measure import RECORDS, ROOT, SMOKE, figure
 
-from places import ROOT
 from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, peaks, read_part, run_missing
 from solver import read_record, sweep
@@ -34,6 +30,7 @@ from studied import frozen, motion
 SLOPES = np.radians(np.linspace(-7.0, 7.0, 29))
 LEVELS = np.linspace(0.05, 1.5, 16)
 G = 9.80665
+RUNS, COUNT = (50_000, 5) if SMOKE else (10_000_000, 200)
 
 
 def example(runs: int) -> Campaign:
@@ -112,56 +109,58 @@ def queries(folder: Path) -> None:
     """Print the time of a mean of the PRD by slope and intensity, over every row."""
     files = f"{folder}/part-*.parquet"
     sql = f"select slope_deg, intensity, avg(prd_m) from '{files}' group by all"
-    by_duckdb = seconds(lambda: duckdb.sql(sql).fetchall())
     columns = ["slope_deg", "intensity", "prd_m"]
 
     def by_pandas() -> object:
         frame = pd.read_parquet(folder, columns=columns)
         return frame.groupby(["slope_deg", "intensity"])["prd_m"].mean()
 
-    print(
-        f"mean by slope and intensity: DuckDB {by_duckdb:.2f} s, pandas {seconds(by_pandas):.2f} s"
-    )
+    by_duckdb = seconds(lambda: duckdb.sql(sql).fetchall())
+    figure("mean PRD by slope and intensity over all rows, by DuckDB", by_duckdb, "s")
+    figure("the same by pandas", seconds(by_pandas), "s")
 
 
-def main() -> None:
-    """Print what the README states."""
-    runs, records = (
-        [int(float(v)) for v in sys.argv[1:3]] + [10_000_000, 500][len(sys.argv) - 1 :]
-    )[:2]
-    given = [motion for folder in sys.argv[3:] for motion in real(Path(folder))]
-    campaign = example(runs)
+def one_suite() -> None:
+    """Print what many runs under one suite cost, and hold."""
+    campaign = example(RUNS)
     small = replace(campaign, cases=campaign.cases[:50])
     run_part(Runner(small), slice(0, 50))
     swept(replace(campaign, cases=campaign.cases[:16]))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name) / "runs"
-        wall, cpu = studied(campaign, folder)
-        bare_wall, bare_cpu = swept(campaign)
+        _, cpu = studied(campaign, folder)
+        _, bare_cpu = swept(campaign)
         size = sum(path.stat().st_size for path in folder.glob("part-*"))
-        print(f"{campaign.rows:,} runs: {cpu:.1f} s of processor time, {wall:.1f} s of wall")
-        print(f"bare sweep: {bare_cpu:.1f} s of processor time, {bare_wall:.1f} s of wall")
-        print(f"overhead: {100.0 * (cpu / bare_cpu - 1.0):.0f} % of processor time")
-        print(f"cost model: {campaign.seconds.sum():.1f} s")
-        print(
-            f"{campaign.rows / cpu:,.0f} runs a processor second, {size / campaign.rows:.1f} B each"
-        )
-        print(f"10^9 runs: {1e9 * cpu / campaign.rows / 3600.0:.1f} processor hours")
-        manifest = manifest_of(campaign, {})
-        found = done_parts(folder, campaign, manifest["identity"])
+        figure("runs in one axis", campaign.rows)
+        figure("processor time, Parquet included", cpu, "s", digits=3)
+        figure("more than `solver.sweep` alone by", 100.0 * (cpu / bare_cpu - 1.0), "%")
+        figure("estimate of `--dry-run` by measured", float(campaign.seconds.sum() / cpu))
+        figure("runs in a second of processor time", campaign.rows / cpu)
+        figure("size of a run on disk", size / campaign.rows, "B", digits=3)
+        identity = manifest_of(campaign, {})["identity"]
+        found = done_parts(folder, campaign, identity)
         rows = sum(peaks(read_part(folder, done), campaign).prd_m.size for done in found.values())
         assert rows == campaign.rows
-        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
-        print(f"largest memory, with a second reading of every part: {peak:.0f} MB")
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+        figure("largest memory, every part read again", peak, "GB")
         queries(folder)
-    many = stand_in(records, given)
+
+
+def many_records() -> None:
+    """Print what runs under records of unequal length cost."""
+    given = list(real(RECORDS)) if RECORDS else []
+    campaign = stand_in(COUNT, given)
     with tempfile.TemporaryDirectory() as name:
-        wall, cpu = studied(many, Path(name) / "runs")
-    print(f"{records} records, {len(given)} of them given, {many.rows:,} runs:")
-    print(f"wall / processor time {wall / cpu:.2f}")
-    bare_wall, bare_cpu = swept(many)
-    print(f"bare sweep of the same: {bare_wall / bare_cpu:.2f}; {cpu / bare_cpu:.2f} of its time")
+        wall, cpu = studied(campaign, Path(name) / "runs")
+    bare_wall, bare_cpu = swept(campaign)
+    figure("records of unequal length", COUNT)
+    figure("of these, recorded in earthquakes", min(len(given), COUNT))
+    figure("runs under them", campaign.rows)
+    figure("more processor time than `solver.sweep` by", 100.0 * (cpu / bare_cpu - 1.0), "%")
+    figure("wall by processor time", wall / cpu)
+    figure("the same of `solver.sweep`", bare_wall / bare_cpu)
 
 
 if __name__ == "__main__":
-    main()
+    one_suite()
+    many_records()
