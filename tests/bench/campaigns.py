@@ -77,7 +77,7 @@ def two_axes(count: int, first: int) -> int:
     figure("pairs of random cases in two axes", len(KINDS) * count)
     figure("pairs that hang, crash or have no result", lost)
     figure("pairs that differ by more than their bounds", over)
-    figure("median difference by its bound, largest of all kinds of pairs", max(medians))
+    figure("median difference relative to its bound, largest of all kinds of pairs", max(medians))
     figure("99th percentile of the same", max(most))
     return lost + over
 

@@ -132,10 +132,12 @@ def choose() -> None:
         count["get"] += solution.rung is least_model.Rung.TWO_AXES
     figure("random scenes that slide", count["slide"])
     figure("scenes in which the selected model neglects too much", count["wrong"])
-    figure("largest neglected part, by what may be neglected", largest)
+    figure("largest neglected part, relative to what may be neglected", largest)
     figure("scenes that need two axes", 100.0 * count["need"] / count["slide"], "%", digits=3)
     figure("scenes that get two axes", 100.0 * count["get"] / count["slide"], "%", digits=3)
-    figure("selecting and running, by always two axes", chosen_s / always_s, "times", digits=3)
+    figure(
+        "time of selecting and running, relative to always two axes", chosen_s / always_s, digits=3
+    )
 
 
 def worst(scene: Scene, step_deg: int) -> float:
@@ -174,7 +176,7 @@ def turn() -> None:
     figure("motions that are turned", len(motions()), kind)
     for what, ratios in rows.items():
         finite = [ratio for ratio in ratios if math.isfinite(ratio)]
-        name = f"PRD with {what}, by that of the package"
+        name = f"PRD with {what}, relative to that of the package"
         figure(f"{name}, median", float(np.median(finite)), digits=3)
         figure(f"{name}, largest", max(finite), digits=3)
 

@@ -50,7 +50,7 @@ def stages() -> Iterator[str]:
     from report.assessment.evidence import support
 
     evidence = support(assessment)
-    yield "pages: charts, text and formulas, with imports"
+    yield "charts, text and formulas of the pages, with imports"
     from report.package.html import pages
 
     html = pages(assessment, evidence)

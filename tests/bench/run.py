@@ -44,7 +44,7 @@ def measured(name: str, *options: str) -> list[Row]:
     assert child.stdout
     for line in child.stdout:
         print(f"{name}: {line}", end="", flush=True)
-        if found := re.fullmatch(r"figure (.+?): (\S+) ?(.*)\n", line):
+        if found := re.fullmatch(r"figure (.+): (\S+) ?(.*)\n", line):
             rows.append(dict(zip(COLUMNS[1:4], found.groups(), strict=True)) | told)
     if child.wait():
         raise SystemExit(f"{name} ended with exit code {child.returncode}")
