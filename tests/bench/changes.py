@@ -11,20 +11,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 from measure import ROOT, SMOKE, figure
-
-
-@dataclass(frozen=True)
-class Change:
-    """A change: what it is, how it is made, Python that fails where it does not work."""
-
-    name: str
-    make: Callable[[Path], None]
-    use: str
 
 
 def replaced(path: Path, old: str, new: str) -> None:
@@ -111,15 +100,16 @@ def page(top: Path) -> None:
     )
 
 
+# What a change is, how it is made, and Python that fails where it does not work.
 CHANGES = (
-    Change(
+    (
         "rule set",
         rule_set,
         "from report.sheet.schema.choices import RuleSetName\n"
         "from solver.rules.rulesets import RULE_SETS\n"
         "assert RULE_SETS[RuleSetName('ASCE 7-28')].values['prescriptive_factor_in'].value == 60.0",
     ),
-    Change(
+    (
         "record format",
         record_format,
         "from pathlib import Path\n"
@@ -128,7 +118,7 @@ CHANGES = (
         "assert solver.read_record(Path('x.acc')).dt_s == 0.01\n"
         "Path('x.acc').unlink()",
     ),
-    Change(
+    (
         "page",
         page,
         "import report\n"
@@ -158,16 +148,16 @@ def main() -> None:
         git(top, "init", "-q")
         git(top, "add", "-A")
         git(top, "-c", "user.name=bench", "-c", "user.email=bench", "commit", "-qm", "as it is")
-        for change in CHANGES:
-            change.make(top)
+        for name, make, use in CHANGES:
+            make(top)
             if not SMOKE:
                 environment = os.environ | {"PYTHONPATH": str(top), "PYTHONDONTWRITEBYTECODE": "1"}
-                used = [sys.executable, "-c", change.use]
+                used = [sys.executable, "-c", use]
                 subprocess.run(used, cwd=top, env=environment, check=True)
             git(top, "add", "-A")
             changed = git(top, "diff", "--cached", "--name-only").split()
-            print(change.name, *changed)
-            figure(f"files of code that a {change.name} takes", len(changed))
+            print(name, *changed)
+            figure(f"files of code that a {name} takes", len(changed))
             git(top, "reset", "-q", "--hard")
 
 
