@@ -140,7 +140,7 @@ def main() -> None:
         size = f"{arrays} arrays, {motions} motions of {30 * length} s"
         figure(f"report of {size}", taken, "s")
         figure(f"memory of its larger process, {size}", megabytes / 1000.0, "GB")
-        figure(f"estimate by measured, {size}", expected / taken)
+        figure(f"estimate relative to this report, {size}", expected / taken)
 
 
 if __name__ == "__main__":

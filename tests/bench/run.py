@@ -80,7 +80,7 @@ def with_figures(text: str, rows: list[Row]) -> str:
     def table(found: re.Match[str]) -> str:
         own = [row for row in rows if row["script"] == found[2]]
         lines = [f"| {row['figure']} | {row['value']} {row['unit']}".rstrip() + " |" for row in own]
-        head = f"| `{found[2]}` | measured |\n|---|---|\n"
+        head = f"| `{found[2]}` | {max(row['date'] for row in own)} |\n|---|---|\n" if own else ""
         return found[1] + "\n" + head + "\n".join(lines) + "\n\n" + found[3]
 
     text = _TABLE.sub(table, text)

@@ -63,8 +63,8 @@ def one_axis(kind: str, records: list[tuple[Floats, Floats | None, float]]) -> N
         off = max(abs(result.prd_m - exact.prd), abs(result.residual_m - exact.residual))
         errors.append(float(off / exact.prd))
     figure(f"runs of {kind} records in one axis", len(errors))
-    figure(f"largest error over {kind} records, by the PRD", max(errors))
-    figure(f"median error over {kind} records, by the PRD", statistics.median(errors))
+    figure(f"largest error over {kind} records, relative to the PRD", max(errors))
+    figure(f"median error over {kind} records, relative to the PRD", statistics.median(errors))
 
 
 def places(outcome: TwoAxesOutcome) -> Floats:

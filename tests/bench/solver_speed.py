@@ -140,9 +140,9 @@ def runs(kind: str, paths: list[Path]) -> None:
         logs.append(np.log(ratios))
     means = [float(mean) for mean in np.exp(np.mean(logs, axis=0))]
     figure(f"an exact run, {kind} records", means[0], "us")
-    figure(f"an exact run by one pass over its record, {kind} records", means[1])
-    figure(f"the paper's algorithm as listed by an exact run, {kind} records", means[2])
-    figure(f"the same algorithm, optimized, {kind} records", means[3])
+    figure(f"an exact run relative to one pass over its record, {kind} records", means[1])
+    figure(f"the paper's algorithm as listed relative to an exact run, {kind} records", means[2])
+    figure(f"the same algorithm, optimized, relative to it, {kind} records", means[3])
 
 
 @njit
@@ -205,7 +205,7 @@ def models() -> None:
     figure("samples of the motion by which models are compared", triple.x_mps2.size)
     figure("one axis, median of 24 cases", taken[0] * 1e3, "ms")
     for name, one in zip([*MODELS][1:], taken[1:], strict=True):
-        figure(f"{name}, by one axis", one / taken[0], "times")
+        figure(f"{name}, relative to one axis", one / taken[0], "times")
 
 
 def main() -> None:
