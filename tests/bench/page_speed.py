@@ -111,12 +111,9 @@ class User(threading.Thread):
 
 
 def at_the_server() -> None:
-    """Let users move, once the server has shown the example to one."""
-    began = time.monotonic()
+    """Let users move, once the server has answered one."""
     with served() as (address, _):
-        first = User(0, address, 0.0)
-        first.ask([], 1)
-        figure("first answer after the command", time.monotonic() - began, "s")
+        User(0, address, 0.0).ask([], 1)
         until = time.monotonic() + SECONDS
         everyone = [User(number, address, until) for number in range(USERS)]
         for user in everyone:

@@ -52,7 +52,7 @@ def measured(name: str, *options: str) -> list[Row]:
 
 
 def machine() -> str:
-    """Return processor, number of cores, and how many processes already wanted one."""
+    """Return processor, number of cores, and how many processes want one before a run."""
     said = Path("/proc/cpuinfo").read_text()
     model = re.search(r"model name\s*: (.*)", said)
     name = model[1] if model else "processor without a name"
@@ -80,7 +80,9 @@ def with_figures(text: str, rows: list[Row]) -> str:
     def table(found: re.Match[str]) -> str:
         own = [row for row in rows if row["script"] == found[2]]
         lines = [f"| {row['figure']} | {row['value']} {row['unit']}".rstrip() + " |" for row in own]
-        head = f"| `{found[2]}` | {max(row['date'] for row in own)} |\n|---|---|\n" if own else ""
+        head = (
+            f"| `{found[2]}` | {own[0]['date']}; {own[0]['machine']} |\n|---|---|\n" if own else ""
+        )
         return found[1] + "\n" + head + "\n".join(lines) + "\n\n" + found[3]
 
     text = _TABLE.sub(table, text)
