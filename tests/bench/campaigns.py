@@ -63,7 +63,7 @@ def two_axes(count: int, first: int) -> int:
     """Run pairs of every kind; return how many are at fault."""
     lost, over, medians, most = 0, 0, [], []
     for kind in KINDS:
-        ratios = [0.0]
+        ratios = []
         for call in pairs_of(kind, range(first, first + count)):
             is_over = not call.trouble and call.outcome.ratio > 1.0
             lost, over = lost + bool(call.trouble), over + is_over
@@ -71,8 +71,8 @@ def two_axes(count: int, first: int) -> int:
                 print(f"pair({kind!r}, {call.arguments[1]}): {call.trouble or call.outcome}")
             elif call.outcome.prd_m > 0.0:
                 ratios.append(call.outcome.ratio)
-        medians.append(float(np.median(ratios)))
-        most.append(float(np.percentile(ratios, 99.0)))
+        medians.append(float(np.median(ratios or [0.0])))
+        most.append(float(np.percentile(ratios or [0.0], 99.0)))
         print(f"{kind}: median {medians[-1]:.1e}, 99th percentile {most[-1]:.1e} of the bound")
     figure("pairs of random cases in two axes", len(KINDS) * count)
     figure("pairs that hang, crash or have no result", lost)
