@@ -1,4 +1,4 @@
-"""Claim: the packages of all projects are PDF/A-3a and PDF/UA-1, verify, and tell tampering.
+"""Claim: the packages of three projects are PDF/A-3a and PDF/UA-1, verify, and tell tampering.
 
 veraPDF, the validator of the PDF Association, checks each package with its attachments; Maven
 fetches it on the first run, and without Java and Maven there are no figures of it. Then each
@@ -19,7 +19,7 @@ from measure import ROOT, SMOKE, command, figure, finished
 
 import tampering
 
-PROJECTS = sorted(path.parent.name for path in ROOT.glob("projects/*/input.xlsx"))
+PROJECTS = ("conditions", "example", "school")
 KINDS = (*tampering.OF_THE_FILE, *tampering.OF_THE_INPUT, *tampering.OF_THE_SOFTWARE)
 COUNT = 2 if SMOKE else len(KINDS)
 FLAVORS = {"3a": "PDF/A-3a", "ua1": "PDF/UA-1"}
