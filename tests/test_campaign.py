@@ -1,4 +1,4 @@
-"""A campaign of hostile inputs; `tests/bench/hostile_inputs.py` runs a longer one."""
+"""A campaign of hostile inputs; `tests/bench/campaigns.py` runs a longer one."""
 
 import contextlib
 import io

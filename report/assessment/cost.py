@@ -1,6 +1,6 @@
 """What a report costs, estimated before it starts from the numbers of its arrays and motions.
 
-Runs nothing. `tests/bench/report_cost.py` measures what the estimate is made of.
+Runs nothing. `tests/bench/report_cost.py` holds the estimate against reports.
 """
 
 from __future__ import annotations

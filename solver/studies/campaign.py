@@ -149,9 +149,9 @@ def _ranges(ends: Sequence[int], most: int) -> list[slice]:
     return ranges
 
 
-# Processor time [s], measured by tests/bench/solver_cost.py and tests/bench/study_cost.py: a run, a
-# sample at rest, a sample that may slide; the same in two axes, where selecting the model also runs
-# the simpler ones.
+# Processor time [s], measured by tests/bench/solver_speed.py and study_cost.py: a run, a sample at
+# rest, a sample that may slide; the same in two axes, where selecting the model also runs the
+# simpler ones.
 RUN_S, REST_S, SLIDE_S = 1e-7, 3.5e-12, 2.5e-9
 PLANE_RUN_S, PLANE_REST_S, PLANE_SLIDE_S = 1.5e-4, 1e-8, 6e-7
 

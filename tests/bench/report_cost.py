@@ -1,72 +1,114 @@
-"""What a report costs by arrays, motions and samples, for `report.assessment.cost`.
+"""Claim: where the time of `roofslip report` goes, and that the estimate before it starts is near.
 
-Run from the top: PYTHONPATH=.:tests .venv/bin/python tests/bench/report_cost.py
-Arrays and motions of the example, repeated, the motions in reverse; longer motions are its motions
-one after the other.
-Prints the processor time of the command with its second process, then the fit; rows of linked
-blocks are in no term of it, and shown to cost little.
+Processor time, for other programs may be at work; medians of repeats. The stages of the example run
+one after the other in one process; the command has a second one. Larger projects repeat the arrays
+and motions of the example, the motions in reverse, or one after the other where they are longer.
 """
 
 from __future__ import annotations
 
-import importlib.util
-import os
-import subprocess
+import gc
+import itertools
+import json
+import statistics
 import sys
 import tempfile
+import time
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from measure import ROOT, SMOKE, command, figure, finished
 
-ROOT = Path(__file__).resolve().parents[2]
+from report.assessment.cost import expected_s
+from report.motions.prepare import prepare
+from report.sheet import example
+from report.sheet.read import read
+from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.template import write_template
+from solver.formats import read_record
+
+EXAMPLE = ROOT / "projects" / "example"
+REPEATS = 1 if SMOKE else 2
 COMPONENTS = ("record", "transverse", "vertical")
-# Arrays, motions, length of the motions as a multiple of 30 s, rows of linked blocks.
-CASES = (
-    (3, 7, 1, 0), (12, 7, 1, 0), (3, 14, 1, 0), (3, 7, 4, 0), (12, 14, 1, 0), (12, 14, 3, 0),
-    (24, 7, 2, 0), (3, 7, 1, 2), (6, 7, 2, 4),
-)  # fmt: skip
+# Arrays, motions, and the length of the motions as a multiple of 30 s.
+SIZES = ((3, 7, 1), (12, 14, 1), (3, 7, 4))[: 1 if SMOKE else None]
 
 
-def make(folder: Path, arrays: int, motions: int, length: int, rows: int) -> None:
-    """Write a project."""
-    spec = importlib.util.spec_from_file_location("make", ROOT / "projects/example/make.py")
-    example: Any = importlib.util.module_from_spec(spec)  # type: ignore[arg-type]
-    spec.loader.exec_module(example)  # type: ignore[union-attr]
-    from report.sheet.schema import ProjectInput, UnitsFirst
-    from report.sheet.template import write_template
-    from solver.formats import read_record
+def stages() -> Iterator[str]:
+    """Make the report of the example, yielding the name of each stage before it begins."""
+    yield "start, read the workbook and its records, with imports"
+    sheet = read(EXAMPLE)
+    shaking = prepare(sheet)
+    yield "load the compiled solver and run the motions"
+    from report.assessment.project import assess
 
+    assessment = assess(sheet, shaking)
+    yield "the runs once more"
+    assess(sheet, shaking)
+    yield "spectra, histories, other friction, searches, every method"
+    from report.assessment.evidence import support
+
+    evidence = support(assessment)
+    yield "charts, text and formulas of the pages, with imports"
+    from report.package.html import pages
+
+    html = pages(assessment, evidence)
+    yield "pictures as PDF operators, with imports"
+    from concurrent.futures import Future
+
+    from report.typeset.pdf import draw_ahead, lay_out, pictures
+
+    drawn = Future()
+    drawn.set_result(draw_ahead(pictures(html)))
+    yield "PDF, with tags and attachments"
+    lay_out(html, drawn)
+    yield "plan.dxf, results.xlsx and results.json"
+    from report.drawing.dxf import write_dxf
+    from report.drawing.plan import plan_drawing
+    from report.results.json import results_json
+    from report.results.xlsx import results_xlsx
+
+    write_dxf(plan_drawing(assessment))
+    results_xlsx(assessment, evidence.spectra)
+    results_json(assessment, evidence)
+
+
+def stage_seconds() -> dict[str, float]:
+    """Return the processor time of each stage [s], as the command runs them."""
+    gc.disable()
+    taken: dict[str, float] = {}
+    running, since = "", 0.0
+    for name in itertools.chain(stages(), ("",)):
+        now = time.process_time()
+        if running:
+            taken[running], since = now - since, now
+        running = name
+    return taken
+
+
+def make(folder: Path, arrays: int, motions: int, length: int) -> None:
+    """Write a project of this size."""
     (folder / "records").mkdir(parents=True)
-    for path in (ROOT / "projects" / "example" / "records").iterdir():
+    for path in (EXAMPLE / "records").iterdir():
         record = read_record(path)
         a_g = np.tile(record.a_mps2 / 9.80665, length)
         for name, samples in ((path.name, a_g), (_back(path.name), a_g[::-1])):
             lines = (f"{k * record.dt_s:.4f},{a:.6f}\n" for k, a in enumerate(samples))
             (folder / "records" / name).write_text("time_s,acceleration_g\n" + "".join(lines))
     data = example.project().model_dump()
-    first = data["arrays"]
+    corners = [(60.0 * (k % 5), 60.0 * (k // 5)) for k in range(arrays)]
     data["arrays"] = [
-        first[k % 3]
-        | {
-            "id": f"A{k + 1}",
-            "x_from_m": 60.0 * (k % 5),
-            "x_to_m": 60.0 * (k % 5) + 20.0,
-            "y_from_m": 60.0 * (k // 5),
-            "y_to_m": 60.0 * (k // 5) + 20.0,
-        }
-        for k in range(arrays)
+        data["arrays"][k % 3]
+        | {"id": f"A{k + 1}", "x_from_m": x, "x_to_m": x + 20.0, "y_from_m": y, "y_to_m": y + 20.0}
+        for k, (x, y) in enumerate(corners)
     ]
-    data["objects"], data["clearances"] = [], []
+    data |= {"objects": [], "clearances": []}
     data["roof"] |= {"x_to_m": 300.0, "y_to_m": 300.0}
     given = data["motions"]
     backward = [row | {name: _back(row[name]) for name in COMPONENTS} for row in given]
-    rows_of = [*given, *backward][:motions]
-    data["motions"] = [row | {"id": f"R{k + 1}"} for k, row in enumerate(rows_of)]
-    data["links"] = [
-        {"array": f"A{k + 1 + k // 2}", "friction": "0.4, 0.5, 0.6", "stiffness_n_per_m": 1e5}
-        for k in range(rows)
-    ]
+    rows = [*given, *backward][:motions]
+    data["motions"] = [row | {"id": f"R{k + 1}"} for k, row in enumerate(rows)]
     project = ProjectInput.model_validate(data)
     write_template(folder / "input.xlsx", units=UnitsFirst.US, example=project)
 
@@ -76,37 +118,33 @@ def _back(name: str) -> str:
     return f"{name.removesuffix('.csv')}-back.csv"
 
 
-def seconds(folder: Path) -> float:
-    """Return the processor time [s] of a report."""
-    child = subprocess.Popen(
-        [sys.executable, "-m", "report.cli", "report", str(folder), "--quiet"],
-        stdout=subprocess.PIPE,
-    )
-    assert child.stdout
-    child.stdout.read()
-    _, status, used = os.wait4(child.pid, 0)
-    assert status == 0, status
-    return used.ru_utime + used.ru_stime
+def reported(folder: Path) -> tuple[float, float]:
+    """Return the processor time [s] of a report, and the memory of its larger process [MB]."""
+    used = [finished(command("report", str(folder), "--quiet"))[:2] for _ in range(REPEATS)]
+    seconds, megabytes = zip(*used, strict=True)
+    return statistics.median(seconds), max(megabytes)
 
 
 def main() -> None:
-    """Measure every case, and fit seconds to a sum of products."""
-    terms, measured = [], []
-    for arrays, motions, length, rows in CASES:
-        with tempfile.TemporaryDirectory() as name:
-            make(Path(name) / "job", arrays, motions, length, rows)
-            measured.append(seconds(Path(name) / "job"))
-        samples = 6001 * length * motions
-        terms.append((1.0, arrays, motions, samples / 1e6, arrays * samples / 1e6))
-        print(f"{arrays:3d} arrays {motions:3d} motions {length:2d} x 30 s {rows:2d} rows "
-              f"{measured[-1]:7.1f} s", flush=True)  # fmt: skip
-    # Relative errors: a short report is to be told as well as a long one.
-    relative = np.array(terms) / np.array(measured)[:, None]
-    fit, *_ = np.linalg.lstsq(relative, np.ones(len(measured)), rcond=None)
-    print("constant, per array, per motion, per million samples, of these per array:")
-    print("  ".join(f"{value:.3g}" for value in fit))
-    print("fitted over measured:", np.round(relative @ fit, 2))
+    """Measure the stages of the example, then the command over projects of several sizes."""
+    laps = [json.loads(finished([sys.executable, __file__, "--stages"])[2]) for _ in range(REPEATS)]
+    for name in laps[0]:
+        figure(f"stage of the example, {name}", statistics.median(t[name] for t in laps), "s")
+    for arrays, motions, length in SIZES:
+        with tempfile.TemporaryDirectory() as top:
+            folder = Path(top) / "job"
+            make(folder, arrays, motions, length)
+            sheet = read(folder)
+            expected = expected_s(sheet.project, prepare(sheet))
+            taken, megabytes = reported(folder)
+        size = f"{arrays} arrays, {motions} motions of {30 * length} s"
+        figure(f"report of {size}", taken, "s")
+        figure(f"memory of its larger process, {size}", megabytes / 1000.0, "GB")
+        figure(f"estimate relative to this report, {size}", expected / taken)
 
 
 if __name__ == "__main__":
-    main()
+    if "--stages" in sys.argv:
+        print(json.dumps(stage_seconds()))
+    else:
+        main()

@@ -1,50 +1,52 @@
-"""How fast the exact method is, as ratios measured side by side in one run.
+"""Claim: an exact run costs about as much as one pass over its record; each model, some more.
 
-Run from the top: .venv/bin/python tests/bench/solver_speed.py [RECORD.csv ...]
-Over the grid of the paper (29 slopes x 15 frictions x 16 PPA) the mean time of a run, against
-one streaming pass over the record (the sum of its samples, jitted) and against the paper's
-algorithm at P = 64 (the mean of every 97th of these runs, for it is slow), jitted too and written
-twice: "listed", equation by equation as the paper has it, and "fast", as `method="paper"` runs it.
-Medians of repeats in turns, processor time, the geometric mean over the records. Without
-arguments: the 18 records that the package pyslammer carries, and the example's.
+Ratios measured side by side in one run, medians of repeats in turns, processor time, one core. Over
+the grid of the paper (29 slopes x 15 frictions x 16 PPA) the mean time of a run is held against one
+streaming pass over the record (the sum of its samples, jitted) and against the paper's algorithm at
+P = 64 over every 97th of these runs, jitted too: "as listed", equation by equation, and
+"optimized", as `method="paper"` runs it. Records: the example's, and 18 real ones of pyslammer.
 """
 
 from __future__ import annotations
 
-import importlib.util
 import itertools
 import math
-import platform
 import statistics
-import sys
-import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+from measure import SMOKE, figure, made_records, real_records, seconds
 from numba import njit
 
 from solver.formats import read_record
 from solver.kernels import one_axis, rivals
+from solver.model import STANDARD_GRAVITY_MPS2 as G
+from solver.model import Floats, Friction, Scene, coulomb
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import least_model, two_axes
+from solver.sliding import one_axis as one_axis_run
+from solver.sliding.row import slide_row
 from solver.sliding.sweep import order_alike
+from solver.verification.rung_study import by_speed, row_of
+from solver.verification.scenes import Case
+from solver.verification.triples import own_triples
 
-ROOT = Path(__file__).resolve().parents[2]
-G = 9.80665
 SLOPES = [math.radians(0.5 * k) for k in range(-14, 15)]
 FRICTIONS = [0.1 + 0.05 * k for k in range(15)]
 PPAS = [0.1 * k for k in range(16)]
 GRID = np.array(list(itertools.product(SLOPES, FRICTIONS, PPAS)))
 GRID = GRID[order_alike(GRID)]  # as `sweep` runs them
-NO_RECORD = np.empty(0)
-NO_RECORD.setflags(write=False)
 NO_HISTORY = np.empty((2, 0))
 SUBSTEPS = 64
-REPEATS = 5
+REPEATS = 1 if SMOKE else 5
 PASSES = 500
+CASES = [Case(*c) for c in itertools.product((0.0, 2.0, 5.0), (0.3, 0.4, 0.5, 0.6), (1.0, 1.5))]
 
 
 @njit
-def total(a: np.ndarray) -> float:
+def total(a: Floats) -> float:
     """Sum of the samples: one streaming pass."""
     summed = 0.0
     for value in a:
@@ -53,7 +55,7 @@ def total(a: np.ndarray) -> float:
 
 
 @njit
-def run_exact(ax: np.ndarray, x: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> float:
+def run_exact(ax: Floats, x: Floats, dt: float, peak: float, grid: Floats) -> float:
     """Run every row of the grid; the sum of the PRDs keeps the work from being optimized away."""
     sum_m = 0.0
     for k in range(grid.shape[0]):
@@ -66,7 +68,7 @@ def run_exact(ax: np.ndarray, x: np.ndarray, dt: float, peak: float, grid: np.nd
 
 @njit
 def paper_as_listed(
-    ax: np.ndarray, dt: float, theta: float, mu: float, g: float, scale: float, substeps: int
+    ax: Floats, dt: float, theta: float, mu: float, g: float, scale: float, substeps: int
 ) -> float:
     """PRD [m] by Eqs. 1-19 of the paper, in their variables and their order."""
     sn, cs, tn = math.sin(theta), math.cos(theta), math.tan(theta)
@@ -93,14 +95,14 @@ def paper_as_listed(
     return prd
 
 
-def run_listed(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> np.ndarray:
+def run_listed(ax: Floats, dt: float, peak: float, grid: Floats) -> Floats:
     """PRD of every row of the grid by the paper's algorithm as it is listed."""
     return np.array(
         [paper_as_listed(ax, dt, slope, mu, G, ppa * G / peak, SUBSTEPS) for slope, mu, ppa in grid]
     )
 
 
-def run_fast(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> np.ndarray:
+def run_fast(ax: Floats, dt: float, peak: float, grid: Floats) -> Floats:
     """PRD of every row of the grid by the paper's algorithm as fast as it goes."""
     prd_m = np.empty(len(grid))
     for k, (slope, mu, ppa) in enumerate(grid):
@@ -111,19 +113,8 @@ def run_fast(ax: np.ndarray, dt: float, peak: float, grid: np.ndarray) -> np.nda
     return prd_m
 
 
-def seconds(*calls: Callable[[], object]) -> list[float]:
-    """Median processor time of each call [s], taken in turns, after one that is not counted."""
-    times: list[list[float]] = [[] for _ in calls]
-    for _ in range(REPEATS + 1):
-        for call, taken in zip(calls, times, strict=True):
-            started = time.process_time()
-            call()
-            taken.append(time.process_time() - started)
-    return [statistics.median(taken[1:]) for taken in times]
-
-
-def measure(path: Path) -> tuple[int, float, float, float, float]:
-    """Return the samples of a record and the time of a run: exact, one pass, both papers [s]."""
+def of_a_run(path: Path) -> tuple[float, float, float, float]:
+    """Return the time of a run [s]: exact, one pass, the paper as listed and optimized."""
     record = read_record(path, units="g")
     ax, dt = record.a_mps2, record.dt_s
     x, peak, few = one_axis.bounds(ax), float(np.abs(ax).max()), GRID[::97]
@@ -134,39 +125,95 @@ def measure(path: Path) -> tuple[int, float, float, float, float]:
         lambda: [total(ax) for _ in range(PASSES)],
         lambda: run_listed(ax, dt, peak, few),
         lambda: run_fast(ax, dt, peak, few),
+        repeats=REPEATS,
     )
-    per_run = exact / len(GRID), passes / PASSES, listed_s / len(few), fast_s / len(few)
-    return ax.size, *per_run
+    return exact / len(GRID), passes / PASSES, listed_s / len(few), fast_s / len(few)
 
 
-def suites() -> dict[str, list[Path]]:
-    """Return the records to run, by where they come from."""
-    if sys.argv[1:]:
-        return {"records": [Path(name) for name in sys.argv[1:]]}
-    made = ROOT / "projects" / "example" / "records"
-    paths = {"example": sorted(made.glob("*-x.csv"))}
-    spec = importlib.util.find_spec("pyslammer")
-    if spec is not None and spec.origin is not None:
-        real = Path(spec.origin).parent / "sample_ground_motions"
-        paths["pyslammer"] = sorted(real.glob("*.csv"))
-    return paths
+def runs(kind: str, paths: list[Path]) -> None:
+    """Print the geometric means over records."""
+    logs = []
+    for path in paths[: 1 if SMOKE else None]:
+        exact, passed, listed, fast = of_a_run(path)
+        ratios = exact * 1e6, exact / passed, listed / exact, fast / exact
+        print(f"{path.stem:32}", *(f"{ratio:10.3g}" for ratio in ratios), flush=True)
+        logs.append(np.log(ratios))
+    means = [float(mean) for mean in np.exp(np.mean(logs, axis=0))]
+    figure(f"an exact run, {kind} records", means[0], "us")
+    figure(f"an exact run relative to one pass over its record, {kind} records", means[1])
+    figure(f"the paper's algorithm as listed relative to an exact run, {kind} records", means[2])
+    figure(f"the same algorithm, optimized, relative to it, {kind} records", means[3])
+
+
+@njit
+def repeat(ax: Floats, x: Floats, dt: float, sn: float, mu: float, times: int) -> tuple[float, int]:
+    """Run one scene many times; the sum keeps the work from being optimized away."""
+    sum_m, stops, cs = 0.0, 0, math.sqrt(1.0 - sn * sn)
+    for _ in range(times):
+        out = one_axis.slide_exact(ax, None, x, None, dt, sn, cs, mu, G, 1.0, None)
+        sum_m += out[0] - out[1]
+        stops = out[5]
+    return sum_m, stops
+
+
+def nanoseconds(ax: Floats, sn: float, mu: float) -> float:
+    """Median time of a run [ns]."""
+    ax.setflags(write=False)
+    (taken,) = seconds(
+        lambda: repeat(ax, one_axis.bounds(ax), 0.005, sn, mu, 200), repeats=3 * REPEATS
+    )
+    return taken / 200 * 1e9
+
+
+def parts() -> None:
+    """Print the cost of each part of an exact run, from scenes that differ in one thing alone."""
+    short, long = (nanoseconds(np.zeros(n), 0.05, 0.4) for n in (2_000, 200_000))
+    figure("a sample at rest (blocks of samples are skipped)", (long - short) / 198_000, "ns")
+    short, long = (nanoseconds(np.zeros(n), 0.2, 0.1) for n in (2_000, 20_000))
+    figure("a sample while sliding", (long - short) / 18_000, "ns")
+    noise = np.random.default_rng(1).normal(0.0, 6.0, 20_000)
+    taken = nanoseconds(noise, 0.0, 0.5)
+    _, stops = repeat(noise, one_axis.bounds(noise), 0.005, 0.0, 0.5, 1)
+    figure("a slip with its stop", taken / stops, "ns")
+
+
+def row(scene: Scene) -> object:
+    """Slide five blocks with links that stretch by 1 mm under the weight of a block."""
+    return slide_row(scene, row_of(scene.friction.mu_slow, 1e-3, scene.g_mps2))
+
+
+Model = tuple[Callable[[Scene], object], Callable[[float], Friction], bool, bool]
+MODELS: dict[str, Model] = {
+    "one axis": (one_axis_run.run, coulomb, False, False),
+    "one axis with vertical": (one_axis_run.run, coulomb, False, True),
+    "two axes with vertical, to 1e-6": (two_axes.run, coulomb, True, True),
+    "the same to 1e-10": (partial(two_axes.run, tolerance=1e-10), coulomb, True, True),
+    "friction that depends on velocity": (two_axes.run, by_speed, True, True),
+    "row of five linked blocks": (row, coulomb, False, True),
+    "selection of the model and run": (least_model.solve, coulomb, True, True),
+}
+
+
+def models() -> None:
+    """Print the median time of each model over cases of one made motion, by that of one axis."""
+    triple = own_triples(quick=True)[0]
+    times = []
+    for run, law, second, vertical in MODELS.values():
+        scenes = [triple.scene(c, law(c.mu), second=second, vertical=vertical) for c in CASES]
+        times.append([partial(run, scene) for scene in scenes[: 2 if SMOKE else None]])
+    taken = [statistics.median(seconds(*calls, repeats=REPEATS)) for calls in times]
+    figure("samples of the motion by which models are compared", triple.x_mps2.size)
+    figure("one axis, median of 24 cases", taken[0] * 1e3, "ms")
+    for name, one in zip([*MODELS][1:], taken[1:], strict=True):
+        figure(f"{name}, relative to one axis", one / taken[0], "times")
 
 
 def main() -> None:
-    """Print a row for each record, and the geometric means of each suite."""
-    print(f"{platform.machine()}, Python {platform.python_version()}, one core")
-    headings = ("samples", "exact us", "pass us", "exact/pass", "listed/exact", "fast/exact")
-    print(f"{'record':32}" + "".join(f"{heading:>13}" for heading in headings))
-    for name, paths in suites().items():
-        logs = []
-        for path in paths:
-            size, exact, streamed, listed, fast = measure(path)
-            ratios = (exact / streamed, listed / exact, fast / exact)
-            logs.append([math.log(ratio) for ratio in ratios])
-            figures = (size, exact * 1e6, streamed * 1e6, *ratios)
-            print(f"{path.stem:32}" + "".join(f"{figure:13.2f}" for figure in figures))
-        means = [math.exp(statistics.mean(column)) for column in zip(*logs, strict=True)]
-        print(f"{name + ', geometric mean':71}" + "".join(f"{mean:13.2f}" for mean in means))
+    """Print the figures of runs, of their parts, and of the models."""
+    runs("made", made_records())
+    runs("real", real_records())
+    parts()
+    models()
 
 
 if __name__ == "__main__":

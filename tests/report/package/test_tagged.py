@@ -1,6 +1,6 @@
 """The package as PDF/A-3a and PDF/UA-1: attachments, tags, and the signature field.
 
-tests/bench/standards.py asks veraPDF, which knows every clause.
+tests/bench/package_checks.py asks veraPDF, which knows every clause.
 """
 
 import io

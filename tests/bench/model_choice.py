@@ -1,0 +1,191 @@
+"""Claim: the model of a package neglects no second axis that matters, and little else by angle.
+
+Random scenes of two components, 10 to 20 s: noise, periodic and recorded shaking along the slope,
+and across it a share of that, noise, or a push that stays. Each is solved by the chosen model and
+in two axes to 1e-8; the chosen model must not be off by more than it may be. Then what a package
+does not run: shaking turned by every 15 degrees, and the vertical reversed, in the PRD by that of
+the package. Recorded motions are those of --records, else made ones are used.
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import math
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from measure import RECORDS, SMOKE, figure
+
+from solver.formats import read_record
+from solver.model import STANDARD_GRAVITY_MPS2 as G
+from solver.model import Floats, Scene, SlideResult, Status, coulomb
+from solver.rivals.methods import NO_RECORD
+from solver.sliding import least_model, one_axis, two_axes
+from solver.verification.triples import own_triples, readonly, recorded_triples
+
+SCENES = 30 if SMOKE else 10_000
+KINDS, ACROSS = ("noise", "periodic", "recorded"), ("like it", "noise", "push")
+CASES = tuple(itertools.product((1.0, 3.0, 7.0), (0.2, 0.4, 0.6), (0.6, 0.9, 1.2)))
+STEP_DEG, LEAST_M = 15, 25e-3
+
+Motion = tuple[Floats, Floats, Floats, float]
+
+
+@cache
+def motions() -> tuple[Motion, ...]:
+    """Return three components, the third at times empty, and the time step of each motion."""
+    triples = recorded_triples(RECORDS) if RECORDS else own_triples(quick=SMOKE)
+    found = [(triple.x_mps2, triple.y_mps2, triple.z_mps2, triple.dt_s) for triple in triples]
+    return (*found, *(pairs(RECORDS) if RECORDS else ()))
+
+
+def pairs(folder: Path) -> Iterator[Motion]:
+    """Yield the pairs of horizontal components that a folder's manifest lists."""
+    listed = csv.DictReader((folder / "MANIFEST.csv").open(encoding="utf-8"))
+    rows = [row for row in listed if row["units"] == "g" and row["file"].endswith(".txt")]
+    for one, other in itertools.pairwise(rows):
+        if (one["station"], one["event"]) == (other["station"], other["event"]):
+            dt = float(one["dt_s"])
+            sides = [read_record(folder / r["file"], units="g", dt_s=dt) for r in (one, other)]
+            n = min(len(side.a_mps2) for side in sides)
+            x, y = (readonly(side.a_mps2[:n]) for side in sides)
+            yield x, y, NO_RECORD, dt
+
+
+def noise(rng: np.random.Generator, n: int, dt: float) -> Floats:
+    """Noise of 0.3 to 8 Hz under a bell, its peak 1."""
+    freq = np.fft.rfftfreq(n, dt)
+    wave = np.fft.irfft(((freq > 0.3) & (freq < 8.0)) * np.exp(6.2832j * rng.random(freq.size)), n)
+    wave *= np.sin(np.pi * np.arange(n) / n)
+    return wave / np.abs(wave).max()
+
+
+def random_scene(rng: np.random.Generator) -> Scene:
+    """Return a scene of any kind."""
+    kind, across = str(rng.choice(KINDS)), str(rng.choice(ACROSS))
+    dt, mu, az = 0.01, float(rng.choice((0.2, 0.3, 0.4, 0.5, 0.7))), NO_RECORD
+    t = np.arange(int(rng.choice((1000, 2000)))) * dt
+    if kind == "recorded":
+        *sides, dt = motions()[rng.integers(len(motions()))]
+        every = max(1, round(0.01 / dt))
+        peak = np.abs(sides[0]).max()
+        ax, ay, az = (side[::every] / peak for side in sides)
+        dt, az = dt * every, 0.5 * az if rng.random() < 0.5 else NO_RECORD
+        t = np.arange(ax.size) * dt
+    elif kind == "noise":
+        ax, ay = noise(rng, t.size, dt), noise(rng, t.size, dt)
+    else:
+        hz = rng.uniform(0.5, 5.0)
+        ax = np.sin(2.0 * np.pi * hz * t) * np.minimum(t / 2.0, 1.0)
+        ay = np.sin(2.0 * np.pi * hz * rng.choice((1.0, 0.5, 1.37)) * t + rng.uniform(0.0, 6.28))
+    if across == "like it":
+        ay = ax * rng.choice((-1.0, 1.0))
+    elif across == "push":
+        ay = np.minimum(t / rng.uniform(0.5, 5.0), 1.0)
+    peak = mu * rng.uniform(1.02, 4.0) * G
+    return Scene(
+        ax_mps2=readonly(ax * peak),
+        ay_mps2=readonly(ay * 10.0 ** rng.uniform(-4.0, 0.3) * mu * G),
+        az_mps2=readonly(az * peak) if az.size else NO_RECORD,
+        dt_s=dt,
+        slope_rad=math.radians(rng.choice((0.0, 0.0, 1.0, 3.0, 7.0))),
+        friction=coulomb(mu),
+        scale=1.0,
+        g_mps2=G,
+    )
+
+
+def difference(result: SlideResult, other: SlideResult) -> float:
+    """Return the largest difference of PRD and excursions [m]."""
+    names = ("prd_m", "down_m", "up_m", "across_m")
+    return max(abs(getattr(result, name) - getattr(other, name)) for name in names)
+
+
+def choose() -> None:
+    """Print how many scenes are wrong, need two axes and get them, and what choosing costs."""
+    count: Counter[str] = Counter()
+    chosen_s = always_s = largest = 0.0
+    for index in range(-1, SCENES):
+        scene = random_scene(np.random.default_rng([10, max(index, 0)]))
+        started = time.process_time()
+        solution = least_model.solve(scene)
+        chose_s = time.process_time() - started
+        if solution.rung is least_model.Rung.NO_SLIP or solution.result.status is Status.UPLIFT:
+            continue
+        started = time.process_time()
+        two_axes.run(scene)
+        if index < 0:
+            continue  # compiled
+        always_s, chosen_s = always_s + time.process_time() - started, chosen_s + chose_s
+        true, lesser = two_axes.run(scene, 1e-8), one_axis.run(scene)
+        off, bound = difference(solution.result, true), least_model.DEFAULT.bound_m(lesser.prd_m)
+        largest = max(largest, off / bound)
+        count["slide"] += 1
+        count["wrong"] += off > bound + true.error_m + solution.result.error_m
+        count["need"] += difference(lesser, true) > bound
+        count["get"] += solution.rung is least_model.Rung.TWO_AXES
+    figure("random scenes that slide", count["slide"])
+    figure("scenes in which the selected model neglects too much", count["wrong"])
+    figure("largest neglected part, relative to what may be neglected", largest)
+    figure("scenes that need two axes", 100.0 * count["need"] / count["slide"], "%", digits=3)
+    figure("scenes that get two axes", 100.0 * count["get"] / count["slide"], "%", digits=3)
+    figure(
+        "time of selecting and running, relative to always two axes", chosen_s / always_s, digits=3
+    )
+
+
+def worst(scene: Scene, step_deg: int) -> float:
+    """Return the largest PRD over headings [m]; NaN where the block leaves the roof."""
+    ax, ay, found = scene.ax_mps2, scene.ay_mps2, []
+    for angle in np.radians(np.arange(0, 360, step_deg)):
+        x, y = np.cos(angle) * ax - np.sin(angle) * ay, np.sin(angle) * ax + np.cos(angle) * ay
+        turned = replace(scene, ax_mps2=readonly(x), ay_mps2=readonly(y))
+        found.append(least_model.solve(turned).result.prd_m)
+    return float(np.max(found))
+
+
+def turn() -> None:
+    """Print what directions that a package does not run would change."""
+    rows: dict[str, list[float]] = {f"every {STEP_DEG} degrees": [], "vertical reversed": []}
+    every, reversed_ = rows.values()
+    for ax, ay, az, dt in motions():
+        peak = float(max(np.abs(ax).max(), np.abs(ay).max()))
+        for slope_deg, mu, peak_g in CASES[:: 9 if SMOKE else 1]:
+            scene = Scene(
+                ax_mps2=readonly(ax),
+                ay_mps2=readonly(ay),
+                az_mps2=readonly(az),
+                dt_s=dt,
+                slope_rad=math.radians(slope_deg),
+                friction=coulomb(mu),
+                scale=peak_g * G / peak,
+                g_mps2=G,
+            )
+            package = worst(scene, 90)
+            if package > LEAST_M:
+                every.append(worst(scene, STEP_DEG) / package)
+                if az.size:
+                    reversed_.append(worst(replace(scene, az_mps2=readonly(-az)), 90) / package)
+    kind = "recorded" if RECORDS else "made"
+    figure("motions that are turned", len(motions()), kind)
+    for what, ratios in rows.items():
+        finite = [ratio for ratio in ratios if math.isfinite(ratio)]
+        name = f"PRD with {what}, relative to that of the package"
+        figure(f"{name}, median", float(np.median(finite)), digits=3)
+        figure(f"{name}, largest", max(finite), digits=3)
+
+
+def main() -> None:
+    """Print what the choice of the model and the choice of directions neglect."""
+    choose()
+    turn()
+
+
+if __name__ == "__main__":
+    main()

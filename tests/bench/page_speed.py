@@ -1,0 +1,132 @@
+"""Claim: the page follows a slider at once, for one user in the browser and for many at the server.
+
+In the browser, from the event to the drawn answer: one axis while a slider moves; two axes from
+when it is let go, once the answer in one axis is drawn. Each move is to another value, half a
+second after the answer before. At the server, users move a slider once a second; at rest a newer
+move of a session replaces what waits. Wall time: other programs on the same cores slow it down.
+"""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+import urllib.error
+import urllib.request
+from http.cookiejar import CookieJar
+
+import numpy as np
+from measure import SMOKE, figure
+
+from browsing import chromium, opened, quiet_page, served
+
+MOVES, USERS, SECONDS = (2, 2, 3.0) if SMOKE else (30, 20, 15.0)
+WAIT_S, STALE = 120.0, 409
+STEPS = {"friction": (0.69, 0.01), "slope": (0.1, 0.1), "intensity": (0.7, 0.02),
+         "clearance": (-8.0, 1.0)}  # fmt: skip
+
+MEASURED = """
+async ([slider, values, isLetGo]) => {
+  const input = document.querySelector(`#slider-${slider}`);
+  const table = document.querySelector("#arrays");
+  const drawn = (phase, event) => new Promise((done) => {
+    const observer = new MutationObserver(() => {
+      if (document.body.dataset.phase !== phase) return;
+      observer.disconnect();
+      requestAnimationFrame(() => done(performance.now() - start));
+    });
+    observer.observe(table, { childList: true });
+    const start = performance.now();
+    input.dispatchEvent(event);
+  });
+  const times = [];
+  for (const value of values) {
+    await new Promise((done) => setTimeout(done, 500));
+    input.value = value;
+    const moving = await drawn("moving", new InputEvent("input", { bubbles: true }));
+    const letGo = () => drawn("rest", new PointerEvent("pointerup", { bubbles: true }));
+    times.push(isLetGo ? await letGo() : moving);
+  }
+  return times;
+}
+"""
+
+
+def in_the_browser() -> None:
+    """Move four sliders of the example, by their own steps."""
+    with chromium() as browser, served() as (address, _), quiet_page(browser) as page:
+        opened(page, address)
+        for name, is_let_go in (("one axis", False), ("two axes", True)):
+            every: list[float] = []
+            for slider, (first, step) in STEPS.items():
+                values = [round(first + step * move, 2) for move in range(1 + MOVES)]
+                every += page.evaluate(MEASURED, [slider, values, is_let_go])[1:]
+                page.wait_for_selector("body[data-phase=rest]")
+            half, most = np.percentile(every, [50, 95])
+            figure(f"a move drawn in {name}, median", float(half), "ms")
+            figure(f"a move drawn in {name}, 95th percentile", float(most), "ms")
+
+
+class User(threading.Thread):
+    """A session that moves the slider of friction once a second, and lets it rest each time."""
+
+    def __init__(self, number: int, address: str, until: float) -> None:
+        super().__init__()
+        self._number, self._until = number, until
+        self._page = address.partition("?")[0]
+        self._browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(CookieJar()))
+        self._browser.open(address, timeout=WAIT_S).read()
+        self.moving: list[float] = []
+        self.at_rest: list[float] = []
+
+    def run(self) -> None:
+        """Move until the end."""
+        time.sleep(self._number / 20.0 % 1.0)
+        move = 0
+        while (began := time.monotonic()) < self._until:
+            move += 1
+            self.ask(self.moving, 2 * move, is_moving=True)
+            resting = threading.Thread(target=self.ask, args=(self.at_rest, 2 * move + 1))
+            resting.start()
+            time.sleep(max(began + 1.0 - time.monotonic(), 0.0))
+        resting.join()
+
+    def ask(self, times: list[float], n: int, *, is_moving: bool = False) -> None:
+        """Move to a friction coefficient of its own, and add the time of an answer."""
+        friction = 0.6 + 0.4 * ((n * 37 + self._number * 11) % 97) / 97
+        values = {"friction": round(friction, 4)}
+        body = json.dumps({"page": "p", "n": n, "moving": is_moving, "values": values})
+        request = urllib.request.Request(
+            f"{self._page}api/assess",
+            body.encode(),
+            {"Content-Type": "application/json", "Origin": self._page[:-1]},
+        )
+        began = time.monotonic()
+        try:
+            self._browser.open(request, timeout=WAIT_S).read()
+            times.append(time.monotonic() - began)
+        except urllib.error.HTTPError as error:
+            if error.code != STALE:
+                raise
+
+
+def at_the_server() -> None:
+    """Let users move, once the server has answered one."""
+    with served() as (address, _):
+        User(0, address, 0.0).ask([], 1)
+        until = time.monotonic() + SECONDS
+        everyone = [User(number, address, until) for number in range(USERS)]
+        for user in everyone:
+            user.start()
+        for user in everyone:
+            user.join()
+    figure("users at once", USERS)
+    moving, resting = ([t for u in everyone for t in getattr(u, name)]
+                       for name in ("moving", "at_rest"))  # fmt: skip
+    figure("their answers in one axis, 95th percentile", float(np.percentile(moving, 95)), "s")
+    figure("their answers at rest, 95th percentile", float(np.percentile(resting, 95)), "s")
+
+
+if __name__ == "__main__":
+    in_the_browser()
+    at_the_server()
