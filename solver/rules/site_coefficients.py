@@ -87,7 +87,7 @@ def site_coefficient(table: CoefficientTable, site_class: str, mapped_g: float) 
     """
     row, heads = table.rows[site_class], table.mapped_g
     at = min(max(mapped_g, heads[0]), heads[-1])
-    left = min(bisect_right(heads, at), len(heads) - 1) - 1
+    left = bisect_right(heads, at) - 1
     if at == heads[left]:
         return row[left]
     share = (at - heads[left]) / (heads[left + 1] - heads[left])
