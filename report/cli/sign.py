@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import warnings
 from pathlib import Path
 
 import click
@@ -43,14 +43,17 @@ def sign(file: Path, p12: Path, password: str | None, time_stamp: str, out: Path
 
 def _asked() -> str:
     """Return the password that is typed; without a terminal nobody can."""
+    from getpass import GetPassWarning
+
     from solver.model import InputError
 
-    try:
-        password: str = click.prompt("Password", hide_input=True)
-    except click.Abort as error:
-        if sys.stdin is not None and sys.stdin.isatty():
-            raise
-        raise InputError(
-            "the password cannot be asked for without a terminal; set ROOFSLIP_P12_PASSWORD"
-        ) from error
+    with warnings.catch_warnings():
+        # Without a terminal, getpass would warn and read what others can see.
+        warnings.simplefilter("error", GetPassWarning)
+        try:
+            password: str = click.prompt("Password", hide_input=True)
+        except GetPassWarning as error:
+            raise InputError(
+                "the password cannot be asked for without a terminal; set ROOFSLIP_P12_PASSWORD"
+            ) from error
     return password

@@ -208,3 +208,5 @@ def test_sign_without_a_terminal_is_an_input_error(tmp_path):
     )  # fmt: skip
     assert done.returncode == 2
     assert "without a terminal; set ROOFSLIP_P12_PASSWORD" in done.stderr
+    assert "Warning" not in done.stderr
+    assert "Password:" not in done.stderr
