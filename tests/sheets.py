@@ -14,6 +14,7 @@ import pytest
 from openpyxl import Workbook, load_workbook
 from openpyxl.utils import coordinate_to_tuple
 
+from cells import address, addressed
 from report.motions.prepare import Shaking, prepare
 from report.sheet.parts import changed
 from report.sheet.positions import CellPosition
@@ -192,25 +193,33 @@ def edit(path: Path, change: Callable[[Workbook], object]) -> Path:
 
 
 def type_into(path: Path, cells: Mapping[str, object]) -> Path:
-    """Type values into cells, given as `Sheet!A1`, in place.
+    """Type values into cells, given as `Arrays/A1/Slope` or as `Sheet!A1`, in place.
 
     Plain values change in the parts of the file, which takes a tenth of a load and save.
     """
+    content = path.read_bytes()
+    cells = {address(content, name): value for name, value in cells.items()}
     if not all(map(_is_plain, cells.values())):
         return edit(path, lambda book: _type(book, cells))
-    changes = {_position(address): value for address, value in cells.items()}
-    path.write_bytes(changed(path.read_bytes(), changes))  # type: ignore[arg-type]
+    changes = {_position(at): value for at, value in cells.items()}
+    path.write_bytes(changed(content, changes))  # type: ignore[arg-type]
     return path
 
 
-def _position(address: str) -> CellPosition:
-    sheet, cell = address.split("!")
+def said(*lines: str) -> tuple[str, ...]:
+    """Return lines with the addresses of the cells of `make` that they name as `<Site/S_DS>`."""
+    usual = _book(UnitsFirst.US, project())
+    return tuple(addressed(usual, line) for line in lines)
+
+
+def _position(at: str) -> CellPosition:
+    sheet, cell = at.split("!")
     return CellPosition(sheet, *coordinate_to_tuple(cell))
 
 
 def _type(book: Workbook, cells: Mapping[str, object]) -> None:
-    for address, value in cells.items():
-        sheet, cell = address.split("!")
+    for at, value in cells.items():
+        sheet, cell = at.split("!")
         book[sheet][cell] = value
 
 
