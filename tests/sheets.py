@@ -201,25 +201,33 @@ def type_into(path: Path, cells: Mapping[str, object]) -> Path:
     cells = {address(content, name): value for name, value in cells.items()}
     if not all(map(_is_plain, cells.values())):
         return edit(path, lambda book: _type(book, cells))
-    changes = {_position(at): value for at, value in cells.items()}
+    changes = {_position(place): value for place, value in cells.items()}
     path.write_bytes(changed(content, changes))  # type: ignore[arg-type]
     return path
 
 
-def said(*lines: str) -> tuple[str, ...]:
-    """Return lines with the addresses of the cells of `make` that they name as `<Site/S_DS>`."""
+def at(text: str) -> str:
+    """Return the address of a cell of `make`, or a line with those that it names as `<Site/F_a>`.
+
+    The rows and columns of a workbook without inputs are the same.
+    """
     usual = _book(UnitsFirst.US, project())
-    return tuple(addressed(usual, line) for line in lines)
+    return addressed(usual, text) if "<" in text else address(usual, text)
 
 
-def _position(at: str) -> CellPosition:
-    sheet, cell = at.split("!")
+def said(*lines: str) -> tuple[str, ...]:
+    """Return lines with the addresses of the cells of `make` that they name."""
+    return tuple(map(at, lines))
+
+
+def _position(place: str) -> CellPosition:
+    sheet, cell = place.split("!")
     return CellPosition(sheet, *coordinate_to_tuple(cell))
 
 
 def _type(book: Workbook, cells: Mapping[str, object]) -> None:
-    for at, value in cells.items():
-        sheet, cell = at.split("!")
+    for place, value in cells.items():
+        sheet, cell = place.split("!")
         book[sheet][cell] = value
 
 
