@@ -83,12 +83,13 @@ def _address(book: Workbook, name: str) -> str:
 
 
 def _tables(sheet: Worksheet) -> Iterator[tuple[dict[str, Cell], dict[str, Cell]]]:
-    """Yield the headings and the rows of each table by text; a status is first."""
+    """Yield the headings and the rows of each table by text."""
     for table in sheet.tables.values():
         left, top, right, bottom = range_boundaries(table.ref)
         (heads,) = sheet.iter_rows(top, top, left, right)
-        rows = sheet.iter_rows(top + 1, bottom, left + 1, left + 1)
-        yield _by_text(heads), _by_text(first for (first,) in rows)
+        first = left + (_text(heads[0]) == "Status")
+        rows = sheet.iter_rows(top + 1, bottom, first, first)
+        yield _by_text(heads), _by_text(named for (named,) in rows)
 
 
 def _heads(

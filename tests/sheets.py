@@ -206,6 +206,11 @@ def type_into(path: Path, cells: Mapping[str, object]) -> Path:
     return path
 
 
+def of(row: str, values: Mapping[str, object]) -> dict[str, object]:
+    """Return the values of a row such as `Motions/M1`, given by heading, for `type_into`."""
+    return {f"{row}/{heading}": value for heading, value in values.items()}
+
+
 def at(text: str) -> str:
     """Return the address of a cell of `make`, or a line with those that it names as `<Site/F_a>`.
 
