@@ -200,7 +200,7 @@ def type_into(path: Path, cells: Mapping[str, object]) -> Path:
     content = path.read_bytes()
     cells = {address(content, name): value for name, value in cells.items()}
     if not all(map(_is_plain, cells.values())):
-        return edit(path, lambda book: _type(book, cells))
+        return edit(path, lambda book: put(book, cells))
     changes = {_position(place): value for place, value in cells.items()}
     path.write_bytes(changed(content, changes))  # type: ignore[arg-type]
     return path
@@ -230,9 +230,10 @@ def _position(place: str) -> CellPosition:
     return CellPosition(sheet, *coordinate_to_tuple(cell))
 
 
-def _type(book: Workbook, cells: Mapping[str, object]) -> None:
-    for place, value in cells.items():
-        sheet, cell = place.split("!")
+def put(book: Workbook, cells: Mapping[str, object]) -> None:
+    """Give cells of a workbook that is open their values, by name or as `Sheet!A1`."""
+    for name, value in [(address(book, name), value) for name, value in cells.items()]:
+        sheet, cell = name.split("!")
         book[sheet][cell] = value
 
 
