@@ -9,12 +9,15 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import BinaryIO
+from zipfile import ZipFile
 
 import pytest
 from openpyxl import Workbook, load_workbook
+from openpyxl.cell import Cell
 from openpyxl.utils import coordinate_to_tuple
 
-from cells import address, addressed
+from cells import address, addressed, cell
 from report.motions.prepare import Shaking, prepare
 from report.sheet.parts import changed
 from report.sheet.positions import CellPosition
@@ -184,12 +187,45 @@ def _book(units: UnitsFirst, example: ProjectInput | None) -> bytes:
         return path.read_bytes()
 
 
+def arrays(**changes: object) -> list[dict[str, object]]:
+    """Return the arrays of the project, the first with changes."""
+    first, second = (array.model_dump() for array in project().arrays)
+    return [first | changes, second]
+
+
+def parts(path: Path | BinaryIO) -> dict[str, bytes]:
+    """Return the parts of a workbook by name."""
+    with ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def pack(path: Path, parts: Mapping[str, bytes]) -> Path:
+    """Write a workbook of these parts."""
+    with ZipFile(path, "w") as archive:
+        for name, content in parts.items():
+            archive.writestr(name, content)
+    return path
+
+
 def edit(path: Path, change: Callable[[Workbook], object]) -> Path:
     """Change a workbook in place."""
     book = load_workbook(path)
     change(book)
     book.save(path)
     return path
+
+
+def formula_cells(book: Workbook) -> list[Cell]:
+    """Return the cells that have formulas."""
+    return [c for sheet in book for row in sheet for c in row if c.data_type == "f"]
+
+
+def retitle(book: Workbook, sheet: str, heading: str, text: str) -> None:
+    """Write another heading, as Excel does in the table as well."""
+    head = cell(book, f"{sheet}/heading/{heading}")
+    head.value = text
+    (table,) = book[sheet].tables.values()
+    table.tableColumns[head.column - 1].name = text
 
 
 def type_into(path: Path, cells: Mapping[str, object]) -> Path:
@@ -226,15 +262,15 @@ def said(*lines: str) -> tuple[str, ...]:
 
 
 def _position(place: str) -> CellPosition:
-    sheet, cell = place.split("!")
-    return CellPosition(sheet, *coordinate_to_tuple(cell))
+    sheet, coordinate = place.split("!")
+    return CellPosition(sheet, *coordinate_to_tuple(coordinate))
 
 
 def put(book: Workbook, cells: Mapping[str, object]) -> None:
     """Give cells of a workbook that is open their values, by name or as `Sheet!A1`."""
     for name, value in [(address(book, name), value) for name, value in cells.items()]:
-        sheet, cell = name.split("!")
-        book[sheet][cell] = value
+        sheet, coordinate = name.split("!")
+        book[sheet][coordinate] = value
 
 
 def _is_plain(value: object) -> bool:

@@ -1,7 +1,6 @@
 """Live formulas that were typed over are found and restored; those that were not are left alone."""
 
 import re
-import zipfile
 
 import pytest
 from click.testing import CliRunner
@@ -13,7 +12,7 @@ from report.sheet.archive import open_book
 from report.sheet.live import findings, live_formulas, overwritten
 from report.sheet.schema import UnitsFirst
 from report.sheet.spelling import canonical, moved
-from sheets import at, blank, edit, make, put, said, type_into
+from sheets import at, blank, edit, formula_cells, make, pack, parts, put, retitle, said, type_into
 
 
 def lost(path):
@@ -105,11 +104,6 @@ def test_check_warns_and_repair_restores_every_formula_to_the_letter(tmp_path):
     assert path.read_bytes() == whole
 
 
-def parts(path):
-    with zipfile.ZipFile(path) as archive:
-        return {name: archive.read(name) for name in archive.namelist()}
-
-
 def test_repair_changes_the_one_cell_and_keeps_its_format(tmp_path):
     name = "Site/S_DS/Computed"
     path = type_into(make(tmp_path), {name: 1.2})
@@ -124,17 +118,6 @@ def test_repair_changes_the_one_cell_and_keeps_its_format(tmp_path):
         re.search(rb's="\d+"', re.search(cell, data)[1])[0] for data in (old[sheet], new[sheet])
     ]
     assert style[0] == style[1]
-
-
-def formula_cells(book):
-    return [c for s in book for row in s.iter_rows() for c in row if c.data_type == "f"]
-
-
-def retitle(book, sheet, heading, text):
-    """Write another heading, as Excel does in the table as well."""
-    head = cell(book, f"{sheet}/heading/{heading}")
-    head.value = text
-    book[sheet].tables["arrays_table"].tableColumns[head.column - 1].name = text
 
 
 def test_a_renamed_sheet_other_units_and_new_rows_give_no_warning(tmp_path):
@@ -196,10 +179,7 @@ def test_a_wrong_formula_filled_down_is_repaired_although_the_cells_share_it(tmp
         old = rb'<c r="%b"[^>]*>.*?</c>' % at_cell.encode()
         files[name], count = re.subn(old, new, files[name])
         assert count == 1
-    with zipfile.ZipFile(path, "w") as archive:
-        for part, content in files.items():
-            archive.writestr(part, content)
-    assert tuple(lost(path)) == places
+    assert tuple(lost(pack(path, files))) == places
     assert check("--repair", path).output.startswith("2 formulas restored")
     assert formulas(path) == before
 
