@@ -9,11 +9,15 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import BinaryIO
+from zipfile import ZipFile
 
 import pytest
 from openpyxl import Workbook, load_workbook
+from openpyxl.cell import Cell
 from openpyxl.utils import coordinate_to_tuple
 
+from cells import address, addressed, cell
 from report.motions.prepare import Shaking, prepare
 from report.sheet.parts import changed
 from report.sheet.positions import CellPosition
@@ -183,6 +187,26 @@ def _book(units: UnitsFirst, example: ProjectInput | None) -> bytes:
         return path.read_bytes()
 
 
+def arrays(**changes: object) -> list[dict[str, object]]:
+    """Return the arrays of the project, the first with changes."""
+    first, second = (array.model_dump() for array in project().arrays)
+    return [first | changes, second]
+
+
+def parts(path: Path | BinaryIO) -> dict[str, bytes]:
+    """Return the parts of a workbook by name."""
+    with ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def pack(path: Path, parts: Mapping[str, bytes]) -> Path:
+    """Write a workbook of these parts."""
+    with ZipFile(path, "w") as archive:
+        for name, content in parts.items():
+            archive.writestr(name, content)
+    return path
+
+
 def edit(path: Path, change: Callable[[Workbook], object]) -> Path:
     """Change a workbook in place."""
     book = load_workbook(path)
@@ -191,27 +215,62 @@ def edit(path: Path, change: Callable[[Workbook], object]) -> Path:
     return path
 
 
+def formula_cells(book: Workbook) -> list[Cell]:
+    """Return the cells that have formulas."""
+    return [c for sheet in book for row in sheet for c in row if c.data_type == "f"]
+
+
+def retitle(book: Workbook, sheet: str, heading: str, text: str) -> None:
+    """Write another heading, as Excel does in the table as well."""
+    head = cell(book, f"{sheet}/heading/{heading}")
+    head.value = text
+    (table,) = book[sheet].tables.values()
+    table.tableColumns[head.column - 1].name = text
+
+
 def type_into(path: Path, cells: Mapping[str, object]) -> Path:
-    """Type values into cells, given as `Sheet!A1`, in place.
+    """Type values into cells, given as `Arrays/A1/Slope` or as `Sheet!A1`, in place.
 
     Plain values change in the parts of the file, which takes a tenth of a load and save.
     """
+    content = path.read_bytes()
+    cells = {address(content, name): value for name, value in cells.items()}
     if not all(map(_is_plain, cells.values())):
-        return edit(path, lambda book: _type(book, cells))
-    changes = {_position(address): value for address, value in cells.items()}
-    path.write_bytes(changed(path.read_bytes(), changes))  # type: ignore[arg-type]
+        return edit(path, lambda book: put(book, cells))
+    changes = {_position(place): value for place, value in cells.items()}
+    path.write_bytes(changed(content, changes))  # type: ignore[arg-type]
     return path
 
 
-def _position(address: str) -> CellPosition:
-    sheet, cell = address.split("!")
-    return CellPosition(sheet, *coordinate_to_tuple(cell))
+def of(row: str, values: Mapping[str, object]) -> dict[str, object]:
+    """Return the values of a row such as `Motions/M1`, given by heading, for `type_into`."""
+    return {f"{row}/{heading}": value for heading, value in values.items()}
 
 
-def _type(book: Workbook, cells: Mapping[str, object]) -> None:
-    for address, value in cells.items():
-        sheet, cell = address.split("!")
-        book[sheet][cell] = value
+def at(text: str) -> str:
+    """Return the address of a cell of `make`, or a line with those that it names as `<Site/F_a>`.
+
+    The rows and columns of a workbook without inputs are the same.
+    """
+    usual = _book(UnitsFirst.US, project())
+    return addressed(usual, text) if "<" in text else address(usual, text)
+
+
+def said(*lines: str) -> tuple[str, ...]:
+    """Return lines with the addresses of the cells of `make` that they name."""
+    return tuple(map(at, lines))
+
+
+def _position(place: str) -> CellPosition:
+    sheet, coordinate = place.split("!")
+    return CellPosition(sheet, *coordinate_to_tuple(coordinate))
+
+
+def put(book: Workbook, cells: Mapping[str, object]) -> None:
+    """Give cells of a workbook that is open their values, by name or as `Sheet!A1`."""
+    for name, value in [(address(book, name), value) for name, value in cells.items()]:
+        sheet, coordinate = name.split("!")
+        book[sheet][coordinate] = value
 
 
 def _is_plain(value: object) -> bool:

@@ -17,6 +17,7 @@ from click.testing import CliRunner
 
 import packages
 import report.typeset.pdf
+from cells import cell
 from places import ROOT
 from report.beside import SameProcess
 from report.cli import batch
@@ -107,10 +108,12 @@ def commanded(folder):
 
 
 def few_cases(book):
-    assert book["Study"]["B9"].value == "0 to 7 by 1"
-    assert book["Study"]["B12"].value == "0.1 to 2 by 0.1"
-    book["Study"]["B9"] = "0, 2, 4"
-    book["Study"]["B12"] = "0.2 to 2 by 0.2"
+    for label, known, fewer in (
+        ("Slopes", "0 to 7 by 1", "0, 2, 4"),
+        ("Intensities", "0.1 to 2 by 0.1", "0.2 to 2 by 0.2"),
+    ):
+        assert cell(book, f"Study/{label}").value == known
+        cell(book, f"Study/{label}").value = fewer
 
 
 @pytest.mark.nightly

@@ -16,7 +16,7 @@ from report.motions.prepare import prepare
 from report.sheet.read import read
 from report.sheet.schema import ProjectInput, Rectangle
 from report.sheet.shapes import gap_m
-from sheets import FT, INCH, make, project
+from sheets import FT, INCH, at, make, project
 
 OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 * FT}
 
@@ -113,10 +113,10 @@ def test_cells_are_those_of_the_workbook(tmp_path):
     sheet = read(make(tmp_path, clearances=[project().clearances[2].model_dump()]))
     listed = of(assess(sheet, prepare(sheet)))
     row = next(neighbor for neighbor in listed if neighbor.given)
-    assert row.given[0].cell == "Clearances!E8"
+    assert row.given[0].cell == at("Clearances/1/Provided clearance")
     assert {
         neighbor.to_add for neighbor in listed if neighbor.kind is not NearbyKind.BARE_EDGE
-    } == {"Clearances!B7"}
+    } == {at("Clearances/heading/Array")}
 
 
 def test_an_object_that_is_nowhere_is_named_unless_a_clearance_covers_it():
@@ -175,11 +175,11 @@ def test_bare_parts_and_strips_make_up_the_side(spans):
     data = stand_in.project(arrays=[stand_in.array("A1", 1.0)], objects=strips, clearances=[],
                             roof=roof)  # fmt: skip
     south = [edge.line for edge in bare_edges(data) if edge.name.startswith("south")]
-    for at in (0.25 + 0.5 * k for k in range(100)):
-        covered = any(row["x_from_m"] <= at <= row["x_to_m"] for row in strips)
-        bare = any(line.x_from_m <= at <= line.x_to_m for line in south)
-        assert covered or bare or _is_short(at, strips)
-        assert not (bare and any(row["x_from_m"] < at < row["x_to_m"] for row in strips))
+    for x_m in (0.25 + 0.5 * k for k in range(100)):
+        covered = any(row["x_from_m"] <= x_m <= row["x_to_m"] for row in strips)
+        bare = any(line.x_from_m <= x_m <= line.x_to_m for line in south)
+        assert covered or bare or _is_short(x_m, strips)
+        assert not (bare and any(row["x_from_m"] < x_m < row["x_to_m"] for row in strips))
 
 
 def _is_short(at, strips):

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from report.cli import batch
 from report.cli.batch import Outcome
 from report.cli.main import main
-from sheets import make
+from sheets import at, make
 
 
 def run(*arguments):
@@ -31,7 +31,8 @@ def test_a_project_that_fails_stops_no_other(tmp_path):
     assert "1 problem" in rows[2]
     assert (tmp_path / "one" / "out" / "calc-package.pdf").is_file()
     assert not (tmp_path / "two" / "out").exists()
-    assert f"{tmp_path / 'two'}: Motions!C8: horizontal record: x.csv:2: found 'abc'" in done.stderr
+    record = at("Motions/M1/Horizontal record")
+    assert f"{tmp_path / 'two'}: {record}: horizontal record: x.csv:2: found 'abc'" in done.stderr
     assert f"{tmp_path / 'none'}: no such file" in done.stderr
 
 

@@ -10,7 +10,7 @@ import packages
 from report.assessment.foresight import findings
 from report.cli.main import main
 from report.motions.prepare import prepare
-from sheets import make, project, read_workbook
+from sheets import at, make, project, read_workbook
 
 LIGHT = 30 * 4.4482216152605
 
@@ -35,11 +35,9 @@ def test_check_prints_each_warning_with_its_cell_and_its_name(tmp_path):
     first, *lines = done.stdout.splitlines()
     assert "input.xlsx: no errors, " in first
     (line,) = (line for line in lines if "[weight A1]" in line)
-    assert line.startswith("warning: Arrays!H8: weight is 30 lb")
-    assert any(
-        line.startswith("warning: Motions!B7: number of components of each motion")
-        for line in lines
-    )
+    assert line.startswith(at("warning: <Arrays/A1/Weight>: weight is 30 lb"))
+    components = at("warning: <Motions/heading/ID>: number of components of each motion")
+    assert any(line.startswith(components) for line in lines)
 
 
 def test_an_acknowledged_warning_is_printed_with_its_reason(tmp_path):
@@ -55,7 +53,7 @@ def test_check_as_json_has_a_schema_version_findings_and_errors(tmp_path):
     (weight,) = (f for f in document["findings"] if f["id"] == "weight A1")
     assert (weight["level"], weight["cell"], weight["reason"]) == (
         "warning",
-        "Arrays!H8",
+        at("Arrays/A1/Weight"),
         REASON["reason"],
     )
     assert (document["arrays"], document["motions"]) == (2, 3)
@@ -70,8 +68,8 @@ def test_check_alone_says_that_a_package_is_dated_in_the_future(tmp_path):
     folder = make(tmp_path, project=issue)
     lines = [line for line in run("check", folder).output.splitlines() if "after today" in line]
     assert lines == [
-        f"note: Project!B11: date is 9999-01-01, after today, {dt.date.today()}; correct it if"
-        " that is not intended"
+        f"note: {at('Project/Date')}: date is 9999-01-01, after today, {dt.date.today()}; correct"
+        " it if that is not intended"
     ]
     sheet = read_workbook(folder)
     assert not any("after today" in f.text for f in findings(sheet, prepare(sheet)))
@@ -135,7 +133,7 @@ def test_the_package_lists_a_warning_with_its_reason(steep, printed):
     assert "Frames alone, ballast by others" in text
     results = json.loads((steep.parent / "out" / "results.json").read_text())
     (finding,) = (f for f in results["findings"] if f["id"] == "weight A1")
-    assert (finding["cell"], finding["reason"]) == ("Arrays!H8", REASON["reason"])
+    assert (finding["cell"], finding["reason"]) == (at("Arrays/A1/Weight"), REASON["reason"])
 
 
 def test_report_as_json_has_arrays_causes_and_files(steep):

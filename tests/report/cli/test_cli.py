@@ -17,7 +17,7 @@ import report.package.html
 from places import ROOT
 from report.cli.main import main
 from report.cli.terminal import Progress
-from sheets import make, project
+from sheets import at, make, project
 
 EXAMPLE = ROOT / "projects" / "example"
 RECORD = str(EXAMPLE / "records" / "RM1-x.csv")
@@ -126,8 +126,8 @@ def test_check_of_a_blank_workbook_names_every_cell_and_exits_2(tmp_path):
     run("new", tmp_path)
     done = run("check", tmp_path)
     assert done.exit_code == 2
-    assert "Project!B5: project name is missing" in done.output
-    assert "Arrays!B7: no array is given" in done.output
+    assert at("<Project/Project name>: project name is missing") in done.output
+    assert at("<Arrays/heading/ID>: no array is given") in done.output
 
 
 def test_check_of_a_missing_file_exits_2(tmp_path):

@@ -10,9 +10,7 @@ from click.testing import CliRunner
 from places import ROOT
 from report.cli.main import main
 from report.cli.terminal import plain
-from report.sheet.parts import write_cells
-from report.sheet.positions import CellPosition
-from sheets import edit, make
+from sheets import at, edit, make, type_into
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
 LONG = "x" * 300
@@ -98,19 +96,20 @@ def test_a_terminal_is_shown_no_control_characters_and_no_endless_line(tmp_path)
 
 
 def test_a_value_of_four_hundred_digits_is_refused_and_not_echoed_whole(tmp_path):
-    book = make(tmp_path)
-    write_cells(book, {CellPosition("Arrays", 8, 9): 10**400})
+    book = type_into(make(tmp_path), {"Arrays/A1/CG height": 10**400})
     done = run("check", book)
     assert done.exit_code == 2
-    assert f"Arrays!I8: CG height is 1{'0' * 58}…; give a number of more than 0" in done.output
+    line = f"<Arrays/A1/CG height>: CG height is 1{'0' * 58}…; give a number of more than 0"
+    assert at(line) in done.output
     assert max(map(len, done.output.splitlines())) < 300
 
 
 def test_a_start_time_beyond_all_records_is_refused(tmp_path):
-    book = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("M8", 4e307))
+    name = "Motions/M1/Start time"
+    book = type_into(make(tmp_path), {name: 4e307})
     done = run("check", book)
     assert done.exit_code == 2
-    assert "Motions!M8" in done.output
+    assert at(name) in done.output
 
 
 def test_a_name_defined_off_the_sheet_is_no_name(tmp_path):

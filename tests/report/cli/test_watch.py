@@ -18,6 +18,7 @@ import pytest
 from click.testing import CliRunner
 
 import report.typeset.pdf
+from cells import address
 from packages import unlaid
 from places import ROOT, TESTS
 from report.beside import SameProcess, beside
@@ -26,7 +27,7 @@ from report.cli.main import main
 from report.cli.watch import Round, is_input, saves, settle
 from report.kept import forget
 from report.making import OUTPUTS
-from sheets import edit, make
+from sheets import make, type_into
 from solver.model import InputError
 from solver.sliding import least_model
 
@@ -87,7 +88,7 @@ def test_a_save_without_a_change_is_none(tmp_path):
 def test_a_save_in_several_steps_is_one(tmp_path):
     """As Excel does it: a temporary file, then another name; here with a pause in the middle."""
     path = make(tmp_path)
-    whole = edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.5)).read_bytes()
+    whole = type_into(path, {"Arrays/1/Friction coefficient": 0.5}).read_bytes()
     found = saves(path, tmp_path / "out")
     next(found)
     temporary = tmp_path / "5A1B2C00"
@@ -274,12 +275,13 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
     watching = Watching(tmp_path)
     try:
         at = watching.until("watching ")
-        whole = edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.5)).read_bytes()
+        whole = type_into(path, {"Arrays/A1/Friction coefficient": 0.5}).read_bytes()
         path.write_bytes(whole[: len(whole) // 2])
         time.sleep(0.5)
         path.write_bytes(whole)
         at = watching.until("changed: ", after=at)
-        assert "(Arrays!E8): 0.45 -> 0.5" in watching.lines[at]
+        place = address(path, "Arrays/A1/Friction coefficient")
+        assert f"({place}): 0.45 -> 0.5" in watching.lines[at]
         at = watching.until(str(tmp_path / "out"), after=at)
         record = tmp_path / "records" / "z.csv"
         record.write_text(record.read_text() + "0.0\n")
@@ -350,9 +352,9 @@ def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
                 patch.setattr(report.typeset.pdf, "lay_out", lambda html, *_: html.encode())
                 assert round_.run()
                 all_runs = len(runs)
-                edit(path, lambda book: book["Clearances"].__setitem__("E8", 31.0))
+                type_into(path, {"Clearances/1/Provided clearance": 31.0})
                 none = counted(round_, "clearance")
-                edit(path, lambda book: book["Arrays"].__setitem__("E8", 0.5))
+                type_into(path, {"Arrays/1/Friction coefficient": 0.5})
                 some = counted(round_, "friction")
             vertical.write_text("0.001\n" + vertical.read_text().partition("\n")[2])
             others = counted(round_, "record")

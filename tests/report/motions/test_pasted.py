@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 
-from sheets import edit, make, problems, read_workbook, type_into
+from sheets import at, edit, make, problems, read_workbook, said, type_into
+
+RECORD = "Motions/M2/Horizontal record"
 
 
 def pasted(values, header="North", name="Pasted!North"):
     """Return the cells of a pasted column that M2 uses."""
     below = {f"Pasted!B{row}": value for row, value in enumerate(values, start=4)}
-    return {"Pasted!B3": header, "Motions!C9": name} | below
+    return {"Pasted!B3": header, RECORD: name} | below
 
 
 def timed(times, header="time_s"):
@@ -55,11 +57,12 @@ def test_a_pasted_column_is_a_record(paste, name):
 )
 def test_a_pasted_column_agrees_with_the_times_and_units_beside_it(paste, header, per_row):
     cells = timed([per_row * i for i in range(104)], header)
-    name = {"Pasted!B3": "North [g]", "Motions!C9": "Pasted!North [g]"}
+    name = {"Pasted!B3": "North [g]", RECORD: "Pasted!North [g]"}
     assert read_workbook(paste(cells | name)).records[2].npts == 104
 
 
-PASTED = "Motions!C9: horizontal record:"
+BLANK = "is blank, beside or above values; fill it in, or delete its row"
+PASTED = f"<{RECORD}>: horizontal record:"
 
 
 @pytest.mark.parametrize(
@@ -72,7 +75,7 @@ PASTED = "Motions!C9: horizontal record:"
 def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
     cells = timed([0.01 * i for i in range(104)], "t [s]")
     path = edit(paste(cells), lambda book: setattr(book["Pasted"][cell], "number_format", code))
-    assert problems(path)[0].startswith(f"{PASTED} {line}")
+    assert problems(path)[0].startswith(at(f"{PASTED} {line}"))
 
 
 def test_a_pasted_column_may_be_shown_with_its_units(paste):
@@ -87,104 +90,51 @@ def test_a_pasted_column_may_be_shown_with_its_units(paste):
 @pytest.mark.parametrize(
     ("cells", "lines"),
     [
-        (pasted([0.1, "abc", 0.2]), [f"{PASTED} Pasted!B5 is 'abc'; give a number"]),
-        (pasted([0.1, "nan", 0.2]), [f"{PASTED} Pasted!B5 is 'nan'; give a number"]),
-        (pasted([0.1, "0,2", 0.2]), [f"{PASTED} Pasted!B5 is '0,2'; write 0.2"]),
-        (
-            pasted([0.1, "#N/A", 0.2]),
-            [f"{PASTED} Pasted!B5 is #N/A; correct the formula, or type a value"],
-        ),
-        (
-            pasted([0.1, None, 0.2]),
-            [f"{PASTED} Pasted!B5 is blank, beside or above values; fill it in, or delete its row"],
-        ),
-        (
-            pasted(["x"] * 8),
-            [
-                *(f"{PASTED} Pasted!B{row} is 'x'; give a number" for row in range(4, 9)),
-                f"{PASTED} ... and 3 more cells",
-            ],
-        ),
-        (
-            pasted([0.1, 0.2], header="East"),
-            [
-                f"{PASTED} sheet 'Pasted' has no heading 'North' in its first 10 rows; write it"
-                " above the column"
-            ],
-        ),
-        (
-            pasted([0.1, 0.2], name="Elsewhere!North"),
-            [
-                f"{PASTED} 'Elsewhere!North' names no sheet of this workbook; give Sheet!Header,"
-                " or a file"
-            ],
-        ),
-        (
-            pasted([0.1, 0.2], header="North [m/s2]", name="Pasted!North [m/s2]"),
-            [
-                f"{PASTED} Pasted!B3 is 'North [m/s2]', but the record units are g; correct one of"
-                " them"
-            ],
-        ),
-        (
-            pasted([0.1, 0.2], header="North [km/s2]", name="Pasted!North [km/s2]"),
-            [
-                f"{PASTED} Pasted!B3 is 'North [km/s2]', which is no acceleration; give the column"
-                " of an acceleration"
-            ],
-        ),
-        (
-            timed([0.0, 0.02, 0.04, 0.06]),
-            [
-                f"{PASTED} Pasted!A3 has times at a step of 0.02 s, but the time step is 0.01 s;"
-                " correct one of them"
-            ],
-        ),
-        (
-            timed([0.0, 0.01, 0.02, 0.05]),
-            [
-                f"{PASTED} Pasted!A7 is 0.05 s, 0.03 s after the row above it, but the typical step"
-                " is 0.01 s; fill in the missing rows, or give the record as a file, which is"
-                " resampled"
-            ],
-        ),
-        (
-            timed([0.0, 0.01, 0.01, 0.02]),
-            [
-                f"{PASTED} Pasted!A6: found time 0.01 s after 0.01 s, with a typical step of 0.01"
-                " s; give increasing times"
-            ],
-        ),
-        (
-            timed([0.0, None, 0.02, 0.03]),
-            [f"{PASTED} Pasted!A5 is blank, beside or above values; fill it in, or delete its row"],
-        ),
-        (
-            timed([0.0, 1.0, 2.0, 3.0], header="Time [h]"),
-            [f"{PASTED} Pasted!A3 is 'Time [h]'; give times in s, ms or min"],
-        ),
-        (
-            pasted([0.1, 0.2]) | {"Motions!G9": None},
-            [f"{PASTED} 'Pasted!North' is a pasted column; give its time step"],
-        ),
-        (
-            pasted([0.1, 0.2]) | {"Pasted!D2": "North"},
-            [f"{PASTED} heading 'North' appears at Pasted!D2 and Pasted!B3; rename one"],
-        ),
-        (
-            pasted([0.1, 0.2]) | {"Pasted!B300000": 1},
-            [
-                f"{PASTED} Pasted!B300000 contains data more than 200,000 rows below the heading;"
-                " clear it, or give the record as a file"
-            ],
-        ),
+        (pasted([0.1, "abc", 0.2]), ["Pasted!B5 is 'abc'; give a number"]),
+        (pasted([0.1, "nan", 0.2]), ["Pasted!B5 is 'nan'; give a number"]),
+        (pasted([0.1, "0,2", 0.2]), ["Pasted!B5 is '0,2'; write 0.2"]),
+        (pasted([0.1, "#N/A", 0.2]),
+         ["Pasted!B5 is #N/A; correct the formula, or type a value"]),
+        (pasted([0.1, None, 0.2]), [f"Pasted!B5 {BLANK}"]),
+        (pasted(["x"] * 8),
+         [*(f"Pasted!B{row} is 'x'; give a number" for row in range(4, 9)),
+          "... and 3 more cells"]),
+        (pasted([0.1, 0.2], header="East"),
+         ["sheet 'Pasted' has no heading 'North' in its first 10 rows; write it above the"
+          " column"]),
+        (pasted([0.1, 0.2], name="Elsewhere!North"),
+         ["'Elsewhere!North' names no sheet of this workbook; give Sheet!Header, or a file"]),
+        (pasted([0.1, 0.2], header="North [m/s2]", name="Pasted!North [m/s2]"),
+         ["Pasted!B3 is 'North [m/s2]', but the record units are g; correct one of them"]),
+        (pasted([0.1, 0.2], header="North [km/s2]", name="Pasted!North [km/s2]"),
+         ["Pasted!B3 is 'North [km/s2]', which is no acceleration; give the column of an"
+          " acceleration"]),
+        (timed([0.0, 0.02, 0.04, 0.06]),
+         ["Pasted!A3 has times at a step of 0.02 s, but the time step is 0.01 s; correct one of"
+          " them"]),
+        (timed([0.0, 0.01, 0.02, 0.05]),
+         ["Pasted!A7 is 0.05 s, 0.03 s after the row above it, but the typical step is 0.01 s; fill"
+          " in the missing rows, or give the record as a file, which is resampled"]),
+        (timed([0.0, 0.01, 0.01, 0.02]),
+         ["Pasted!A6: found time 0.01 s after 0.01 s, with a typical step of 0.01 s; give"
+          " increasing times"]),
+        (timed([0.0, None, 0.02, 0.03]), [f"Pasted!A5 {BLANK}"]),
+        (timed([0.0, 1.0, 2.0, 3.0], header="Time [h]"),
+         ["Pasted!A3 is 'Time [h]'; give times in s, ms or min"]),
+        (pasted([0.1, 0.2]) | {"Motions/M2/Time step": None},
+         ["'Pasted!North' is a pasted column; give its time step"]),
+        (pasted([0.1, 0.2]) | {"Pasted!D2": "North"},
+         ["heading 'North' appears at Pasted!D2 and Pasted!B3; rename one"]),
+        (pasted([0.1, 0.2]) | {"Pasted!B300000": 1},
+         ["Pasted!B300000 contains data more than 200,000 rows below the heading; clear it, or give"
+          " the record as a file"]),
     ],
-)
+)  # fmt: skip
 def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
-    assert list(problems(paste(cells))) == lines
+    assert problems(paste(cells)) == said(*(f"{PASTED} {line}" for line in lines))
 
 
 def test_gals_of_a_pasted_column_are_cm_s2(paste):
-    cells = pasted([100.0, -200.0] * 51) | {"Motions!F9": "gal"}
+    cells = pasted([100.0, -200.0] * 51) | {"Motions/M2/Record units": "gal"}
     motion = read_workbook(paste(cells)).motions[1]
     assert motion.ax_mps2.tolist() == [1.0, -2.0] * 51

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from sheets import make, problems, read_workbook
+from sheets import at, make, problems, read_workbook
 
 A = np.random.default_rng(7).normal(size=(4, 400)).round(5)
 
@@ -26,47 +26,42 @@ def motion(x, y="", **others):
     return {"record": f"records/{x}.csv", **transverse, **others}
 
 
-def test_the_same_file_twice_is_refused_with_both_cells(tmp_path):
-    path = book(tmp_path, motion("a", "b"), motion("a", "b", scaling="factor", scale_value=2.0),
-                a=A[0], b=A[1])  # fmt: skip
-    assert problems(path) == (
-        "Motions!C9: horizontal record repeats the horizontal record at Motions!C8 (equal samples,"
-        " apart from scale and sign): M2 is M1 again; give each motion once",
-    )
+AGAIN = (
+    "<Motions/M2/Horizontal record>: horizontal record repeats the horizontal record at"
+    " <Motions/M1/Horizontal record> (equal samples, apart from scale and sign): M2 is M1 again;"
+    " give each motion once"
+)
+TRANSVERSE = "record repeats the transverse record at <Motions/M1/Transverse record>"
+CASES = {
+    "the same file": (
+        [motion("a", "b"), motion("a", "b", scaling="factor", scale_value=2.0)],
+        {"a": A[0], "b": A[1]}, AGAIN),
+    **{f"a copy under another name, times {factor}": (
+        [motion(name) for name in "abc"], {"a": A[0], "b": A[1], "c": factor * A[0]},
+        AGAIN.replace("M2", "M3")) for factor in (1.0, -1.0, 0.37)},
+    "swapped components": (
+        [motion("a", "b"), motion("c", "d")], {"a": A[0], "b": A[1], "c": A[1], "d": A[0]},
+        f"<Motions/M2/Horizontal record>: horizontal {TRANSVERSE}"),
+    "one component in common": (
+        [motion("a", "b"), motion("c", "b")], {"a": A[0], "b": A[1], "c": A[2]},
+        f"<Motions/M2/Transverse record>: transverse {TRANSVERSE}"),
+    "other filters": ([motion("a"), motion("a", highpass_hz=0.2)], {"a": A[0]}, AGAIN),
+    "parts that overlap": (
+        [motion("a", to_s=2.0), motion("a", from_s=1.9)], {"a": A[0]},
+        "<Motions/M2/Horizontal record>: horizontal record repeats the horizontal record"),
+}  # fmt: skip
 
 
-@pytest.mark.parametrize("factor", [1.0, -1.0, 0.37])
-def test_a_copy_under_another_name_is_refused_at_any_scale_and_sign(tmp_path, factor):
-    path = book(tmp_path, motion("a"), motion("b"), motion("c"), a=A[0], b=A[1], c=factor * A[0])
-    (problem,) = problems(path)
-    assert problem.startswith("Motions!C10: horizontal record repeats the horizontal record at"
-                              " Motions!C8")  # fmt: skip
-
-
-def test_swapped_components_are_the_same_motion(tmp_path):
-    (problem,) = problems(book(tmp_path, motion("a", "b"), motion("c", "d"),
-                               a=A[0], b=A[1], c=A[1], d=A[0]))  # fmt: skip
-    assert problem.startswith("Motions!C9: horizontal record repeats the transverse"
-                              " record at Motions!D8")  # fmt: skip
-
-
-def test_one_component_in_common_is_enough(tmp_path):
-    (problem,) = problems(book(tmp_path, motion("a", "b"), motion("c", "b"),
-                               a=A[0], b=A[1], c=A[2]))  # fmt: skip
-    assert problem.startswith("Motions!D9: transverse record repeats the transverse")
-
-
-def test_other_filters_do_not_make_another_motion(tmp_path):
-    (problem,) = problems(book(tmp_path, motion("a"), motion("a", highpass_hz=0.2), a=A[0]))
-    assert problem.startswith("Motions!C9")
+@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
+def test_a_motion_that_is_given_again_is_refused_with_both_cells(tmp_path, case):
+    motions, records, line = case
+    (problem,) = problems(book(tmp_path, *motions, **records))
+    assert problem.startswith(at(line))
 
 
 def test_parts_of_one_record_are_motions_if_they_do_not_overlap(tmp_path):
     first, second = motion("a", to_s=2.0), motion("a", from_s=2.0)
-    assert len(read_workbook(book(tmp_path / "a", first, second, a=A[0])).motions) == 2
-    second["from_s"] = 1.9
-    (problem,) = problems(book(tmp_path / "b", first, second, a=A[0]))
-    assert problem.startswith("Motions!C9")
+    assert len(read_workbook(book(tmp_path, first, second, a=A[0])).motions) == 2
 
 
 def test_records_of_zeros_are_not_compared(tmp_path):

@@ -9,10 +9,13 @@ from pypdf import PdfReader
 from recalculated import converted, recalculated
 
 import stand_in
+from cells import cell
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
+from sheets import of, put
 
 INCH = 0.0254
+GOVERNING = "Governing array, direction"
 SITE = stand_in.project().site.model_dump()
 REVIEWED = {
     "peer_reviewed": True,
@@ -31,8 +34,8 @@ def written(assessment):
     return openpyxl.load_workbook(io.BytesIO(results_xlsx(assessment, spectra(assessment))))
 
 
-def compared(sheet, row, columns):
-    return [sheet[f"{column}{row}"].value for column in columns]
+def compared(book, row, headings):
+    return [cell(book, f"{row}/{heading}").value for heading in headings]
 
 
 @pytest.fixture(scope="module")
@@ -49,12 +52,9 @@ NARROW_M = 10 * INCH
 
 
 def change_inputs(book):
-    inputs = {row[0].value: row[1] for row in book["Inputs"].iter_rows(min_row=5)}
-    inputs["S_DS [g]"].value = 1.3
-    inputs["Importance factor I_e"].value = 1.25
-    inputs["Design value statistic"].value = "1.1 x largest"
-    inputs["Peer review"].value = "Yes"
-    book["Clearances"]["K6"].value = NARROW_M / INCH
+    put(book, of("Inputs", {"S_DS": 1.3, "Importance factor I_e": 1.25, "Peer review": "Yes"}))
+    put(book, {"Inputs/Design value statistic": "1.1 x largest"})
+    put(book, {"Clearances/2/Provided": NARROW_M / INCH})
 
 
 def other_array(reviewed):
@@ -93,34 +93,40 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
     after = assessed(site=site, options=REVIEWED, clearances=gaps)
     assert before.clearances[1].ok
     assert not after.clearances[1].ok
-    design, clearances = changed[0]["Design"], changed[0]["Clearances"]
-    assert design["B3"].value == after.verdict.value
-    for row, item in enumerate(after.arrays, start=5):
-        values = compared(design, row, "FGHIKMN")
+    book = changed[0]
+    assert cell(book, "Design/Verdict").value == after.verdict.value
+    lengths = ("Prescriptive", "Mean PRD", "Largest PRD", "Computed", "Floor [in]", "Design [in]")
+    for item in after.arrays:
+        row = f"Design/{item.id}"
         wanted = (
-            item.prescriptive.value_m, item.analysis.n_motions * INCH, item.analysis.mean_m,
-            item.analysis.largest_m, item.analysis.value_m, item.floor_m, item.design_m,
+            item.prescriptive.value_m, item.analysis.mean_m, item.analysis.largest_m,
+            item.analysis.value_m, item.floor_m, item.design_m,
         )  # fmt: skip
-        assert values == pytest.approx([value / INCH for value in wanted], rel=1e-9)
-        assert compared(design, row, "ST") == [
+        assert compared(book, row, lengths) == pytest.approx(
+            [value / INCH for value in wanted], rel=1e-9
+        )
+        assert compared(book, row, ("Number of motions", "Verdict", "Statistic")) == [
+            item.analysis.n_motions,
             after.array_verdict(item).value,
             item.analysis.basis.value,
         ]
-    for row, gap in enumerate(after.clearances, start=5):
-        values = compared(clearances, row, "FGIKL")
+    for number, gap in enumerate(after.clearances, start=1):
+        row = f"Clearances/{number}"
         lengths = (gap.design_m, gap.factor * INCH, gap.required_m, gap.clearance.provided_m)
         wanted = [*(value / INCH for value in lengths), gap.demand_capacity]
-        assert values == pytest.approx(wanted, rel=1e-9)
+        headings = ("Design", "Factor", "Required [in]", "Provided", "D/C")
+        assert compared(book, row, headings) == pytest.approx(wanted, rel=1e-9)
         governing = f"{gap.governing_array}, {gap.governing_direction.value}"
-        assert compared(clearances, row, "EM") == [governing, gap.verdict.value]
+        assert compared(book, row, (GOVERNING, "Result")) == [governing, gap.verdict.value]
 
 
 @pytest.mark.nightly
 def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
-    sheet = changed[1]["Clearances"]
-    assert sheet["E5"].value == f"{other_array(reviewed)}, any"
-    assert sheet["F5"].value == pytest.approx(1.1 * 90.0)
-    assert sheet["M5"].value == ("OK" if sheet["I5"].value <= sheet["K5"].value else "NG")
+    headings = (GOVERNING, "Design", "Required [in]", "Provided", "Result")
+    governing, design, required, provided, result = compared(changed[1], "Clearances/1", headings)
+    assert governing == f"{other_array(reviewed)}, any"
+    assert design == pytest.approx(1.1 * 90.0)
+    assert result == ("OK" if required <= provided else "NG")
 
 
 def test_every_sheet_prints_as_wide_as_a_page(before, tmp_path):

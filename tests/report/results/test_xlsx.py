@@ -2,6 +2,7 @@
 
 import datetime as dt
 import io
+import itertools
 import math
 import re
 from dataclasses import replace
@@ -10,9 +11,11 @@ import openpyxl
 import pytest
 
 import stand_in
+from cells import address, cell
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
 from report.sheet.schema import Direction
+from sheets import formula_cells
 
 
 def xlsx(assessment):
@@ -22,6 +25,14 @@ def xlsx(assessment):
 def opened(content):
     """The formulas and the values of a workbook."""
     return [openpyxl.load_workbook(io.BytesIO(content), data_only=flag) for flag in (False, True)]
+
+
+def of(book, name):
+    """The address of a cell within its sheet."""
+    return cell(book, name).coordinate
+
+
+GOVERNING = "Governing array, direction"
 
 
 def short():
@@ -163,18 +174,14 @@ def test_every_formula_gives_the_value_written_with_it(case):
 
 def check_formulas(formulas, values):
     """Hold every formula against the value written with it; return how many there are."""
-    checked, known = 0, {}
-    for sheet in formulas:
-        for row in sheet.iter_rows():
-            for cell in row:
-                if cell.data_type == "f":
-                    cached = values[sheet.title][cell.coordinate].value
-                    value = compute(formulas, sheet.title, cell.coordinate, known)
-                    if not isinstance(cached, str):
-                        cached = pytest.approx(cached, rel=1e-12, abs=1e-12)
-                    assert value == cached, cell
-                    checked += 1
-    return checked
+    known, found = {}, formula_cells(formulas)
+    for at in found:
+        cached = values[at.parent.title][at.coordinate].value
+        value = compute(formulas, at.parent.title, at.coordinate, known)
+        if not isinstance(cached, str):
+            cached = pytest.approx(cached, rel=1e-12, abs=1e-12)
+        assert value == cached, at
+    return len(found)
 
 
 def test_the_effect_of_links_follows_from_their_runs():
@@ -186,14 +193,18 @@ def test_the_effect_of_links_follows_from_their_runs():
     assert len(rows) == 2 * 28
     assert rows[0][5] == pytest.approx(first.motions[0].runs[0].prd_m / 0.0254)
     assert rows[0][7].split(", ")[0] == f"{first.motions[0].runs[0].row.prd_m[0] / 0.0254:.2f}"
-    sheet = values["Links"]
-    assert [sheet[f"{c}5"].value for c in "ALO"] == [
-        "A1", pytest.approx(first.estimated_m / 0.0254), "NG",
-    ]  # fmt: skip
-    assert [sheet[f"{c}6"].value for c in "AO"] == ["A3", "OK"]
-    assert formulas["Links"]["I6"].value == "=H6/G6"
-    assert formulas["Links"]["M6"].value == "=Design!N7"
-    assert sheet["L6"].value == pytest.approx(second.design.design_m / 0.0254)
+    wanted = (("A1", first.estimated_m, "NG"), ("A3", second.design.design_m, "OK"))
+    for n, (name, linked_m, result) in enumerate(wanted, start=1):
+        row = f"Links/{n}"
+        linked = cell(values, f"{row}/Design with links").value
+        assert linked == pytest.approx(linked_m / 0.0254)
+        assert [cell(values, f"{row}/{head}").value for head in ("Array", "Result")] == [
+            name,
+            result,
+        ]
+        ratio, used = (cell(formulas, f"{row}/{head}").value for head in ("Ratio", "Design used"))
+        assert ratio == f"={of(formulas, f'{row}/Row')}/{of(formulas, f'{row}/Rigid')}"
+        assert used == f"={address(formulas, f'Design/{name}/Design [in]')}"
 
 
 def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets(usual):
@@ -204,13 +215,19 @@ def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets(usual):
 def test_a_row_without_a_value_is_ng_in_the_workbook():
     data = stand_in.project(links=[stand_in.links("A1", "0.40, 0.50", 50)])
     _, values = made(stand_in.book(data, stand_in.motions(2, seconds=8.0)))
-    assert [values["Links"][f"{c}5"].value for c in "ALO"] == ["A1", "none", "NG"]
+    wanted = {"Array": "A1", "Design with links": "none", "Result": "NG"}
+    assert {head: cell(values, f"Links/1/{head}").value for head in wanted} == wanted
 
 
 def test_the_prescriptive_value_is_a_live_formula(usual):
     formulas, values = usual
-    assert formulas["Design"]["F5"].value == "=MAX(C5*D5*MAX(B5-0.4,0)^2,E5)"
-    assert values["Design"]["F5"].value == pytest.approx(81.573, abs=5e-4)
+    name = "Design/A1/Prescriptive"
+    s_ds, factor, i_e, minimum = (
+        of(formulas, f"Design/A1/{head}")
+        for head in ("S_DS", "Factor", "I_e in displacement", "Minimum")
+    )
+    assert cell(formulas, name).value == f"=MAX({factor}*{i_e}*MAX({s_ds}-0.4,0)^2,{minimum})"
+    assert cell(values, name).value == pytest.approx(81.573, abs=5e-4)
 
 
 def test_a_clearance_follows_from_the_runs_through_its_direction():
@@ -226,29 +243,27 @@ def test_a_clearance_follows_from_the_runs_through_its_direction():
     formulas, values = opened(xlsx(assessment))
     gap = assessment.clearances[3]
     assert (gap.governing_array, gap.governing_direction) == ("A3", Direction.UP)
-    assert values["Clearances"]["E8"].value == "A3, up"
-    source = formulas["Clearances"]["F8"].value
-    row = re.fullmatch(r"=Directions!\$H\$(\d+)", source)[1]
-    head = [cell.value for cell in formulas["Directions"][4]]
-    assert (values["Directions"][f"A{row}"].value, values["Directions"][f"B{row}"].value) == (
-        "A3",
-        "up",
-    )
-    assert values["Directions"][f"H{row}"].value == pytest.approx(gap.design_m / 0.0254)
-    assert head[7] == "In this direction [in]"
-    peaks = re.fullmatch(
-        r"=AVERAGE\(Peaks!D(\d+):D(\d+)\)", formulas["Directions"][f"C{row}"].value
-    )
-    assert int(peaks[2]) - int(peaks[1]) == 6
-    assert formulas["Peaks"][f"D{peaks[1]}"].value.startswith("=MAX(Runs!")
+    assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3, up"
+    source = cell(formulas, "Clearances/4/Design").value
+    own = address(formulas, "Directions/10/In this direction")  # the third array's second
+    assert source.replace("$", "") == f"={own}"
+    row = {head: cell(values, f"Directions/10/{head}").value for head in ("Array", "Direction")}
+    assert row == {"Array": "A3", "Direction": "up"}
+    design = cell(values, "Directions/10/In this direction").value
+    assert design == pytest.approx(gap.design_m / 0.0254)
+    mean = cell(formulas, "Directions/10/Mean of peaks").value
+    first, last = (of(formulas, f"Peaks/{n}/Upslope") for n in (15, 21))  # of the third array
+    assert mean == f"=AVERAGE(Peaks!{first}:{last})"
+    assert cell(formulas, "Peaks/15/Upslope").value.startswith("=MAX(Runs!")
 
 
 def test_a_clearance_takes_the_full_displacement_of_the_sheet_design(assessment, usual):
     formulas, values = usual
     gap = assessment.clearances[3]
-    assert values["Clearances"]["E8"].value == "A3, any"
-    assert formulas["Clearances"]["F8"].value == "=Design!$N$7"
-    assert values["Design"]["N7"].value == pytest.approx(gap.design_m / 0.0254)
+    assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3, any"
+    source = cell(formulas, "Clearances/4/Design").value
+    assert source.replace("$", "") == f"={address(formulas, 'Design/A3/Design [in]')}"
+    assert cell(values, "Design/A3/Design [in]").value == pytest.approx(gap.design_m / 0.0254)
 
 
 def test_the_model_of_every_run_is_listed(usual):
@@ -261,17 +276,21 @@ def test_the_model_of_every_run_is_listed(usual):
 
 def test_without_a_value_the_workbook_states_no_value_and_no_verdict():
     _, values = made(stand_in.book(stand_in.steep(), stand_in.motions(2)))
-    assert values["Design"]["N5"].value == "none"
-    assert values["Clearances"]["I5"].value == "none"
-    assert values["Clearances"]["M5"].value == "none"
-    assert values["Design"]["S5"].value == "NG"
+    for name, wanted in {
+        "Design/1/Design [in]": "none",
+        "Design/1/Verdict": "NG",
+        "Clearances/1/Required [in]": "none",
+        "Clearances/1/Result": "none",
+    }.items():
+        assert cell(values, name).value == wanted
 
 
 def test_text_that_looks_like_a_formula_stays_text():
     data = stand_in.project(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
     formulas, _ = made(stand_in.book(data, short()))
-    for sheet, cell in (("Design", "A5"), ("Runs", "A2")):
-        assert (formulas[sheet][cell].value, formulas[sheet][cell].data_type) == ("=1+1", "s")
+    for sheet in ("Design", "Runs"):
+        name = cell(formulas, f"{sheet}/1/Array")
+        assert (name.value, name.data_type) == ("=1+1", "s")
 
 
 def test_every_run_is_listed(usual):
@@ -283,7 +302,7 @@ def test_every_run_is_listed(usual):
 
 def test_the_spectrum_of_every_motion_is_listed_by_component(usual):
     _, values = usual
-    head = [cell.value for cell in values["Spectra"][1]]
+    head = [at.value for at in values["Spectra"][1]]
     assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
     assert len(head) == 1 + 3 * 8
     assert "Transverse, M7 [g]" in head
@@ -311,17 +330,20 @@ def test_the_prescriptive_route_has_one_design_value_in_every_direction(count):
     formulas, values = opened(xlsx(assessment))
     for row, item in enumerate(assessment.arrays):
         assert item.governs == "prescriptive"
-        for cell in (f"{column}{5 + 4 * row + k}" for column in "HI" for k in range(4)):
-            assert values["Directions"][cell].value == pytest.approx(item.design_m / 0.0254)
-        assert formulas["Directions"][f"H{5 + 4 * row}"].value == f"=Design!N{5 + row}"
+        for k, head in itertools.product(range(1, 5), ("In this direction", "By Roofslip")):
+            value = cell(values, f"Directions/{4 * row + k}/{head}").value
+            assert value == pytest.approx(item.design_m / 0.0254)
+        source = cell(formulas, f"Directions/{4 * row + 1}/In this direction").value
+        assert source == f"={address(formulas, f'Design/{item.id}/Design [in]')}"
 
 
 def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(assessment, usual):
     _, values = usual
-    first = values.worksheets[0]
-    assert [first["A3"].value, first["B3"].value] == ["Verdict", assessment.verdict.value]
-    words = [first.cell(5 + k, 19).value for k in range(3)]
-    assert words == [assessment.array_verdict(item).value for item in assessment.arrays]
+    assert values.sheetnames[0] == "Design"
+    assert cell(values, "Design/Verdict").value == assessment.verdict.value
+    for item in assessment.arrays:
+        verdict = assessment.array_verdict(item).value
+        assert cell(values, f"Design/{item.id}/Verdict").value == verdict
     rows = [row[:6] for row in values["Requirements"].iter_rows(min_row=5, values_only=True)]
     for row in assessment.rows:
         item = row.subject or "Project"
@@ -339,7 +361,7 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(assess
 
 def test_a_limit_that_is_not_satisfied_is_ng_in_the_workbook():
     _, values = made(stand_in.book(stand_in.steep(), stand_in.motions(2, seconds=4.0)))
-    assert values.worksheets[0]["B3"].value == "NG"
+    assert cell(values, "Design/Verdict").value == "NG"
     rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
     assert any(row[0] == "Motions" and row[5] == "not satisfied: NG" for row in rows)
 

@@ -10,13 +10,14 @@ from openpyxl import Workbook, load_workbook
 from openpyxl.utils.cell import coordinate_to_tuple
 from recalculated import Cell, Sheets, recalculated_sheets
 
+from cells import cell
 from places import ROOT
 from report.assessment.clearances import _importance, _neighbor, are_alike
 from report.pages.section import weight_per_area_pa
 from report.sheet.schema import ProjectInput, SiteClass, UnitsFirst
 from report.sheet.template import write_template
 from report.words.units import PRESSURES, Quantity, number, ratio
-from sheets import FT, INCH, LB, project
+from sheets import FT, INCH, LB, formula_cells, project, retitle
 from solver.rules import hazard
 from solver.rules.provisions import Neighbor, prescriptive_displacement, required_separation
 from solver.rules.rulesets import RULE_SETS, RuleSet
@@ -165,8 +166,8 @@ def add_grid(book: Workbook) -> None:
     grid = book.create_sheet("Grid")
     for row, (site_class, s_s) in enumerate(GRID, start=1):
         grid.append([site_class.value, s_s, s_s / 2.5])
-        for cell, mapped, at in (("D11", "site_s_s_g", "B"), ("D12", "site_s_1_g", "C")):
-            formula = str(book["Site"][cell].value)
+        for label, mapped, at in (("F_a", "site_s_s_g", "B"), ("F_v", "site_s_1_g", "C")):
+            formula = str(cell(book, f"Site/{label}/Computed").value)
             for name, place in (("site_site_class", f"A{row}"), (mapped, f"{at}{row}")):
                 assert name in formula
                 formula = formula.replace(name, place)
@@ -174,16 +175,11 @@ def add_grid(book: Workbook) -> None:
 
 
 def weigh_in_kips(book: Workbook) -> None:
-    arrays = book["Arrays"]
-    arrays["H7"] = "Weight [kip]"
-    arrays.tables["arrays_table"].tableColumns[7].name = "Weight [kip]"
-    for row in (8, 9):
-        arrays[f"H{row}"] = arrays[f"H{row}"].value / 1000
-    for sheet in book:
-        for cells in sheet.iter_rows():
-            for cell in cells:
-                if cell.data_type == "f":
-                    cell.value = str(cell.value).replace("Weight '[lb']", "Weight '[kip']")
+    for name in ("Arrays/A1/Weight", "Arrays/A2/Weight"):
+        cell(book, name).value /= 1000
+    retitle(book, "Arrays", "Weight", "Weight [kip]")
+    for found in formula_cells(book):
+        found.value = str(found.value).replace("Weight '[lb']", "Weight '[kip']")
 
 
 def is_si(name: str, case: ProjectInput) -> bool:

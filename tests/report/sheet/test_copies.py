@@ -5,7 +5,7 @@ from openpyxl.worksheet.table import Table
 
 from report.assessment.foresight import findings
 from report.sheet.findings import located
-from sheets import edit, make, read_workbook
+from sheets import at, edit, make, read_workbook
 
 
 def copied(book, title):
@@ -28,7 +28,7 @@ def test_a_copied_sheet_is_ignored_with_a_warning(tmp_path):
     assert found(path) == [
         (
             "copy Arrays Copy",
-            "Arrays!B7",
+            at("Arrays/heading/ID"),
             "sheets 'Arrays' and 'Arrays Copy' both have the labels of Arrays; 'Arrays' is read,"
             " and 'Arrays Copy' is ignored: delete the one that is not meant",
         )
@@ -42,7 +42,7 @@ def test_the_warning_names_the_sheet_that_is_read_whatever_its_title(tmp_path):
         copy.title = "Arrays"
 
     ((name, cell, text),) = found(edit(make(tmp_path), change))
-    assert (name, cell) == ("copy Arrays", "old!B7")
+    assert (name, cell) == ("copy Arrays", at("Arrays/heading/ID").replace("Arrays", "old"))
     assert "'old' is read, and 'Arrays' is ignored" in text
 
 

@@ -10,11 +10,12 @@ from openpyxl.utils.cell import coordinate_to_tuple
 from pypdf import PdfReader
 from recalculated import converted, recalculated_sheets
 
+from cells import cell
 from report.sheet.fields import Place
 from report.sheet.marks import AMBER, VIOLET
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
-from sheets import blank, edit, make, project, same, type_into
+from sheets import at, blank, edit, make, of, project, put, same, type_into
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 # Of Excel 2007 and later, and ISFORMULA of 2013, which is written with this prefix.
@@ -103,71 +104,75 @@ def test_every_name_used_is_defined(parts):
 
 def half_filled(book):
     """What a person has typed: a project without date, an array without weight, odd values."""
-    book["Project"]["B5"] = "Depot"
-    arrays = book["Arrays"]
-    for cell, value in {"B8": "A1", "C8": 2.0, "D8": "degrees", "E8": 0.9, "G8": "Tray"}.items():
-        arrays[cell] = value
-    arrays["B9"] = " "
-    objects = book["Objects"]
-    objects["B8"], objects["C8"] = "NORTH", "edge with parapet"
-    objects["B9"], objects["C9"], objects["E9"] = "RTU-1", "fixed object", 5
-    motions = book["Motions"]
-    motions["B8"], motions["C8"], motions["H8"] = "M1", "records/x.csv", "PPA"
-    book["Options"]["B6"] = "Yes"
+    array = {"ID": "A1", "Slope": 2.0, "Slope unit": "degrees", "Friction coefficient": 0.9}
+    put(book, of("Arrays/1", array | {"Construction": "Tray"}) | {"Arrays/2/ID": " "})
+    put(book, of("Objects/1", {"ID": "NORTH", "Kind": "edge with parapet"}))
+    put(book, of("Objects/2", {"ID": "RTU-1", "Kind": "fixed object", "x from": 5}))
+    motion = {"ID": "M1", "Horizontal record": "records/x.csv", "Scaling": "PPA"}
+    put(book, of("Motions/1", motion))
+    put(book, {"Project/Project name": "Depot", "Options/Peer review": "Yes"})
 
 
 def other_choices(book):
-    objects, site = book["Objects"], book["Site"]
-    for row, kind in ((8, "chimney"), (9, "Fixed object "), (10, "edge with parapet")):
-        objects[f"B{row}"], objects[f"C{row}"] = f"O{row}", kind
-    site["B5"], site["B6"] = "ASCE 7-10", "II"
+    for row, kind in enumerate(("chimney", "Fixed object ", "edge with parapet"), start=1):
+        put(book, of(f"Objects/{row}", {"ID": f"O{row}", "Kind": kind}))
+    put(book, {"Site/Rule set": "ASCE 7-10", "Site/Risk category": "II"})
 
 
 def inserted_row(book):
-    for row, name in ((8, "A"), (9, "B")):
-        for letter, value in zip("BCD", (name, "fixed object", 40), strict=True):
-            book["Objects"][f"{letter}{row}"] = value
-    book["Objects"]["A9"] = None
+    for row, name in ((1, "A"), (2, "B")):
+        put(book, of(f"Objects/{row}", {"ID": name, "Kind": "fixed object", "Height": 40}))
+    put(book, {"Objects/2/Status": None})
 
 
 def pasted_column(book):
-    book["Motions"]["B8"], book["Motions"]["C8"] = "M1", "Records!East"
-    book["Motions"]["B9"], book["Motions"]["C9"] = "M2", "records/m2.csv"
+    for row, record in ((1, "Records!East"), (2, "records/m2.csv")):
+        put(book, of(f"Motions/{row}", {"ID": f"M{row}", "Horizontal record": record}))
 
 
 def mistyped_names(book):
-    """The rules are computed in cells of their own."""
-    arrays, clearances = book["Arrays"], book["Clearances"]
-    for row, name in ((8, "A1"), (9, "A2"), (10, "A1 ")):
-        arrays[f"B{row}"] = name
-        twice = rule_of(arrays, "B8", AMBER)
-        arrays[f"AZ{row}"] = "=" + re.sub(r"\$B8\b", f"$B{row}", twice)
-    for row, (array, other) in enumerate((("A2", "A1"), ("A2", "RTU1"), ("A9", "A1")), start=8):
-        clearances[f"B{row}"], clearances[f"C{row}"] = array, other
-        for cell, of in (("AY", "B"), ("AZ", "C")):
-            unknown = rule_of(clearances, f"{of}8", AMBER)
-            clearances[f"{cell}{row}"] = "=" + unknown.replace("8", str(row))
+    """The rules are computed in columns of their own."""
+    put(book, {f"Arrays/{row}/ID": name for row, name in ((1, "A1"), (2, "A2"), (3, "A1 "))})
+    compute(book, ("Arrays/{}/ID", AMBER))
+    for row, (array, other) in enumerate((("A2", "A1"), ("A2", "RTU1"), ("A9", "A1")), start=1):
+        put(book, of(f"Clearances/{row}", {"Array": array, "Object": other}))
+    compute(book, ("Clearances/{}/Array", AMBER), ("Clearances/{}/Object", AMBER))
 
 
 def typed_over(book):
-    """The rules of three cells are computed in cells of their own."""
-    arrays, site = book["Arrays"], book["Site"]
-    typed = rule_of(arrays, "R8", VIOLET)
-    for row, name in ((8, "A1"), (9, "A2"), (10, "A3")):
-        arrays[f"B{row}"] = name
-        arrays[f"AZ{row}"] = "=" + typed.replace("8", str(row))
-    arrays["R8"], arrays["R9"] = 3.5, None
-    site["D13"] = 1.5
-    for cell, of in (("H13", "D13"), ("H14", "D14")):
-        site[cell] = "=" + rule_of(site, of, VIOLET)
+    """The rules of these cells are computed in columns of their own."""
+    put(book, {f"Arrays/{row}/ID": f"A{row}" for row in (1, 2, 3)})
+    compute(book, ("Arrays/{}/Slope in degrees", VIOLET))
+    put(book, of("Arrays", {"1/Slope in degrees": 3.5, "2/Slope in degrees": None}))
+    put(book, {"Site/S_DS/Computed": 1.5})
+    for name in SITE_COMPUTED:
+        found = cell(book, name)
+        beside = found.parent.cell(found.row, BESIDE)
+        beside.value = "=" + rule_of(found.parent, found.coordinate, VIOLET)
 
 
-def rule_of(sheet, cell, color):
+BESIDE = 52
+"""A column beside every table; the next ones are free as well."""
+
+SITE_COMPUTED = ("Site/S_DS/Computed", "Site/Seismic design category/Computed")
+
+
+def compute(book, *rules):
+    """Compute rules of cells, named for any row and given by color, in three rows of a table."""
+    for column, (name, color) in enumerate(rules, start=BESIDE):
+        first = cell(book, name.format(1))
+        rule = rule_of(first.parent, first.coordinate, color)
+        for row in (first.row, first.row + 1, first.row + 2):
+            of_row = re.sub(rf"(?<=[A-Z]){first.row}\b", str(row), rule)
+            first.parent.cell(row, column).value = f"={of_row}"
+
+
+def rule_of(sheet, coordinate, color):
     """Return the formula of the conditional format whose range starts at a cell, by its fill."""
     return next(
         rule.formula[0]
         for area in sheet.conditional_formatting
-        if str(area.sqref).split(":")[0] == cell
+        if str(area.sqref).split(":")[0] == coordinate
         for rule in area.rules
         if rule.dxf.fill and rule.dxf.fill.start_color.rgb == f"00{color}"
     )
@@ -200,78 +205,91 @@ def computed(tmp_path_factory):
     }
 
 
-def at(sheet, cell):
-    """The value of a cell of a computed sheet."""
-    row, column = coordinate_to_tuple(cell)
-    return sheet[row - 1][column - 1]
+def value(book, name, column=None):
+    """The value of a cell of a computed book, or of another column of its row."""
+    sheet, place = at(name).split("!")
+    row, own = coordinate_to_tuple(place)
+    return book[sheet][row - 1][(column or own) - 1]
 
 
-def holds(sheet, cell):
-    """Whether the rule that is computed in a cell holds."""
-    value = at(sheet, cell)
-    assert value in ("TRUE", "FALSE", 1.0, 0.0), value
-    return value in ("TRUE", 1.0)
+def state(book, title):
+    """What a sheet says below its title."""
+    return book[title][2][0]
+
+
+def statuses(book, title, rows=3):
+    return [value(book, f"{title}/{row}/Status") for row in range(1, rows + 1)]
+
+
+def holds(book, name, column=BESIDE):
+    """Whether the rule of a cell holds that is computed in a column of its row."""
+    found = value(book, name, column)
+    assert found in ("TRUE", "FALSE", 1.0, 0.0), found
+    return found in ("TRUE", 1.0)
 
 
 def test_a_half_filled_sheet_counts_what_is_missing(computed):
     book = computed[half_filled]
-    said = {title: at(sheet, "A3") for title, sheet in book.items()}
-    assert said["Project"] == "4 cells missing"  # number, prepared by, date, revision
-    assert said["Arrays"] == "8 cells missing"  # weight, CG, spacing, four sides, downslope
-    assert at(book["Arrays"], "A8") == 8
-    assert at(book["Arrays"], "A9") in (None, "")
-    assert [at(book["Objects"], f"A{row}") for row in (8, 9)] == [1, 3]  # height; three sides
-    assert said["Objects"] == "4 cells missing"
-    assert said["Motions"] == "1 cell missing"  # the PPA
-    assert said["Options"] == "3 cells missing"  # of the peer review
-    assert said["Clearances"] == said["Links"] == "No cells missing"
+    wanted = {
+        "Project": "4 cells missing",  # number, prepared by, date, revision
+        "Arrays": "8 cells missing",  # weight, CG, spacing, four sides, downslope
+        "Objects": "4 cells missing",
+        "Motions": "1 cell missing",  # the PPA
+        "Options": "3 cells missing",  # of the peer review
+        "Clearances": "No cells missing",
+        "Links": "No cells missing",
+    }
+    assert {title: state(book, title) for title in wanted} == wanted
+    first, second = statuses(book, "Arrays", 2)
+    assert first == 8
+    assert second in (None, "")
+    assert statuses(book, "Objects", 2) == [1, 3]  # height; three sides
 
 
 def test_a_choice_that_is_none_of_the_list_is_no_complete_row(computed):
     book = computed[other_choices]
-    status = [at(book["Objects"], f"A{row}") for row in (8, 9, 10)]
-    assert status == [-1, 0, 1]  # one wrong; capitals and blanks do not matter; no height
-    assert at(book["Objects"], "A3") == "2 cells missing or wrong"
-    assert at(book["Site"], "A3") == "7 cells missing or wrong"
-    assert at(book["Project"], "A3") == "5 cells missing"
+    # One wrong; capitals and blanks do not matter; no height.
+    assert statuses(book, "Objects") == [-1, 0, 1]
+    assert state(book, "Objects") == "2 cells missing or wrong"
+    assert state(book, "Site") == "7 cells missing or wrong"
+    assert state(book, "Project") == "5 cells missing"
 
 
 def test_an_inserted_row_without_formulas_counts_as_wrong(computed):
-    assert at(computed[inserted_row]["Objects"], "A3") == "1 cell missing or wrong"
+    assert state(computed[inserted_row], "Objects") == "1 cell missing or wrong"
 
 
 def test_a_pasted_column_needs_its_units_and_time_step(computed):
-    motions = computed[pasted_column]["Motions"]
-    assert [at(motions, f"A{row}") for row in (8, 9)] == [2, 0]
+    assert statuses(computed[pasted_column], "Motions", 2) == [2, 0]
 
 
 def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(computed):
     book = computed[mistyped_names]
-    found = [holds(book["Arrays"], f"AZ{row}") for row in (8, 9, 10)]
-    assert found == [True, False, True]
-    found = [[holds(book["Clearances"], f"{c}{r}") for c in ("AY", "AZ")] for r in (8, 9, 10)]
+    rows = (1, 2, 3)
+    assert [holds(book, f"Arrays/{row}/ID") for row in rows] == [True, False, True]
+    found = [[holds(book, f"Clearances/{r}/Array", BESIDE + k) for k in (0, 1)] for r in rows]
     assert found == [[False, False], [False, True], [True, False]]
 
 
 def test_a_computed_cell_that_was_typed_over_turns_violet(computed):
     book = computed[typed_over]
-    found = [holds(book["Arrays"], f"AZ{row}") for row in (8, 9, 10)]
-    assert found == [True, True, False]  # typed over, blank, as it should be
-    assert [holds(book["Site"], cell) for cell in ("H13", "H14")] == [True, False]
+    # Typed over, blank, as it should be.
+    assert [holds(book, f"Arrays/{row}/ID") for row in (1, 2, 3)] == [True, True, False]
+    assert [holds(book, name) for name in SITE_COMPUTED] == [True, False]
 
 
 def test_a_blank_sheet_asks_for_arrays_and_motions(computed):
     book = computed[None]
     for title in ("Arrays", "Motions"):
-        assert at(book[title], "A3") == "Fill in at least one row"
-    assert at(book["Site"], "A3") == "8 cells missing"  # seven, and a value for S_DS
+        assert state(book, title) == "Fill in at least one row"
+    assert state(book, "Site") == "8 cells missing"  # seven, and a value for S_DS
 
 
 @pytest.fixture(scope="module")
 def printed(tmp_path_factory):
     """The text of each page of a workbook whose only row is an array's name, as printed."""
     folder = tmp_path_factory.mktemp("printed")
-    path = type_into(blank(folder / "input.xlsx"), {"Arrays!B8": "A1"})
+    path = type_into(blank(folder / "input.xlsx"), {"Arrays/1/ID": "A1"})
     (file,) = converted([path], folder, "pdf")
     return [page.extract_text() for page in PdfReader(file).pages]
 
@@ -297,9 +315,13 @@ def test_the_count_of_missing_cells_fits_its_column_in_print(printed):
 
 def test_nothing_is_read_from_the_answers(tmp_path):
     answers = {
-        "Site!D13": 99.0, "Arrays!A8": 7, "Arrays!R8": "oops", "Arrays!S9": -1,
-        "Clearances!F8": "like array", "Clearances!I9": 0.01,
-    }  # fmt: skip
+        "Site/S_DS/Computed": 99.0,
+        "Arrays/A1/Status": 7,
+        "Arrays/A1/Slope in degrees": "oops",
+        "Arrays/A2/Weight per area": -1,
+        "Clearances/1/Neighbor": "like array",
+        "Clearances/2/D/C, prescriptive": 0.01,
+    }
     path = make(tmp_path)
     before = read(path)
     after = read(type_into(path, answers))
@@ -319,19 +341,24 @@ def test_a_second_reading_and_writing_keeps_formulas_marks_and_names(tmp_path):
     before.save(tmp_path / "again.xlsx")
     after = load_workbook(tmp_path / "again.xlsx")
     assert set(after.defined_names) == set(before.defined_names)
-    assert after["Arrays"]["A8"].value == before["Arrays"]["A8"].value
+    before_it, after_it = (cell(book, "Arrays/A1/Status").value for book in (before, after))
+    assert after_it == before_it
     for name in ("Arrays", "Site"):
         assert len(after[name].conditional_formatting) == len(before[name].conditional_formatting)
     assert len(after["Start"]._images) == 1
 
 
 def test_rare_columns_are_folded_until_one_is_filled(tmp_path):
-    sheet = load_workbook(blank(tmp_path / "blank.xlsx"))["Arrays"]
-    letters = {c.value: c.column_letter for c in sheet[7]}
-    rare = sheet.column_dimensions[letters["High-velocity friction"]]
+    empty = load_workbook(blank(tmp_path / "blank.xlsx"))
+    rare = column(empty, "High-velocity friction")
     assert (rare.outlineLevel, rare.hidden) == (1, True)
-    assert sheet.column_dimensions[letters["Weight [lb]"]].outlineLevel == 0
+    assert column(empty, "Weight").outlineLevel == 0
     arrays = [row.model_dump() | {"i_p": 1.25} for row in project().arrays]
-    filled = load_workbook(make(tmp_path, arrays=arrays))["Arrays"]
-    assert not filled.column_dimensions[letters["Importance factor I_p"]].hidden
-    assert filled.column_dimensions[letters["Kind of array"]].hidden
+    filled = load_workbook(make(tmp_path, arrays=arrays))
+    assert not column(filled, "Importance factor I_p").hidden
+    assert column(filled, "Kind of array").hidden
+
+
+def column(book, heading):
+    letter = cell(book, f"Arrays/heading/{heading}").column_letter
+    return book["Arrays"].column_dimensions[letter]

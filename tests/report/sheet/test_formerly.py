@@ -14,7 +14,7 @@ from report.sheet.findings import Level
 from report.sheet.older import what_is_new
 from report.sheet.read import read
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput
-from sheets import edit, make, project, same
+from sheets import edit, make, project, same, type_into
 
 
 def test_the_workbook_of_0_1_is_read_as_what_it_was_made_from():
@@ -93,10 +93,8 @@ def test_a_workbook_that_lost_one_of_the_cells_that_came_together_is_refused(tmp
 
 
 def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
-    def change(book):
-        book["Options"]["B35"] = "max_storeys"
-
-    (override,) = read(edit(make(tmp_path), change)).project.overrides
+    path = type_into(make(tmp_path), {"Options/1/Provision": "max_storeys"})
+    (override,) = read(path).project.overrides
     assert override.provision == "max_stories"
 
 

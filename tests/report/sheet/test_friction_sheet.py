@@ -5,9 +5,10 @@ import datetime as dt
 import pytest
 from openpyxl import load_workbook
 
+from cells import cell
 from report.sheet.grids import BLOCK_WIDTHS
 from report.sheet.schema import FrictionTests, UnitsFirst
-from sheets import INCH, edit, make, problems, project, read_workbook, type_into
+from sheets import INCH, arrays, at, edit, make, problems, project, read_workbook, said, type_into
 
 SHEET = "Friction tests"
 REPORT = {
@@ -19,7 +20,6 @@ REPORT = {
     "membrane": "TPO, 60 mil",
     "support": "EPDM pad",
 }
-TOP = 21  # first row of the runs
 
 
 def run(surface, number, mu, **changes):
@@ -38,19 +38,14 @@ def path(tmp_path):
     return make(tmp_path, friction_tests=REPORT, friction_runs=runs())
 
 
-def arrays(**changes):
-    first, second = (array.model_dump() for array in project().arrays)
-    return [first | changes, second]
-
-
 @pytest.mark.parametrize("units", UnitsFirst)
 def test_report_and_runs_are_read_in_the_units_of_the_sheet(tmp_path, units):
     path = make(tmp_path, units, friction_tests=REPORT, friction_runs=runs())
-    sheet = load_workbook(path)[SHEET]
-    assert [sheet[f"{c}{TOP - 1}"].value for c in "BCDFG"] == [
-        "Surface", "Run", "Kinetic coefficient", "Static coefficient", "Report",
-    ]  # fmt: skip
-    assert sheet[f"E{TOP}"].value == pytest.approx(1.0 if units is UnitsFirst.US else 25.4)
+    opened = load_workbook(path)
+    for heading in ("Surface", "Run", "Kinetic coefficient", "Static coefficient", "Report"):
+        assert cell(opened, f"{SHEET}/heading/{heading}").value == heading
+    velocity = cell(opened, f"{SHEET}/1/Velocity").value
+    assert velocity == pytest.approx(1.0 if units is UnitsFirst.US else 25.4)
     workbook = read_workbook(path).input
     assert workbook.friction_tests == FrictionTests(**REPORT)
     first, *_, last = [row.run("FT-118") for row in workbook.friction_runs]
@@ -68,39 +63,42 @@ def test_a_workbook_without_the_sheet_has_no_tests(path):
 
 
 def test_a_table_below_a_block_leaves_its_columns_as_they_are(path):
-    note = load_workbook(path)[SHEET].column_dimensions["G"]
+    opened = load_workbook(path)
+    letter = cell(opened, f"{SHEET}/Laboratory/Note").column_letter
+    note = opened[SHEET].column_dimensions[letter]
     assert note.width == BLOCK_WIDTHS[6]
     assert not note.hidden
 
 
 CELLS = [
-    (f"B{TOP}", "damp", "surface is 'damp'; choose dry or wet"),
-    (f"B{TOP}", None, "surface is missing"),
-    (f"C{TOP}", 0, "run is 0; give a whole number from 1 to 1000"),
-    (f"C{TOP + 1}", 1, f"run is 1, dry, already given at {SHEET}!C{TOP}; give another number"),
-    (f"D{TOP}", 1.6, "kinetic coefficient is 1.6; give a number from 0 to 1.5"),
-    (f"D{TOP}", None, "kinetic coefficient is missing"),
-    (f"E{TOP}", -1, "velocity is -1; give a number of 0 or more [in/s]"),
-    (f"E{TOP - 1}", "Velocity [mph]", "unit of velocity is 'mph'; write one of in/s, in/min,"),
-    ("B9", "June", "report date is 'June'; give a date such as 2026-03-05"),
+    ("1/Surface", "damp", "surface is 'damp'; choose dry or wet"),
+    ("1/Surface", None, "surface is missing"),
+    ("1/Run", 0, "run is 0; give a whole number from 1 to 1000"),
+    ("2/Run", 1, f"run is 1, dry, already given at <{SHEET}/1/Run>; give another number"),
+    ("1/Kinetic coefficient", 1.6, "kinetic coefficient is 1.6; give a number from 0 to 1.5"),
+    ("1/Kinetic coefficient", None, "kinetic coefficient is missing"),
+    ("1/Velocity", -1, "velocity is -1; give a number of 0 or more [in/s]"),
+    ("heading/Velocity", "Velocity [mph]", "unit of velocity is 'mph'; write one of in/s, in/min,"),
+    ("Report date", "June", "report date is 'June'; give a date such as 2026-03-05"),
 ]
 
 
-@pytest.mark.parametrize(("cell", "value", "line"), CELLS)
-def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
-    reported = problems(type_into(path, {f"{SHEET}!{cell}": value}))
-    assert any(problem.startswith(f"{SHEET}!{cell}: {line}") for problem in reported), reported
-    assert len(reported) == 1
+@pytest.mark.parametrize(("name", "value", "line"), CELLS)
+def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, name, value, line):
+    (reported,) = problems(type_into(path, {f"{SHEET}/{name}": value}))
+    assert reported.startswith(at(f"<{SHEET}/{name}>: {line}"))
+
+
+MU = "<Arrays/{}/Friction coefficient>: friction coefficient"
 
 
 def test_a_coefficient_above_the_smaller_mean_is_reported_with_both_cells(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.50), friction_tests=REPORT, friction_runs=runs())
-    line = (
-        "Arrays!E8: friction coefficient is 0.5; the tests give 0.46 (wet, mean of 3 from"
-        f" {SHEET}!D{TOP + 3}); give 0.46 or less"
+    assert problems(path) == said(
+        f"{MU.format('A1')} is 0.5; the tests give 0.46 (wet, mean of 3 from"
+        f" <{SHEET}/4/Kinetic coefficient>); give 0.46 or less"
     )
-    assert problems(path) == (line,)
-    assert read_workbook(type_into(path, {"Arrays!E8": 0.46})).input
+    assert read_workbook(type_into(path, {"Arrays/A1/Friction coefficient": 0.46})).input
 
 
 @pytest.mark.parametrize(("mu", "is_accepted"), [(0.4649, True), (0.4651, False)])
@@ -112,9 +110,9 @@ def test_rounding_to_two_decimals_is_allowed(tmp_path, mu, is_accepted):
 
 def test_one_run_in_one_condition_is_compared_too(tmp_path):
     path = make(tmp_path, friction_runs=runs(dry=(), wet=(0.44,)))
-    assert [line.split(";")[0] for line in problems(path)] == [
-        "Arrays!E8: friction coefficient is 0.45", "Arrays!E9: friction coefficient is 0.45",
-    ]  # fmt: skip
+    assert tuple(line.split(";")[0] for line in problems(path)) == said(
+        *(f"{MU.format(array)} is 0.45" for array in ("A1", "A2"))
+    )
 
 
 def test_an_array_that_names_a_report_is_compared_with_that_report(tmp_path):
@@ -138,20 +136,22 @@ def test_a_law_is_compared_at_the_tested_velocities(tmp_path):
     for name, given in (("fast", fast), ("unknown", unknown)):
         (line,) = problems(make(tmp_path / name, arrays=both, friction_runs=given))
         assert line.startswith(
-            "Arrays!E8: friction coefficient averages 0.6 at the tested velocities; the tests give"
-            " 0.41 (dry, mean of 3 from"
+            at(f"{MU.format('A1')} averages 0.6 at the tested velocities; the tests give")
+            + " 0.41 (dry, mean of 3 from"
         )
         assert line.endswith("; reduce it")
 
 
 def test_static_friction_above_the_tested_mean_is_reported(tmp_path):
     path = make(tmp_path, arrays=arrays(mu_static=0.52), friction_runs=runs())
-    assert problems(path) == (
-        "Arrays!V8: static friction is 0.52; the tests give 0.5 (wet); give 0.5 or less",
+    assert problems(path) == said(
+        "<Arrays/A1/Static friction>: static friction is 0.52; the tests give 0.5 (wet); give 0.5"
+        " or less"
     )
 
 
 def test_coefficients_are_not_compared_while_a_run_cannot_be_read(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.50), friction_runs=runs())
-    (line,) = problems(type_into(path, {f"{SHEET}!D{TOP}": "x"}))
-    assert line.startswith(f"{SHEET}!D{TOP}: kinetic coefficient is 'x'")
+    name = f"{SHEET}/1/Kinetic coefficient"
+    (line,) = problems(type_into(path, {name: "x"}))
+    assert line.startswith(at(f"<{name}>: kinetic coefficient is 'x'"))

@@ -7,7 +7,7 @@ from click.testing import CliRunner
 from report.cli.main import main
 from report.sheet.grouped import grouped
 from report.web.problems import problems
-from sheets import make, type_into
+from sheets import at, make, said, type_into
 
 WRONG = "friction coefficient is 'wet'; give a number from 0 to 1.5"
 OTHER = "weight is 0; give a number of more than 0 [lb]"
@@ -32,20 +32,26 @@ def test_errors_that_differ_stay_apart_in_their_order():
     ]
 
 
+MU = "Arrays/{}/Friction coefficient"
+WET = {MU.format("A1"): "wet", MU.format("A2"): "wet"}
+
+
 def test_check_prints_one_line_and_counts_all(tmp_path):
-    path = type_into(make(tmp_path), {"Arrays!E8": "wet", "Arrays!E9": "wet", "Arrays!H8": 0})
+    path = type_into(make(tmp_path), WET | {"Arrays/A1/Weight": 0})
     done = CliRunner().invoke(main, ["check", str(path)])
     assert done.exit_code == 2
     head, *lines = done.stderr.splitlines()
     assert head == f"{path}: 3 problems found."
-    assert lines == [f"  Arrays!E8, Arrays!E9: {WRONG}", f"  Arrays!H8: {OTHER}"]
+    assert lines == [f"  {', '.join(said(*WET))}: {WRONG}", at(f"  <Arrays/A1/Weight>: {OTHER}")]
     data = json.loads(CliRunner().invoke(main, ["check", str(path), "--json"]).stdout)
     assert len(data["errors"]) == 3
 
 
 def test_the_page_shows_the_cells_with_the_row_of_the_first(tmp_path):
-    path = type_into(make(tmp_path), {"Arrays!E8": "wet", "Arrays!E9": "wet"})
-    (found,) = problems(path, [f"Arrays!E8: {WRONG}", f"Arrays!E9: {WRONG}"])
-    assert (found["cell"], found["cells"]) == ("E8", "E8, E9")
-    assert found["text"] == f"Arrays!E8, Arrays!E9: {WRONG}"
+    cells = said(*WET)
+    path = type_into(make(tmp_path), WET)
+    (found,) = problems(path, [f"{cell}: {WRONG}" for cell in cells])
+    first, second = (cell.partition("!")[2] for cell in cells)
+    assert (found["cell"], found["cells"]) == (first, f"{first}, {second}")
+    assert found["text"] == f"{', '.join(cells)}: {WRONG}"
     assert found["row"]["cells"][found["row"]["at"]] == "wet"

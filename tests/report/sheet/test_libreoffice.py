@@ -5,13 +5,15 @@ from openpyxl import load_workbook
 from recalculated import converted
 from test_live import OVER, check, formulas, lost, typed_over
 
+from cells import cell
 from report.sheet.parts import write_cells
 from report.sheet.positions import CellPosition
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template
-from sheets import blank, edit, make, project, same, type_into
+from sheets import blank, edit, make, project, said, same, type_into
 
+WEIGHT = "Arrays/A1/Weight"
 METRIC = project(
     arrays=[row.model_dump() | {"i_p": 1.5} for row in project().arrays],
     objects=[row.model_dump() | {"i_p": 1.25} for row in project().objects],
@@ -23,7 +25,7 @@ METRIC = project(
 def saved(tmp_path_factory):
     """Workbooks by name, beside their records, as LibreOffice saves them in one start."""
     folder = tmp_path_factory.mktemp("saved")
-    filled = type_into(make(folder), {"Arrays!H8": "=21000*2"}).rename(folder / "filled.xlsx")
+    filled = type_into(make(folder), {WEIGHT: "=21000*2"}).rename(folder / "filled.xlsx")
     metric = folder / "metric.xlsx"
     write_template(metric, units=UnitsFirst.SI, example=METRIC)
     empty = blank(folder / "blank.xlsx", UnitsFirst.SI)
@@ -42,10 +44,10 @@ def test_cells_of_a_saved_book_are_changed_and_read(saved):
     book = saved["filled"].with_name("changed.xlsx")
     book.write_bytes(saved["filled"].read_bytes())
     before = read(book).project
-    sheet = load_workbook(book)["Arrays"]
-    assert sheet["H8"].value == "=21000*2"
-    heading = next(c for row in sheet.iter_rows() for c in row if c.value == "x to [ft]")
-    write_cells(book, {CellPosition("Arrays", 8, heading.column): 99.0})
+    opened = load_workbook(book)
+    assert cell(opened, WEIGHT).value == "=21000*2"
+    side = cell(opened, "Arrays/A1/x to")
+    write_cells(book, {CellPosition("Arrays", side.row, side.column): 99.0})
     after = read(book)
     assert after.problems == ()
     first = after.project.arrays[0]
@@ -64,6 +66,6 @@ def test_a_saved_book_gives_no_warning_and_is_repaired(saved, tmp_path):
         assert (sheet.unseen, sheet.warnings) == ((), ()), name
     spoiled = book.with_name("spoiled.xlsx")
     spoiled.write_bytes(book.read_bytes())
-    assert lost(edit(spoiled, typed_over)) == OVER
+    assert tuple(lost(edit(spoiled, typed_over))) == said(*OVER)
     assert check("--repair", spoiled).output.startswith(f"{len(OVER)} formulas restored")
     assert lost(spoiled) == []

@@ -6,8 +6,22 @@ import pytest
 from openpyxl import load_workbook
 from pydantic import ValidationError
 
+from cells import cell
 from report.sheet.schema import Links, UnitsFirst, coefficients
-from sheets import INCH, LB, edit, make, problems, project, read_workbook, type_into
+from sheets import (
+    INCH,
+    LB,
+    arrays,
+    at,
+    edit,
+    make,
+    of,
+    problems,
+    project,
+    read_workbook,
+    said,
+    type_into,
+)
 from solver.sliding.row import MOST_STEPS, least_steps
 
 G = 9.80665
@@ -24,16 +38,11 @@ def path(tmp_path):
     return make(tmp_path, links=[links(damping_ratio=0.02), links("A2")])
 
 
-def arrays(**changes):
-    first, second = (array.model_dump() for array in project().arrays)
-    return [first | changes, second]
-
-
 def test_a_row_is_read_in_the_units_of_the_sheet(tmp_path):
     for units in UnitsFirst:
         path = make(tmp_path / str(units), units, links=[links(damping_ratio=0.02)])
-        cell = load_workbook(path)["Links"]["D8"].value
-        assert cell == pytest.approx(5000 if units is UnitsFirst.US else 5 * LB / INCH)
+        typed = cell(load_workbook(path), "Links/1/Link stiffness").value
+        assert typed == pytest.approx(5000 if units is UnitsFirst.US else 5 * LB / INCH)
         (row,) = read_workbook(path).input.links
         assert row.mus == (0.4, 0.45, 0.5)
         assert row.stiffness_n_per_m == pytest.approx(5000 * LB / INCH)
@@ -90,54 +99,50 @@ def test_text_that_is_not_a_list_of_coefficients_is_reported(tmp_path):
         "objects": [],
         "clearances": [],
     }
-    cells = {f"Links!C{row}": text for row, text in enumerate(NO_LISTS, start=8)}
-    assert problems(type_into(make(tmp_path, **changes), cells)) == tuple(
-        f"{cell}: block friction is '{text}'; {WANTED}" for cell, text in cells.items()
+    cells = {f"Links/{row}/Block friction": text for row, text in enumerate(NO_LISTS, start=1)}
+    assert problems(type_into(make(tmp_path, **changes), cells)) == said(
+        *(f"<{name}>: block friction is '{text}'; {WANTED}" for name, text in cells.items())
     )
 
 
+RANGE = "give a range that includes it, or change it"
 CELLS = [
-    ("B8", "a1", "array is 'a1', which is not in Arrays; did you mean 'A1'?"),
-    ("B8", "RTU-1", "array is 'RTU-1', which is not in Arrays; give one of A1, A2"),
-    ("B8", None, "array is missing; give text such as 'A1'"),
-    ("B9", "A1", "array is 'A1', already given at Links!B8; delete one"),
-    ("C8", None, "block friction is missing; give text such as '0.40, 0.45, 0.50'"),
-    (
-        "C8",
-        "0.4," * 51,
-        "block friction is 204 characters long; give text of at most 200 characters",
-    ),
-    (
-        "C8",
-        "0.50, 0.55",
-        "block friction is '0.50, 0.55', all above the 0.45 at Arrays!E8; give a range"
-        " that includes it, or change it",
-    ),
-    (
-        "C9",
-        "0.40, 0.42",
-        "block friction is '0.40, 0.42', all below the 0.45 at Arrays!E9; give a range"
-        " that includes it, or change it",
-    ),
-    ("D8", 0, "link stiffness is 0; give a number of more than 0 [lb/in]"),
-    ("D8", "inf", "link stiffness is 'inf'; give a number of more than 0 [lb/in]"),
-    ("D7", "Link stiffness [psi]", "unit of link stiffness is 'psi'; write one of lb/in, kip/in,"),
-    ("E8", 1.1, "link damping is 1.1; give a number from 0 to 1"),
-    ("E8", -0.1, "link damping is -0.1; give a number from 0 to 1"),
-]
+    ("Links/1/Array", "a1", "array is 'a1', which is not in Arrays; did you mean 'A1'?"),
+    ("Links/1/Array", "RTU-1", "array is 'RTU-1', which is not in Arrays; give one of A1, A2"),
+    ("Links/1/Array", None, "array is missing; give text such as 'A1'"),
+    ("Links/2/Array", "A1", "array is 'A1', already given at <Links/1/Array>; delete one"),
+    ("Links/1/Block friction", None,
+     "block friction is missing; give text such as '0.40, 0.45, 0.50'"),
+    ("Links/1/Block friction", "0.4," * 51,
+     "block friction is 204 characters long; give text of at most 200 characters"),
+    ("Links/1/Block friction", "0.50, 0.55",
+     "block friction is '0.50, 0.55', all above the 0.45 at <Arrays/A1/Friction coefficient>;"
+     f" {RANGE}"),
+    ("Links/2/Block friction", "0.40, 0.42",
+     "block friction is '0.40, 0.42', all below the 0.45 at <Arrays/A2/Friction coefficient>;"
+     f" {RANGE}"),
+    ("Links/1/Link stiffness", 0,
+     "link stiffness is 0; give a number of more than 0 [lb/in]"),
+    ("Links/1/Link stiffness", "inf",
+     "link stiffness is 'inf'; give a number of more than 0 [lb/in]"),
+    ("Links/heading/Link stiffness", "Link stiffness [psi]",
+     "unit of link stiffness is 'psi'; write one of lb/in, kip/in,"),
+    ("Links/1/Link damping", 1.1, "link damping is 1.1; give a number from 0 to 1"),
+    ("Links/1/Link damping", -0.1, "link damping is -0.1; give a number from 0 to 1"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(("cell", "value", "line"), CELLS)
-def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
-    reported = problems(type_into(path, {f"Links!{cell}": value}))
-    assert any(problem.startswith(f"Links!{cell}: {line}") for problem in reported), reported
+@pytest.mark.parametrize(("name", "value", "line"), CELLS)
+def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, name, value, line):
+    reported = problems(type_into(path, {name: value}))
+    wanted = at(f"<{name}>: {line}")
+    assert any(problem.startswith(wanted) for problem in reported), reported
 
 
 def test_all_errors_are_reported_together(path):
-    wrong = {"Links!B8": "A7", "Links!C8": "0.4", "Links!E9": 2}
-    assert [line.split(":")[0] for line in problems(type_into(path, wrong))] == [
-        "Links!B8", "Links!C8", "Links!E9",
-    ]  # fmt: skip
+    wrong = of("Links/1", {"Array": "A7", "Block friction": "0.4", "Link damping": 2})
+    reported = problems(type_into(path, wrong))
+    assert tuple(line.split(":")[0] for line in reported) == said(*wrong)
 
 
 @pytest.mark.parametrize(
@@ -145,9 +150,9 @@ def test_all_errors_are_reported_together(path):
 )
 def test_a_row_takes_one_coefficient_for_each_block(tmp_path, friction):
     path = make(tmp_path, arrays=arrays(**friction), links=[links(), links("A2")])
-    assert problems(path) == (
-        "Links!B8: array is 'A1', which has high-velocity or static friction; leave both blank on"
-        " the sheet Arrays, or delete this row",
+    assert problems(path) == said(
+        "<Links/1/Array>: array is 'A1', which has high-velocity or static friction; leave both"
+        " blank on the sheet Arrays, or delete this row"
     )
 
 
@@ -161,12 +166,11 @@ def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted
         tmp_path,
         links=[links(lb_in=5e12, damping_ratio=1.0), links("A2", lb_in=4e12, damping_ratio=0.5)],
     )
-    first, second = problems(path)
-    assert first.startswith("Links!D8: link stiffness is 5e+12 lb/in (8.8e+11 kN/m), too stiff to")
-    assert second.startswith("Links!D9: link stiffness is 4e+12 lb/in")
-    for cell, line in (("D8", first), ("D9", second)):
-        most = float(line.split("give ")[1].split(" lb/in")[0])
-        type_into(path, {f"Links!{cell}": most})
+    wanted = ("5e+12 lb/in (8.8e+11 kN/m), too stiff to", "4e+12 lb/in")
+    for row, (stiffness, line) in enumerate(zip(wanted, problems(path), strict=True), start=1):
+        name = f"Links/{row}/Link stiffness"
+        assert line.startswith(at(f"<{name}>: link stiffness is {stiffness}"))
+        type_into(path, {name: float(line.split("give ")[1].split(" lb/in")[0])})
     book = read_workbook(path)
     seconds = sum(len(m.headings) * m.dt_s * len(m.ax_mps2) for m in book.motions)
     for row in book.input.links:

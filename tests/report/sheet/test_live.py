@@ -1,18 +1,18 @@
 """Live formulas that were typed over are found and restored; those that were not are left alone."""
 
 import re
-import zipfile
 
 import pytest
 from click.testing import CliRunner
 
+from cells import cell
 from places import DATA
 from report.cli.main import main
 from report.sheet.archive import open_book
 from report.sheet.live import findings, live_formulas, overwritten
 from report.sheet.schema import UnitsFirst
 from report.sheet.spelling import canonical, moved
-from sheets import blank, edit, make, type_into
+from sheets import at, blank, edit, formula_cells, make, pack, parts, put, retitle, said, type_into
 
 
 def lost(path):
@@ -20,7 +20,7 @@ def lost(path):
     return [item.position.address for item in overwritten(open_book(path))]
 
 
-def said(path):
+def warnings(path):
     """The warnings by cell."""
     return {item.cell: item.text for item in findings(overwritten(open_book(path)))}
 
@@ -43,38 +43,45 @@ def formulas_of(book):
 def test_every_formula_of_a_new_workbook_is_watched_and_as_it_should_be(tmp_path, units, is_filled):
     path = make(tmp_path, units) if is_filled else blank(tmp_path / "input.xlsx", units)
     book = open_book(path)
-    watched = {at.address: text for at, text in live_formulas(book).items()}
+    watched = {place.address: text for place, text in live_formulas(book).items()}
     assert watched == formulas_of(book)
     assert overwritten(book) == ()
 
 
 def typed_over(book):
     """What a person does: a value, nothing, a formula of his own, one copied from elsewhere."""
-    site, arrays, clearances = book["Site"], book["Arrays"], book["Clearances"]
-    site["D13"] = 1.2
-    arrays["A8"] = None
-    clearances["F9"] = "=B9&C9"
-    clearances["I8"], clearances["I9"], clearances["I10"] = 0.5, 0.5, "=H8"
-    book["Provisions"]["C6"] = 60
-    book["Tables"]["B82"] = "=#REF!"
-    arrays["A3"] = "done"
-    book["Start"]["E15"] = clearances["H8"].value
+    other = cell(book, "Clearances/1/Required, prescriptive").value
+    put(book, OVER | {"Start/Friction tests": other})
 
 
-OVER = [
-    "Start!E15", "Site!D13", "Arrays!A3", "Arrays!A8", "Clearances!F9", "Clearances!I8",
-    "Clearances!I9", "Clearances!I10", "Provisions!C6", "Tables!B82",
-]  # fmt: skip
+RATIO = "Clearances/{}/D/C, prescriptive"
+FACTOR = "Provisions/Factor on (S_DS - 0.4)^2 in the prescriptive displacement/In use"
+OVER = {
+    "Start/Friction tests": None,
+    "Site/S_DS/Computed": 1.2,
+    "Arrays!A3": "done",  # the state of the sheet, below its title
+    "Arrays/A1/Status": None,
+    "Clearances/2/Neighbor": "=B9&C9",
+    RATIO.format(1): 0.5,
+    RATIO.format(2): 0.5,
+    RATIO.format(3): "=H8",
+    FACTOR: 60,
+    "Tables/Arrays: Support spacing": "=#REF!",
+}
 
 
 def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
     found = overwritten(open_book(edit(make(tmp_path), typed_over)))
-    assert [item.position.address for item in found] == OVER
+    assert tuple(item.position.address for item in found) == said(*OVER)
     texts = {item.cell: item.text for item in findings(found)}
-    assert texts["Site!D13"].startswith("S_DS, computed, is 1.2, typed over its formula =IF(ISNUM")
-    assert "is blank, and its formula is gone: =IF(SUMPRODUCT" in texts["Arrays!A8"]
-    assert texts["Clearances!F9"].startswith("Neighbor is =B9&C9, and its formula is =IFERROR(IF")
-    assert texts["Clearances!I8:I10"].startswith("D/C, prescriptive (3 cells) is 0.5, typed")
+    ratios = ":".join((at(RATIO.format(1)), at(RATIO.format(3)).partition("!")[2]))
+    for place, words in {
+        at("Site/S_DS/Computed"): "S_DS, computed, is 1.2, typed over its formula =IF(ISNUM",
+        at("Arrays/A1/Status"): "is blank, and its formula is gone: =IF(SUMPRODUCT",
+        at("Clearances/2/Neighbor"): "Neighbor is =B9&C9, and its formula is =IFERROR(IF",
+        ratios: "D/C, prescriptive (3 cells) is 0.5, typed",
+    }.items():
+        assert words in texts[place]
     assert all(text.endswith("; roofslip check --repair restores it") for text in texts.values())
 
 
@@ -84,11 +91,12 @@ def test_check_warns_and_repair_restores_every_formula_to_the_letter(tmp_path):
     edit(path, typed_over)
     warned = check(path)
     assert warned.exit_code == 0
-    for cell in ("Site!D13", "Clearances!I8:I10", "Provisions!C6", "Start!E15"):
-        assert f"warning: {cell}: " in warned.output
+    for name in ("Site/S_DS/Computed", FACTOR, "Start/Friction tests"):
+        assert f"warning: {at(name)}: " in warned.output
+    assert f"warning: {at(RATIO.format(1))}:" in warned.output
     repaired = check("--repair", path)
     assert repaired.exit_code == 0
-    assert repaired.output.startswith(f"{len(OVER)} formulas restored: {', '.join(OVER)}\n")
+    assert repaired.output.startswith(f"{len(OVER)} formulas restored: {', '.join(said(*OVER))}\n")
     assert "--repair" not in repaired.output
     assert formulas(path) == before
     whole = path.read_bytes()
@@ -96,19 +104,14 @@ def test_check_warns_and_repair_restores_every_formula_to_the_letter(tmp_path):
     assert path.read_bytes() == whole
 
 
-def parts(path):
-    with zipfile.ZipFile(path) as archive:
-        return {name: archive.read(name) for name in archive.namelist()}
-
-
 def test_repair_changes_the_one_cell_and_keeps_its_format(tmp_path):
-    path = make(tmp_path)
-    type_into(path, {"Site!D13": 1.2})
+    name = "Site/S_DS/Computed"
+    path = type_into(make(tmp_path), {name: 1.2})
     old = parts(path)
     assert check("--repair", "--quiet", path).output == ""
     new = parts(path)
     assert {name for name in old if old[name] != new[name]} == {"xl/worksheets/sheet3.xml"}
-    cell = rb'<c r="D13"([^>]*)>.*?</c>'
+    cell = rb'<c r="%b"([^>]*)>.*?</c>' % at(name).partition("!")[2].encode()
     sheet = "xl/worksheets/sheet3.xml"
     assert re.sub(cell, b"", old[sheet]) == re.sub(cell, b"", new[sheet])
     style = [
@@ -121,17 +124,13 @@ def test_a_renamed_sheet_other_units_and_new_rows_give_no_warning(tmp_path):
     def change(book):
         # As Excel does it: what refers to a heading or a sheet follows.
         book["Arrays"].title = "Our arrays"
-        arrays = book["Our arrays"]
-        arrays["H7"] = "Weight [kip]"
-        arrays.tables["arrays_table"].tableColumns[7].name = "Weight [kip]"
+        retitle(book, "Our arrays", "Weight", "Weight [kip]")
         for name in book.defined_names:
             defined = book.defined_names[name]
             defined.attr_text = defined.attr_text.replace("'Arrays'", "'Our arrays'")
-        for sheet in book:
-            for cell in (cell for row in sheet.iter_rows() for cell in row):
-                if cell.data_type == "f":
-                    text = str(cell.value).replace("Weight '[lb']", "Weight '[kip']")
-                    cell.value = text.replace("'Arrays'!", "'Our arrays'!")
+        for found in formula_cells(book):
+            text = str(found.value).replace("Weight '[lb']", "Weight '[kip']")
+            found.value = text.replace("'Arrays'!", "'Our arrays'!")
 
     book = open_book(edit(make(tmp_path), change))
     assert overwritten(book) == ()
@@ -147,17 +146,14 @@ def test_a_formula_that_is_moved_refers_to_the_rows_where_it_is():
 
 def test_a_formula_that_refers_to_a_deleted_column_is_named_and_not_repaired(tmp_path):
     def delete(book):
-        for sheet in book:
-            for cell in (cell for row in sheet.iter_rows() for cell in row):
-                if cell.data_type == "f" and "Slope in degrees" in str(cell.value):
-                    cell.value = re.sub(
-                        r"arrays_table\[+[^\[]*Slope in degrees\]+", "#REF!", cell.value
-                    )
-        book["Arrays"]["R7"] = "My column"
-        book["Arrays"].tables["arrays_table"].tableColumns[17].name = "My column"
+        for found in formula_cells(book):
+            found.value = re.sub(
+                r"arrays_table\[+[^\[]*Slope in degrees\]+", "#REF!", str(found.value)
+            )
+        retitle(book, "Arrays", "Slope in degrees", "My column")
 
     path = edit(make(tmp_path), delete)
-    texts = said(path)
+    texts = warnings(path)
     assert any("refers to a column that is missing" in text for text in texts.values())
     before = path.read_bytes()
     assert check("--repair", path).output.startswith("0 formulas restored\n")
@@ -173,17 +169,17 @@ def test_a_wrong_formula_filled_down_is_repaired_although_the_cells_share_it(tmp
     before = formulas(path)
     files = parts(path)
     name = "xl/worksheets/sheet7.xml"
-    for row, formula in (
-        ("8", '<f t="shared" ref="I8:I9" si="0">H8*2</f>'),
-        ("9", '<f t="shared" si="0"/>'),
+    places = said(RATIO.format(1), RATIO.format(2))
+    first, second = (place.partition("!")[2] for place in places)
+    for at_cell, formula in (
+        (first, f'<f t="shared" ref="{first}:{second}" si="0">H8*2</f>'),
+        (second, '<f t="shared" si="0"/>'),
     ):
-        new = f'<c r="I{row}" t="n">{formula}<v>1</v></c>'.encode()
-        files[name], count = re.subn(rb'<c r="I%b"[^>]*>.*?</c>' % row.encode(), new, files[name])
+        new = f'<c r="{at_cell}" t="n">{formula}<v>1</v></c>'.encode()
+        old = rb'<c r="%b"[^>]*>.*?</c>' % at_cell.encode()
+        files[name], count = re.subn(old, new, files[name])
         assert count == 1
-    with zipfile.ZipFile(path, "w") as archive:
-        for part, content in files.items():
-            archive.writestr(part, content)
-    assert lost(path) == ["Clearances!I8", "Clearances!I9"]
+    assert tuple(lost(pack(path, files))) == places
     assert check("--repair", path).output.startswith("2 formulas restored")
     assert formulas(path) == before
 

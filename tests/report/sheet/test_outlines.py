@@ -5,7 +5,21 @@ from openpyxl import load_workbook
 
 from report.sheet.read import read
 from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
-from sheets import FT, blank, edit, make, problems, project, read_workbook, same, type_into
+from sheets import (
+    FT,
+    arrays,
+    at,
+    blank,
+    edit,
+    make,
+    of,
+    problems,
+    project,
+    read_workbook,
+    said,
+    same,
+    type_into,
+)
 
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))
 ROOF_FT = ((0, -1), (300, -1), (300, 121), (150, 121), (150, 140), (0, 140))
@@ -18,9 +32,8 @@ def vertices(name, points):
 
 def outlined(points=L_FT, *, roof=(), clearances=()):
     """Changes to the project: A1 by an outline."""
-    first, second = (array.model_dump() for array in project().arrays)
     return {
-        "arrays": [first | BLANK, second],
+        "arrays": arrays(**BLANK),
         "outlines": [*vertices("A1", points), *vertices(ROOF, roof)],
         "clearances": list(clearances),
     }
@@ -59,15 +72,17 @@ def test_the_blank_sheet_asks_for_sides_or_an_outline(tmp_path):
 
 
 def changed(tmp_path, cells):
-    """The problems of a workbook with an outline of A1 in B7:D13, after cells of it are typed."""
-    path = make(tmp_path, **outlined())
-    return problems(type_into(path, {f"Outlines!{cell}": value for cell, value in cells.items()}))
+    """The problems of a workbook with an outline of A1, after cells of it are typed."""
+    return problems(type_into(make(tmp_path, **outlined()), of("Outlines", cells)))
+
+
+FIRST = "<Outlines/1/Outline of>"
 
 
 def test_an_unknown_name_is_told_by_its_cell(tmp_path):
-    found = changed(tmp_path, {f"B{row}": "A11" for row in range(8, 14)})
-    assert found[-1] == (
-        "Outlines!B8: outline of 'A11', which is not in Arrays or Objects; did you mean 'A1'?"
+    found = changed(tmp_path, {f"{row}/Outline of": "A11" for row in range(1, 7)})
+    assert found[-1] == at(
+        f"{FIRST}: outline of 'A11', which is not in Arrays or Objects; did you mean 'A1'?"
     )
     assert found[0].endswith(
         "x from is missing; give all four sides of the rectangle, or an outline on the sheet"
@@ -76,38 +91,40 @@ def test_an_unknown_name_is_told_by_its_cell(tmp_path):
 
 
 def test_two_vertices_are_no_outline(tmp_path):
-    cleared = {f"{column}{row}": None for column in "BCD" for row in range(10, 14)}
-    assert changed(tmp_path, cleared) == (
-        "Outlines!B8: A1 has 2 vertices; give at least 3, one to a row",
+    headings = ("Outline of", "x", "y")
+    cleared = {f"{row}/{heading}": None for heading in headings for row in range(3, 7)}
+    assert changed(tmp_path, cleared) == said(
+        f"{FIRST}: A1 has 2 vertices; give at least 3, one to a row"
     )
 
 
 def test_an_outline_that_crosses_itself_is_told_with_the_point(tmp_path):
-    (found,) = changed(tmp_path, {"C9": 30, "D9": 90})  # across the upper side
-    assert found.startswith("Outlines!B8: outline of A1 touches or crosses itself near x ")
+    (found,) = changed(tmp_path, {"2/x": 30, "2/y": 90})  # across the upper side
+    assert found.startswith(at(f"{FIRST}: outline of A1 touches or crosses itself near x "))
     assert found.endswith("; give its vertices in order, none of them twice")
 
 
 @pytest.mark.parametrize("typed", ["abc", "inf", "nan", None])
 def test_a_coordinate_that_is_no_number_is_told_by_its_cell(tmp_path, typed):
-    (found,) = changed(tmp_path, {"D9": typed})
-    assert found.startswith("Outlines!D9: y is ")
+    (found,) = changed(tmp_path, {"2/y": typed})
+    assert found.startswith(at("<Outlines/2/y>: y is "))
     assert found.endswith("; give a number [ft]")
 
 
 def test_an_outline_in_two_places_is_refused(tmp_path):
-    assert (
-        "Outlines!B12: outline of 'A1' goes on here after Outlines!B10; put all of its rows"
-        " together" in changed(tmp_path, {"B11": "A2"})
+    line = at(
+        "<Outlines/5/Outline of>: outline of 'A1' goes on here after <Outlines/3/Outline of>; put"
+        " all of its rows together"
     )
+    assert line in changed(tmp_path, {"4/Outline of": "A2"})
 
 
 def test_a_rectangle_and_an_outline_of_the_same_name_are_refused(tmp_path):
-    path = make(tmp_path, **outlined() | {"arrays": [a.model_dump() for a in project().arrays]})
+    path = make(tmp_path, **outlined() | {"arrays": arrays()})
     (found,) = problems(path)
     assert found.startswith("Arrays!")
     assert found.endswith(
-        ": x from is given, and A1 has an outline at Outlines!B8; leave the four sides blank, or"
+        f": x from is given, and A1 has an outline at {at(FIRST)}; leave the four sides blank, or"
         " delete the outline"
     )
 
@@ -116,9 +133,9 @@ def test_the_roof_is_no_id_where_it_has_an_outline(tmp_path):
     changes = outlined(roof=ROOF_FT)
     item = project().objects[0].model_dump() | {"id": "Roof"}
     found = problems(make(tmp_path, **changes | {"objects": [item]}))
-    assert found == (
-        "Outlines!B14: outline of 'roof', which is also the ID of an array or object; give that"
-        " another ID",
+    assert found == said(
+        "<Outlines/7/Outline of>: outline of 'roof', which is also the ID of an array or object;"
+        " give that another ID"
     )
 
 
@@ -128,15 +145,16 @@ def test_an_array_that_spans_the_notch_of_the_roof_is_outside(tmp_path):
     assert len(found) == 1  # A2 spans the notch; A1, an L, is beside it
     assert found[0].startswith("Arrays!")
     assert "A2 is outside the roof near x " in found[0]
-    assert found[0].endswith("; correct it, or the outline of the roof at Outlines!B14")
+    assert found[0].endswith(
+        at("; correct it, or the outline of the roof at <Outlines/7/Outline of>")
+    )
 
 
 def test_an_outlined_array_outside_of_a_rectangular_roof_is_told_at_its_outline(tmp_path):
     roof = {"x_from_m": 0.0, "x_to_m": 300 * FT, "y_from_m": 0.0, "y_to_m": 74 * FT}
-    arrays = [array.model_dump() for array in project().arrays[:1]]
-    changes = outlined() | {"arrays": [arrays[0] | BLANK], "roof": roof}
+    changes = outlined() | {"arrays": arrays(**BLANK)[:1], "roof": roof}
     (found,) = problems(make(tmp_path, **changes))
-    assert found.startswith("Outlines!B8: A1 is outside the roof near x ")
+    assert found.startswith(at(f"{FIRST}: A1 is outside the roof near x "))
 
 
 def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
@@ -152,7 +170,9 @@ def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
     changes = outlined(clearances=[row(6.0)]) | {"objects": [unit]}
     (found,) = problems(make(tmp_path / "short", **changes))
     assert "A1 and RTU-1 are 60.0 in (1524 mm) apart in plan" in found
-    assert found.endswith("reduce it, or correct the outlines in Outlines!B8 and Objects!E8:H8")
+    assert found.endswith(
+        at(f"reduce it, or correct the outlines in {FIRST} and <Objects/RTU-1/x from:y to>")
+    )
 
 
 def test_an_object_may_have_an_outline():

@@ -10,9 +10,7 @@ from report.assessment.foresight import findings
 from report.sheet.fields import Place
 from report.sheet.findings import Level, lines, located, note, warning
 from report.sheet.plausible import implausible
-from sheets import make, project, read_workbook
-
-FT, INCH, LB = 0.3048, 0.0254, 4.4482216152605
+from sheets import FT, INCH, LB, at, make, project, read_workbook
 
 
 def changed(section, index, **changes):
@@ -231,20 +229,20 @@ def test_a_warning_names_its_cell(tmp_path):
     sheet, (finding,) = read(tmp_path, **LIGHT)
     assert (finding.level, finding.id, finding.reason) == (Level.WARNING, "weight A1", "")
     (cell,) = located([finding], sheet.addresses)
-    assert cell == "Arrays!H8"
+    assert cell == at("Arrays/A1/Weight")
 
 
 def test_equal_findings_are_one_line_with_a_count():
     places = [Place("clearances", index, "provided_m") for index in range(1500)]
     found = [warning(f"usual {i}", place, "provided is 4 in") for i, place in enumerate(places)]
-    addresses = {place: f"Clearances!F{8 + i}" for i, place in enumerate(places)}
+    addresses = {place: f"cell {i}" for i, place in enumerate(places)}
     answered = replace(found[0], reason="Seen")
     equal, other = lines([*found[1:], answered], addresses)
-    assert equal.cells == "Clearances!F9, Clearances!F10, Clearances!F11 and 1,496 more"
+    assert equal.cells == "cell 1, cell 2, cell 3 and 1,496 more"
     assert equal.names == "usual 1, usual 2, usual 3 and 1,496 more"
-    assert (other.finding, other.cells, other.names) == (answered, "Clearances!F8", "usual 0")
+    assert (other.finding, other.cells, other.names) == (answered, "cell 0", "usual 0")
     (note_of_two,) = lines([note(place, "read") for place in places[:2]], addresses)
-    assert (note_of_two.cells, note_of_two.names) == ("Clearances!F8, Clearances!F9", "")
+    assert (note_of_two.cells, note_of_two.names) == ("cell 0, cell 1", "")
 
 
 def test_an_acknowledged_warning_carries_its_reason(tmp_path):
@@ -258,7 +256,7 @@ def test_an_acknowledgment_of_no_warning_is_a_note_at_its_cell(tmp_path):
     sheet, found = read(tmp_path, rows, **LIGHT)
     assert [(f.level, f.reason) for f in found] == [(Level.WARNING, ""), (Level.NOTE, "")]
     assert found[1].text == "warning is 'wieght A1', which is not given; did you mean 'weight A1'?"
-    assert list(located(found, sheet.addresses))[1] == "Acknowledged!B8"
+    assert list(located(found, sheet.addresses))[1] == at("Acknowledged/1/Warning")
     _, (idle,) = read(tmp_path / "other", rows)
     assert idle.text == "warning is 'wieght A1', which is not given; delete the row"
 
@@ -291,13 +289,13 @@ def test_a_record_of_six_minutes_gives_a_warning(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("at", "which"),
+    ("indices", "which"),
     [((70,), "sample 71, at 0.7 s, is"), ((250, 70), "sample 71 and 1 more, at 0.7 s, reach")],
 )
-def test_a_sample_far_above_all_others_gives_a_warning_that_names_it(tmp_path, at, which):
+def test_a_sample_far_above_all_others_gives_a_warning_that_names_it(tmp_path, indices, which):
     path = make(tmp_path, motions=[{"id": "M1", "record": "records/x.csv", "dt_s": 0.01}])
     values = [0.3 * math.sin(0.2 * i) for i in range(300)]
-    for index in at:
+    for index in indices:
         values[index] = -99.99
     lines = ["acc_g", *(f"{value:.5f}" for value in values), ""]
     (path.parent / "records" / "x.csv").write_text("\n".join(lines))

@@ -4,6 +4,7 @@ import pytest
 from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
 
+from cells import address, cell
 from report.sheet.fields import entries
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, UnitsFirst, provision_name
 from report.sheet.template import write_template
@@ -31,8 +32,9 @@ def validations(sheet):
     return list(sheet.data_validations.dataValidation)
 
 
-def validation(sheet, cell):
-    return next(rule for rule in validations(sheet) if cell in rule.sqref)
+def validation(book, name):
+    sheet, place = address(book, name).split("!")
+    return next(rule for rule in validations(book[sheet]) if place in rule.sqref)
 
 
 def test_sheets_are_in_working_order(blank):
@@ -56,13 +58,13 @@ def test_every_table_has_its_name_and_twenty_blank_rows(blank):
             left, top, right, bottom = range_boundaries(table.ref)
             assert bottom - top == 20
             cells = [c for row in sheet.iter_rows(top + 1, bottom, left, right) for c in row]
-            assert all(cell.value is None or cell.data_type == "f" for cell in cells)
+            assert all(c.value is None or c.data_type == "f" for c in cells)
 
 
 def test_headings_state_the_units_of_the_system(blank):
     units, book = blank
     sheet, table = tables(book)["arrays_table"]
-    headings = [cell.value for cell in sheet[table.ref][0]]
+    headings = [head.value for head in sheet[table.ref][0]]
     weight, size, plan = ("lb", "in", "ft") if units is UnitsFirst.US else ("kN", "mm", "m")
     for heading in (f"Weight [{weight}]", f"CG height [{size}]", f"x from [{plan}]"):
         assert heading in headings
@@ -70,7 +72,7 @@ def test_headings_state_the_units_of_the_system(blank):
 
 def test_table_columns_are_named_as_their_headings(blank):
     for sheet, table in tables(blank[1]).values():
-        headings = [cell.value for cell in sheet[table.ref][0]]
+        headings = [head.value for head in sheet[table.ref][0]]
         assert headings == [column.name for column in table.tableColumns]
         assert table.autoFilter is None
 
@@ -80,9 +82,8 @@ def test_no_sheet_is_protected_so_that_its_tables_grow(blank):
 
 
 def test_inputs_are_yellow_and_formulas_are_blue(blank):
-    site = blank[1]["Site"]
-    assert site["B5"].fill.start_color.rgb == "00FFF6CC"
-    assert site["D13"].fill.start_color.rgb == "00E3EDF5"
+    for name, color in (("Site/Rule set", "00FFF6CC"), ("Site/S_DS/Computed", "00E3EDF5")):
+        assert cell(blank[1], name).fill.start_color.rgb == color
     formulas = [c for sheet in blank[1] for row in sheet for c in row if c.data_type == "f"]
     others = [c for c in formulas if c.fill.start_color.rgb != "00E3EDF5"]
     # The lines at the top of the sheets, and the clauses of the panel.
@@ -92,7 +93,7 @@ def test_inputs_are_yellow_and_formulas_are_blue(blank):
 
 
 def test_choices_are_dropdowns_with_a_message_and_an_alert(blank):
-    rule = validation(blank[1]["Arrays"], "D8")
+    rule = validation(blank[1], "Arrays/1/Slope unit")
     assert rule.formula1 == '"degrees,percent,in/12"'
     assert rule.showInputMessage
     assert rule.showErrorMessage
@@ -100,7 +101,7 @@ def test_choices_are_dropdowns_with_a_message_and_an_alert(blank):
 
 
 def test_numbers_are_validated_against_their_range(blank):
-    rule = validation(blank[1]["Arrays"], "E8")
+    rule = validation(blank[1], "Arrays/1/Friction coefficient")
     assert (rule.type, rule.operator, rule.formula1, rule.formula2) == (
         "decimal",
         "between",
@@ -111,32 +112,33 @@ def test_numbers_are_validated_against_their_range(blank):
 
 
 def test_clearances_offer_the_arrays_and_objects_but_accept_other_text(blank):
-    sheet = blank[1]["Clearances"]
-    assert validation(sheet, "B8").formula1 == "live_array_names"
-    assert validation(sheet, "C8").formula1 == "live_names"
-    assert not validation(sheet, "C8").showErrorMessage
+    of_object = validation(blank[1], "Clearances/1/Object")
+    assert validation(blank[1], "Clearances/1/Array").formula1 == "live_array_names"
+    assert of_object.formula1 == "live_names"
+    assert not of_object.showErrorMessage
 
 
 def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank):
     units, book = blank
     sheet, table = tables(book)["links_table"]
-    headings = [cell.value for cell in sheet[table.ref][0]]
-    unit = "lb/in" if units is UnitsFirst.US else "kN/m"
-    assert headings == [
-        "Status",
-        "Array",
-        "Block friction",
-        f"Link stiffness [{unit}]",
-        "Link damping",
-    ]
-    assert validation(sheet, "B8").formula1 == "live_array_names"
-    assert [sheet[f"{c}6"].value for c in "CE"] == ["0.40, 0.45, 0.50", "0.02"]
-    assert float(sheet["D6"].value) == (5000 if units is UnitsFirst.US else 876)
+    unit, example = ("lb/in", 5000) if units is UnitsFirst.US else ("kN/m", 876)
+    wanted = {
+        "Status": None,
+        "Array": "A1",
+        "Block friction": "0.40, 0.45, 0.50",
+        f"Link stiffness [{unit}]": example,
+        "Link damping": "0.02",
+    }
+    heads = sheet[table.ref][0]
+    assert [head.value for head in heads] == list(wanted)
+    examples = [head.offset(row=-1).value for head in heads][1:]
+    assert list(map(str, examples)) == [str(value) for value in wanted.values()][1:]
+    assert validation(book, "Links/1/Array").formula1 == "live_array_names"
 
 
 def test_overrides_offer_the_provisions(blank):
     book = blank[1]
-    assert validation(book["Options"], "B35").formula1 == "rule_names"
+    assert validation(book, "Options/1/Provision").formula1 == "rule_names"
     cells = book.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
     names = [row[0].value for row in book["Provisions"][cells]]
     assert names == [provision_name(key) for key in PROVISION_KEYS]
@@ -171,10 +173,13 @@ def test_headings_are_frozen_and_sheets_print_one_page_wide(blank):
 
 def test_defaults_are_filled_and_the_rest_is_blank(blank):
     units, book = blank
-    assert book["Project"]["B13"].value == units
-    assert book["Options"]["B5"].value == "rule set"
-    assert book["Options"]["B6"].value == "No"
-    assert all(book["Site"].cell(row, 2).value is None for row in range(5, 18))
+    assert cell(book, "Project/Primary units").value == units
+    assert cell(book, "Options/Design value statistic").value == "rule set"
+    assert cell(book, "Options/Peer review").value == "No"
+    first, last = (
+        cell(book, f"Site/{label}").row for label in ("Rule set", "Height of the array z")
+    )
+    assert all(book["Site"].cell(row, 2).value is None for row in range(first, last + 1))
 
 
 def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
@@ -182,7 +187,8 @@ def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
     text = "\n".join(str(value) for row in sheet.values for value in row if value is not None)
     for part in ("roofslip check FOLDER", "roofslip report FOLDER", "records", "Colors"):
         assert part in text
-    assert [sheet[f"A{row}"].value for row in range(4, 10)] == list("123456")
+    numbers = [row[0] for row in sheet.values if str(row[0]).isdecimal()]
+    assert numbers == list("123456")
     (picture,) = sheet._images
     assert picture._data()[:4] == b"\x89PNG"
 
@@ -190,22 +196,26 @@ def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
 def test_values_of_a_project_are_written_in_the_units_of_the_sheets_without_rounding_error(
     tmp_path,
 ):
-    us, si = (load_workbook(make(tmp_path / str(units), units))["Arrays"] for units in UnitsFirst)
-    assert [us[f"{c}8"].value for c in "HIJKL"] == [42000, 9, 40, 20, 100]
-    assert [si[f"{c}8"].value for c in "IJKL"] == [228.6, 1016, 6.096, 30.48]
+    us, si = (load_workbook(make(tmp_path / str(units), units)) for units in UnitsFirst)
+    for heading, in_us, in_si in (("CG height", 9, 228.6), ("Support spacing", 40, 1016),
+                                  ("x from", 20, 6.096), ("x to", 100, 30.48)):  # fmt: skip
+        name = f"Arrays/A1/{heading}"
+        assert (cell(us, name).value, cell(si, name).value) == (in_us, in_si)
+    assert cell(us, "Arrays/A1/Weight").value == 42000
 
 
 def test_a_project_with_many_arrays_gets_a_larger_table(tmp_path):
     array = project().arrays[0].model_dump()
     arrays = [array | {"id": f"A{i}"} for i in range(40)]
     book = load_workbook(make(tmp_path, arrays=arrays, clearances=[]))
-    assert book["Arrays"].tables["arrays_table"].ref == "A7:Z52"
+    _, first, _, last = range_boundaries(book["Arrays"].tables["arrays_table"].ref)
+    assert last - first == 45
 
 
 def test_a_text_that_looks_like_a_formula_is_written_as_text(tmp_path):
     data = project().project.model_dump() | {"name": "=1+1", "client": "#N/A"}
-    sheet = load_workbook(make(tmp_path, project=data))["Project"]
-    assert (sheet["B5"].value, sheet["B5"].data_type) == ("=1+1", "s")
+    name = cell(load_workbook(make(tmp_path, project=data)), "Project/Project name")
+    assert (name.value, name.data_type) == ("=1+1", "s")
 
 
 def test_a_page_of_a4_has_the_room_of_a_page_of_letter(blank):

@@ -16,7 +16,7 @@ from report.sheet.fields import Place
 from report.sheet.findings import located
 from report.sheet.read import read
 from report.sheet.unseen import Kind, Unseen, warnings
-from sheets import blank, edit, make, read_workbook, type_into
+from sheets import at, blank, edit, make, of, read_workbook, type_into
 
 
 def told(path):
@@ -27,11 +27,11 @@ def told(path):
             zip(found, located(found, book.sheet.addresses), strict=True)]  # fmt: skip
 
 
-def cell_of(path, section, field, row=0):
-    """Sheet, column letter and row of an input."""
-    sheet, cell = read(path).addresses[Place(section, row, field)].split("!")
-    number, column = coordinate_to_tuple(cell)
-    return sheet, get_column_letter(column), number
+def cell_of(name):
+    """Sheet, column letter and row of a cell of `make`."""
+    sheet, cell = at(name).split("!")
+    row, column = coordinate_to_tuple(cell)
+    return sheet, get_column_letter(column), row
 
 
 def has(text, *cells):
@@ -53,7 +53,7 @@ def hide_sheet(state):
 )
 def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
     path = make(tmp_path)
-    sheet, column, row = cell_of(path, "overrides", "value")
+    sheet, column, row = cell_of("Options/1/Value")
     ((name, _, text),) = told(edit(path, hide_sheet(state)))
     assert name == f"hidden sheet {sheet}"
     assert text.startswith(f"the sheet is {said}, and cells B")
@@ -63,7 +63,7 @@ def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
 
 def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
     path = make(tmp_path)
-    sheet, letter, row = cell_of(path, "arrays", "mu", 1)
+    sheet, letter, row = cell_of("Arrays/A2/Friction coefficient")
 
     def change(book):
         book[sheet].row_dimensions[row].hidden = True
@@ -89,7 +89,7 @@ def no_width(book, sheet, letter, row):
 @pytest.mark.parametrize("change", [no_height, no_width])
 def test_a_row_or_column_with_next_to_no_size_is_hidden(tmp_path, change):
     path = make(tmp_path)
-    sheet, letter, row = cell_of(path, "project", "number")
+    sheet, letter, row = cell_of("Project/Project number")
     ((name, _, text),) = told(edit(path, lambda book: change(book, sheet, letter, row)))
     assert name == f"hidden {sheet}"
     assert has(text, f"{letter}{row}")
@@ -97,8 +97,7 @@ def test_a_row_or_column_with_next_to_no_size_is_hidden(tmp_path, change):
 
 def test_the_unit_of_a_number_in_a_hidden_column_is_a_warning(tmp_path):
     path = make(tmp_path)
-    _, letter, row = cell_of(path, "site", "structure_height_m")
-    unit = get_column_letter(coordinate_to_tuple(f"{letter}1")[1] + 1)
+    _, unit, row = cell_of("Site/Structure height h/Unit")
 
     def change(book):
         book["Site"].column_dimensions[unit].hidden = True
@@ -124,7 +123,7 @@ def filter_sheet(book, sheet, row):
 @pytest.mark.parametrize("change", [filter_table, filter_sheet])
 def test_a_row_that_a_filter_hides_is_filtered_out(tmp_path, change):
     path = make(tmp_path)
-    sheet, _, row = cell_of(path, "arrays", "id", 1)
+    sheet, _, row = cell_of("Arrays/A2/ID")
     ((name, cell, text),) = told(edit(path, lambda book: change(book, sheet, row)))
     assert (name, cell) == (f"filtered out {sheet}", f"{sheet}!B{row}")
     assert "are in rows that a filter hides, and are read: clear the filter, and delete" in text
@@ -132,7 +131,7 @@ def test_a_row_that_a_filter_hides_is_filtered_out(tmp_path, change):
 
 def test_a_row_that_is_struck_through_is_a_warning_and_a_blank_one_is_none(tmp_path):
     path = make(tmp_path)
-    sheet, letter, row = cell_of(path, "clearances", "provided_m", 4)
+    sheet, letter, row = cell_of("Clearances/5/Provided clearance")
 
     def change(book):
         for number in (row, row + 1):
@@ -178,7 +177,7 @@ def looks(font=None, fill=None, number_format=None):
 )
 def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, change):
     path = make(tmp_path)
-    sheet, letter, row = cell_of(path, "arrays", "mu")
+    sheet, letter, row = cell_of("Arrays/A1/Friction coefficient")
     cell = f"{letter}{row}"
     assert told(edit(path, lambda book: change(book[sheet][cell]))) == [
         (
@@ -201,7 +200,7 @@ def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, change):
 )
 def test_text_in_another_color_is_no_warning(tmp_path, change):
     path = make(tmp_path)
-    sheet, letter, row = cell_of(path, "arrays", "mu")
+    sheet, letter, row = cell_of("Arrays/A1/Friction coefficient")
     assert told(edit(path, lambda book: change(book[sheet][f"{letter}{row}"]))) == []
 
 
@@ -217,7 +216,7 @@ def test_what_the_template_folds_and_a_hidden_sheet_that_is_not_read_are_no_warn
 
 def test_a_value_in_a_folded_column_is_a_warning(tmp_path):
     path = make(tmp_path)
-    sheet, letter, row = cell_of(path, "arrays", "i_p")
+    sheet, letter, row = cell_of("Arrays/A1/Importance factor I_p")
     # As Excel saves it; what Roofslip itself types into a folded column, it unfolds.
     typed = edit(path, lambda book: setattr(book[sheet][f"{letter}{row}"], "value", 1.5))
     ((name, _, text),) = told(typed)
@@ -231,7 +230,7 @@ def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_
     book = read_workbook(path)
     (found,) = findings(book.sheet, book.shaking)
     assert found.reason == "Kept from the client's view"
-    sheet, _, _ = cell_of(path, "overrides", "value")
+    sheet, _, _ = cell_of("Options/1/Value")
     ((_, tables),) = [part for part in appendix.echo(book.sheet.echo) if part[0] == sheet]
     printed = [text for table in tables for line in table.rows for text in line.cells]
     notes = [note for table in tables for note in table.notes]
@@ -252,12 +251,8 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
         sheet.row_dimensions[5].hidden = True
 
     path = edit(make(tmp_path), change)
-    motions = {"record": "Pasted!x [g]", "transverse": "Pasted!y [g]"}
-    cells = {}
-    for field, name in motions.items():
-        sheet, letter, row = cell_of(path, "motions", field)
-        cells[f"{sheet}!{letter}{row}"] = name
-    book = read_workbook(type_into(path, cells))
+    records = {"Horizontal record": "Pasted!x [g]", "Transverse record": "Pasted!y [g]"}
+    book = read_workbook(type_into(path, of("Motions/M1", records)))
     found = [f for f in findings(book.sheet, book.shaking) if f.id]
     ((name, text),) = [(f.id, f.text) for f in found if f.id.startswith("hidden")]
     assert name == "hidden sheet Pasted"

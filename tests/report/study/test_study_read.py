@@ -3,15 +3,17 @@
 import datetime as dt
 import importlib.util
 import shutil
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from zipfile import ZipFile
 
 import pytest
 from click.testing import CliRunner
-from openpyxl import load_workbook
 
+from cells import address, addressed, cell
 from places import ROOT
 from report.cli.main import main
-from report.sheet.fields import Place
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.study.motions import study_motions
@@ -28,10 +30,12 @@ from report.study.schema import (
     values,
 )
 from report.study.template import write_study
+from sheets import edit, type_into
 from solver.model import InputError
 from solver.records.record import Record, write_record
 from studied import wave
 
+FOLDER = "<Study/Folder of motions>"
 ABOUT = {
     "title": "A study",
     "date": dt.date(2026, 3, 1),
@@ -76,11 +80,18 @@ def problems(folder):
     return "\n".join(caught.value.problems)
 
 
-def typed(folder, sheet, cell, value):
-    book = load_workbook(folder / "input.xlsx")
-    book[sheet][cell] = value
-    book.save(folder / "input.xlsx")
-    return folder
+@cache
+def usual():
+    """The bytes of a complete study: its rows and columns are those of every other."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "input.xlsx"
+        write_study(path, units=UnitsFirst.US, example=given())
+        return path.read_bytes()
+
+
+def at(text):
+    """A line with the addresses of the cells of a study that it names as `<Study/Slopes>`."""
+    return addressed(usual(), text)
 
 
 @pytest.mark.parametrize(
@@ -176,55 +187,58 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "wanted"),
     [
-        ({"slopes_deg": "2, 1"}, ("Study!B9: slopes are '2, 1'", "0 to 7 by 0.5")),
-        ({"slopes_deg": "50"}, ("Study!B9: slopes have 50; give numbers from 0 to 45",)),
-        ({"slopes_deg": "nan"}, ("Study!B9: slopes have nan",)),
-        ({"intensities": "0, 1"}, ("Study!B12: intensities have 0",)),
-        ({"intensities": "inf"}, ("Study!B12: intensities have inf",)),
-        ({"mats": (), "study_arrays": ()}, ("Study!B10: friction coefficients are missing",)),
-        ({"mus": "-0.1, 0.4"}, ("Study!B10: friction coefficients have -0.1",)),
-        ({"intensity": Intensity.S_DS}, ("Study!B13: S_DS of the motions is missing",)),
-        ({"intensity": Intensity.PGA}, ("Study!B11: is PGA, but the motions are roof motions",)),
-        ({"folder": ""}, ("Study!B16: no folder",)),
-        ({"folder": "elsewhere"}, ("Study!B16: 'elsewhere' is no folder",)),
-        ({"folder": "../"}, ("Study!B16: '..' is no folder",)),
+        ({"slopes_deg": "2, 1"}, ("<Study/Slopes>: slopes are '2, 1'", "0 to 7 by 0.5")),
+        ({"slopes_deg": "50"}, ("<Study/Slopes>: slopes have 50; give numbers from 0 to 45",)),
+        ({"slopes_deg": "nan"}, ("<Study/Slopes>: slopes have nan",)),
+        ({"intensities": "0, 1"}, ("<Study/Intensities>: intensities have 0",)),
+        ({"intensities": "inf"}, ("<Study/Intensities>: intensities have inf",)),
+        ({"mats": (), "study_arrays": ()},
+         ("<Study/Friction coefficients>: friction coefficients are missing",)),
+        ({"mus": "-0.1, 0.4"}, ("<Study/Friction coefficients>: friction coefficients have -0.1",)),
+        ({"intensity": Intensity.S_DS},
+         ("<Study/S_DS of the motions>: S_DS of the motions is missing",)),
+        ({"intensity": Intensity.PGA},
+         ("<Study/Intensity measure>: is PGA, but the motions are roof motions",)),
+        ({"folder": ""}, (f"{FOLDER}: no folder",)),
+        ({"folder": "elsewhere"}, (f"{FOLDER}: 'elsewhere' is no folder",)),
+        ({"folder": "../"}, (f"{FOLDER}: '..' is no folder",)),
         ({"recorded_at": "ground"}, ("Buildings!", "at least one building")),
-        ({"buildings": (StudyBuilding(id="b", period_s=0.5),)}, ("Buildings!B8", "roof motions")),
-        ({"mats": (Mat(id="A", mu=0.4), Mat(id="a", mu=0.5))}, ("Mats!B9: ID 'a' appears twice",)),
-        ({"mats": (Mat(id="A"),)}, ("Mats!C8: friction coefficient and tested values",)),
-        ({"mats": (Mat(id="A", tested="0.4, 0.5"),)}, ("Mats!D8: tested values are '0.4, 0.5'",)),
-        ({"mats": (Mat(id="B", mu=0.4),)}, ("Arrays!C8: mat 'a' is not on the sheet Mats",)),
-        ({"site_intensity": 1.0, "study_arrays": ()}, ("Study!B22: is given, but no array is",)),
-        (
-            {"site_intensity": 1.0, "intensity_beta": 0.2, "sampling": Sampling.ALL_COMBINATIONS},
-            ("Study!B23: all combinations take the median",),
-        ),
-        (
-            {"slopes_deg": "0 to 45 by 0.1", "intensities": "1 to 100 by 0.25",
-             "mus": "0.1 to 2 by 0.01"},
-            ("Study!B12: make", "cases"),
-        ),
+        ({"buildings": (StudyBuilding(id="b", period_s=0.5),)},
+         ("<Buildings/1/ID>", "roof motions")),
+        ({"mats": (Mat(id="A", mu=0.4), Mat(id="a", mu=0.5))},
+         ("<Mats/2/ID>: ID 'a' appears twice",)),
+        ({"mats": (Mat(id="A"),)},
+         ("<Mats/1/Friction coefficient>: friction coefficient and tested values",)),
+        ({"mats": (Mat(id="A", tested="0.4, 0.5"),)},
+         ("<Mats/1/Tested values>: tested values are '0.4, 0.5'",)),
+        ({"mats": (Mat(id="B", mu=0.4),)}, ("<Arrays/1/Mat>: mat 'a' is not on the sheet Mats",)),
+        ({"site_intensity": 1.0, "study_arrays": ()},
+         ("<Study/Intensity at the site>: is given, but no array is",)),
+        ({"site_intensity": 1.0, "intensity_beta": 0.2, "sampling": Sampling.ALL_COMBINATIONS},
+         ("<Study/Dispersion of intensity>: all combinations take the median",)),
+        ({"slopes_deg": "0 to 45 by 0.1", "intensities": "1 to 100 by 0.25",
+          "mus": "0.1 to 2 by 0.01"}, ("<Study/Intensities>: make", "cases")),
     ],
     ids=lambda value: str(value)[:40] if isinstance(value, dict) else "",
 )  # fmt: skip
 def test_errors_name_the_cell_and_what_to_do(tmp_path, changes, wanted):
     found = problems(write(tmp_path, given(**changes)))
-    assert all(text in found for text in wanted), found
+    assert all(at(text) in found for text in wanted), found
 
 
 def test_cells_of_a_wrong_kind_are_all_listed(tmp_path):
     folder = write(tmp_path)
-    typed(folder, "Study", "B5", None)
-    typed(folder, "Study", "B24", "many")
-    typed(folder, "Mats", "C8", -1)
+    wrong = {"Study/Title": None, "Study/Tolerance of slope": "many",
+             "Mats/A/Friction coefficient": -1}  # fmt: skip
+    type_into(folder / "input.xlsx", wrong)
     lines = problems(folder).splitlines()
-    assert [line.split(":")[0] for line in lines] == ["Study!B5", "Study!B24", "Mats!C8"]
+    assert [line.split(":")[0] for line in lines] == [address(usual(), name) for name in wrong]
 
 
 def test_a_damaged_record_is_named(tmp_path):
     folder = write(tmp_path)
     (folder / "records" / "M1-x.csv").write_text("no record")
-    assert "Study!B16" in problems(folder)
+    assert at(FOLDER) in problems(folder)
     assert "M1-x.csv" in problems(folder)
 
 
@@ -249,10 +263,10 @@ def test_an_empty_folder_is_refused(tmp_path):
 def test_too_many_samples_and_runs_are_refused_at_their_cell(tmp_path, monkeypatch):
     folder = write(tmp_path)
     monkeypatch.setattr("report.study.motions.MOST_SAMPLES", 1000)
-    assert "Study!B16: the records have 1,200 samples" in problems(folder)
+    assert at(f"{FOLDER}: the records have 1,200 samples") in problems(folder)
     monkeypatch.undo()
     monkeypatch.setattr("report.study.plan.MOST_RUNS", 10)
-    assert "Study!B12: make" in problems(folder)
+    assert at("<Study/Intensities>: make") in problems(folder)
 
 
 # The project of the repository.
@@ -286,10 +300,7 @@ def test_the_project_has_the_size_of_a_catalog():
 
 def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
     folder = write(tmp_path)
-    path = folder / "input.xlsx"
-    book = load_workbook(path)
-    book["Mats"].sheet_state = "hidden"
-    book.save(path)
+    edit(folder / "input.xlsx", lambda book: setattr(book["Mats"], "sheet_state", "hidden"))
     ((cell, text),) = plan(folder).warnings
     assert cell.startswith("Mats!")
     assert text.startswith("the sheet is hidden, and cells ")
@@ -304,25 +315,22 @@ def test_a_study_that_hides_nothing_has_no_warning(tmp_path):
 
 def test_a_mat_shown_in_percent_as_text_is_an_error(tmp_path):
     folder = write(tmp_path)
-    address = read_study(folder).gathered.addresses[Place("mats", 0, "mu")]
-    sheet, cell = address.split("!")
-    book = load_workbook(folder / "input.xlsx")
-    book[sheet][cell].number_format = '0.0"%"'
-    book.save(folder / "input.xlsx")
+    name = "Mats/A/Friction coefficient"
+    formatted(folder, name, '0.0"%"')
     assert problems(folder).startswith(
-        f'{address}: friction coefficient is 0.4, shown in % by its number format (0.0"%");'
+        at(f'<{name}>: friction coefficient is 0.4, shown in % by its number format (0.0"%");')
     )
 
 
 def test_an_intensity_may_be_shown_in_the_unit_of_its_measure(tmp_path):
     folder = write(tmp_path, given(site_intensity=1.2))
-    address = read_study(folder).gathered.addresses[Place("study", 0, "site_intensity")]
-    sheet, cell = address.split("!")
-    for code, is_right in (('0.0" g"', True), ('0.0" m/s"', False)):
-        book = load_workbook(folder / "input.xlsx")
-        book[sheet][cell].number_format = code
-        book.save(folder / "input.xlsx")
-        if is_right:
-            plan(folder)
-        else:
-            assert "is 1.2, shown in m/s by its number format" in problems(folder)
+    name = "Study/Intensity at the site"
+    plan(formatted(folder, name, '0.0" g"'))
+    formatted(folder, name, '0.0" m/s"')
+    assert "is 1.2, shown in m/s by its number format" in problems(folder)
+
+
+def formatted(folder, name, code):
+    """Give a cell a number format; return the folder."""
+    edit(folder / "input.xlsx", lambda book: setattr(cell(book, name), "number_format", code))
+    return folder

@@ -28,7 +28,7 @@ from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread
 from studied import motion
-from test_study_read import given, problems, write
+from test_study_read import at, given, problems, write
 
 
 def like(number, factor):
@@ -205,13 +205,12 @@ def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, m
 
 
 def test_a_dispersion_and_its_source_need_each_other(tmp_path):
-    cell = {"record_beta": "Study!B28", "record_source": "Study!B29"}
-    assert f"{cell['record_source']}: the record-to-record dispersion needs its source" in problems(
-        write(tmp_path, given(record_beta=0.4))
-    )
-    assert f"{cell['record_beta']}: a source is given without the dispersion" in problems(
-        write(tmp_path, given(record_source="A paper"))
-    )
+    for changes, line in (
+        ({"record_beta": 0.4}, "source>: the record-to-record dispersion needs its source"),
+        ({"record_source": "A paper"}, "dispersion>: a source is given without the dispersion"),
+    ):
+        found = problems(write(tmp_path, given(**changes)))
+        assert at(f"<Study/Record-to-record {line}") in found
 
 
 def test_the_limits_state_the_validation(results):

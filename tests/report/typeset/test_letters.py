@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from report.cli.main import main
 from report.typeset import letters
 from report.typeset.letters import undrawable
-from sheets import edit, make
+from sheets import at, make, type_into
 
 
 @pytest.fixture(autouse=True)
@@ -48,22 +48,21 @@ def test_without_fontconfig_only_the_letters_of_a_package_can_be_drawn(monkeypat
 
 def test_an_id_has_only_letters_of_the_figures(tmp_path, monkeypatch):
     monkeypatch.setattr(letters, "_is_on_machine", lambda letter: True)
-    book = edit(make(tmp_path), lambda book: book["Motions"].__setitem__("B8", "倉1"))
+    book = type_into(make(tmp_path), {"Motions/M1/ID": "倉1"})
     done = CliRunner().invoke(main, ["check", str(book)])
     assert done.exit_code == 2
-    assert "Motions!B8: the font of the figures does not have 倉 (U+5009); write" in done.output
+    line = "<Motions/M1/ID>: the font of the figures does not have 倉 (U+5009); write"
+    assert at(line) in done.output
 
 
 @pytest.mark.parametrize("command", ["check", "report"])
 def test_a_cell_with_letters_without_a_font_is_named(tmp_path, monkeypatch, command):
     monkeypatch.setattr(letters, "_has_font", lambda letter: letter != "倉")
-    book = edit(make(tmp_path), lambda book: book["Project"].__setitem__("B6", "倉 7"))
+    book = type_into(make(tmp_path), {"Project/Project number": "倉 7"})
     done = CliRunner().invoke(main, [command, str(book)])
     assert done.exit_code == 2
-    assert (
-        "Project!B6: no font of this machine has 倉 (U+5009); install one that does, or use other"
-        in done.output
-    )
+    line = "<Project/Project number>: no font of this machine has 倉 (U+5009); install one that"
+    assert at(line + " does, or use other") in done.output
     assert not (tmp_path / "out").exists()
 
 

@@ -17,7 +17,7 @@ from report.web.access import Gate
 from report.web.app import made
 from report.web.sessions import Sessions
 from report.web.worker import _answered
-from sheets import edit
+from sheets import at, type_into
 
 TOKEN = "a-token-of-this-server"
 EXAMPLE = ROOT / "projects" / "example"
@@ -42,7 +42,7 @@ def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(clien
     answer = asked(client, {"rule_set": "ASCE 7-22"})
     assert answer.status_code == 422
     found = answer.json()["problems"][0]
-    assert found["text"].startswith("Site!B11: F_a is 1.2")
+    assert found["text"].startswith(at("<Site/F_a>: F_a is 1.2"))
     assert found["remedy"].startswith("leave it blank")
     assert found["row"]["cells"][found["row"]["at"]] == "1.2"
 
@@ -213,13 +213,14 @@ def test_a_full_disk_is_said_where_another_process_writes(client, sessions, monk
 def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_path):
     path = tmp_path / "input.xlsx"
     path.write_bytes((EXAMPLE / "input.xlsx").read_bytes())
-    edit(path, lambda book: book["Arrays"].__setitem__("E8", "wet"))
+    name = "Arrays/1/Friction coefficient"
+    type_into(path, {name: "wet"})
     state = sent(client, [("input.xlsx", path.read_bytes())]).json()
     assert state["project"] is None
     assert state["answer"] is None
     assert state["is_alone"]
     by_cell = {item["cell"]: item for item in state["problems"] if item["sheet"] == "Arrays"}
-    row = by_cell["E8"]["row"]
+    row = by_cell[at(name).partition("!")[2]]["row"]
     assert (row["heads"][row["at"]], row["cells"][row["at"]]) == ("Friction coefficient", "wet")
     # The records were not sent: every motion says so.
     assert len([item for item in state["problems"] if item["sheet"] == "Motions"]) >= 7
