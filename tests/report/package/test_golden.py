@@ -1,0 +1,45 @@
+"""The words of each page, as they were read and taken over last.
+
+`./roofslip test --golden` shows what changed and takes it over.
+"""
+
+import re
+
+import pytest
+
+import printed
+import scenes
+from places import GOLDEN
+
+SETS = {"": scenes.usual, "unpermitted": scenes.unpermitted, "departing": scenes.departing}
+ALIKE = ("contents", "plan", "echo", "symbols")
+"""Parts that the other projects print as the first one does."""
+
+CHANGING = (
+    (r"\b[0-9a-f]{64}\b", "<SHA-256>"),
+    (r"\b[0-9a-f]{12}\b", "<hash>"),
+    (r"(?<=[a-z\d] )\d+(\.\d+)+(?=[,.] )(?=.*Bill of materials)", "<version>"),
+    (r"A run took less than [\d.]+ m?s", "A run took <time>"),
+    (r"the PRD (is identical to the last|changes by less than 10\S+ of its)", "the PRD <rounding>"),
+)
+"""What changes with versions, files and machines."""
+
+PAGES = [
+    (name, key)
+    for name in SETS
+    for key in (*printed.FRONT, *printed.IDS, *(("changes",) if name == "departing" else ()))
+    if not name or key not in ALIKE
+]
+
+
+@pytest.mark.parametrize(("name", "key"), PAGES, ids=lambda word: word or "usual")
+def test_a_page_has_the_words_that_it_had(golden, name, key):
+    text = printed.printed(SETS[name](), key)
+    for pattern, placeholder in CHANGING:
+        text = re.sub(pattern, placeholder, text)
+    golden(f"{name}/{key}.txt" if name else f"{key}.txt", text)
+
+
+def test_each_golden_text_is_that_of_a_page():
+    names = {path.relative_to(GOLDEN).with_suffix("").as_posix() for path in GOLDEN.rglob("*.txt")}
+    assert names == {f"{name}/{key}".lstrip("/") for name, key in PAGES}
