@@ -21,6 +21,8 @@ from report.assessment.evidence import plotted
 from report.assessment.highpass import beyond_corners
 from report.assessment.project import Assessment
 from report.assessment.remedies import remedies
+from report.assessment.sensitivity import accuracy
+from report.assessment.spectra import spectra
 from report.package.html import part
 from report.pages.parts import PackageData
 from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
@@ -66,6 +68,7 @@ class Table:
     cells: tuple[tuple[str, ...], ...]
     notes: tuple[str, ...]
     kinds: tuple[str, ...]
+    bold: tuple[str, ...]
 
     @property
     def rows(self) -> list[dict[str, str]]:
@@ -104,10 +107,9 @@ class _Evidence:
     remedies = cached_property(lambda self: remedies(self._assessment))
     certainty = cached_property(lambda self: certainty(self._assessment))
     cumulative = cached_property(lambda self: cumulative(self._assessment))
-    plotted = cached_property(lambda self: plotted(self._assessment))
-    spectra = cached_property(lambda self: self.plotted.spectra)
-    histories = cached_property(lambda self: self.plotted.histories)
-    accuracy = cached_property(lambda self: self.plotted.accuracy)
+    spectra = cached_property(lambda self: spectra(self._assessment))
+    histories = cached_property(lambda self: plotted(self._assessment).histories)
+    accuracy = cached_property(lambda self: accuracy(self._assessment))
 
 
 class _Pictures(dict):
@@ -270,4 +272,5 @@ def _table(table: Element, title: str, lines: list[str]) -> Table:
         cells=tuple(tuple(cells(row)) for row in body),
         notes=(),
         kinds=tuple(row.get("class", "") for row in body),
+        bold=tuple(_words(b) for row in body for b in row.iter("b")),
     )

@@ -136,28 +136,6 @@ def test_the_page_and_the_bars_are_there_only_if_asked_for(assessment, content):
     assert 'id="changes"' not in plain
 
 
-def test_the_echo_marks_changed_cells_and_their_rows():
-    from report.pages.appendix import echo
-    from report.sheet.read import EchoRow
-
-    def row(cell, typed="", value="—"):
-        return EchoRow(sheet="S", cell=cell, label=cell, typed=typed, unit="", value=value)
-
-    single = (row("B5", "1"), row("B6", "2"), row("B7", value="3 (default)"), row("B8"))
-    ((_, (made,)),) = echo(single, {"S!B6", "S!B7", "T!B5"})
-    assert [(line.cells[0], line.kind) for line in made.rows] == [
-        ("B5", "changed"),
-        ("B6", "changed"),
-    ]
-    assert [line.cells[5] for line in made.rows] == ["<b>3 (default)</b>", ""]
-    assert [line.cells[2] for line in made.rows] == ["1", "<b>2</b>"]
-    assert made.notes == ("Left blank: B8 B8.",)
-    table = (row("B8", "a"), row("C8", "<i>"), row("B9", "b"), row("C9", "d"))
-    ((_, (made,)),) = echo(table, {"S!C8"})
-    assert [line.kind for line in made.rows] == ["changed", ""]
-    assert [line.cells[2] for line in made.rows] == ["<b>&lt;i&gt;</b>", "d"]
-
-
 def test_a_missing_file_and_a_folder_are_input_errors(tmp_path):
     for path in (tmp_path / "none.json", tmp_path):
         with pytest.raises(InputError, match="cannot be read"):
