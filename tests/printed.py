@@ -48,6 +48,13 @@ class Page(str):
         (found,) = [line for line in self.splitlines() if line.removeprefix("- ").startswith(start)]
         return found.removeprefix("- ")
 
+    def equation(self, start: str) -> list[str]:
+        """Return the lines below the equation whose LaTeX begins so: numbers, source, notes."""
+        lines = self.splitlines()
+        (at,) = (k for k, line in enumerate(lines) if line.startswith(f"[{start}"))
+        below = lines[at + 1 :]
+        return below[: next(k for k, line in enumerate(below) if line.startswith("[") or not line)]
+
     @property
     def facts(self) -> dict[str, str]:
         """What stands beside each label, in tables without headings."""

@@ -14,8 +14,7 @@ from printed import printed
 def test_the_numbers_put_in_give_the_result(rule_set, height_m):
     site = {"rule_set": rule_set, "roof_height_m": height_m, "structure_height_m": 10.0}
     given = stand_in.project().site.model_dump() | site
-    lines = printed(scenes.package(site=given, spectrum=[]), "method").splitlines()
-    (at,) = (k for k, line in enumerate(lines) if line.startswith("[A_{RIG}="))
-    formula, result = lines[at + 1].split(" = ")
+    page = printed(scenes.package(site=given, spectrum=[]), "method")
+    formula, result = page.equation("A_{RIG}=")[0].split(" = ")
     value = eval(formula.replace("×", "*").replace(" g", ""))
     assert math.isclose(value, float(result.removesuffix(" g")), abs_tol=6e-4)
