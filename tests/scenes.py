@@ -10,9 +10,10 @@ from dataclasses import replace
 from functools import cache
 
 import stand_in
+from places import ROOT
 from report.assessment.changes import Changes
 from report.assessment.evidence import support
-from report.assessment.project import Assessment
+from report.assessment.project import Assessment, assess
 from report.motions.components import Components
 from report.motions.history import shake
 from report.pages.parts import PackageData
@@ -20,7 +21,7 @@ from report.pages.registry import package_data
 from report.results.compare import changes
 from report.results.json import results_json
 from report.results.since import former_from
-from sheets import Book
+from sheets import Book, read_workbook
 from solver.records.record import Record
 
 FOOT = stand_in.FOOT
@@ -95,6 +96,13 @@ def grounded(data, given, *, vertical: bool = True) -> Book:
     shaken = shake(data, parts)
     book = stand_in.book(data, tuple(motion for motion, _ in shaken))
     return book.having(prepared=tuple(prepared for _, prepared in shaken))
+
+
+@cache
+def shipped(name: str) -> Assessment:
+    """Return a project that comes with the program."""
+    book = read_workbook(ROOT / "projects" / name)
+    return assess(book.sheet, book.shaking)
 
 
 @cache

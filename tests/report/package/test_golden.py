@@ -4,6 +4,7 @@
 """
 
 import re
+from functools import partial
 
 import pytest
 
@@ -11,9 +12,17 @@ import printed
 import scenes
 from places import GOLDEN
 
-SETS = {"": scenes.usual, "unpermitted": scenes.unpermitted, "departing": scenes.departing}
-ALIKE = ("contents", "plan", "echo", "symbols")
-"""Parts that the other projects print as the first one does."""
+SETS = {
+    "": scenes.usual,
+    "unpermitted": scenes.unpermitted,
+    "departing": scenes.departing,
+    "school": partial(scenes.shipped, "school"),
+    "conditions": partial(scenes.shipped, "conditions"),
+}
+ALIKE = {"contents", "plan", "echo", "symbols"}
+"""Parts that other projects print as the first one does."""
+
+SHIPPED = {"summary", "basis", "inputs", "motions", "comparison", "clearances", "limits", "model"}
 
 CHANGING = (
     (r"\b[0-9a-f]{64}\b", "<SHA-256>"),
@@ -24,12 +33,15 @@ CHANGING = (
 )
 """What changes with versions, files and machines."""
 
-PAGES = [
-    (name, key)
-    for name in SETS
-    for key in (*printed.FRONT, *printed.IDS, *(("changes",) if name == "departing" else ()))
-    if not name or key not in ALIKE
-]
+KEYS = (*printed.FRONT, *printed.IDS)
+CHOSEN = {
+    "": KEYS,
+    "unpermitted": [key for key in KEYS if key not in ALIKE],
+    "departing": [*(key for key in KEYS if key not in ALIKE), "changes"],
+    "school": [key for key in KEYS if key in SHIPPED],
+    "conditions": [key for key in KEYS if key in SHIPPED],
+}
+PAGES = [(name, key) for name, keys in CHOSEN.items() for key in keys]
 
 
 @pytest.mark.parametrize(("name", "key"), PAGES, ids=lambda word: word or "usual")
