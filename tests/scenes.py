@@ -55,6 +55,12 @@ def motions(count: int = 3, seconds: float = 8.0, **changes):
     return stand_in.motions(count, seconds=seconds, **changes)
 
 
+@cache
+def level():
+    """Return three short motions without a vertical component."""
+    return tuple(replace(motion, az_mps2=stand_in.NO_RECORD) for motion in motions())
+
+
 def along(given):
     """Return motions with their first horizontal component alone."""
     none = stand_in.NO_RECORD

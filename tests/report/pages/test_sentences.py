@@ -16,7 +16,7 @@ from scenes import FOOT, REVIEW
 
 COMPLETE = scenes.motions()
 ONE_WITHOUT = (replace(COMPLETE[0], az_mps2=stand_in.NO_RECORD), *COMPLETE[1:])
-NONE_WITH = tuple(replace(m, az_mps2=stand_in.NO_RECORD) for m in COMPLETE)
+NONE_WITH = scenes.level()
 
 
 @pytest.fixture(scope="module")
