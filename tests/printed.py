@@ -27,6 +27,8 @@ from report.package.html import part
 from report.pages.parts import PackageData
 from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import PAGES, package_data
+from report.study.files import study_html
+from report.study.results import StudyResults
 
 FRONT = ("cover", "contents", "letter")
 IDS = tuple(page.id for page in PAGES)
@@ -101,6 +103,12 @@ def printed(given: Assessment | PackageData, id: str, **evidence: object) -> Pag
     `evidence` replaces what would be computed of the fields of that name.
     """
     return _source(given, evidence).page(id)
+
+
+def study(results: StudyResults) -> Page:
+    """Return the pages of a study."""
+    with packages.undrawn():
+        return read(study_html(results))
 
 
 class _Evidence:
