@@ -8,6 +8,7 @@ from html import unescape
 import pytest
 from pypdf import PdfReader
 
+import packages
 import scenes
 import stand_in
 from printed import printed
@@ -26,7 +27,8 @@ def plain(text):
 def html():
     tests = {"standard": "ASTM G115-10", "laboratory": "L", "report": "R"}
     data = stand_in.project(friction_tests=tests)
-    return stand_in.html(stand_in.book(data, MOTIONS))
+    with packages.undrawn():
+        return stand_in.html(stand_in.book(data, MOTIONS))
 
 
 def test_the_cover_has_verdict_and_governing_numbers():
@@ -90,7 +92,8 @@ def test_the_letter_is_one_page():
     """Only the letter and the parts around it are laid out."""
     arrays = [stand_in.array(f"A{k}", 0.5, x=90 * k) for k in range(12)]
     data = stand_in.project(arrays=arrays, objects=[], clearances=[])
-    html = stand_in.html(stand_in.book(data, MOTIONS[:1]))
+    with packages.undrawn():
+        html = stand_in.html(stand_in.book(data, MOTIONS[:1]))
     head, *parts = re.split(r'(?=<section class="[^"]*\bstarts\b)', html)
     (at,) = (k for k, part in enumerate(parts) if '<h1 id="letter">' in part)
     near = re.sub(r' href="#[^"]*"', "", "".join((head, *parts[at : at + 2])))
