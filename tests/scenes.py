@@ -6,6 +6,7 @@ Only read them. A test that needs another state names its changes here, too: equ
 from __future__ import annotations
 
 import datetime as dt
+from collections import OrderedDict
 from dataclasses import replace
 from functools import cache
 
@@ -67,21 +68,22 @@ def along(given):
     return tuple(replace(motion, ay_mps2=none, az_mps2=none) for motion in given)
 
 
-_made: dict[str, PackageData] = {}
-
-
 def package(shaking=None, **changes) -> PackageData:
     """Return the stand-in project with changed sections, run under three short motions."""
+    shaking = shaking or motions()
     key = f"{id(shaking)} {sorted(changes.items())!r}"
     if key not in _made:
-        data = stand_in.project(**changes)
-        done = stand_in.assess_input(data, shaking or motions())
-        _made[key] = package_data(done)
-        _kept.append(shaking)
-    return _made[key]
+        done = stand_in.assess_input(stand_in.project(**changes), shaking)
+        _made[key] = (shaking, package_data(done))
+    _made.move_to_end(key)
+    if len(_made) > MOST:
+        _made.popitem(last=False)
+    return _made[key][1]
 
 
-_kept: list[object] = []  # so that no other motions get their identity
+MOST = 60
+_made: OrderedDict[str, tuple[object, PackageData]] = OrderedDict()
+"""The last packages with their motions, so that no others get the identity of those."""
 
 
 @cache

@@ -529,7 +529,7 @@ def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
 
 
 def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("report.results.publish._WAIT_S", 0.1)
+    monkeypatch.setattr("report.results.publish.WAIT_S", 0.1)
     monkeypatch.setattr("report.study.run.run_study", lambda *_, **__: 1 / 0)
     folder = write(tmp_path, small())
     runs = folder / "out" / "study" / "runs"
