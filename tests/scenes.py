@@ -95,12 +95,13 @@ def usual() -> Assessment:
 def grounded(data, given, *, vertical: bool = True) -> Book:
     """Return the book of motions that were recorded on the ground, carried through the building."""
     parts = []
-    for motion in given:
+    for motion, row in zip(given, data.motions, strict=True):
         components = {"record": motion.ax_mps2} | ({"vertical": motion.az_mps2} if vertical else {})
         records = {
             name: Record(name=name, dt_s=motion.dt_s, a_mps2=a) for name, a in components.items()
         }
-        parts.append(Components(files=(), records=records, unfiltered=records, whole={}))
+        unfiltered = records if row.highpass_hz else {}
+        parts.append(Components(files=(), records=records, unfiltered=unfiltered, whole={}))
     shaken = shake(data, parts)
     book = stand_in.book(data, tuple(motion for motion, _ in shaken))
     return book.having(prepared=tuple(prepared for _, prepared in shaken))
