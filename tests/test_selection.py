@@ -1,4 +1,4 @@
-"""Which tests run by day, at night and as quick ones."""
+"""Which tests run by day, at night and as quick ones; golden texts are compared and taken over."""
 
 from dataclasses import dataclass, field
 
@@ -39,3 +39,15 @@ def test_a_nightly_test_runs_by_day_where_one_of_its_files_changed():
 def test_of_each_file_the_shortest_test_is_quick_and_every_one_that_is_short():
     durations = {"a::f": 3.0, "a::g": 2.0, "b::f": 0.4, "b::g": 0.6}
     assert selection.is_quick(durations, [*durations, "b::h"]) == {"a::g", "b::f", "b::h"}
+
+
+def test_a_golden_text_is_shown_as_a_difference_and_taken_over_where_asked_for(tmp_path):
+    path = tmp_path / "golden" / "page.txt"
+    shown = selection.difference(path, "a\nb\n", is_taken_over=False)
+    assert shown.splitlines()[-2:] == ["+a", "+b"]
+    assert not path.exists()
+    selection.difference(path, "a\nb\n", is_taken_over=True)
+    assert selection.difference(path, "a\nb\n", is_taken_over=False) == ""
+    assert selection.difference(path, "a\nc\n", is_taken_over=False).splitlines() == [
+        "--- before/page.txt", "+++ now/page.txt", "@@ -1,2 +1,2 @@", " a", "-b", "+c",
+    ]  # fmt: skip

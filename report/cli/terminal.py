@@ -37,7 +37,7 @@ class UnitChoice(click.Choice[str]):
         return UNIT_CHOICES
 
 
-_QUIET_SECONDS = 1.0
+QUIET_SECONDS = 1.0
 _BAR = 20
 _LONGEST = 2000
 
@@ -226,7 +226,7 @@ class Progress:
         if self._terminal:
             line = f"{self._bar()}{seconds:4.1f} s  {doing}"
             click.echo(f"\r\x1b[2K{line}", nl=False, err=True)
-        elif seconds > _QUIET_SECONDS:
+        elif seconds > QUIET_SECONDS:
             click.echo(f"[{seconds:4.1f} s] {doing}", err=True)
         self._done += 1
 

@@ -5,7 +5,7 @@ Runs nothing. The pages are those of `report.pages.registry`; read it first.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
 from functools import cache
@@ -20,7 +20,7 @@ from report.pages.cover import cover
 from report.pages.letter import letter
 from report.pages.parts import Line, PackageData
 from report.pages.pictures import Pictures, draw_assessment, draw_certainty, draw_plotted
-from report.pages.registry import package_data, pages_of, parts
+from report.pages.registry import Content, package_data, pages_of, parts
 from report.typeset.equations import Formula, formulas
 from report.typeset.pdf import TEMPLATES
 
@@ -71,26 +71,30 @@ def pages(
     begun = begun or begin(assessment, changes, SameProcess()).plot(evidence)
     package = begun.package
     drawn = (*begun.pictures, begun.second.submit(draw_certainty, package, evidence.certainty))
-    listed = parts(package)
-    content = {page.id: page.fill(package, evidence) for page in pages_of(package)}
+    ids = (*_FRONT, *(page.id for page in pages_of(package)))
+    content = _content(package, evidence, ids)
     ready = begun.equations.result()
-    equations = ready | formulas(set(_latex(content)) - ready.keys())
-    return _html(
-        {
-            "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
-            "sheet": front.sheet(package),
-            "cover": cover(package),
-            "letter": letter(package),
-            "parts": listed,
-            "below": {subpart.id: subpart for part in listed for subpart in part.parts},
-            "templates": {page.id: page.template for page in pages_of(package)},
-            "ref": package.part,
-            "equations": equations,
-            "pictures": {id: some for done in drawn for id, some in done.result().items()},
-            "content": content,
-            **content,
-        }
-    )
+    pictures = {id: some for done in drawn for id, some in done.result().items()}
+    return _html(package, content, pictures, ready)
+
+
+def part(package: PackageData, evidence: Evidence, id: str, pictures: Pictures) -> str:
+    """Return one part of the package as HTML: `cover`, `contents`, `letter` or a page by its id."""
+    return _html(package, _content(package, evidence, (id,)), pictures, {})
+
+
+_FRONT: Mapping[str, Callable[[PackageData], Content]] = {
+    "cover": cover,
+    "contents": lambda _: {},
+    "letter": letter,
+}
+
+
+def _content(package: PackageData, evidence: Evidence, ids: Sequence[str]) -> dict[str, Content]:
+    pages = {page.id: page for page in pages_of(package)}
+    return {
+        id: _FRONT[id](package) if id in _FRONT else pages[id].fill(package, evidence) for id in ids
+    }
 
 
 def _latex(content: Any) -> list[str]:
@@ -108,8 +112,27 @@ def _lines(content: Any) -> Iterator[Line]:
             yield from _lines(item)
 
 
-def _html(context: Mapping[str, Any]) -> str:
-    return _environment().get_template("package.html").render(context)
+def _html(
+    package: PackageData,
+    content: Mapping[str, Content],
+    pictures: Pictures,
+    ready: Mapping[str, Formula],
+) -> str:
+    templates = {page.id: page.template for page in pages_of(package)}
+    listed = {part.id: part for part in parts(package)}
+    equations = {**ready, **formulas(set(_latex(content)) - ready.keys())}
+    context = {
+        "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
+        "sheet": front.sheet(package),
+        "parts": tuple(listed.values()),
+        "below": {subpart.id: subpart for part in listed.values() for subpart in part.parts},
+        "shown": [(templates.get(id, f"{id}.html"), listed.get(id)) for id in content],
+        "ref": package.part,
+        "equations": equations,
+        "pictures": pictures,
+        "content": content,
+    }
+    return _environment().get_template("package.html").render({**context, **content})
 
 
 @cache

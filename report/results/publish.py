@@ -29,7 +29,7 @@ Files that do not agree with it are of two sets: a run was killed, or is about t
 
 _HIDDEN = ".roofslip-"
 _LOCK = f"{_HIDDEN}lock"
-_WAIT_S = 60.0
+WAIT_S = 60.0
 _POLL_S = 0.05
 
 # Of a hidden folder: the new files, copies of the old ones, and one of two journals.
@@ -122,9 +122,9 @@ def locked(folder: Path) -> Iterator[None]:
     """
     path, started = folder / _LOCK, time.monotonic()
     while (lock := _try_lock(path)) < 0:
-        if time.monotonic() - started > _WAIT_S:
+        if time.monotonic() - started > WAIT_S:
             raise InputError(
-                f"{folder}: another run has been writing there for {_WAIT_S:g} s; wait until it"
+                f"{folder}: another run has been writing there for {WAIT_S:g} s; wait until it"
                 " ends, or choose another folder with --out"
             )
         time.sleep(_POLL_S)

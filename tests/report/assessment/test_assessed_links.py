@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.project import reassess
 from solver.model import Scene, Status, coulomb
@@ -14,19 +15,19 @@ from solver.sliding.least_model import DEFAULT
 from solver.sliding.row import BlockRow, slide_row
 
 G, LB, INCH = 9.80665, 4.4482216152605, 0.0254
-MOTIONS = stand_in.motions(3, seconds=12.0)
+MOTIONS = scenes.motions(3, seconds=12.0)
 
 
 def assessed(friction, lb_per_in, *, mu=0.45, shaking=MOTIONS, peer_reviewed=True, **changes):
     """An array of two degrees as a row, with its assessment."""
-    data = stand_in.project(
+    done = scenes.package(
+        shaking,
         arrays=[stand_in.array("A1", 2.0, mu=mu)],
         objects=[],
         clearances=[],
         links=[stand_in.links("A1", friction, lb_per_in, **changes)],
         options={"peer_reviewed": peer_reviewed},
-    )
-    done = stand_in.assess_input(data, shaking)
+    ).assessment
     return done, done.linked[0]
 
 

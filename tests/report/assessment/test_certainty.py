@@ -4,18 +4,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.certainty import certainty
 from solver.model import Friction
 from solver.sliding.checked import slide
 
 PEER = {"peer_reviewed": True}
-SHORT = stand_in.motions(3, seconds=8.0)
+SHORT = scenes.motions()
 
 
 def made(found=SHORT, **changes):
-    data = stand_in.project(**({"options": PEER} | changes))
-    return stand_in.assessed(stand_in.book(data, found))
+    return scenes.package(found, **{"options": PEER} | changes).assessment
 
 
 @pytest.fixture(scope="module")

@@ -6,17 +6,18 @@ from functools import partial
 
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction
 from solver.rules.provisions import Neighbor
 
-motions = partial(stand_in.motions, seconds=12.0)  # half a second less for a run of seven
+motions = partial(scenes.motions, 7, 12.0)  # half a second less for a run of seven
 SAME_SLOPE = 100.0 * math.tan(math.radians(0.5))
 
 
 def assessed(shaking=None, **changes):
-    return stand_in.assess_input(stand_in.project(**changes), shaking or motions())
+    return scenes.package(shaking or motions(), **changes).assessment
 
 
 def site(**changes):

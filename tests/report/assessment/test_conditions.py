@@ -1,10 +1,10 @@
 """Requirements beside the numeric limits, and the three verdicts."""
 
 import datetime as dt
-from dataclasses import replace
 
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.verdict import Verdict, worst
@@ -18,7 +18,7 @@ STATED = {
 
 
 def assessed(**changes):
-    return stand_in.assess_input(stand_in.project(**changes), stand_in.motions(3, seconds=8.0))
+    return scenes.package(**changes).assessment
 
 
 def site(**changes):
@@ -229,11 +229,8 @@ def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_n
 
 def test_a_value_from_analysis_that_is_not_permitted_is_named_so():
     """The motions have no vertical component, and the friction is too small for prescription."""
-    motions = [
-        replace(motion, az_mps2=stand_in.NO_RECORD) for motion in stand_in.motions(3, seconds=8.0)
-    ]
     arrays = [stand_in.array("A1", 0.5, mu=0.3), stand_in.array("A2", 0.5, x=120)]
-    done = stand_in.assess_input(stand_in.project(arrays=arrays, clearances=[]), motions)
+    done = scenes.package(scenes.level(), arrays=arrays, clearances=[]).assessment
     low, high = done.arrays
     assert [low.source, high.source] == ["floor, not permitted", "prescriptive"]
     assert [low.is_permitted, high.is_permitted] == [False, True]
@@ -257,12 +254,9 @@ def test_no_slack_and_no_gap_of_the_plan_is_enough_for_a_displacement_that_is_no
 
 
 def test_a_route_that_five_percent_less_friction_closes_is_a_condition():
-    motions = [
-        replace(motion, az_mps2=stand_in.NO_RECORD) for motion in stand_in.motions(3, seconds=8.0)
-    ]
     for mu, is_closed in ((0.41, True), (0.43, False)):  # the limit is 0.40
         arrays = [stand_in.array("A1", 0.5, mu=mu)]
-        done = stand_in.assess_input(stand_in.project(arrays=arrays, clearances=[]), motions)
+        done = scenes.package(scenes.level(), arrays=arrays, clearances=[]).assessment
         found = row(done, "less_friction")
         assert (found is not None) is is_closed
         if is_closed:

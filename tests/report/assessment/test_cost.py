@@ -69,7 +69,7 @@ def test_the_command_says_it_before_the_runs(tmp_path, monkeypatch):
         raise InputError("the runs begin")
 
     monkeypatch.setattr("report.assessment.project.assess", stopped)
-    monkeypatch.setattr("report.cli.terminal._QUIET_SECONDS", -1.0)
+    monkeypatch.setattr("report.cli.terminal.QUIET_SECONDS", -1.0)
     done = CliRunner().invoke(main, ["report", str(path)])
     assert done.exit_code == 2
     said, runs = done.output.index("about 2 minutes of processor"), done.output.index("runs begin")

@@ -3,17 +3,15 @@
 import json
 import math
 from dataclasses import replace
-from html import unescape
 
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
+from printed import printed
 from report.assessment.cumulative import cumulative
 from report.assessment.evidence import support
-from report.package.html import pages
-from report.pages.cumulative import page
-from report.pages.registry import package_data
 from report.results.json import results_json
 from sheets import edit, make, problems, read_workbook
 from solver.sliding.checked import slide
@@ -25,9 +23,7 @@ G = 9.80665
 
 def made(events=FACTORS, found=None):
     options = {"peer_reviewed": True, "smaller_events": events}
-    data = stand_in.project(options=options)
-    motions = stand_in.motions(3, seconds=8.0) if found is None else found
-    return stand_in.assessed(stand_in.book(data, motions))
+    return scenes.package(found, options=options).assessment
 
 
 def test_each_sum_is_that_of_separate_runs():
@@ -75,18 +71,16 @@ def test_a_rectangular_pulse_gives_the_closed_form():
 
 def test_the_sums_carry_the_factor_of_the_design_value_beside_them():
     """Three motions: 1.1 times the largest, which is what a sum is compared with."""
-    assessment = made()
-    sums = cumulative(assessment)
-    shown = page(package_data(assessment), sums)
-    assert [column.head for column in shown["sums"].columns][1::2] == [
-        "1.10 × mean sum",
-        "1.10 × largest sum",
-        "Design displacement",
-    ]
-    for item, row in zip(sums, shown["sums"].rows, strict=True):
-        assert row.cells[1] == f"{1.1 * item.mean_m / 0.0254:.1f}"
-        assert row.cells[3] == f"{1.1 * item.largest_m / 0.0254:.1f}"
-    assert "carry the factor 1.10† of the value from analysis" in shown["events"]
+    done = made()
+    page = printed(done, "how-sure")
+    table = page.table("Cumulative displacement over the motions")
+    assert table.headings[1::2] == (
+        "1.10 × mean sum [in]", "1.10 × largest sum [in]", "Design displacement [in]",
+    )  # fmt: skip
+    for item, row in zip(cumulative(done), table.cells, strict=True):
+        assert row[1] == f"{1.1 * item.mean_m / 0.0254:.1f}"
+        assert row[3] == f"{1.1 * item.largest_m / 0.0254:.1f}"
+    assert "carry the factor 1.10† of the value from analysis" in page
 
 
 def test_a_run_without_a_final_value_leaves_no_sum():
@@ -97,19 +91,13 @@ def test_a_run_without_a_final_value_leaves_no_sum():
 def test_it_is_off_unless_the_workbook_names_events():
     assessment = made("")
     assert cumulative(assessment) == ()
-    html = unescape(pages(assessment, support(assessment)))
-    assert "once more by each of these factors" not in html
-    assert "starts from the installed position." in html
+    assert "Cumulative displacement" not in printed(assessment, "how-sure")
+    assert "starts from the installed position." in printed(assessment, "basis")
 
 
-def test_package_and_results_say_what_is_added_and_on_what_basis():
+def test_results_have_what_is_added():
     assessment = made()
-    evidence = support(assessment)
-    html = unescape(pages(assessment, evidence))
-    assert "once more by each of these factors: 0.50, 0.50, 0.25." in html
-    assert "starts from the installed position; part 14 adds those of the Options" in html
-    assert "practice and no requirement of the codes cited" in html
-    document = json.loads(results_json(assessment, evidence))
+    document = json.loads(results_json(assessment, support(assessment)))
     assert [item["array"] for item in document["cumulative"]] == [a.id for a in assessment.arrays]
     first = document["cumulative"][0]
     assert first["largest_m"] == max(first["sums_m"].values())

@@ -9,6 +9,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
+import scenes
 import stand_in
 from report.assessment.envelopes import (
     design_envelope,
@@ -22,8 +23,7 @@ from report.sheet.shapes import Polygon, Rectangle, closest, gap_m
 @pytest.fixture(scope="module")
 def done():
     arrays = [stand_in.array("A1", 2.0, downslope_deg=205.0), stand_in.array("A2", 3.0, x=120)]
-    data = stand_in.project(arrays=arrays, clearances=[])
-    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
+    return scenes.package(scenes.motions(3, 12.0), arrays=arrays, clearances=[]).assessment
 
 
 def margins(outline, points):

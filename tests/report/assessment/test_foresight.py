@@ -4,6 +4,7 @@ from functools import partial
 
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.arrays import Route
 from report.assessment.foresight import foreseen
@@ -11,20 +12,20 @@ from report.sheet.fields import Place
 from report.sheet.findings import Level
 from sheets import Book
 
-motions = partial(stand_in.motions, seconds=12.0)  # half a second less for a run of seven
+motions = partial(scenes.motions, seconds=12.0)  # half a second less for a run of seven
 SITE = stand_in.project().site.model_dump()
 BARE = stand_in.project(
     arrays=[stand_in.array("A1", 8.0, mu_report="", x_to_m=200 * 0.3048)], clearances=[]
 )
 CASES = {
-    "the usual project": (stand_in.project(), motions()),
+    "the usual project": (stand_in.project(), motions(7)),
     "slope, risk category and stories": (
         stand_in.project(
             arrays=[stand_in.array("A1", 8.0)],
             clearances=[],
             site=SITE | {"risk_category": "IV", "i_e": 1.5, "stories": 7},
         ),
-        motions(),
+        motions(7),
     ),
     "two motions on a slope that only analysis permits": (stand_in.steep(), motions(2)),
     "two motions on a slope that the prescriptive route permits": (
@@ -100,7 +101,7 @@ def test_a_limit_has_no_name_to_acknowledge():
 
 def test_a_statistic_that_needs_more_motions_is_named_as_the_reason():
     options = stand_in.project().options.model_dump() | {"statistic": "mean"}
-    book = stand_in.book(stand_in.project(options=options), motions())
+    book = stand_in.book(stand_in.project(options=options), motions(7))
     found = [f.text for f in foreseen(book.sheet, book.shaking) if f.level is Level.NOTE]
     assert found
     assert all(

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.evidence import plotted
 from report.assessment.friction_velocity import VelocityCheck, velocity_check
@@ -15,7 +16,7 @@ from solver.model import Friction, coulomb
 from solver.rules.provisions import Neighbor
 
 LAW = {"mu": 0.30, "mu_fast": 0.45, "mu_rate_s_per_m": 20.0}
-MOTIONS = stand_in.motions(3, seconds=8.0)
+MOTIONS = scenes.motions()
 TITLE = "Friction beyond the velocities tested"
 
 
@@ -28,8 +29,7 @@ def runs(mu=0.45, velocity_mps=0.0254, count=3):
 
 
 def assessed(arrays, tests, **changes):
-    data = stand_in.project(arrays=arrays, friction_runs=tests, **changes)
-    return stand_in.assess_input(data, MOTIONS)
+    return scenes.package(arrays=arrays, friction_runs=tests, **changes).assessment
 
 
 def one(mu=0.45, slope=2.0, tests=(), **law):

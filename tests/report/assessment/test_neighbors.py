@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import scenes
 import stand_in
 from report.assessment.clearances import least_gap_m
 from report.assessment.neighbors import NearbyKind, bare_edges, neighbors, unplaced
@@ -30,7 +31,7 @@ def of(assessment):
 
 @pytest.fixture(scope="module")
 def done():
-    return stand_in.assess_input(stand_in.project(), stand_in.motions(3, seconds=12.0))
+    return scenes.package(scenes.motions(3, 12.0)).assessment
 
 
 def having(done, design_m=None, **changes):
@@ -191,8 +192,8 @@ def _is_short(at, strips):
 
 @cache
 def one_array():
-    data = stand_in.project(arrays=[stand_in.array("A1", 1.0)], objects=[], clearances=[])
-    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
+    alone = {"arrays": [stand_in.array("A1", 1.0)], "objects": [], "clearances": []}
+    return scenes.package(scenes.motions(3, 12.0), **alone).assessment
 
 
 @given(st.floats(0.0, 30.0), st.floats(0.01, 8.0), st.floats(-10.0, 30.0), st.floats(-10.0, 30.0))

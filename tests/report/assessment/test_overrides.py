@@ -1,10 +1,10 @@
 """Overrides and departures that require less: a condition each, and a mark on what they change."""
 
 import datetime as dt
-from functools import cache
 
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.foresight import foreseen
 from report.assessment.overrides import OVERRIDDEN, override_rows
@@ -25,13 +25,9 @@ def overrides(**values):
     return [{"provision": key, "value": v, "reason": "agreed"} for key, v in values.items()]
 
 
-@cache
-def motions():
-    return stand_in.motions(7, seconds=8.0)
-
-
 def assessed(options=None, **values):
-    data = stand_in.project(
+    return scenes.package(
+        scenes.motions(7),
         overrides=overrides(**values),
         options=options or {},
         arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120)],
@@ -39,8 +35,7 @@ def assessed(options=None, **values):
             stand_in.clearance("A1", "RTU-1", 7 * stand_in.FOOT),
             stand_in.clearance("A2", "S edge", 5 * stand_in.FOOT, "down"),
         ],
-    )
-    return stand_in.assess_input(data, motions())
+    ).assessment
 
 
 @pytest.mark.parametrize(
@@ -107,7 +102,7 @@ def test_check_names_an_override_at_its_cell():
     data = stand_in.project(
         overrides=overrides(max_stories=8.0, separation_fixed=1.5, low_profile_in=40.0)
     )
-    made = stand_in.book(data, motions())
+    made = stand_in.book(data, scenes.motions(7))
     places = [f.place for f in foreseen(made.sheet, made.shaking) if f.text.startswith("override")]
     assert places == [Place("overrides", 0, "value"), Place("overrides", 2, "value")]
 
@@ -144,9 +139,9 @@ def test_a_floor_that_is_lowered_marks_what_it_governed():
 
 
 def test_a_floor_that_is_lowered_marks_nothing_where_it_did_not_govern():
-    strong = stand_in.motions(7, seconds=8.0, peak_g=6.0)
-    data = stand_in.project(overrides=overrides(analysis_floor=0.1), clearances=[])
-    done = stand_in.assess_input(data, strong)
+    strong = scenes.motions(7, peak_g=6.0)
+    lower = overrides(analysis_floor=0.1)
+    done = scenes.package(strong, overrides=lower, clearances=[]).assessment
     assert {item.governs for item in done.arrays} == {"analysis"}
     assert not done.is_overridden
     assert next(row.id for row in done.conditions) == "override"
@@ -155,16 +150,15 @@ def test_a_floor_that_is_lowered_marks_nothing_where_it_did_not_govern():
 def test_a_route_that_an_override_alone_permits_is_marked():
     arrays = [stand_in.array("A1", 8.0, mu=0.6)]
     wide = overrides(analysis_max_slope_deg=9.0, ibc_max_slope_deg=9.0)
-    data = stand_in.project(arrays=arrays, clearances=[], overrides=wide)
-    done = stand_in.assess_input(data, motions())
+    changes = {"arrays": arrays, "clearances": [], "overrides": wide}
+    done = scenes.package(scenes.motions(7), **changes).assessment
     assert done.arrays[0].is_permitted
     assert marks(done) == (["‡"], [])
 
 
 def test_the_mean_without_factor_is_marked():
-    strong = stand_in.motions(11, seconds=8.0, peak_g=6.0)
-    data = stand_in.project(options={"statistic": "mean"}, clearances=[])
-    done = stand_in.assess_input(data, strong)
+    strong = scenes.motions(11, peak_g=6.0)
+    done = scenes.package(strong, options={"statistic": "mean"}, clearances=[]).assessment
     by_analysis = [item for item in done.arrays if item.governs == "analysis"]
     assert by_analysis
     assert all(item.design_mark for item in by_analysis)

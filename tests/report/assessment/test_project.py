@@ -4,11 +4,11 @@ import math
 import re
 import statistics
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.arrays import DesignBasis
 from report.assessment.evidence import support
@@ -20,13 +20,17 @@ from solver.sliding import least_model
 from solver.sliding.checked import slide
 from solver.sliding.least_model import Rung
 
-motions = partial(stand_in.motions, seconds=12.0)  # half a second less for a run of seven
+
+def motions(count=7, seconds=12.0, **changes):
+    """Half a second less for a run of seven."""
+    return scenes.motions(count, seconds, **changes)
+
 
 G = 9.80665
 
 
 def assessed(shaking=None, **changes):
-    return stand_in.assess_input(stand_in.project(**changes), shaking or motions())
+    return scenes.package(shaking or motions(), **changes).assessment
 
 
 def site(**changes):
@@ -197,7 +201,7 @@ def test_uplift_withholds_the_displacement_and_fails_every_clearance():
 def test_a_run_without_a_result_withholds_the_displacement(monkeypatch):
     monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS", 10)
     monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS_OF_SAMPLE", 0)
-    done = assessed(motions(3))
+    done = stand_in.assess_input(stand_in.project(), motions(3))
     item = done.arrays[0]
     assert item.worst.governing.result.status is Status.STEP_LIMIT
     assert math.isnan(item.design_m)
@@ -273,19 +277,21 @@ def test_an_override_changes_the_result_and_is_kept_with_its_reason():
 
 
 def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
-    scenes = []
+    solved = []
     solve = least_model.solve
-    monkeypatch.setattr(least_model, "solve", lambda *call: scenes.append(call) or solve(*call))
+    monkeypatch.setattr(least_model, "solve", lambda *call: solved.append(call) or solve(*call))
     given = motions(3, seconds=8.0)
 
     def found(*rows):
-        scenes.clear()
+        solved.clear()
         gaps = [stand_in.clearance(row["id"], "RTU-1", 7 * stand_in.FOOT) for row in rows]
-        return assessed(given, arrays=list(rows), clearances=gaps, options={"peer_reviewed": True})
+        options = {"peer_reviewed": True}
+        data = stand_in.project(arrays=list(rows), clearances=gaps, options=options)
+        return stand_in.assess_input(data, given)
 
     def runs_of(assessment):
         support(assessment)
-        return len(scenes)
+        return len(solved)
 
     one, other = stand_in.array("A1", 1.0, x=0), stand_in.array("A2", 1.0, x=120)
     turned = other | {"downslope_deg": 90.0, "weight_n": 1e4}

@@ -3,6 +3,7 @@ import math
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.remedies import MOST_MU, RemedyKind, remedies
 from report.assessment.trials import above, below, reach
@@ -11,7 +12,7 @@ from solver.model import Friction, Status
 from solver.sliding.checked import slide
 
 PEER = {"peer_reviewed": True}
-SHORT = stand_in.motions(3, seconds=8.0)
+SHORT = scenes.motions()
 
 
 def of(listed, kind, clearance=1):
@@ -19,13 +20,13 @@ def of(listed, kind, clearance=1):
 
 
 def made(provided_m, *, arrays=None, options=PEER, motions=SHORT, near="A2", far="A3", **changes):
-    data = stand_in.project(
+    return scenes.package(
+        motions,
         clearances=[stand_in.clearance(near, far, provided_m)],
         options=options,
         **({"arrays": arrays} if arrays else {}),
         **changes,
-    )
-    return stand_in.assessed(stand_in.book(data, motions))
+    ).assessment
 
 
 def peaks_m(array, motions, mu, share=1.0):

@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
-from report.assessment.spectra import Spectra, departures, spectra
+from printed import printed
+from report.assessment.spectra import Spectra, spectra
 from report.motions.targets import TargetSpectrum
-from report.pages import motions as page
 from report.sheet.schema import RecordedAt
 from solver.records.spectrum import response_spectrum
 from solver.records.spectrum_acceptance import POINTS_HZ
@@ -18,8 +19,15 @@ G = 9.80665
 
 @pytest.fixture(scope="module")
 def assessment():
-    book = stand_in.book(stand_in.project(spectrum=[]), stand_in.motions(3, seconds=8.0))
-    return stand_in.assessed(book)
+    return scenes.package(spectrum=[]).assessment
+
+
+def page(assessment, *parts):
+    """The page on motions with these spectra."""
+    return printed(assessment, "motions", spectra=parts)
+
+
+ACHIEVED, ORDINATES = "Achieved / target", "Pseudo-acceleration"
 
 
 def under(assessment, motions, places=()):
@@ -29,7 +37,7 @@ def under(assessment, motions, places=()):
 
 
 def given():
-    return [replace(motion, scale=0.5) for motion in stand_in.motions(3, seconds=8.0)]
+    return [replace(motion, scale=0.5) for motion in scenes.motions()]
 
 
 def test_all_three_components_are_taken_as_run(assessment):
@@ -57,21 +65,22 @@ def test_the_band_is_from_the_first_to_the_last_corner_of_ac156(assessment):
     band = np.sort(1.0 / part.periods_s[part.in_band])
     assert (band[0], band[-1]) == pytest.approx((0.1, 33.3), rel=1e-12)
     assert np.log2(band[1:] / band[:-1]).max() <= 1 / 24 + 1e-12
-    assert "0.1 to 33.3 Hz" in page.achieved_table([part]).caption
+    assert "0.1 to 33.3 Hz" in page(assessment, part).table(ACHIEVED).title
 
 
 def test_the_smallest_ratio_of_the_table_is_that_of_the_limits(assessment):
     """A table that said 0.98 below a limit on points below 1.00 with 0 of them."""
     rows = [row for row in assessment.acceptance.rows if row.title.endswith("each component")]
-    least = min(float(row.cells[6]) for row in page.achieved_table(spectra(assessment)).rows)
+    table = page(assessment, *spectra(assessment)).table(ACHIEVED)
+    least = min(map(float, table.column("Single motion [min.]")))
     assert least == pytest.approx(min(row.found for row in rows), abs=0.005)
 
 
 def test_the_table_names_the_motion_and_frequency_of_the_extremes(assessment):
     motions = given()
     part = spectra(under(assessment, motions))[1]
-    (row,) = page.achieved_table([part]).rows
-    least, of_least, largest, of_largest = row.cells[-4:]
+    (row,) = page(assessment, part).table(ACHIEVED).cells
+    least, of_least, largest, of_largest = row[-4:]
     ratios = {
         (motion.id, freq): response_spectrum(
             0.5 * motion.ay_mps2, motion.dt_s, np.array([1 / freq])
@@ -89,38 +98,39 @@ def test_the_table_names_the_motion_and_frequency_of_the_extremes(assessment):
 
 def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment):
     part = spectra(under(assessment, given()))[0]
-    head, target, mean, over, least, largest = page.spectrum_table([part]).rows
-    assert part.title in head.cells[0].text
+    head, target, mean, over, least, largest = page(assessment, part).table(ORDINATES).rows
+    assert part.title in head["Period"]
     at = int(np.argmin(np.abs(part.periods_s - 1.0)))
-    column = 1 + page.PRINTED_S.index(1.0)
-    assert target.cells[column] == f"{part.target_g[at]:.3f}"
-    assert mean.cells[column] == f"{part.sa_g[:, at].mean():.3f}"
+    assert target["1 s [1 Hz]"] == f"{part.target_g[at]:.3f}"
+    assert mean["1 s [1 Hz]"] == f"{part.sa_g[:, at].mean():.3f}"
     for row, fold in ((over, np.mean), (least, np.min), (largest, np.max)):
-        assert row.cells[column] == f"{fold(part.sa_g[:, at]) / part.target_g[at]:.2f}"
+        assert row["1 s [1 Hz]"] == f"{fold(part.sa_g[:, at]) / part.target_g[at]:.2f}"
 
 
 def test_a_project_spectrum_applies_only_where_it_is_given():
     points = [(0.1, 2.0), (2.0, 0.5)]
     rows = [{"period_s": t, "horizontal_g": a} for t, a in points]
     data = stand_in.project(spectrum=rows)
-    done = stand_in.assessed(stand_in.book(data, stand_in.motions(3, seconds=8.0)))
+    done = stand_in.assessed(stand_in.book(data, scenes.motions()))
     part = spectra(under(done, given()))[0]
     periods = part.periods_s[part.in_band]
     assert 0.1 <= periods.min() <= 0.11
     assert 1.9 <= periods.max() <= 2.0
-    _, target, _, over, *_ = page.spectrum_table([part]).rows
+    shown = page(done, part)
+    table = shown.table(ORDINATES)
+    shown_s = [float(heading.partition(" s ")[0]) for heading in table.headings[1:]]
+    _, target, _, over, *_ = table.cells
     for row in (target, over):
-        given_at = [cell != "—" for cell in row.cells[1:]]
-        assert given_at == [0.1 <= period <= 2.0 for period in page.PRINTED_S]
-    (row,) = page.achieved_table([part]).rows
-    assert "—" not in row.cells
+        assert [cell != "—" for cell in row[1:]] == [0.1 <= t <= 2.0 for t in shown_s]
+    (row,) = shown.table(ACHIEVED).cells
+    assert "—" not in row
 
 
 def test_a_project_spectrum_of_long_periods_alone_gives_no_ratios_in_the_band():
     rows = [{"period_s": t, "horizontal_g": 0.1} for t in (12.0, 18.0)]
     done = stand_in.assessed(stand_in.book(stand_in.project(spectrum=rows), given()))
     parts = spectra(under(done, given()))
-    assert [row.cells[0] for row in page.achieved_table(parts).rows] == ["Vertical"]
+    assert page(done, *parts).table(ACHIEVED).column("Component") == ["Vertical"]
 
 
 def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_target():
@@ -132,9 +142,10 @@ def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_tar
     assert across.is_ground
     alone = response_spectrum(0.5 * motions[1].ax_mps2, motions[1].dt_s, across.periods_s)
     assert across.sa_g[1] == pytest.approx(alone / G, rel=1e-12)
-    _, mean = page.spectrum_table([across]).rows
-    assert mean.cells[0] == "Mean of 3 motions [g]"
-    assert not page.achieved_table([across]).rows
+    shown = page(done, across)
+    _, mean = shown.table(ORDINATES).cells
+    assert mean[0] == "Mean of 3 motions [g]"
+    assert not any(table.title.startswith(ACHIEVED) for table in shown.tables)
 
 
 FLAT = TargetSpectrum(name="AC156", at=lambda freq_hz: np.full(freq_hz.shape, 0.5), from_s=0.1,
@@ -155,7 +166,9 @@ def relative(title, ratios, target=FLAT, *, is_ground=False):
 
 
 def said(*parts):
-    return [page.departure_sentence(found) for found in departures(parts)]
+    """The sentences on the page of what departs from its target."""
+    lines = page(scenes.package().assessment, *parts).splitlines()
+    return [line for line in lines if ": the mean of the motions " in line]
 
 
 def test_motions_that_reach_their_target_or_have_none_are_not_said_to_miss_it():

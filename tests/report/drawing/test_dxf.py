@@ -11,6 +11,7 @@ from dataclasses import replace
 import ezdxf
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.envelopes import design_envelope
 from report.drawing.dxf import APPLICATION, write_dxf
@@ -138,7 +139,7 @@ def test_without_a_displacement_there_is_no_envelope(done):
 
 
 def test_a_gap_short_by_less_than_a_digit_does_not_read_as_enough():
-    given = stand_in.assess_input(stand_in.project(), stand_in.motions(3, seconds=12.0))
+    given = scenes.package(scenes.motions(3, 12.0)).assessment
     gap = next(one for one in given.clearances if one.clearance.object == "RTU-1")
     near = gap.clearance.model_copy(update={"provided_m": gap.required_m - 1e-5})
     tight = replace(given, clearances=(replace(gap, clearance=near),))

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import stand_in
+import scenes
 from report.figures.charts import hodographs, load_fonts
 from report.figures.hodograph import STEP_IN, _Panel, _path, thinned
 from report.typeset.pdf import TEMPLATES
@@ -20,7 +20,7 @@ def fonts():
 
 @pytest.fixture(scope="module")
 def array():
-    return stand_in.assessed(stand_in.book(shaking=stand_in.motions(3, seconds=12.0))).arrays[1]
+    return scenes.package(scenes.motions(3, 12.0)).assessment.arrays[1]
 
 
 def words(svg):

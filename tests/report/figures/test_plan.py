@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+import scenes
 import stand_in
 from report.assessment.envelopes import keep_clear_words
 from report.figures.base import load_fonts, style
@@ -32,7 +33,7 @@ def fonts():
 
 @pytest.fixture(scope="module")
 def done():
-    return stand_in.assess_input(stand_in.project(), stand_in.motions(3, seconds=12.0))
+    return scenes.package(scenes.motions(3, 12.0)).assessment
 
 
 @pytest.fixture(scope="module")

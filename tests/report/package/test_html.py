@@ -2,7 +2,8 @@
 
 import re
 
-import stand_in
+import packages
+import scenes
 from report.assessment.changes import NO_FORMER
 from report.assessment.evidence import support
 from report.beside import SameProcess
@@ -10,11 +11,12 @@ from report.package.html import begin, pages
 
 
 def test_every_equation_of_a_package_is_typeset_before_its_evidence_is_there():
-    assessment = stand_in.assess_input(stand_in.project(), stand_in.motions(2, seconds=8.0))
-    begun = begin(assessment, NO_FORMER, SameProcess())
-    ready = {equation.src for equation in begun.equations.result().values()}
-    evidence = support(assessment)
-    html = pages(assessment, evidence, NO_FORMER, begun.plot(evidence))
+    assessment = scenes.package().assessment
+    with packages.undrawn():
+        begun = begin(assessment, NO_FORMER, SameProcess())
+        ready = {equation.src for equation in begun.equations.result().values()}
+        evidence = support(assessment)
+        html = pages(assessment, evidence, NO_FORMER, begun.plot(evidence))
     printed = set(re.findall(r'<div class="symbols"><img src="([^"]+)"', html))
     assert len(printed) > 15
     assert printed == ready

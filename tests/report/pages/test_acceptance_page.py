@@ -7,20 +7,21 @@ import numpy as np
 import pytest
 from openpyxl import Workbook
 
+import scenes
 import stand_in
+from printed import printed
 from report.assessment.acceptance import shaking_acceptance
-from report.assessment.spectra import Spectra
+from report.assessment.spectra import spectra
 from report.motions.components import read_components
 from report.motions.prepare import Shaking
 from report.motions.targets import TargetSpectrum, targets
-from report.pages.acceptance import acceptance_table, event_table, strength_table
 from report.sheet.archive import open_book
 from report.sheet.schema import MotionInput, RecordedAt
 from solver.records.acceptance import Acceptance
-from solver.records.acceptance_row import AcceptanceRow, Consequence
+from solver.records.acceptance_row import AcceptanceRow
 from solver.records.record import Record, write_record
 
-MOTIONS = stand_in.motions(3, seconds=6.0)
+MOTIONS = scenes.motions(3, seconds=6.0)
 
 
 def found(motions, hold_s=math.nan, **changes):
@@ -32,8 +33,11 @@ def found(motions, hold_s=math.nan, **changes):
     return shaking_acceptance(shaking, targets(book.sheet.project))
 
 
-def cells(acceptance):
-    return {row.cells[0]: row.cells[1:] for row in acceptance_table(acceptance).rows}
+def limits(given, **evidence):
+    """The table of the limits, of an assessment or of other acceptance beside it."""
+    if isinstance(given, Acceptance):
+        given = replace(scenes.package().assessment, acceptance=given)
+    return printed(given, "motions", **evidence).table("Limits on the motions")
 
 
 def test_a_file_that_states_its_hold_is_generated():
@@ -73,73 +77,71 @@ def test_a_part_of_a_record_has_no_longer_its_envelope(tmp_path, changes, hold_s
 
 
 def test_a_short_record_is_a_condition_and_a_missing_component_is_ng():
-    bare = [replace(m, ay_mps2=np.empty(0)) for m in MOTIONS]
-    shown = cells(found(bare))
-    strong = shown["Strong motion of records: D5-95 of each component"]
-    assert strong[1] == "≥ 20.0 s"
-    assert "condition" in strong[3]
-    missing = shown["Number of components of each motion: two horizontal and the vertical together"]
-    assert missing[:3] == ("2", "≥ 3", f"{MOTIONS[0].id}, no y")
-    assert "NG" in missing[3]
-    assert shown["Number of motions"][:2] == ("3", "≥ 3")
-    assert "OK" in shown["Number of motions"][3]
+    bare = tuple(replace(m, ay_mps2=np.empty(0)) for m in MOTIONS)
+    shown = limits(scenes.package(bare))
+    strong = shown.row("Strong motion of records: D5-95 of each component")
+    assert (strong["Limit value"], strong["Result"]) == ("≥ 20.0 s", "condition")
+    missing = "Number of components of each motion: two horizontal and the vertical together"
+    assert [*shown.row(missing).values()][1:] == ["2", "≥ 3", f"{MOTIONS[0].id}, no y", "NG"]
+    assert [*shown.row("Number of motions").values()][1:] == ["3", "≥ 3", "—", "OK"]
 
 
 @pytest.mark.parametrize(
-    ("value", "printed", "word"),
+    ("value", "shown", "word"),
     [(0.8999, "0.8999", "NG"), (0.899999, "0.899999", "NG"), (0.9, "0.90", "OK")],
 )
-def test_a_miss_never_rounds_onto_its_limit(value, printed, word):
+def test_a_miss_never_rounds_onto_its_limit(value, shown, word):
     row = AcceptanceRow(title="Ratio", found=value, limit=0.9, is_at_least=True, worst="M1 x")
-    ((_, shown, limit, _, result),) = (
-        row.cells for row in acceptance_table(Acceptance(rows=(row,), motions=())).rows
-    )
-    assert (shown, limit) == (printed, "≥ 0.90")
-    assert word in result
+    found = limits(Acceptance(rows=(row,), motions=())).row("Ratio")
+    assert [*found.values()][1:] == [shown, "≥ 0.90", "M1 x", word]
 
 
 def test_only_limits_of_this_program_are_marked_as_such():
-    shown = found(MOTIONS)
-    marked = [row.cells[0] for row in acceptance_table(shown).rows if "*" in row.cells[0]]
+    shown = limits(scenes.package())
+    marked = [title for title in shown.column("Limit") if "*" in title]
     assert len(marked) == 2
     assert all("0.1 to 1.3 Hz" in title for title in marked)
-    assert "in no code" in acceptance_table(shown).notes[0]
-    assert {row.consequence for row in shown.rows} == {Consequence.NG, Consequence.CONDITION}
+    assert "in no code" in shown.notes[0]
 
 
 def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
-    acceptance = Acceptance(
-        rows=(AcceptanceRow(title="Spectrum / target, 1.3 to 33.3 Hz, each component", found=1.0,
-                            limit=0.9, is_at_least=True, worst="M1 x"),),
-        motions=(),
-    )  # fmt: skip
+    done = scenes.package().assessment
+    row = AcceptanceRow(title="Spectrum / target, 1.3 to 33.3 Hz, each component", found=1.0,
+                        limit=0.9, is_at_least=True, worst="M1 x")  # fmt: skip
+    given = replace(done, acceptance=Acceptance(rows=(row,), motions=()))
+    part, *others = spectra(done)
     flat = TargetSpectrum(name="AC156", at=np.ones_like, from_s=0.01, to_s=10.0)
-    part = Spectra(ids=("M1", "M2"), periods_s=np.array([0.1, 0.5, 7.35]), target=flat,
-                   sa_g=np.array([[1.1, 1.2, 1.0], [1.0, 1.1, 0.906]]), title="Horizontal",
-                   is_ground=False)  # fmt: skip
-    (said,) = acceptance_table(acceptance, [part]).notes
-    assert said.endswith(
-        "the smallest ratio of those shown below is 0.91 (M2, horizontal, at 0.136 Hz)."
+    part = replace(part, target=flat, sa_g=np.full_like(part.sa_g, 1.1))
+    part.sa_g[1, 0] = 0.906
+
+    def said(part):
+        above = (replace(other, target=flat, sa_g=part.sa_g + 0.2) for other in others)
+        return limits(given, spectra=(part, *above)).notes[0]
+
+    assert said(part).endswith(
+        "the smallest ratio of those shown below is 0.91 (M2, horizontal, at "
+        f"{1.0 / part.periods_s[0]:.3g} Hz)."
     )
-    (of_ground,) = acceptance_table(acceptance, [replace(part, is_ground=True)]).notes
-    (higher,) = acceptance_table(acceptance, [replace(part, sa_g=part.sa_g + 0.1)]).notes
-    assert of_ground == higher == said[: len(higher)]
+    higher = said(replace(part, sa_g=part.sa_g + 0.1))
+    assert said(replace(part, is_ground=True)) == higher == said(part)[: len(higher)]
 
 
 def test_strong_motion_and_correlations_are_those_of_the_arrays():
-    row = strength_table(found(MOTIONS[:1]).motions).rows[0].cells
-    x, y = (a * MOTIONS[0].scale for a in (MOTIONS[0].ax_mps2, MOTIONS[0].ay_mps2))
+    motion = scenes.motions()[0]
+    row = printed(scenes.package(), "motions").table("Strong motion").row(motion.id)
+    x, y = (a * motion.scale for a in (motion.ax_mps2, motion.ay_mps2))
     # pi / (2 g) times the integral of the square of straight lines between samples.
     squares = (x[:-1] ** 2 + x[:-1] * x[1:] + x[1:] ** 2) / 3.0
-    arias = math.pi / (2.0 * 9.80665) * MOTIONS[0].dt_s * squares.sum()
-    assert row[1] == f"{arias:.2f}"
-    assert float(row[7].replace("−", "-")) == pytest.approx(np.corrcoef(x, y)[0, 1], abs=0.005)
-    assert row[-1] == "record"
+    arias = math.pi / (2.0 * 9.80665) * motion.dt_s * squares.sum()
+    assert row["Arias intensity, m/s [x]"] == f"{arias:.2f}"
+    correlation = float(row["Correlation [x-y]"].replace("−", "-"))
+    assert correlation == pytest.approx(np.corrcoef(x, y)[0, 1], abs=0.005)
 
 
 def test_events_are_printed_where_the_workbook_gives_any():
-    plain = MotionInput(id="M1", record="x.csv")
-    assert event_table([plain]) == ()
-    given = MotionInput(id="M2", record="y.csv", event="Kobe 1995", magnitude=6.9, v_s30_mps=312.0)
-    (table,) = event_table([plain, given])
-    assert [row.cells for row in table.rows] == [("M2", "Kobe 1995", "6.9", "not given", "312")]
+    plain = {"id": "M1", "record": "x.csv"}
+    given = plain | {"id": "M2", "event": "Kobe 1995", "magnitude": 6.9, "v_s30_mps": 312.0}
+    page = printed(scenes.package(motions=[plain, given]), "motions")
+    (row,) = page.table("Events of the records").cells
+    assert row == ("M2", "Kobe 1995", "6.9", "not given", "312")
+    assert "Events" not in printed(scenes.package(), "motions")

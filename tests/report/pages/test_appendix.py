@@ -3,8 +3,11 @@
 import math
 from dataclasses import replace
 
+import scenes
+from printed import printed
+from report.assessment.changes import NO_FORMER, Change, ChangeKind
 from report.motions.components import RecordFile
-from report.pages import appendix
+from report.pages.registry import package_data
 from report.sheet.read import EchoRow
 
 
@@ -14,9 +17,20 @@ def row(cell, label, typed="", value="—", unit="", unseen=""):
     )
 
 
-def table(*rows):
-    ((sheet, (made,)),) = appendix.echo(rows)
-    assert sheet == "S"
+def echo(*rows, changed=()):
+    """The page of an echo, where cells at some addresses changed."""
+    done = scenes.package().assessment
+    done = replace(done, sheet=replace(done.sheet, echo=rows))
+    items = (
+        Change(kind=ChangeKind.INPUT, title="", before="", now="", cell=cell) for cell in changed
+    )
+    since = replace(NO_FORMER, revision="0", items=tuple(items))
+    return printed(package_data(done, since), "echo")
+
+
+def table(*rows, **changed):
+    (made,) = echo(*rows, **changed).tables
+    assert made.title == "S"
     return made
 
 
@@ -26,7 +40,7 @@ def test_single_cells_stand_in_two_columns_with_their_units():
         row("B6", "S_1", "0.7", "0.7 g", "g"),
         row("B7", "Site class", "C", "C"),
     )
-    assert [line.cells for line in made.rows] == [
+    assert [*made.cells] == [
         ("B5", "S_S", "1.9575 g", "B7", "Site class", "C"),
         ("B6", "S_1", "0.7 g", "", "", ""),
     ]
@@ -37,7 +51,7 @@ def test_a_cell_that_the_workbook_does_not_show_is_marked_with_how():
         row("B5", "S_S", "1.5", "1.5 g", "g", unseen="hidden"),
         row("B6", "S_1", "=B5/2 → 0.75", "0.75 g", "g", unseen="hidden, struck through"),
     )
-    (cells,) = [line.cells for line in made.rows]
+    (cells,) = made.cells
     assert cells[2] == "1.5 g (hidden)"
     assert cells[5] == "=B5/2 → 0.75 g: 0.75 g (hidden, struck through)"
 
@@ -49,7 +63,7 @@ def test_a_column_of_which_one_cell_is_hidden_is_printed_row_by_row():
         row("B9", "ID", "A2", "A2", unseen="filtered out"),
         row("C9", "Slack", "60", "1.524 m", "in", unseen="filtered out"),
     )
-    assert [line.cells for line in made.rows] == [
+    assert [*made.cells] == [
         ("8", "A1", "60"),
         ("9", "A2 (filtered out)", "60 (filtered out)"),
     ]
@@ -73,9 +87,8 @@ def test_a_table_of_the_workbook_stands_as_it_is_there():
         row("C9", "Weight", "=2*C8", "889.6 N", "lb"),
         row("D9", "Model", value="choose (default)"),
     )
-    assert [column.head for column in made.columns] == ["Row", "B ID", "C Weight"]
-    assert [column.unit for column in made.columns] == ["", "", "lb"]
-    assert [line.cells for line in made.rows] == [
+    assert made.headings == ("Row", "B ID", "C Weight [lb]")
+    assert [*made.cells] == [
         ("8", "A1", "100"),
         ("9", "A2", "=2*C8: 889.6 N"),
     ]
@@ -89,7 +102,7 @@ def test_a_column_blank_in_some_rows_shows_the_default_there():
         row("B9", "ID", "A2", "A2"),
         row("C9", "Model", value="choose (default)"),
     )
-    assert [line.cells for line in made.rows] == [
+    assert [*made.cells] == [
         ("8", "A1", "one axis"),
         ("9", "A2", "choose (default)"),
     ]
@@ -105,14 +118,28 @@ ALIKE = (
 
 def test_one_entry_in_every_row_is_printed_once():
     made = table(*ALIKE)
-    assert [line.cells for line in made.rows] == [("8", "A1"), ("9", "A2")]
+    assert [*made.cells] == [("8", "A1"), ("9", "A2")]
     assert made.notes == ("In every row: C Slack 60 in.",)
 
 
 def test_an_entry_that_changed_stays_in_its_row():
-    ((_, (made,)),) = appendix.echo(ALIKE, {"S!C9"})
-    assert [line.cells for line in made.rows] == [("8", "A1", "60"), ("9", "A2", "<b>60</b>")]
-    assert [line.kind for line in made.rows] == ["", "changed"]
+    made = table(*ALIKE, changed={"S!C9"})
+    assert [*made.cells] == [("8", "A1", "60"), ("9", "A2", "60")]
+    assert (made.kinds, made.bold) == (("", "changed"), ("60",))
+
+
+def test_the_cells_that_changed_are_bold_and_their_rows_marked():
+    blank = (row("B7", "B7", value="3 (default)"), row("B8", "B8"))
+    made = table(row("B5", "B5", "1", "1"), row("B6", "B6", "2", "2"), *blank,
+                 changed={"S!B6", "S!B7", "T!B5"})  # fmt: skip
+    assert [*made.cells] == [
+        ("B5", "B5", "1", "B7", "B7", "3 (default)"), ("B6", "B6", "2", "", "", ""),
+    ]  # fmt: skip
+    assert (made.kinds, made.bold) == (("changed", "changed"), ("3 (default)", "2"))
+    assert made.notes == ("Left blank: B8 B8.",)
+    cells = (row("B8", "B", "a"), row("C8", "C", "<i>"), row("B9", "B", "b"), row("C9", "C", "d"))
+    made = table(*cells, changed={"S!C8"})
+    assert (made.kinds, made.bold) == (("changed", ""), ("<i>",))
 
 
 def test_every_cell_of_a_wide_table_is_printed_beside_its_name():
@@ -122,13 +149,11 @@ def test_every_cell_of_a_wide_table_is_printed_beside_its_name():
         for number in range(8, 19)
         for letter in letters
     ]
-    ((_, tables),) = appendix.echo(rows)
-    printed = {cell for made in tables for line in made.rows for cell in line.cells}
-    assert {echoed.typed for echoed in rows} <= printed
+    tables = echo(*rows).tables
+    printed_cells = {cell for made in tables for line in made.cells for cell in line}
+    assert {echoed.typed for echoed in rows} <= printed_cells
     assert len(tables) > 1
-    for made in tables:
-        assert made.columns[1].head == "B B of some length"
-        assert sum(column.share for column in made.columns) < appendix.WIDEST + 6.0
+    assert {made.headings[1] for made in tables} == {"B B of some length"}
 
 
 def test_a_record_shows_its_format_and_what_was_noted():
@@ -149,12 +174,18 @@ def test_a_record_shows_its_format_and_what_was_noted():
         notes=("uneven times were resampled",),
     )
     other = replace(record, motion_id="M2", npts=200, notes=())
-    made = appendix.records([record])
-    assert made.rows[0].cells == ("M1", "vertical", "0.2500", "records/a.V2A | Up", "ab" * 32)
+    made = records(record)
+    assert made.cells == (("M1", "vertical", "0.2500", "records/a.V2A | Up", "ab" * 32),)
     assert made.notes == (
         "Every record: Format GeoNet V2A, Samples 100, Step [s] 0.02.",
         "M1 vertical: uneven times were resampled",
     )
-    made = appendix.records([record, other])
-    assert [line.cells[2] for line in made.rows] == ["100", "200"]
+    made = records(record, other)
+    assert made.column("Samples") == ["100", "200"]
     assert made.notes[0] == "Every record: Format GeoNet V2A, Step [s] 0.02."
+
+
+def records(*files):
+    done = scenes.package().assessment
+    done = replace(done, shaking=replace(done.shaking, records=files))
+    return printed(done, "records").table("Records as read")

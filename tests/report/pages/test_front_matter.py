@@ -1,6 +1,5 @@
 """Cover, letter, references, symbols and departures say what the project at hand has."""
 
-import datetime as dt
 import io
 import re
 from dataclasses import replace
@@ -9,131 +8,92 @@ from html import unescape
 import pytest
 from pypdf import PdfReader
 
+import packages
+import scenes
 import stand_in
-from report.pages.cover import cover
-from report.pages.front import verdict_sentence
-from report.pages.letter import letter
-from report.pages.provisions import provisions
-from report.pages.references import codes, references
-from report.pages.registry import package_data
+from printed import printed
 from report.pages.symbols import SYMBOLS
-from report.sheet.schema import Options
 from report.typeset.pdf import lay_out
 from solver.records.acceptance_row import Consequence
 
-MOTIONS = stand_in.motions(3, seconds=4.0)
+MOTIONS = scenes.motions(3, seconds=4.0)
 
 
 def plain(text):
     return " ".join(unescape(re.sub(r"<[^>]+>", "", str(text))).split())
 
 
-def package(motions=MOTIONS, **changes):
-    return package_data(stand_in.assess_input(stand_in.project(**changes), motions))
-
-
-@pytest.fixture(scope="module")
-def usual():
-    return package()
-
-
 @pytest.fixture(scope="module")
 def html():
     tests = {"standard": "ASTM G115-10", "laboratory": "L", "report": "R"}
     data = stand_in.project(friction_tests=tests)
-    return stand_in.html(stand_in.book(data, MOTIONS))
+    with packages.undrawn():
+        return stand_in.html(stand_in.book(data, MOTIONS))
 
 
-def block(made):
-    return {label: plain(value) for label, value in cover(made)["block"]}
-
-
-def test_the_cover_has_verdict_and_governing_numbers(usual):
-    rows = block(usual)
-    gaps = usual.assessment.clearances
+def test_the_cover_has_verdict_and_governing_numbers():
+    package = scenes.package()
+    rows = printed(package, "cover").facts
     assert rows["Verdict"].startswith("NG Marked NG: ")
-    governing = rows["Governing array"]
-    assert governing.startswith("A2: NG; μ 0.45; design displacement 40.8 in")
+    assert rows["Governing array"].startswith("A2: NG; μ 0.45; design displacement 40.8 in")
+    gaps = package.assessment.clearances
     worst = max(gaps, key=lambda gap: gap.required_m / gap.clearance.provided_m)
     assert worst.clearance.object == "S edge"  # 1.5 x 40.8 in beside 60 in
     assert rows["Governing clearance"] == "A2 to S edge: D/C 1.02"
+    assert rows["Verification"].endswith(package.fingerprint)
 
 
-def test_the_cover_has_codes_and_attachments(usual):
-    rows = block(usual)
-    assert rows["Applicable codes"].startswith("SEAOC PV1-2012, Structural Seismic Requirements")
-    assert rows["Applicable codes"].endswith("Arrays; ASCE 7-16; IBC 1613.3; AC156")
-    assert rows["In this file"] == (
-        "workbook input.xlsx (SHA-256 5f5f5f5f5f5f…); nine record files; results.json"
-    )
-    assert rows["Beside it"] == "results.xlsx, results.json, plan.dxf"
-    assert rows["Verification"].startswith("roofslip verify-package FILE computes")
-    assert rows["Verification"].endswith(usual.fingerprint)
-
-
-def test_the_cover_says_that_large_records_are_left_out(usual, monkeypatch):
-    monkeypatch.setattr("report.provenance.files.MOST_RECORDS", 800_000)
-    rows = block(usual)
-    assert "not the nine record files, 0.9 MB in all: appendix B" in rows["In this file"]
+def test_the_cover_says_that_large_records_are_left_out():
+    done = scenes.package().assessment
+    large = tuple(replace(file, size=9_000_000) for file in done.shaking.records)
+    rows = printed(replace(done, shaking=replace(done.shaking, records=large)), "cover").facts
+    assert "not the nine record files, 81.0 MB in all: appendix B" in rows["In this file"]
     assert "verify-package FILE --records FOLDER" in rows["Verification"]
 
 
 def test_a_project_without_clearances_or_value_names_neither():
-    made = package(motions=MOTIONS[:2], arrays=[stand_in.array("A1", 4.0)], clearances=[])
-    rows = block(made)
+    made = scenes.package(MOTIONS[:2], arrays=[stand_in.array("A1", 4.0)], clearances=[])
+    rows = printed(made, "cover").facts
     assert rows["Governing clearance"] == "none given"
     assert "design displacement none" in rows["Governing array"]
-    page = letter(made)
-    assert "The workbook lists no clearances; none is checked." in page["texts"]
-    assert any("without a permitted design displacement is NG" in text for text in page["texts"])
-
-
-def test_lines_for_the_license_are_on_cover_and_letter(html):
-    head = html[html.index('class="cover"') : html.index('id="summary"')]
-    assert head.count("License no.") == head.count("License expires") == 2
+    letter = printed(made, "letter")
+    assert letter.line("The workbook lists no clearances; none is checked.")
+    assert "without a permitted design displacement is NG" in letter
 
 
 def test_asce_7_22_is_cited_in_its_own_edition():
     site = stand_in.project().site.model_dump() | {
-        "rule_set": "ASCE 7-22",
-        "s_ds_g": None,
-        "s_ms_g": 2.36,
-        "f_a": None,
-        "f_v": None,
-    }
-    made = package(site=site)
-    assert [document.cited for document in codes(made)] == ["ASCE 7-22", "IBC 1613.3", "AC156"]
-    full = " ".join(document.full for document in references(made))
-    assert "AC156-24" in full
-    assert "7-16" not in full
-    assert "PV1" not in full
+        "rule_set": "ASCE 7-22", "s_ds_g": None, "s_ms_g": 2.36, "f_a": None, "f_v": None,
+    }  # fmt: skip
+    page = printed(scenes.package(site=site), "symbols")
+    _, listed = page.split("## References")
+    assert re.findall(r"- ([^:]*):", listed)[:3] == ["ASCE 7-22", "IBC 1613.3", "AC156"]
+    assert "AC156-24" in listed
+    assert "7-16" not in page
+    assert "PV1" not in page
 
 
-def test_the_letter_counts_what_was_run(usual):
-    page = letter(usual)
-    runs = sum(len(m.runs) for item in usual.assessment.arrays for m in item.motions)
-    assert plain(page["analyzed"]) == (
-        "Three ballasted arrays (A1, A2, A3) were analyzed by response history under three "
-        f"motions, in {runs} runs, and compared with SEAOC PV1-2012 for SDS = 1.566 g and seismic "
-        "design category D."
-    )
-    assert sum(gap.ok for gap in usual.assessment.clearances) == 4
-    assert "Four of five clearances are satisfied." in page["texts"]
-    rows = [plain(row.cells[-1]) for row in page["arrays"].rows]
-    assert rows == [usual.assessment.array_verdict(a).value for a in usual.assessment.arrays]
-    assert not any("departure" in text or "overridden" in text for text in page["texts"])
-
-
-def test_one_array_is_counted_in_the_singular():
-    made = package(arrays=[stand_in.array("A1", 1.0)], objects=[], clearances=[])
-    assert plain(letter(made)["analyzed"]).startswith("One ballasted array (A1) was analyzed")
+def test_the_letter_counts_what_was_run():
+    done = scenes.package().assessment
+    page = printed(done, "letter")
+    runs = sum(len(m.runs) for item in done.arrays for m in item.motions)
+    assert f"in {runs} runs" in page.line("Three ballasted arrays (A1, A2, A3) were analyzed")
+    assert sum(gap.ok for gap in done.clearances) == 4
+    assert page.line("Four of five clearances are satisfied.")
+    verdicts = page.table("Results").column("Verdict")
+    assert verdicts == [done.array_verdict(a).value for a in done.arrays]
+    assert "departure" not in page
+    assert "overridden" not in page
+    one = scenes.package(arrays=[stand_in.array("A1", 1.0)], objects=[], clearances=[])
+    assert printed(one, "letter").line("One ballasted array (A1) was analyzed")
 
 
 def test_the_letter_is_one_page():
     """Only the letter and the parts around it are laid out."""
     arrays = [stand_in.array(f"A{k}", 0.5, x=90 * k) for k in range(12)]
     data = stand_in.project(arrays=arrays, objects=[], clearances=[])
-    html = stand_in.html(stand_in.book(data, MOTIONS[:1]))
+    with packages.undrawn():
+        html = stand_in.html(stand_in.book(data, MOTIONS[:1]))
     head, *parts = re.split(r'(?=<section class="[^"]*\bstarts\b)', html)
     (at,) = (k for k, part in enumerate(parts) if '<h1 id="letter">' in part)
     near = re.sub(r' href="#[^"]*"', "", "".join((head, *parts[at : at + 2])))
@@ -152,49 +112,24 @@ def test_the_letter_is_one_page():
         (1, 0, "One requirement is open; the summary (part 1) lists it as a condition."),
         (0, 1, "One requirement is open; the summary (part 1) lists it as NG."),
         (0, 2, "Two requirements are open; the summary (part 1) lists them as NG."),
-        (
-            9,
-            1,
-            "10 requirements are open; the summary (part 1) lists one as NG and nine conditions.",
-        ),
+        (9, 1, "10 requirements are open; the summary (part 1) lists one as NG and nine "
+         "conditions."),
     ],
-)
-def test_the_letter_says_where_open_requirements_are_listed(usual, n_conditions, n_severe, text):
-    row = usual.assessment.conditions[0]
+)  # fmt: skip
+def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_severe, text):
+    done = scenes.package().assessment
+    row = done.conditions[0]
     assert row.consequence is Consequence.CONDITION
     rows = (row,) * n_conditions + (replace(row, consequence=Consequence.NG),) * n_severe
-    made = replace(usual, assessment=replace(usual.assessment, rows=rows))
-    assert text in letter(made)["texts"]
+    assert printed(replace(done, rows=rows), "letter").line(text)
 
 
-def test_a_departure_is_printed_with_its_reason_reviewer_license_and_date(usual):
-    assert provisions(usual)["departure"] is None
-    options = Options(
-        directional=True,
-        directional_reason="Agreed on site",
-        directional_reviewer="R. Viewer",
-        directional_license="CA S1234",
-        directional_date=dt.date(2026, 3, 1),
-    )
-    made = package(options=options.model_dump())
-    table = provisions(made)["departure"]
-    assert table.rows[0].cells[1:] == ("Agreed on site", "R. Viewer", "CA S1234", "2026-03-01")
-    assert any("a departure from the rule set" in text for text in letter(made)["texts"])
-
-
-def test_the_note_of_a_provision_is_printed(usual):
-    (note,) = provisions(usual)["table"].notes
-    assert plain(note) == (
-        "Maximum slope for the analysis route [deg]: "
-        "quoted for attached arrays (Sec. 4); an unattached array on a slope over 3 deg may be "
-        "outside PV1-2012†."
-    )
-
-
-def test_the_three_verdicts_are_defined(html):
-    basis = plain(html[html.index('id="basis"') : html.index('id="inputs"')])
-    for word in ("OK: every", "OK with conditions: ", "NG: "):
-        assert word in basis
+def test_a_departure_is_printed_with_its_reason_reviewer_license_and_date():
+    assert "Departure" not in printed(scenes.package(), "provisions")
+    made = scenes.package(options=scenes.DEPARTURE)
+    (row,) = printed(made, "provisions").table("Departure").cells
+    assert row[1:] == ("Agreed on 2026-02-10", "Reviewer of record", "CA S0000", "2026-03-01")
+    assert "a departure from the rule set" in printed(made, "letter")
 
 
 def test_every_document_is_listed_exactly_where_it_is_cited(html):
@@ -244,7 +179,3 @@ def symbols(latex):
     rest = _WORDS.sub(" ", re.sub(r"_\{([^{}]*)\}", r"_\1 ", rest))
     names = re.findall(r"[A-Za-zΔθμφ](?:_[A-Za-z0-9]+)?", rest)
     return set(names) - {"e"}  # of the exponential
-
-
-def test_a_verdict_that_a_requirement_alone_makes_names_it(usual):
-    assert not verdict_sentence(usual).endswith("NG: .")

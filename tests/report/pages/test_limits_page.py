@@ -1,29 +1,22 @@
 """The part on limits, the conditions and the verdict are worded from the project at hand."""
 
-from dataclasses import replace
-
 import pytest
 
+import scenes
 import stand_in
-from report.pages.front import verdict_sentence
-from report.pages.limits import conditions, limits
-from report.pages.registry import package_data
+from printed import printed
 
-MOTIONS = stand_in.motions(3, seconds=4.0)
-ONE_COMPONENT = [replace(motion, ay_mps2=stand_in.NO_RECORD) for motion in MOTIONS]
-
-
-def package(motions=MOTIONS, **changes):
-    return package_data(stand_in.assess_input(stand_in.project(**changes), motions))
+MOTIONS = scenes.motions(3, seconds=4.0)
+ALONE = {"objects": [], "clearances": []}
 
 
 @pytest.mark.parametrize(
     ("motions", "slopes_deg", "caption"),
     [
         (MOTIONS, (1.0, 2.0), "Limits of the building and of the analysis route"),
-        (ONE_COMPONENT, (1.0, 2.0), "Limits of the building and of the prescriptive route"),
+        (scenes.along(MOTIONS), (1.0, 2.0), "Limits of the building and of the prescriptive route"),
         (
-            ONE_COMPONENT,
+            scenes.along(MOTIONS),
             (1.0, 4.0),
             "Limits of the building, of the analysis route (A2) and of the prescriptive route (A1)",
         ),
@@ -31,25 +24,26 @@ def package(motions=MOTIONS, **changes):
 )
 def test_the_limits_are_called_those_of_the_routes_taken(motions, slopes_deg, caption):
     arrays = [stand_in.array(f"A{k}", slope) for k, slope in enumerate(slopes_deg, start=1)]
-    made = package(motions, arrays=arrays, objects=[], clearances=[])
-    assert limits(made)["tables"][0].caption == caption
+    page = printed(scenes.package(motions, arrays=arrays, **ALONE), "limits")
+    assert page.tables[0].title == caption
 
 
 def test_a_condition_and_a_requirement_marked_ng_are_named_as_such():
     array = stand_in.array("A1", 0.5, slack_m=0.1)
-    made = package(arrays=[array], objects=[], clearances=[])
-    texts = conditions(made)
-    assert any(text.startswith("NG: array A1, Electrical slack") for text in texts)
-    assert any(text.startswith("Condition: array A1, Interconnection") for text in texts)
-    assert all(text.startswith(("NG: ", "Condition: ")) for text in texts)
+    page = printed(scenes.package(MOTIONS, arrays=[array], **ALONE), "summary")
+    assert page.line("NG: array A1, Electrical slack")
+    assert page.line("Condition: array A1, Interconnection")
+    _, listed = page.split("Conditions and requirements not satisfied\n")
+    lines = listed.partition("[")[0].splitlines()
+    assert [line for line in lines if not line.startswith(("- NG: ", "- Condition: "))] == []
 
 
 def test_a_verdict_claims_no_clearance_where_none_is_listed():
-    array = stand_in.array("A1", 0.5)
-    text = verdict_sentence(package(arrays=[array], objects=[], clearances=[]))
-    assert text.startswith(
-        "All limits are satisfied; the workbook lists no clearance, and none is checked; "
+    arrays = {"arrays": [stand_in.array("A1", 0.5)]}
+    assert "All limits are satisfied; the workbook lists no clearance, and none is checked; " in (
+        printed(scenes.package(MOTIONS, **arrays, **ALONE), "summary")
     )
-    gap = stand_in.clearance("A1", "RTU-1", 30.0)
-    listed = verdict_sentence(package(arrays=[array], clearances=[gap]))
-    assert listed.startswith("All limits and clearances are satisfied; ")
+    listed = {"clearances": [stand_in.clearance("A1", "RTU-1", 30.0)]}
+    assert "All limits and clearances are satisfied; " in (
+        printed(scenes.package(MOTIONS, **arrays, **listed), "summary")
+    )

@@ -243,7 +243,7 @@ def test_two_runs_at_once_never_mix_their_sets(tmp_path):
 def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path, monkeypatch):
     from report.results import publish as module
 
-    monkeypatch.setattr(module, "_WAIT_S", 0.2)
+    monkeypatch.setattr(module, "WAIT_S", 0.2)
     with module.locked(tmp_path):
         errors = []
 

@@ -1,7 +1,6 @@
 """What changed since a former revision: found from results.json, printed, and marked."""
 
 import json
-from html import unescape
 from pathlib import Path
 
 import pytest
@@ -9,9 +8,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import stand_in
+from printed import IDS, printed
 from report.assessment.changes import ChangeKind
 from report.assessment.evidence import support
-from report.package.html import pages
 from report.pages.registry import package_data, parts
 from report.results.compare import changes
 from report.results.json import results_json
@@ -120,42 +119,29 @@ def test_the_page_and_the_bars_are_there_only_if_asked_for(assessment, content):
     document["input"]["project"]["revision"] = "<B>"
     document["clearances"][2]["verdict"] = "NG"
     document["arrays"][0]["design_m"] *= 1.1
-    found, evidence = changed(content, document, assessment), support(assessment)
-    html = unescape(pages(assessment, evidence, found))
-    assert "Changes since revision <B>" in html
-    assert 'id="changes"' in html
-    assert "Number of stories" in html
-    listed, usual = (parts(package_data(assessment, *since)) for since in ((found,), ()))
-    assert [part.id for part in listed] == [*(part.id for part in usual), "changes"]
-    assert [part.number for part in listed][:-1] == [part.number for part in usual]
+    package = package_data(assessment, changed(content, document, assessment))
+    assert "Changes since revision <B>" in printed(package, "contents")
+    assert "Number of stories" in printed(package, "changes").table("Changes").column("Quantity")
+    usual = package_data(assessment)
+    listed, plain = (parts(one) for one in (package, usual))
+    assert [part.id for part in listed] == [*(part.id for part in plain), "changes"]
+    assert [part.number for part in listed][:-1] == [part.number for part in plain]
     # Summary: A1 and clearance 3; results: the design of A1; comparison: A1; clearances: 3.
-    assert html.count('<tr class="changed">') == 4
-    assert html.count('<tr class="total changed">') == 1
-    plain = pages(assessment, evidence)
-    assert 'class="changed"' not in plain
-    assert 'id="changes"' not in plain
+    assert marked(package, "summary") == ["A1", "3"]
+    assert marked(package, "results") == ["Design"]
+    assert marked(package, "comparison") == ["A1"]
+    assert marked(package, "clearances") == ["3"]
+    assert not any(marked(usual, id) for id in IDS)
 
 
-def test_the_echo_marks_changed_cells_and_their_rows():
-    from report.pages.appendix import echo
-    from report.sheet.read import EchoRow
-
-    def row(cell, typed="", value="—"):
-        return EchoRow(sheet="S", cell=cell, label=cell, typed=typed, unit="", value=value)
-
-    single = (row("B5", "1"), row("B6", "2"), row("B7", value="3 (default)"), row("B8"))
-    ((_, (made,)),) = echo(single, {"S!B6", "S!B7", "T!B5"})
-    assert [(line.cells[0], line.kind) for line in made.rows] == [
-        ("B5", "changed"),
-        ("B6", "changed"),
+def marked(package, id):
+    """The first cell of each row of a page that has a bar in the margin."""
+    return [
+        row[0]
+        for table in printed(package, id).tables
+        for row, kind in zip(table.cells, table.kinds, strict=True)
+        if "changed" in kind
     ]
-    assert [line.cells[5] for line in made.rows] == ["<b>3 (default)</b>", ""]
-    assert [line.cells[2] for line in made.rows] == ["1", "<b>2</b>"]
-    assert made.notes == ("Left blank: B8 B8.",)
-    table = (row("B8", "a"), row("C8", "<i>"), row("B9", "b"), row("C9", "d"))
-    ((_, (made,)),) = echo(table, {"S!C8"})
-    assert [line.kind for line in made.rows] == ["changed", ""]
-    assert [line.cells[2] for line in made.rows] == ["<b>&lt;i&gt;</b>", "d"]
 
 
 def test_a_missing_file_and_a_folder_are_input_errors(tmp_path):

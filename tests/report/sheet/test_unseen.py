@@ -10,8 +10,9 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.filters import AutoFilter, FilterColumn, Filters
 
+import scenes
+from printed import printed
 from report.assessment.foresight import findings
-from report.pages import appendix
 from report.sheet.fields import Place
 from report.sheet.findings import located
 from report.sheet.read import read
@@ -231,10 +232,10 @@ def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_
     (found,) = findings(book.sheet, book.shaking)
     assert found.reason == "Kept from the client's view"
     sheet, _, _ = cell_of("Options/1/Value")
-    ((_, tables),) = [part for part in appendix.echo(book.sheet.echo) if part[0] == sheet]
-    printed = [text for table in tables for line in table.rows for text in line.cells]
+    done = replace(scenes.package().assessment, sheet=book.sheet)
+    tables = [table for table in printed(done, "echo").tables if table.title == sheet]
+    assert "18 (hidden sheet)" in {cell for table in tables for row in table.cells for cell in row}
     notes = [note for table in tables for note in table.notes]
-    assert "18 (hidden sheet)" in printed
     assert all("hidden" not in note.split("Left blank")[-1] for note in notes)
     others = [r for r in book.sheet.echo if r.sheet != sheet]
     assert not any(r.unseen for r in others)
@@ -257,8 +258,8 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
     ((name, text),) = [(f.id, f.text) for f in found if f.id.startswith("hidden")]
     assert name == "hidden sheet Pasted"
     assert "and cells A1:C150 on it are read" in text
-    (note,) = {n for n in appendix.records(book.shaking.records).notes if n.startswith("M1 hor")}
-    assert note == "M1 horizontal: cells A1:B150 on the sheet Pasted: hidden sheet"
+    page = printed(replace(scenes.package().assessment, shaking=book.shaking), "records")
+    assert "M1 horizontal: cells A1:B150 on the sheet Pasted: hidden sheet" in page
 
 
 def test_many_cells_are_named_by_their_first_ranges():

@@ -20,13 +20,12 @@ from pypdf import PdfReader
 from test_study_exports import read_nrml
 
 import packages
+import printed
 from report.cli.main import main
 from report.pages.symbols import with_symbols
 from report.results.publish import locked
 from report.sheet.schema import UnitsFirst
 from report.study import files
-from report.study.array_pages import fragility
-from report.study.basis_pages import basis
 from report.study.exports import chances_of, component_id, export_files, known_states
 from report.study.files import study_files, study_html
 from report.study.prescribed import compare
@@ -172,9 +171,10 @@ def test_a_chance_without_a_value_at_the_medians_has_no_chart_and_says_so(result
     bars = tuple(
         dataclasses.replace(bar, prd_low_m=math.nan, prd_high_m=math.nan) for bar in one.bars
     )
-    *_, block = fragility(results, dataclasses.replace(one, bars=bars, center_m=math.nan)).blocks
-    assert block.charts == ()
-    assert "no final PRD with all variables at their medians" in block.texts[-1]
+    one = dataclasses.replace(one, bars=bars, center_m=math.nan)
+    page = printed.study(dataclasses.replace(results, arrays=(one,)))
+    _, chances = page.split("no final PRD with all variables at their medians")
+    assert "[" not in chances.partition("#")[0]
 
 
 def test_a_mat_without_tests_has_no_bar_for_friction(results):
@@ -529,7 +529,7 @@ def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
 
 
 def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("report.results.publish._WAIT_S", 0.1)
+    monkeypatch.setattr("report.results.publish.WAIT_S", 0.1)
     monkeypatch.setattr("report.study.run.run_study", lambda *_, **__: 1 / 0)
     folder = write(tmp_path, small())
     runs = folder / "out" / "study" / "runs"
@@ -543,12 +543,6 @@ def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monk
 
 def test_warnings_on_the_workbook_are_printed_with_the_basis(results):
     warned = dataclasses.replace(results.plan, warnings=(("Mats!B8", "cell B8 is struck through"),))
-    (table,) = (
-        table
-        for block in basis(dataclasses.replace(results, plan=warned)).blocks
-        for table in block.tables
-        if table.caption == "Warnings on the workbook"
-    )
-    assert [row.cells for row in table.rows] == [("Mats!B8", "cell B8 is struck through.")]
-    tables = [table for block in basis(results).blocks for table in block.tables]
-    assert table.caption not in [other.caption for other in tables]
+    table = printed.study(dataclasses.replace(results, plan=warned)).table("Warnings on the")
+    assert table.cells == (("Mats!B8", "cell B8 is struck through."),)
+    assert "Warnings on the workbook" not in printed.study(results)

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 
 import packages
+import printed
 import stand_in
 from report.assessment.arrays import Route
 from report.study.answer_pages import allowed
@@ -22,7 +23,6 @@ from report.study.files import study_html
 from report.study.page_parts import design_length
 from report.study.pages import sections
 from report.study.prescribed import compare
-from report.study.prescribed_pages import prescribed
 from report.study.results import MEAN, STATISTICS
 from report.study.run import planned, run_study
 from report.study.schema import Intensity, Mat, RuleSetName, StudyArray
@@ -145,10 +145,9 @@ def test_tables_and_manifest_carry_the_design_displacement_beside_the_mean(resul
 
 
 def test_the_floor_alone_is_named_where_it_exceeds_the_allowed_displacement(results):
-    (section,) = [allowed(results, 0, 0.3)]
-    text = " ".join(text for block in section.blocks for text in block.texts)
+    text = printed.study(results)
     # 0.5 x 60 in x 1.6^2 at 2 g, 10.8 in at 1 g, 3 in at 0.5 g; 0.3 m are 11.8 in.
-    assert "At S_DS = 2 g and more the floor alone exceeds it" in text
+    assert "At SDS = 2 g and more the floor alone exceeds it" in text
     assert "on slopes up to 7°†; IBC 1613.3 permits ballasted systems up to 4.76°†" in text
 
 
@@ -177,22 +176,15 @@ def with_analysis(results, ratio):
     return dataclasses.replace(results, analysis_m=values * results.plan.design_rule.prescriptive_m)
 
 
-def texts_of(results):
-    """The sentences on the prescriptive displacement."""
-    (found,) = compare(results, 0)
-    (block,) = prescribed(results, 0, found).blocks
-    return " ".join(block.texts)
-
-
 def test_a_prescriptive_displacement_that_is_enough_is_not_said_to_be_too_small(results):
-    text = texts_of(with_analysis(results, 0.5))
+    text = printed.study(with_analysis(results, 0.5))
     size = results.design_m.size
     assert f"enough in {size} of {size} cases and too small in 0." in text
     assert "cases in which it is too small" not in text
 
 
 def test_cases_that_are_permitted_and_too_small_are_counted(results):
-    text = texts_of(with_analysis(results, 2.0))
+    text = printed.study(with_analysis(results, 2.0))
     # Two of three frictions are 0.4 or more, one of three slopes 3 degrees or less.
     assert "Of the 27 cases in which it is too small, it is permitted in 6 and not" in text
     assert "not permitted in 21: slopes of 0° to 6°, μ of 0.3 to 0.6." in text

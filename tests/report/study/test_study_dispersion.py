@@ -10,10 +10,9 @@ import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
 
+import printed
 from report.cli.main import main
 from report.study.array_capacities import curves_of
-from report.study.array_pages import fragility
-from report.study.basis_pages import basis
 from report.study.dispersion import dispersions, exported
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE
@@ -87,7 +86,13 @@ def test_a_slope_about_none_disperses_as_its_size(results):
 
 
 def notes_of(results, one):
-    return " ".join(fragility(results, one).blocks[0].tables[1].notes)
+    return " ".join(table_of(results, one).notes)
+
+
+def table_of(results, one):
+    """The dispersions on the page of an array."""
+    page = printed.study(dataclasses.replace(results, arrays=(one,)))
+    return page.table("Dispersions of the capacity by name")
 
 
 def test_the_dispersion_of_friction_of_a_limit_obeys_the_scaling_of_a_level_roof(results):
@@ -154,18 +159,15 @@ def test_the_workbook_has_the_dispersions_by_name_and_the_exported_one(results):
 
 
 def test_each_dispersion_that_is_not_given_is_named_with_its_reason(results):
-    one = results.arrays[2]
-    table = fragility(results, one).blocks[0].tables[1]
-    assert table.caption.endswith(
+    table = table_of(results, results.arrays[2])
+    assert table.title.endswith(
         "Not included: modeling (not given), quality of data (not given) and friction (mat B has "
         "no tests)"
     )
     assert table.notes[-1] == (
         "Mass has no effect: each array is one rigid block with Coulomb friction."
     )
-    heads = [column.head for column in table.columns]
-    assert heads[-2:] == ["Slope: tolerance, standard deviation 0.17 deg", "β exported"]
-    assert all(len(row.cells) == len(heads) for row in table.rows)
+    assert table.headings[-2:] == ("Slope: tolerance, standard deviation 0.17 deg", "β exported")
 
 
 def test_a_dispersion_that_cannot_be_determined_is_said_and_keeps_its_column(results):
@@ -176,11 +178,9 @@ def test_a_dispersion_that_cannot_be_determined_is_said_and_keeps_its_column(res
     changed = dataclasses.replace(one, states=states)
     parts = {part.name: part for part in dispersions(results, changed, states[2])}
     assert (parts["friction"].beta, parts["friction"].source) == (0.0, "not determined")
-    table = fragility(results, changed).blocks[0].tables[1]
-    heads = [column.head.partition(":")[0] for column in table.columns]
-    *_, row = table.rows
-    assert row.cells[heads.index("Friction")] == "not determined"
-    assert len(row.cells) == len(heads)
+    table = table_of(results, changed)
+    names = [heading.partition(":")[0] for heading in table.headings]
+    assert table.cells[-1][names.index("Friction")] == "not determined"
 
 
 def test_the_runs_of_the_capacities_are_counted_and_no_more_than_a_dry_run_says(
@@ -203,8 +203,7 @@ def test_the_runs_of_the_capacities_are_counted_and_no_more_than_a_dry_run_says(
     done = CliRunner().invoke(main, ["study", str(folder), "--dry-run"])
     assert f"at most {said.capacity_runs:,} more runs for the capacities" in done.output
     assert f", and {made.capacity_runs:,} for the capacities" in headline(made)[0]
-    (block,) = basis(made).blocks
-    assert f" {made.capacity_runs:,} more runs find the capacities" in block.texts[-1]
+    assert f" {made.capacity_runs:,} more runs find the capacities" in printed.study(made)
 
 
 def test_without_a_tolerance_or_tests_nothing_more_is_run(tmp_path):

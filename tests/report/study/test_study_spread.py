@@ -12,10 +12,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+import printed
 from report.cli.main import main
 from report.study import files
-from report.study.array_pages import fragility
-from report.study.basis_pages import limits
 from report.study.dispersion import warning
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
@@ -71,8 +70,7 @@ def results(tmp_path_factory):
 
 def said(results, motions):
     spread = spectral_spread([motions])
-    (block,) = limits(dataclasses.replace(results, spread=spread)).blocks
-    return " ".join(block.items)
+    return printed.study(dataclasses.replace(results, spread=spread))
 
 
 def test_the_limits_name_the_spread_and_call_it_small_only_where_it_is(results):
@@ -138,8 +136,7 @@ def test_a_fragility_without_record_to_record_dispersion_is_not_exported(results
     assert export_files(found) == {}
     assert "The fragility files are not written: the " in headline(found)[-1]
     assert headline(found)[-1].endswith("or write the files with --allow-matched")
-    (row,) = fragility(found, found.arrays[0]).blocks[0].tables[1].rows
-    assert row.cells[-1] == "not exported"
+    assert printed.study(found).table("Dispersions").column("β exported") == ["not exported"]
 
 
 def test_allow_matched_writes_the_warning_in_each_file(results):
@@ -181,13 +178,12 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_
     )
     assert said in json.loads(made["fragility.json"])["BSA.S1"]["Comments"]
     assert said in defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][0].text
-    table = fragility(found, found.arrays[0]).blocks[0].tables[1]
-    assert table.caption.endswith(
+    table = printed.study(found).table("Dispersions")
+    assert table.title.endswith(
         ". Not included: quality of data (not given), friction (mat A has no tests) and slope (no "
         "tolerance is given)"
     )
-    (shown,) = table.rows
-    assert shown.cells == ("LS1", "0.300", "0.400", "0.500")
+    assert table.cells == (("LS1", "0.300", "0.400", "0.500"),)
 
 
 def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, monkeypatch):

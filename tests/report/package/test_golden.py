@@ -1,0 +1,57 @@
+"""The words of each page, as they were read and taken over last.
+
+`./roofslip test --golden` shows what changed and takes it over.
+"""
+
+import re
+from functools import partial
+
+import pytest
+
+import printed
+import scenes
+from places import GOLDEN
+
+SETS = {
+    "": scenes.usual,
+    "unpermitted": scenes.unpermitted,
+    "departing": scenes.departing,
+    "school": partial(scenes.shipped, "school"),
+    "conditions": partial(scenes.shipped, "conditions"),
+}
+ALIKE = {"contents", "plan", "echo", "symbols"}
+"""Parts that other projects print as the first one does."""
+
+SHIPPED = {"summary", "basis", "inputs", "motions", "comparison", "clearances", "limits", "model"}
+
+CHANGING = (
+    (r"\b[0-9a-f]{64}\b", "<SHA-256>"),
+    (r"\b[0-9a-f]{12}\b", "<hash>"),
+    (r"(?<=[a-z\d] )\d+(\.\d+)+(?=[,.] )(?=.*Bill of materials)", "<version>"),
+    (r"A run took less than [\d.]+ m?s", "A run took <time>"),
+    (r"the PRD (is identical to the last|changes by less than 10\S+ of its)", "the PRD <rounding>"),
+)
+"""What changes with versions, files and machines."""
+
+KEYS = (*printed.FRONT, *printed.IDS)
+CHOSEN = {
+    "": KEYS,
+    "unpermitted": [key for key in KEYS if key not in ALIKE],
+    "departing": [*(key for key in KEYS if key not in ALIKE), "changes"],
+    "school": [key for key in KEYS if key in SHIPPED],
+    "conditions": [key for key in KEYS if key in SHIPPED],
+}
+PAGES = [(name, key) for name, keys in CHOSEN.items() for key in keys]
+
+
+@pytest.mark.parametrize(("name", "key"), PAGES, ids=lambda word: word or "usual")
+def test_a_page_has_the_words_that_it_had(golden, name, key):
+    text = printed.printed(SETS[name](), key)
+    for pattern, placeholder in CHANGING:
+        text = re.sub(pattern, placeholder, text)
+    golden(f"{name}/{key}.txt" if name else f"{key}.txt", text)
+
+
+def test_each_golden_text_is_that_of_a_page():
+    names = {path.relative_to(GOLDEN).with_suffix("").as_posix() for path in GOLDEN.rglob("*.txt")}
+    assert names == {"study", *(f"{name}/{key}".lstrip("/") for name, key in PAGES)}
