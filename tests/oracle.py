@@ -19,6 +19,9 @@ class Oracle:
     up: mpf
     fastest: mpf  # along the slope
     n_stops: int
+    t_prd: mpf
+    events: list[tuple[mpf, mpf]]  # time, u: a slip, a stop, and so on
+    history: list[tuple[mpf, mpf]]  # u and u' at the samples
 
 
 def _relative_acceleration(sign, a_h, a_v, theta, mu, g):
@@ -61,8 +64,8 @@ def slide(ax, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665):
         base, per_h, per_v = weights[sign]
         return base + per_h * a_h[i] + per_v * a_v[i]
 
-    u = v = peak = low = high = fastest = mpf(0)
-    moving, n_stops = 0, 0
+    u = v = low = high = fastest = t_prd = mpf(0)
+    moving, n_stops, events, history = 0, 0, [], [(u, v)]
     ends = {sign: acceleration(sign, 0) for sign in (1, -1)}
     for i in range(len(a_h) - 1):
         starts, ends = ends, {sign: acceleration(sign, i + 1) for sign in (1, -1)}
@@ -80,6 +83,7 @@ def slide(ax, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665):
                 if not onsets:
                     break
                 t, moving = min(onsets)
+                events.append((i * dt + t, u))
             a0, rate = starts[moving] + rates[moving] * t, rates[moving]
             stop = _first_zero(v, a0, rate, dt - t)
             h = dt - t if stop is None else stop
@@ -92,13 +96,19 @@ def slide(ax, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665):
             if stop is not None:
                 v, moving = mpf(0), 0
                 n_stops += 1
+                events.append((i * dt + t, u))
+            if abs(u) > max(high, -low):
+                t_prd = i * dt + t
             low, high = min(low, u), max(high, u)
-    peak = max(high, -low)
+        history.append((u, v))
     return Oracle(
-        prd=peak,
+        prd=max(high, -low),
         residual=u,
         down=high,
         up=-low,
         fastest=fastest / mp.cos(theta),
         n_stops=n_stops,
+        t_prd=t_prd,
+        events=events,
+        history=history,
     )

@@ -19,6 +19,7 @@ RTOL = 1e-13
 @dataclass
 class PlaneOracle:
     prd: float
+    t_prd: float
     x_max: float
     x_min: float
     y_max: float
@@ -26,6 +27,7 @@ class PlaneOracle:
     end: tuple[float, float]
     fastest: float  # along the roof
     n_stops: int
+    events: list[tuple[float, float, float]]  # time, x, y: a slip, a stop, and so on
     history: np.ndarray
 
 
@@ -53,7 +55,7 @@ def slide(ax, ay, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665, mu_static
         ]
     ).T
     state, moving, n_stops = np.zeros(4), False, 0
-    seen, speeds, history = [np.zeros(2)], [0.0], np.zeros((4, len(ax)))
+    seen, speeds, history, events = [np.zeros(3)], [0.0], np.zeros((4, len(ax))), []
 
     def push(x):
         return math.hypot(x[0], x[1]) - hold * x[2]
@@ -68,15 +70,19 @@ def slide(ax, ay, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665, mu_static
                     t = brentq(lambda t, s=span: push(s.at(t)), t, dt, xtol=1e-18, rtol=1e-15)
                     if t >= dt:
                         break
+                events.append((i * dt + t, state[0] * cs, state[1]))
                 t, state, moving = _begin(span, t, state, law)
                 continue
-            t, state, moving = _follow(span, t, state, law, seen, speeds, cs)
-            n_stops += not moving
+            t, state, moving = _follow(span, t, state, law, (i * dt, seen), speeds, cs)
+            if not moving:
+                n_stops += 1
+                events.append((i * dt + t, state[0] * cs, state[1]))
         history[:, i + 1] = state * (cs, 1.0, cs, 1.0)
-    seen = np.array(seen) * (cs, 1.0)
-    x, y = seen.T
+    x, y, times = (np.array(seen) * (cs, 1.0, 1.0)).T
+    far = np.hypot(x, y)
     return PlaneOracle(
-        prd=float(np.hypot(x, y).max()),
+        prd=float(far.max()),
+        t_prd=float(times[far.argmax()]),
         x_max=float(x.max()),
         x_min=float(x.min()),
         y_max=float(y.max()),
@@ -84,6 +90,7 @@ def slide(ax, ay, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665, mu_static
         end=(float(state[0] * cs), float(state[1])),
         fastest=max(speeds),
         n_stops=n_stops,
+        events=events,
         history=history,
     )
 
@@ -101,8 +108,12 @@ def _begin(span, t, state, law):
     def run(h):
         return solve_ivp(net, (0.0, h), [0.0, 0.0], method="DOP853", rtol=RTOL, atol=1e-20).y[:, -1]
 
+    def turned(h):
+        (x, y, _), (other_x, other_y, _) = span.at(t), span.at(t + h)
+        return abs(math.atan2(x * other_y - y * other_x, x * other_x + y * other_y))
+
     longest = span.dt - t
-    while net(longest, [0.0, 0.0])[1] < 0.0:
+    while net(longest, [0.0, 0.0])[1] < 0.0 or turned(longest) > 0.1:
         longest *= 0.5
     target = 2e-5 * run(longest)[1]
     high = brentq(lambda h: run(h)[1] - target, 1e-9 * longest, longest, rtol=1e-13)
@@ -116,7 +127,10 @@ def _begin(span, t, state, law):
 
 
 def _follow(span, t, state, law, seen, speeds, cs):
-    """Follow to the end of the interval or to a stop; looks at every extreme on the way."""
+    """Follow to the end of the interval or to a stop; looks at every extreme on the way.
+
+    `seen` is the time when the interval begins, and the list of places.
+    """
     top = span.dt * float(np.abs(span.at(0.0)).max() + np.abs(span.at(span.dt)).max())
     speed = max(math.hypot(state[2], state[3]), 1e-5 * top)
     floor, atol = 1e-13 * speed + 1e-14 * top, RTOL * speed * np.array([span.dt, span.dt, 1.0, 1.0])
@@ -128,11 +142,11 @@ def _follow(span, t, state, law, seen, speeds, cs):
 
     solver = DOP853(rate, t, state, span.dt, rtol=RTOL, atol=1e-2 * atol)
     while solver.status == "running":
-        before, w = solver.y, math.hypot(*solver.y[2:])
+        w = math.hypot(*solver.y[2:])
         solver.step()
         if solver.status == "failed":
             raise ArithmeticError("DOP853 failed")
-        _extremes(solver.dense_output(), before, solver, seen, cs)
+        _extremes(solver.dense_output(), solver, *seen, cs)
         _fastest(solver.dense_output(), solver, rate, speeds)
         slower = math.hypot(*solver.y[2:])
         if slower < floor and slower < w:
@@ -140,8 +154,8 @@ def _follow(span, t, state, law, seen, speeds, cs):
     return span.dt, solver.y, True
 
 
-def _extremes(dense, before, solver, seen, cs):
-    seen.append(solver.y[:2].copy())
+def _extremes(dense, solver, begun, seen, cs):
+    seen.append([*solver.y[:2], begun + solver.t])
     times = np.linspace(solver.t_old, solver.t, 9)
     states = dense(times)
     for quantity in (
@@ -153,7 +167,7 @@ def _extremes(dense, before, solver, seen, cs):
         for a, b, first, other in zip(times[:-1], times[1:], values[:-1], values[1:], strict=True):
             if first * other < 0.0:
                 root = brentq(lambda t, q=quantity: q(dense(t)), a, b, xtol=1e-16)
-                seen.append(dense(root)[:2])
+                seen.append([*dense(root)[:2], begun + root])
 
 
 def _fastest(dense, solver, rate, speeds):

@@ -108,6 +108,31 @@ def test_compiled_and_plain_kernels_give_the_same_bits():
     np.testing.assert_array_equal(run_all(compiled=True), run_all(compiled=False))
 
 
+@pytest.mark.parametrize("size", [1, 2, 15, 16, 17, 256, 257, 300, 512, 529])
+def test_bounds_are_of_blocks_of_blocks_of_blocks_and_of_all(size):
+    a, block = readonly(np.random.default_rng(size).normal(size=size)), one_axis.BLOCK
+    parts = [a[k : k + n] for n in (block, block**2) for k in range(0, size, n)]
+    wanted = [[part.min(), part.max()] for part in (*parts, a)]
+    np.testing.assert_array_equal(one_axis.bounds(a), np.transpose(wanted))
+
+
+@pytest.mark.parametrize("vertical", [False, True])
+@pytest.mark.parametrize("size", [2, 16, 17, 18, 256, 257, 272, 273])
+def test_the_last_sample_of_a_record_of_any_length_is_seen(size, vertical):
+    level = readonly(np.zeros(size))
+    ax, az = readonly([*level[1:], -4.0]), level if vertical else None
+    x, z = one_axis.bounds(ax), one_axis.bounds(az) if vertical else None
+    run = one_axis.slide_exact(ax, az, x, z, 0.25, 0.0, 1.0, 0.2, G, 1.0, None)
+    # The push is 2 m/s2 above friction at the end, from zero half an interval before.
+    assert run[0] == pytest.approx(2.0 * 0.125**2 / 6.0, rel=1e-12)
+    down, right = readonly(3.0 * ax), readonly(-3.0 * ax)
+    for ax, az, sn, cs in ((level, down, 0.0, 1.0), (right, level, -1.0, 0.0)):
+        bounds = one_axis.bounds(ax), one_axis.bounds(az)
+        least, first = one_axis.least_normal(ax, az, *bounds, 0.25, sn, cs, G, 1.0)
+        assert least == pytest.approx(cs - 1.2, rel=1e-12)
+        assert first == pytest.approx(0.25 * (size - 2 + cs / 1.2), rel=1e-12)
+
+
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
 @pytest.mark.nightly("solver/kernels/one_axis.py", "solver/kernels/oscillator.py")
 def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):

@@ -101,3 +101,9 @@ def test_edition_22_takes_the_values_of_the_hazard_tool_and_no_coefficients():
     assert site.s_m1 == pytest.approx(0.9)
     assert seismic_parameters(E22, s_s=1.0, f_a=1.2).s_ds is None
     assert seismic_parameters(E16, s_ds=1.2).s_ms == pytest.approx(1.8)
+
+
+def test_a_mapped_value_or_a_coefficient_alone_gives_none():
+    for given in ({"s_s": 1.0}, {"f_a": 1.2}, {"s_1": 0.4}, {"f_v": 1.9}):
+        site = seismic_parameters(E16, **given)
+        assert (site.s_ms, site.s_m1, site.s_ds, site.s_d1, site.t_s) == (None,) * 5

@@ -196,12 +196,27 @@ def test_a_slope_equal_to_the_limit_passes(rules, slope_rad, ok):
     assert prescriptive_checks(rules, slope_rad=slope_rad, mu=0.6)[0].ok is ok
 
 
-def test_friction_required_rises_with_slope_in_asce_7():
+def test_a_limit_is_met_but_for_rounding_whatever_its_size():
+    def friction_ok(mu):
+        return prescriptive_checks(PV1, slope_rad=0.0, mu=mu)[1].ok
+
+    def height_ok(height_m):
+        at = {"cg_height_m": height_m, "support_spacing_m": 9.0, "base_m": 9.0}
+        return array_checks(high, **at, slope_rad=0.0)[0].ok
+
+    high = PV1.overridden({"low_profile_in": (120.0, "a test")})
+    limit_m = 120 * INCH
+    assert [friction_ok(0.4 * part) for part in (1 - 1e-15, 1 - 4e-9)] == [True, False]
+    assert [height_ok(limit_m * part) for part in (1 + 6e-10, 1 + 4e-9)] == [True, False]
+
+
+def test_friction_required_rises_with_slope_in_asce_7_alone():
     limits = [
-        prescriptive_checks(A16, slope_rad=math.atan(rise), mu=0.4)[1].limit
+        prescriptive_checks(rules, slope_rad=math.atan(rise), mu=0.4)[1].limit
+        for rules in (A16, PV1)
         for rise in (0.0, 0.03, 0.05)
     ]
-    assert limits == pytest.approx([0.4, 0.4, 0.414], rel=1e-12)
+    assert limits == pytest.approx([0.4, 0.4, 0.414, 0.4, 0.4, 0.4], rel=1e-12)
 
 
 def test_a_check_of_nan_never_passes():
@@ -272,6 +287,14 @@ def test_a_parapet_must_clear_the_roof_and_the_centre_of_gravity():
         for top, cg in ((24, 18), (23.9, 10), (24, 18.1), (30, 20))
     ]
     assert verdicts == [True, False, False, True]
+
+
+def test_a_parapet_as_high_as_the_center_of_gravity_qualifies_in_asce_7():
+    verdicts = [
+        parapet_qualifies(A16, parapet_height_m=top * INCH, cg_height_m=12 * INCH)
+        for top in (11.9, 12.0, 12.1)
+    ]
+    assert verdicts == [False, True, True]
 
 
 def test_an_override_replaces_one_number_and_keeps_its_reason():
@@ -348,3 +371,15 @@ def test_what_governs_is_the_formula_from_where_it_reaches_the_minimum(s_ds, bas
     found = prescriptive_displacement(A16, s_ds_g=s_ds, sdc="D", importance=1.0)
     assert found.governs.name == basis
     assert found.value_m / INCH == pytest.approx(value_in, rel=1e-12)
+
+
+def test_a_formula_equal_to_the_minimum_governs():
+    # 60 in (0.9 - 0.4)^2 without rounding.
+    equal = A16.overridden({"prescriptive_minimum_in": (15.0, "a test")})
+    found = prescriptive_displacement(equal, s_ds_g=0.9, sdc="D", importance=1.0)
+    assert found.formula_m == found.minimum_m == found.value_m
+    assert found.governs.name == "FORMULA"
+
+
+def test_edges_are_those_of_a_roof_with_a_parapet_or_without():
+    assert [kind.name for kind in Neighbor if kind.is_edge] == ["PARAPET", "EDGE"]

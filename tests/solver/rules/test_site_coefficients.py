@@ -64,6 +64,7 @@ def test_coefficients_are_those_of_the_tables(table, site_class, mapped_g, expec
 )
 def test_every_entry_is_that_of_the_printed_table(table, heads, rows):
     assert table.rows.keys() == rows.keys()
+    assert table.mapped_g == tuple(map(float, heads.split()))
     for site_class, printed in rows.items():
         assert len(table.rows[site_class]) == len(table.mapped_g)
         found = [site_coefficient(table, site_class, float(head)) for head in heads.split()]

@@ -205,12 +205,28 @@ def test_records_of_every_kind_agree_with_forty_digits():
             "scale": rng.choice([1.0, -1.0, 0.3, -2.0, 0.0]),
         }
         dt = rng.choice([0.005, 0.02, 0.3])
-        result = slide(ax, dt, az_mps2=az, **scene)
-        if result.status is not Status.UPLIFT:
+        history = slide_history(ax, dt, az_mps2=az, **scene)
+        if history.result.status is not Status.UPLIFT:
             exact = oracle.slide(ax, dt, az=az, **scene)
-            assert_agrees(result, exact, floor_m=1e-9)
+            assert_agrees(history.result, exact, floor_m=1e-9)
+            assert_same_history(history, exact)
             compared += 1
     assert compared > 60
+
+
+def assert_same_history(history, exact):
+    """Summed sample by sample; times to much less than a sample."""
+    result, dt = history.result, history.t_s[1]
+    u, v = np.array(exact.history, dtype=float).T
+    assert np.abs(history.u_m - u).max() <= 1e-12 * max(float(exact.prd), 1e-9)
+    assert np.abs(history.v_mps - v).max() <= 1e-11 * max(float(exact.fastest), 1e-9)
+    assert result.n_stops == exact.n_stops
+    assert result.t_prd_s == pytest.approx(float(exact.t_prd), abs=1e-7 * dt)
+    kinds = [EventKind.SLIP, EventKind.STOP] * (exact.n_stops + 1)
+    found = [(event.t_s, event.u_m) for event in history.events]
+    assert [event.kind for event in history.events] == kinds[: len(exact.events)]
+    wanted = np.array(exact.events, dtype=float).reshape(-1, 2)
+    assert np.array(found).reshape(-1, 2) == pytest.approx(wanted, abs=1e-7 * dt)
 
 
 def test_a_speed_that_dips_to_zero_within_an_interval_stops_there():
@@ -227,7 +243,47 @@ def test_a_speed_that_dips_to_zero_within_an_interval_stops_there():
     ]
 
 
+def test_a_speed_that_touches_zero_without_friction_goes_on():
+    # The push falls to `low` and rises to `high`, and the speed comes down to zero between: within
+    # rounding, the block stops there, is pushed back by nothing, and begins again.
+    rng, dt = np.random.default_rng(4), 0.1
+    for low, high in rng.uniform((-3.0, 0.2), (-0.1, 5.0), size=(300, 2)):
+        begin = low * low / (high - low) - low
+        ax = [-begin, -low, -high, -1.0, 0.0, 0.0]
+        result = slide(ax, dt, slope_rad=0.0, mu=0.0, g_mps2=9.8)
+        exact = oracle.slide(ax, dt, slope_rad=0.0, mu=0.0, g=9.8)
+        assert abs(result.prd_m - float(exact.prd)) <= result.error_m
+
+
 # Symmetries
+
+
+@pytest.mark.parametrize("power", [-24, 24])
+def test_units_of_a_power_of_two_change_no_bit(noise, power):
+    unit, block = 2.0**power, {"slope_rad": 0.05, "mu": 0.3}
+    result = slide(noise, 0.01, **block, g_mps2=9.8)
+    longer = slide(unit * noise, 0.01, **block, g_mps2=unit * 9.8)
+    slower = slide(noise, unit * 0.01, **block, g_mps2=9.8)
+    assert result.n_stops > 9
+    for field in FIELDS:
+        value = getattr(result, field)
+        assert getattr(longer, field) == unit * value
+        assert getattr(slower, field) == unit**2 * value
+    assert (slower.t_prd_s, slower.n_stops) == (unit * result.t_prd_s, result.n_stops)
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.4, 0.9])
+@pytest.mark.parametrize("scale", [1.0, 0.3, -1.7])
+def test_a_vertical_record_of_zeros_changes_no_bit(mu, scale):
+    # At the yield acceleration itself, where a rounding decides.
+    for slope in (-0.06, 0.0, 0.3):
+        for limit in problems.yield_accelerations(slope, mu, G):
+            for ulps in range(-6, 7):
+                ax = np.array([0.0, limit / scale * (1.0 + ulps * 2.0**-52), 0.0])
+                given = {"slope_rad": slope, "mu": mu, "scale": scale, "g_mps2": G}
+                without, still = slide(ax, 0.5, **given), slide(ax, 0.5, az_mps2=0.0 * ax, **given)
+                assert without.n_stops == still.n_stops
+                assert without.prd_m == still.prd_m
 
 
 @settings(max_examples=60)
@@ -372,6 +428,7 @@ def test_vertical_shaking_alone_can_lift_the_block():
     assert result.status is Status.UPLIFT
     history = slide_history([0.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, az_mps2=[-10.0, 0.0])
     assert history.result.t_uplift_s == 0.0
+    assert history.result.n_min_g == pytest.approx(1.0 - 10.0 / 9.80665, rel=1e-12)
     assert np.isnan(history.u_m).all()
 
 
