@@ -34,7 +34,7 @@ from report.cli.terminal import (
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
-    from report.results.since import Former
+    from report.entities.results import Compared
 
 SETTLE_S = 3.0
 """How long a workbook may be half saved, locked or gone [s] before that is an error."""
@@ -90,7 +90,7 @@ class Round:
 
     def __init__(self, workbook: Path, folder: Path, second: Executor) -> None:
         self._workbook, self._folder, self._second = workbook, folder, second
-        self._before: Former | None = None
+        self._before: Compared | None = None
 
     def run(self) -> bool:
         """Check and report once; return whether a package was written."""

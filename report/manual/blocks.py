@@ -10,7 +10,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from report.pages.parts import Part, Picture, Table
+from report.document.blocks import Part, Picture
+from report.document.tables import Table
 from report.words.letters import power_of_ten
 from report.words.units import number
 

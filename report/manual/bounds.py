@@ -6,10 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.figures import rungs as figures
 from report.figures.scales import power_of_ten
 from report.manual.blocks import Block, Chart, small
-from report.pages.parts import Picture, Table, TableColumn, TableRow
 from solver.verification.rung_evidence import BoundRatios
 
 

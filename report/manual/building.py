@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.figures import building as figures
 from report.manual.blocks import Block, Chart, ManualSection, slug
-from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.units import G_MPS2, number
 from solver.building.roof import FINENESS, RESTING_SHARE, SHARE
 from solver.verification.building import BY_HEIGHT

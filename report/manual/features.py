@@ -6,9 +6,11 @@ from collections.abc import Iterator
 from importlib import metadata
 from itertools import groupby
 
+from report.document.tables import Table, TableRow, Wide
+from report.entities.columns import TableColumn
 from report.manual.blocks import FAIL, Block, ManualSection
 from report.manual.known_errors import KNOWN_ERRORS
-from report.pages.parts import Table, TableColumn, TableRow, Wide, verdict
+from report.pages.parts import verdict
 from report.words.validation import validation
 from solver.verification.evidence import Verification
 from solver.verification.features import FeatureStatus, statuses

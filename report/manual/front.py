@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.manual.blocks import (
     FAIL,
     PASS,
@@ -22,7 +24,7 @@ from report.manual.features import verified
 from report.manual.precision import floor
 from report.manual.rungs import answers
 from report.manual.studies import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT, worst_mm
-from report.pages.parts import Table, TableColumn, TableRow, verdict
+from report.pages.parts import verdict
 from report.words.validation import validation
 from solver.verification.evidence import (
     CheckRow,

@@ -7,6 +7,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.figures import work as figures
 from report.figures.scales import power_of_ten
 from report.manual.blocks import (
@@ -19,7 +22,6 @@ from report.manual.blocks import (
     seconds,
     slug,
 )
-from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from report.document.blocks import Picture
 from report.figures import maps
 from report.manual.blocks import (
     Block,
@@ -11,7 +12,6 @@ from report.manual.blocks import (
     ManualSection,
     percent,
 )
-from report.pages.parts import Picture
 from solver.verification.evidence import (
     Verification,
 )

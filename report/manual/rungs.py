@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.figures import rungs as figures
 from report.figures.scales import power_of_ten
 from report.manual import bounds
@@ -19,7 +22,6 @@ from report.manual.blocks import (
     small,
 )
 from report.manual.static_friction import block, effect
-from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered
 from report.words.units import number
 from solver.verification.evidence import Verification

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow, Wide
+from report.entities.columns import TableColumn
 from report.figures.shake_table import computed_against_measured
 from report.manual.blocks import FAIL, PASS, Block, Chart, ManualSection, joined
-from report.pages.parts import Picture, Table, TableColumn, TableRow, Wide, verdict
+from report.pages.parts import verdict
 from report.words.units import number
 from report.words.validation import NOT_VALIDATED, explained
 from solver.verification.evidence import Verification

@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.manual.blocks import Block, digits, percent, scientific
-from report.pages.parts import Table, TableColumn, TableRow
 from report.words.units import number
 from solver.model import Floats
 from solver.verification.rung_evidence import (

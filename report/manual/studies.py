@@ -8,6 +8,9 @@ from itertools import groupby
 
 import numpy as np
 
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.figures import paper
 from report.manual.blocks import (
     Block,
@@ -17,7 +20,6 @@ from report.manual.blocks import (
     seconds,
     slug,
 )
-from report.pages.parts import Picture, Table, TableColumn, TableRow
 from report.words.letters import lettered
 from solver.verification.evidence import (
     Convergence,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from report.document.tables import Table, TableRow, Wide
+from report.entities.columns import TableColumn
 from report.manual.blocks import (
     FAIL,
     PASS,
@@ -17,7 +19,7 @@ from report.manual.blocks import (
     unbroken,
 )
 from report.manual.machine import Machine
-from report.pages.parts import Table, TableColumn, TableRow, Wide, verdict
+from report.pages.parts import verdict
 from report.words.letters import lettered
 from report.words.units import number
 from solver.rivals.methods import METHODS

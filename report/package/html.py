@@ -8,24 +8,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence, Plotted
 from report.assessment.project import Assessment
 from report.beside import SameProcess
+from report.document.blocks import Line
+from report.document.templates import rendered
 from report.pages import front, inputs, method
 from report.pages.cover import cover
 from report.pages.letter import letter
-from report.pages.parts import Line, PackageData
+from report.pages.parts import PackageData
 from report.pages.pictures import Pictures, draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import Content, package_data, pages_of, parts
 from report.typeset.equations import Formula, formulas
 from report.typeset.pdf import TEMPLATES
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,6 +120,7 @@ def _html(
     listed = {part.id: part for part in parts(package)}
     equations = {**ready, **formulas(set(_latex(content)) - ready.keys())}
     context = {
+        "p": package,
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
         "sheet": front.sheet(package),
         "parts": tuple(listed.values()),
@@ -132,18 +131,4 @@ def _html(
         "pictures": pictures,
         "content": content,
     }
-    return _environment().get_template("package.html").render({**context, **content})
-
-
-@cache
-def _environment() -> Environment:
-    """Return the templates, which are compiled once in a process."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    return Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        undefined=StrictUndefined,
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    return rendered(TEMPLATES, "package.html", {**context, **content})

@@ -11,7 +11,9 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from report.assessment.spectra import LEAST_MEAN, Spectra
-from report.pages.parts import OK, Table, TableColumn, TableRow
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
+from report.pages.parts import OK
 from report.sheet.schema import MotionInput
 from report.typeset.equations import symbol
 from report.words.units import number

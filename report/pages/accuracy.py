@@ -10,16 +10,11 @@ from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, MethodRun, Rivals
-from report.pages.parts import (
-    NO_VALUE,
-    PackageData,
-    Picture,
-    Table,
-    TableColumn,
-    TableRow,
-    check_value,
-    dagger,
-)
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow
+from report.entities.columns import NO_VALUE, TableColumn
+from report.entities.marks import dagger
+from report.pages.parts import PackageData, check_value
 from report.words.letters import lettered, power_of_ten
 from report.words.units import number
 from solver.model import Status

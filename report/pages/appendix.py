@@ -11,8 +11,10 @@ from string import ascii_uppercase, digits
 
 from markupsafe import Markup
 
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.motions.components import RecordFile
-from report.pages.parts import BAR, PackageData, Table, TableColumn, TableRow, shortened
+from report.pages.parts import BAR, PackageData, shortened
 from report.provenance.software import sbom_sha256
 from report.sheet.read import IGNORED, EchoRow
 from report.words.units import number

@@ -7,8 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from markupsafe import Markup
 
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.motions.history import PreparedMotion, first_period_s
-from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.pages.parts import PackageData
 from report.words.units import G_MPS2, Quantity, number
 from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M
 from solver.building.roof import Building, RoofMotion

@@ -8,7 +8,10 @@ from collections.abc import Iterator, Sequence
 from report.assessment.certainty import TOLERANCE, Certainty, Margin, Surface
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
-from report.pages.parts import NO_VALUE, PackageData, Picture, Table, TableColumn, TableRow
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow
+from report.entities.columns import NO_VALUE, TableColumn
+from report.pages.parts import PackageData
 from report.words.letters import power_of_ten
 from report.words.units import Quantity, number
 from solver.rules.provisions import Neighbor

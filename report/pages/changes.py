@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from report.assessment.changes import ChangeKind, Changes
-from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
+from report.pages.parts import PackageData
 
 
 def title(changes: Changes) -> str:

@@ -9,8 +9,10 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import mu_words
+from report.document.tables import Table, TableRow, stamp
+from report.entities.columns import TableColumn
 from report.pages.front import verdict_sentence
-from report.pages.parts import PackageData, Table, TableColumn, TableRow, nan_is_worst, stamp
+from report.pages.parts import PackageData, nan_is_worst
 from report.pages.references import codes
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
 from report.words.counts import counted

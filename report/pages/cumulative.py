@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from report.assessment.cumulative import Cumulative
-from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
+from report.pages.parts import PackageData
 from report.words.units import number
 
 

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from markupsafe import Markup
 
+from report.document.blocks import Line
 from report.motions.targets import OWN
-from report.pages.parts import Line, PackageData
+from report.pages.parts import PackageData
 from report.pages.site import site_force
 from report.sheet.schema import RecordedAt, Site
 from report.typeset.equations import fraction, symbol

@@ -21,8 +21,11 @@ from report.assessment.friction_rows import (
 )
 from report.assessment.friction_velocity import VELOCITY_ROW, velocity_check
 from report.assessment.verdict import NOT_GIVEN
-from report.pages.clearances import table_of
-from report.pages.parts import PackageData, Picture, Table, TableColumn, TableRow, Wide, stamp
+from report.document.blocks import Picture
+from report.document.tables import Table, TableRow, Wide, stamp
+from report.entities.clearance import clearance_results
+from report.entities.columns import TableColumn
+from report.pages.parts import PackageData
 from report.sheet.friction_checks import MU_TOLERANCE
 from report.sheet.schema import Array, FrictionTests, ProjectInput
 from report.words.units import Quantity, number
@@ -54,7 +57,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "sentences": tuple(_sentences(package)),
         "velocities": _velocities(package),
         "alone": _alone(package),
-        "alone_gaps": _alone_gaps(package),
+        "alone_gaps": tuple(clearance_results(package, package.assessment.low_velocity.clearances)),
     }
 
 
@@ -193,15 +196,6 @@ def _alone(package: PackageData) -> Sequence[str]:
         f" {fmt.both(by_id(given.arrays, item.id).design_m)}."
         for item in given.low_velocity.arrays
     ]
-
-
-def _alone_gaps(package: PackageData) -> Table | None:
-    slow = package.assessment.low_velocity
-    if not slow.clearances:
-        return None
-    names = ", ".join(item.id for item in slow.arrays)
-    caption = f"Clearances with the low-velocity coefficient of {names} alone"
-    return table_of(package, slow.clearances, caption, brief=True)
 
 
 def _sentences(package: PackageData) -> Iterator[str]:

@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.arrays import Route
 from report.assessment.certainty import Certainty
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words, tested
 from report.assessment.remedies import Remedy
 from report.assessment.spectra import Spectra, departures
 from report.assessment.verdict import Verdict
-from report.pages.causes import array_stamp
+from report.document.tables import stamp
 from report.pages.certainty import directions
-from report.pages.clearances import clearance_table
 from report.pages.limits import all_checks, conditions, troubles
 from report.pages.motions import departure_place, departure_sentence
-from report.pages.parts import (
-    PackageData,
-    Table,
-    TableColumn,
-    TableRow,
-    shortened,
-    stamp,
-    statistic,
-    verdict,
-)
+from report.pages.parts import PackageData, shortened, statistic
 from report.pages.remedies import sentences
 from report.pages.review import exceptional
 from report.sheet.schema import RecordedAt
@@ -66,8 +55,6 @@ def summary(
         "conditions": conditions(package),
         "sentence": verdict_sentence(package),
         "numbers": (*_numbers(package), *_missed_targets(package, spectra)),
-        "arrays": _array_table(package),
-        "clearances": clearance_table(package, brief=True),
         "troubles": troubles(package),
         "answers": sentences(package, remedies),
     }
@@ -181,51 +168,6 @@ def _missed_targets(
         )
         for departure in found
     ]
-
-
-def _array_table(package: PackageData) -> Table:
-    fmt = package.fmt
-    return Table(
-        caption="Arrays: displacement by analysis, prescriptive and design",
-        columns=(
-            TableColumn(head="Array", align="left", share=1.2),
-            TableColumn(head="Slope", unit="deg", share=0.8),
-            TableColumn(head="μ", share=1.0),
-            *fmt.columns("Analysis"),
-            *fmt.columns("Prescriptive"),
-            *fmt.columns("Design"),
-            TableColumn(head="Governs", align="left", share=1.55),
-            TableColumn(head="Limits", align="center", share=0.85),
-            TableColumn(head="D/C", share=0.8),
-            TableColumn(head="Verdict", align="center", share=1.65),
-        ),
-        rows=tuple(_array_row(package, array) for array in package.assessment.arrays),
-        notes=(
-            "D/C: required / provided separation, rounded up; the largest of the clearances that "
-            "involve the array.",
-        ),
-    )
-
-
-def _array_row(package: PackageData, array: ArrayAssessment) -> TableRow:
-    gap = package.assessment.governing_clearance(array.id)
-    return TableRow(
-        cells=(
-            array.id,
-            number(math.degrees(array.array.slope_rad), 2),
-            mu_words(array.array.friction),
-            *package.fmt.cells(
-                array.analysis.value_m, mark=array.mark(lambda item: item.analysis.value_m)
-            ),
-            *package.fmt.cells(array.prescriptive.value_m, mark=package.prescriptive_mark(array)),
-            *package.fmt.cells(array.design_m, mark=package.design_mark(array)),
-            array.source,
-            verdict(array.is_permitted and all(check.ok for check in array.limits)),
-            "none given" if gap is None else gap.ratio_words,
-            array_stamp(package.assessment, array),
-        ),
-        kind=package.bar(array.id in package.changes.arrays),
-    )
 
 
 def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:

@@ -9,9 +9,11 @@ from itertools import chain
 from report.assessment.friction import mu_words
 from report.assessment.runs import RUNGS
 from report.assessment.verdict import NOT_GIVEN
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.pages import friction_tests
 from report.pages.model import friction
-from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.pages.parts import PackageData
 from report.pages.site import s_ds_note, site_table
 from report.sheet.schema import Array, Polygon, RoofObject, Shape
 from report.words.units import Quantity, number

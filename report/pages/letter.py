@@ -7,12 +7,10 @@ from collections.abc import Iterator, Mapping
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment
-from report.assessment.friction import mu_words
 from report.assessment.overrides import LOWERING
-from report.pages.causes import array_stamp
+from report.document.tables import stamp
 from report.pages.front import verdict_sentence
-from report.pages.parts import PackageData, Table, TableColumn, TableRow, stamp
+from report.pages.parts import PackageData
 from report.pages.review import review_sentences
 from report.pages.symbols import with_symbols
 from report.typeset.equations import symbol
@@ -32,7 +30,6 @@ def letter(package: PackageData) -> Mapping[str, object]:
         "analyzed": _analyzed(package),
         "verdict": stamp(package.assessment.verdict),
         "sentence": verdict_sentence(package),
-        "arrays": _arrays(package),
         "texts": tuple(_texts(package)),
         "signed": project.prepared_by,
     }
@@ -52,37 +49,6 @@ def _analyzed(package: PackageData) -> Markup:
     )
     return Markup("{} for {} = {} g and seismic design category {}.").format(
         text, symbol("S_DS"), number(site.s_ds, 3), site.sdc_text
-    )
-
-
-def _arrays(package: PackageData) -> Table:
-    return Table(
-        caption="Results",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.7),
-            TableColumn(head="μ", share=0.8),
-            *package.fmt.columns("Design displacement", share=1.0),
-            TableColumn(head="Governed by", align="left", share=1.4),
-            TableColumn(head="Largest D/C", share=0.7),
-            TableColumn(head="Clearance", align="left", share=1.4),
-            TableColumn(head="Verdict", align="center", share=1.6),
-        ),
-        rows=tuple(TableRow(cells=_array(package, item)) for item in package.assessment.arrays),
-        notes=("D/C: required / provided separation of the clearance named beside it.",),
-        kind="compact",
-    )
-
-
-def _array(package: PackageData, item: ArrayAssessment) -> tuple[str, ...]:
-    gap = package.assessment.governing_clearance(item.id)
-    return (
-        item.id,
-        mu_words(item.array.friction),
-        *package.fmt.cells(item.design_m, mark=package.design_mark(item)),
-        item.source,
-        "—" if gap is None else gap.ratio_words,
-        "none given" if gap is None else f"to {gap.across_from(item.id)}",
-        array_stamp(package.assessment, item),
     )
 
 

@@ -9,20 +9,12 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.foresight import findings
 from report.assessment.verdict import Row
+from report.document.tables import Table, TableRow, stamp
+from report.entities.columns import TableColumn
+from report.entities.marks import dagger
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
-from report.pages.parts import (
-    NG,
-    OK,
-    PackageData,
-    Table,
-    TableColumn,
-    TableRow,
-    check_value,
-    dagger,
-    stamp,
-    verdict,
-)
+from report.pages.parts import NG, OK, PackageData, check_value, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.findings import Level, lines
 from report.typeset.equations import symbol

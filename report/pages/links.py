@@ -9,16 +9,10 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.links import LinkedArray
-from report.pages.parts import (
-    NO_VALUE,
-    Line,
-    PackageData,
-    Table,
-    TableColumn,
-    TableRow,
-    statistic,
-    verdict,
-)
+from report.document.blocks import Line
+from report.document.tables import Table, TableRow
+from report.entities.columns import NO_VALUE, TableColumn
+from report.pages.parts import PackageData, statistic, verdict
 from report.words.units import Quantity, number
 from solver.model import Status
 

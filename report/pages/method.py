@@ -9,8 +9,9 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
+from report.document.blocks import Line
 from report.pages.demand import demand_lines
-from report.pages.parts import Line, PackageData, nan_is_worst, statistic
+from report.pages.parts import PackageData, nan_is_worst, statistic
 from report.sheet.schema import Direction
 from report.typeset.equations import fraction, symbol
 from report.words.units import Quantity, number

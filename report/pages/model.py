@@ -13,18 +13,11 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words
 from report.assessment.runs import RUNGS, HeadingRun
+from report.document.tables import Table, TableRow, Wide
+from report.entities.columns import NO_VALUE, TableColumn
 from report.pages import links
 from report.pages.accuracy import below_mm
-from report.pages.parts import (
-    NO_VALUE,
-    PackageData,
-    Table,
-    TableColumn,
-    TableRow,
-    Wide,
-    nan_is_worst,
-    verdict,
-)
+from report.pages.parts import PackageData, nan_is_worst, verdict
 from report.sheet.schema import Array, Direction
 from report.words.counts import spelled
 from report.words.units import number, ratio

@@ -18,12 +18,14 @@ from report.assessment.spectra import (
     Spectra,
     departures,
 )
+from report.document.tables import Table, TableRow, Wide
+from report.entities.columns import TableColumn
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.targets import OWN
 from report.pages.acceptance import acceptance_table, event_table, frequency, strength_table
 from report.pages.building import building_part
-from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
+from report.pages.parts import PackageData
 from report.pages.symbols import with_symbols
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol

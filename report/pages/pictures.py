@@ -17,8 +17,9 @@ from report.assessment.evidence import Plotted
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra, departures
 from report.assessment.verdict import Verdict
+from report.document.blocks import Picture
 from report.pages import accuracy, certainty, friction_tests, limits, section
-from report.pages.parts import PackageData, Picture
+from report.pages.parts import PackageData
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
 

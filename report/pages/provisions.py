@@ -6,14 +6,10 @@ from collections.abc import Mapping
 
 from markupsafe import Markup, escape
 
-from report.pages.parts import (
-    UNVERIFIED,
-    PackageData,
-    Table,
-    TableColumn,
-    TableRow,
-    dagger,
-)
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
+from report.entities.marks import UNVERIFIED, dagger
+from report.pages.parts import PackageData
 from report.typeset.equations import symbol
 from solver.rules.provisions import OVERRIDABLE
 

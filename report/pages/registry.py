@@ -13,6 +13,7 @@ from typing import Any
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment
+from report.document.blocks import Part
 from report.pages import (
     accuracy,
     appendix,
@@ -30,7 +31,7 @@ from report.pages import (
     results,
     symbols,
 )
-from report.pages.parts import PackageData, Part
+from report.pages.parts import PackageData
 
 Content = Mapping[str, Any]
 Below = tuple[tuple[str, str], ...]

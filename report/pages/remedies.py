@@ -8,7 +8,9 @@ from itertools import groupby
 from report.assessment.friction import mu_words
 from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.trials import with_mu
-from report.pages.parts import PackageData, Table, TableColumn, TableRow, Wide
+from report.document.tables import Table, TableRow, Wide
+from report.entities.columns import TableColumn
+from report.pages.parts import PackageData
 from report.pages.symbols import with_symbols
 from report.words.units import Quantity, compared, no_less, number, pair
 

@@ -7,12 +7,14 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mu_words
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun
+from report.document.tables import Table, TableRow, Wide
+from report.entities.columns import TableColumn
 from report.pages.limits import analysis_faults, check_table
-from report.pages.parts import NO_VALUE, PackageData, Table, TableColumn, TableRow, Wide, statistic
+from report.pages.parts import PackageData, statistic
 from report.sheet.schema import Direction
 from report.words.units import number
 from solver.model import Heading, Status
@@ -253,110 +255,12 @@ def _floor_words(package: PackageData, clause: str) -> str:
 
 
 def comparison(package: PackageData) -> Mapping[str, object]:
-    """Return the comparison with the prescriptive displacement, without its chart."""
-    checks = [
-        (f"Array {array.id}", check)
-        for array in package.assessment.arrays
-        for check in array.prescriptive_checks
-    ]
+    """Return what the comparison with the prescriptive displacement needs beside the arrays."""
+    arrays = package.assessment.arrays
+    checks = [(f"Array {item.id}", check) for item in arrays for check in item.prescriptive_checks]
     return {
-        "table": _ratios(package),
+        "faults": {item.id: analysis_faults(package, item) for item in arrays},
         "routes": check_table(
             "Limits of the prescriptive route", package, checks, ("satisfied", "not satisfied")
         ),
-        "sentences": tuple(_sentence(package, array) for array in package.assessment.arrays),
     }
-
-
-def _ratios(package: PackageData) -> Table:
-    fmt = package.fmt
-    return Table(
-        caption="Displacement by analysis and prescriptive displacement",
-        columns=(
-            TableColumn(head="Array", align="left", share=1.1),
-            *fmt.columns("Prescriptive"),
-            *fmt.columns("Mean"),
-            *fmt.columns("Analysis"),
-            *fmt.columns("Floor"),
-            *fmt.columns("Design"),
-            TableColumn(head="Analysis / prescr.", share=1.2),
-            TableColumn(head="Design / prescr.", share=1.2),
-            TableColumn(head="Governs", align="left", share=1.75),
-        ),
-        rows=tuple(_ratio_row(package, array) for array in package.assessment.arrays),
-        kind="compact",
-    )
-
-
-def _ratio_row(package: PackageData, array: ArrayAssessment) -> TableRow:
-    fmt = package.fmt
-    shares = (array.analysis.value_m / array.prescriptive.value_m, array.ratio)
-    return TableRow(
-        cells=(
-            array.id,
-            *fmt.cells(array.prescriptive.value_m, mark=package.prescriptive_mark(array)),
-            *fmt.cells(array.analysis.mean_m),
-            *fmt.cells(array.analysis.value_m, mark=array.mark(_analysis_m)),
-            *fmt.cells(package.floor_m(array), mark=package.floor_mark(array)),
-            *fmt.cells(array.design_m, mark=package.design_mark(array)),
-            *(NO_VALUE if math.isnan(share) else number(share, 2) for share in shares),
-            array.source,
-        ),
-        kind=package.bar(array.id in package.changes.arrays),
-    )
-
-
-def _sentence(package: PackageData, array: ArrayAssessment) -> str:
-    if array.route is Route.PRESCRIPTIVE:
-        return _prescriptive_sentence(package, array)
-    failed = [check.title for check in array.prescriptive_checks if not check.ok]
-    route = (
-        f"the prescriptive route is not permitted ({'; '.join(failed)})"
-        if failed
-        else "the prescriptive route is also permitted"
-    )
-    if math.isnan(array.design_m):
-        return f"Array {array.id}: no value from analysis; {route}."
-    if package.data.options.peer_reviewed:
-        floor = "no floor applies because the analysis is peer reviewed"
-    else:
-        share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
-        floor = (
-            f"the floor of {share} % of the prescriptive value"
-            f"{package.mark('analysis_floor')} "
-            f"{'governs' if array.governs is DesignBasis.FLOOR else 'does not govern'}"
-        )
-    if not array.is_permitted:
-        faults = "; ".join(analysis_faults(package, array))
-        route = f"the analysis route is not permitted ({faults}); {route}"
-    return f"Array {array.id}: {_exceeds(package, array)}{floor}; {route}."
-
-
-def _prescriptive_sentence(package: PackageData, array: ArrayAssessment) -> str:
-    """Return why the prescriptive route is taken."""
-    exceeds = (
-        "the largest PRD exceeds the prescriptive displacement and is used; "
-        if array.analysis.largest_m > array.prescriptive.value_m
-        else ""
-    )
-    return (
-        f"Array {array.id}: the prescriptive route is taken; {exceeds}the analysis route is not "
-        f"permitted ({'; '.join(analysis_faults(package, array))})."
-    )
-
-
-def _exceeds(package: PackageData, array: ArrayAssessment) -> str:
-    """Return where the analysis exceeds the prescriptive value; it still governs."""
-    over = array.analysis.value_m / array.prescriptive.value_m
-    peaks = sum(m.governing.prd_m > array.prescriptive.value_m for m in array.motions)
-    count = f"{peaks} of {len(array.motions)} PRDs"
-    if over > 1.0:
-        return (
-            f"the displacement by analysis is {number(over, 2)} times the prescriptive "
-            f"displacement ({count} exceed it) and governs; "
-        )
-    return (
-        f"{count} exceed the prescriptive displacement, the displacement by analysis does not; "
-        if peaks
-        else ""
-    )

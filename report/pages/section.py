@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 
-from report.pages.parts import PackageData, Picture
+from report.document.blocks import Picture
+from report.pages.parts import PackageData
 from report.sheet.schema import Array
 from report.words.units import Quantity, measured, number
 

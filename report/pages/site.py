@@ -11,7 +11,9 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from report.assessment.verdict import NOT_GIVEN
-from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
+from report.pages.parts import PackageData
 from report.sheet.schema import RiskCategory, Site
 from report.typeset.equations import symbol
 from report.words.units import Quantity, number

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from report.assessment.arrays import NOT_PERMITTED
+from report.assessment.causes import causes, unshown_cause
 from report.assessment.foresight import findings, limit_words
 from report.assessment.overrides import MEANING
 from report.assessment.verdict import Verdict
-from report.pages.causes import causes, unshown_cause
 from report.pages.registry import package_data
 from report.sheet.findings import Level, lines
 from report.sheet.older import what_is_new

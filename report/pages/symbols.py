@@ -7,7 +7,9 @@ from collections.abc import Mapping
 
 from markupsafe import Markup, escape
 
-from report.pages.parts import PackageData, Table, TableColumn, TableRow
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
+from report.pages.parts import PackageData
 from report.pages.references import references
 from report.typeset.equations import symbol
 

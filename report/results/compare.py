@@ -8,17 +8,16 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from importlib.metadata import version
 from typing import Any
 
-from report.assessment.arrays import ArrayAssessment
 from report.assessment.changes import Change, ChangeKind, Changes
-from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
-from report.results.since import Former, FormerArray, FormerClearance
+from report.entities.array import ArrayResult
+from report.entities.clearance import ClearanceResult
+from report.entities.columns import UnitFormat
+from report.entities.results import Compared, compared
 from report.sheet.fields import Entry, Frozen, Place, Section, YesNo, entries
-from report.sheet.schema import SECTIONS, Direction
-from report.words.units import Quantity, pair
+from report.sheet.schema import SECTIONS
 
 ALIKE = 1e-6
 """Relative difference up to which two results count as the same: rounding on another machine."""
@@ -26,43 +25,38 @@ ALIKE = 1e-6
 NOT_THERE = "—"
 
 
-def changes(former: Former, assessment: Assessment) -> Changes:
+def changes(former: Compared, assessment: Assessment) -> Changes:
     """Return what changed from a former revision to this assessment."""
-    values = frozenset(_changed_values(former, assessment))
-    gaps = _keyed(former.clearances, _gap_key)
-    now = _keyed(assessment.clearances, lambda item: _gap_key(item.clearance))
-    numbers = frozenset(
-        number
-        for number, (key, gap) in enumerate(now.items(), start=1)
-        if key not in gaps or _gap_changed(gaps[key], gap)
-    )
+    now = compared(assessment)
     before = {array.id: array for array in former.arrays}
+    values = frozenset(_changed_values(before, now.arrays))
+    gaps, new_gaps = (_keyed(one.clearances, _gap_key) for one in (former, now))
+    us_first = assessment.project.project.units_first == "US"
     return Changes(
         revision=former.input.project.revision,
         date=former.input.project.date.isoformat(),
         items=(
-            *_one(ChangeKind.RULES, "Rule set", former.rule_set, assessment.rules.name),
-            *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, version("roofslip")),
-            *_inputs(former, assessment),
-            *_records(former, assessment),
-            *_designs(before, assessment),
-            *_gaps(gaps, now, _us_first(assessment)),
-            *_requirements(former, assessment),
-            *_verdicts(former, before, assessment),
+            *_one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set),
+            *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
+            *_inputs(former, assessment, us_first),
+            *_records(former, now),
+            *_designs(before, now.arrays, us_first),
+            *_gaps(gaps, new_gaps, us_first),
+            *_requirements(former, now),
+            *_verdicts(former, now),
         ),
         arrays=frozenset(
             item.id
-            for item in assessment.arrays
-            if any(name == item.id for name, _ in values)
-            or before[item.id].verdict != assessment.array_verdict(item)
+            for item in now.arrays
+            if any(name == item.id for name, _ in values) or before[item.id].verdict != item.verdict
         ),
         values=values,
-        clearances=numbers,
+        clearances=frozenset(
+            number
+            for number, (key, gap) in enumerate(new_gaps.items(), start=1)
+            if key not in gaps or _gap_changed(gaps[key], gap)
+        ),
     )
-
-
-def _us_first(assessment: Assessment) -> bool:
-    return assessment.project.project.units_first == "US"
 
 
 def _one(kind: ChangeKind, title: str, before: str, now: str, cell: str = "") -> Iterator[Change]:
@@ -85,8 +79,7 @@ def _gap_key(row: Any) -> tuple[str, ...]:
     return (row.array, row.object, str(row.direction))
 
 
-def _inputs(former: Former, assessment: Assessment) -> Iterator[Change]:
-    us_first = _us_first(assessment)
+def _inputs(former: Compared, assessment: Assessment, us_first: bool) -> Iterator[Change]:
     for section in SECTIONS:
         olds, news = (getattr(data, section.key) for data in (former.input, assessment.project))
         if not section.is_table:
@@ -176,15 +169,14 @@ def _shown(entry: Entry, value: Any, us_first: bool) -> str:
     return str(value)
 
 
-def _records(former: Former, assessment: Assessment) -> Iterator[Change]:
-    before = {(row.motion, row.component): row for row in former.records}
-    now = {(row.motion_id, row.component): row for row in assessment.shaking.records}
-    for key in dict.fromkeys((*before, *now)):
-        old, new = (
-            f"{rows[key].name}, SHA-256 {rows[key].sha256}" if key in rows else NOT_THERE
-            for rows in (before, now)
-        )
-        yield from _one(ChangeKind.RECORD, " ".join(key), old, new)
+def _records(former: Compared, now: Compared) -> Iterator[Change]:
+    olds, news = (
+        {(row.motion, row.component): f"{row.name}, SHA-256 {row.sha256}" for row in one.records}
+        for one in (former, now)
+    )
+    for key in dict.fromkeys((*olds, *news)):
+        shown = (rows.get(key, NOT_THERE) for rows in (olds, news))
+        yield from _one(ChangeKind.RECORD, " ".join(key), *shown)
 
 
 _RESULTS = (
@@ -192,67 +184,40 @@ _RESULTS = (
 )  # fmt: skip
 
 
-def _results(item: ArrayAssessment) -> Mapping[str, float]:
-    return dict(
-        zip(
-            _RESULTS,
-            (
-                item.analysis.mean_m,
-                item.analysis.largest_m,
-                item.analysis.value_m,
-                item.prescriptive.value_m,
-                item.floor_m,
-                item.design_m,
-            ),
-            strict=True,
-        )
-    )
-
-
-def _changed_values(former: Former, assessment: Assessment) -> Iterator[tuple[str, str]]:
+def _changed_values(
+    before: Mapping[str, ArrayResult], arrays: Sequence[ArrayResult]
+) -> Iterator[tuple[str, str]]:
     """Yield each array with the key, or the motion, whose number changed."""
-    arrays = {array.id: array for array in former.arrays}
-    for item in assessment.arrays:
-        old = arrays.get(item.id)
-        for key, value in _results(item).items():
-            if old is None or not _alike(getattr(old, key), value):
+    for item in arrays:
+        old = before.get(item.id)
+        for key in _RESULTS:
+            if old is None or not _alike(getattr(old, key), getattr(item, key)):
                 yield item.id, key
-        peaks = _old_peaks(old) if old else {}
-        for run in item.motions:
-            name = run.motion.id
-            if name not in peaks or not _alike(peaks[name], run.peak_m(Direction.ANY)):
-                yield item.id, name
+        peaks = {row.motion: row.any_m for row in old.peaks} if old else {}
+        for row in item.peaks:
+            if row.motion not in peaks or not _alike(peaks[row.motion], row.any_m):
+                yield item.id, row.motion
 
 
-def _old_peaks(array: FormerArray) -> Mapping[str, float | None]:
-    key = f"{Direction.ANY.value}_m"
-    return {
-        str(row.get("motion")): value
-        for row in array.peaks
-        if not isinstance(value := row.get(key), str)
-    }
-
-
-def _alike(before: float | None, now: float) -> bool:
-    """Whether two results are the same; None and NaN are no value."""
-    if before is None or math.isnan(now):
-        return before is None and math.isnan(now)
+def _alike(before: float, now: float) -> bool:
+    """Whether two results are the same; NaN is no value."""
+    if math.isnan(before) or math.isnan(now):
+        return math.isnan(before) and math.isnan(now)
     return math.isclose(before, now, rel_tol=ALIKE)
 
 
-def _lengths(before: float | None, now: float, us_first: bool) -> tuple[str, str]:
+def _lengths(before: float, now: float, us_first: bool) -> tuple[str, str]:
     """Return two lengths, with more digits where print alike."""
-    values = [math.nan if before is None else before, now]
-    shown = ["none" if math.isnan(v) else pair(v, Quantity.DISPLACEMENT, us_first) for v in values]
-    if shown[0] == shown[1]:
-        shown = [f"{value:.7g} m" for value in values]
-    return shown[0], shown[1]
+    fmt = UnitFormat(us_first=us_first)
+    shown = fmt.both(before), fmt.both(now)
+    return (f"{before:.7g} m", f"{now:.7g} m") if shown[0] == shown[1] else shown
 
 
-def _designs(before: Mapping[str, FormerArray], assessment: Assessment) -> Iterator[Change]:
-    us_first = _us_first(assessment)
-    for item in assessment.arrays:
-        old = before[item.id].design_m if item.id in before else None
+def _designs(
+    before: Mapping[str, ArrayResult], arrays: Sequence[ArrayResult], us_first: bool
+) -> Iterator[Change]:
+    for item in arrays:
+        old = before[item.id].design_m if item.id in before else math.nan
         if item.id in before and _alike(old, item.design_m):
             continue
         shown = _lengths(old, item.design_m, us_first)
@@ -264,17 +229,15 @@ def _designs(before: Mapping[str, FormerArray], assessment: Assessment) -> Itera
         )
 
 
-def _gap_changed(before: FormerClearance, now: ClearanceCheck) -> bool:
-    return not (
-        _alike(before.required_m, now.required_m)
-        and _alike(before.provided_m, now.clearance.provided_m)
-        and before.verdict == now.verdict
+def _gap_changed(before: ClearanceResult, now: ClearanceResult) -> bool:
+    return before.verdict != now.verdict or not (
+        _alike(before.required_m, now.required_m) and _alike(before.provided_m, now.provided_m)
     )
 
 
 def _gaps(
-    before: Mapping[tuple[str, ...], FormerClearance],
-    now: Mapping[tuple[str, ...], ClearanceCheck],
+    before: Mapping[tuple[str, ...], ClearanceResult],
+    now: Mapping[tuple[str, ...], ClearanceResult],
     us_first: bool,
 ) -> Iterator[Change]:
     """Yield the required separations that changed; what is provided is an input."""
@@ -286,37 +249,32 @@ def _gaps(
             yield from _one(ChangeKind.CLEARANCE, f"{array} to {other}{toward}, required", *shown)
 
 
-def _requirements(former: Former, assessment: Assessment) -> Iterator[Change]:
+def _requirements(former: Compared, now: Compared) -> Iterator[Change]:
     """Yield the rows whose verdict changed; a row that is not there any more is satisfied."""
 
     def key(row: Any) -> tuple[str, ...]:
         return (row.subject, row.title)
 
-    before, now = _keyed(former.requirements, key), _keyed(assessment.rows, key)
-    for name in dict.fromkeys((*before, *now)):
-        old, new = (
+    olds, news = (_keyed(one.requirements, key) for one in (former, now))
+    for name in dict.fromkeys((*olds, *news)):
+        shown = (
             f"{rows[name].found}: {rows[name].verdict}" if name in rows else NOT_THERE
-            for rows in (before, now)
+            for rows in (olds, news)
         )
-        yield from _one(
-            ChangeKind.REQUIREMENT, ", ".join(part for part in name[:2] if part), old, new
-        )
+        title = ", ".join(part for part in name[:2] if part)
+        yield from _one(ChangeKind.REQUIREMENT, title, *shown)
 
 
-def _verdicts(
-    former: Former, before: Mapping[str, FormerArray], assessment: Assessment
-) -> Iterator[Change]:
-    yield from _one(ChangeKind.VERDICT, "Project", former.verdict, assessment.verdict.value)
-    for item in assessment.arrays:
-        old = before[item.id].verdict if item.id in before else NOT_THERE
-        now = assessment.array_verdict(item).value
-        yield from _one(ChangeKind.VERDICT, f"Array {item.id}", old, now)
-    gaps = _keyed(former.clearances, _gap_key)
-    for key, gap in _keyed(assessment.clearances, lambda item: _gap_key(item.clearance)).items():
+def _verdicts(former: Compared, now: Compared) -> Iterator[Change]:
+    yield from _one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict)
+    before = {item.id: item.verdict for item in former.arrays}
+    after = {item.id: item.verdict for item in now.arrays}
+    for name, verdict in after.items():
+        old = before.get(name, NOT_THERE)
+        yield from _one(ChangeKind.VERDICT, f"Array {name}", old, verdict)
+    gaps, new_gaps = (_keyed(one.clearances, _gap_key) for one in (former, now))
+    for key, gap in new_gaps.items():
         old = gaps[key].verdict if key in gaps else NOT_THERE
-        title = f"Clearance {key[0]} to {key[1]}"
-        yield from _one(ChangeKind.VERDICT, title, old, gap.verdict.value)
-    now_ids = {item.id for item in assessment.arrays}
-    for name, array in before.items():
-        if name not in now_ids:
-            yield from _one(ChangeKind.VERDICT, f"Array {name}", array.verdict, NOT_THERE)
+        yield from _one(ChangeKind.VERDICT, f"Clearance {key[0]} to {key[1]}", old, gap.verdict)
+    for name in (name for name in before if name not in after):
+        yield from _one(ChangeKind.VERDICT, f"Array {name}", before[name], NOT_THERE)

@@ -9,11 +9,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import ValidationError
+from pydantic_core import from_json
 
-from report.results.json import SCHEMA_VERSION
+from report.entities.results import SCHEMA_VERSION, Compared
 from report.sheet.cells import cut
-from report.sheet.schema import ProjectInput
 from report.typeset.letters import named, undrawable
 from report.words.letters import UNPRINTABLE
 from solver.meant import meant
@@ -25,74 +25,7 @@ MOST_BYTES, MOST_ROWS = 25_000_000, 100_000
 """Largest file that is read [B], and most rows that are compared."""
 
 
-class _Part(BaseModel):
-    """A part of the file; its other keys are ignored."""
-
-    model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False, strict=True)
-
-
-class FormerRecord(_Part):
-    """A record file."""
-
-    motion: str
-    component: str
-    name: str
-    sha256: str
-
-
-class FormerRow(_Part):
-    """A requirement with its verdict."""
-
-    id: str
-    subject: str
-    title: str
-    found: str
-    verdict: str
-
-
-class FormerArray(_Part):
-    """Results of an array; None for no value. `peaks` are those of `report.results.json`."""
-
-    id: str
-    verdict: str
-    mean_prd_m: float | None
-    largest_prd_m: float | None
-    computed_m: float | None
-    prescriptive_m: float
-    floor_m: float
-    design_m: float | None
-    peaks: tuple[dict[str, str | float | None], ...]
-
-
-class FormerClearance(_Part):
-    """A clearance; None for no value."""
-
-    array: str
-    object: str
-    direction: str
-    required_m: float | None
-    provided_m: float
-    verdict: str
-
-
-class Former(_Part):
-    """What is compared of a former results.json."""
-
-    roofslip_version: str
-    rule_set: str
-    verdict: str
-    input: ProjectInput
-    records: tuple[FormerRecord, ...]
-    requirements: tuple[FormerRow, ...]
-    arrays: tuple[FormerArray, ...]
-    clearances: tuple[FormerClearance, ...]
-
-
-class _Versioned(_Part):
-    schema_version: Any = None
-
-
-def read_former(path: Path) -> Former:
+def read_former(path: Path) -> Compared:
     """Read results.json of a former revision.
 
     Raises
@@ -119,7 +52,7 @@ def read_former(path: Path) -> Former:
     return former_from(content, path)
 
 
-def former_from(content: bytes, path: Path) -> Former:
+def former_from(content: bytes, path: Path) -> Compared:
     """Return the content of results.json as data.
 
     Raises
@@ -133,11 +66,12 @@ def former_from(content: bytes, path: Path) -> Former:
             " results.json of a former revision"
         )
     try:
-        version = _Versioned.model_validate_json(content).schema_version
-    except ValidationError as error:
-        raise InputError(
-            f"{path}: is no results.json or is damaged ({_first(error)}); {AGAIN}"
-        ) from error
+        document = from_json(content, allow_inf_nan=False)
+    except ValueError as error:
+        raise InputError(f"{path}: is no results.json or is damaged ({error}); {AGAIN}") from error
+    if not isinstance(document, dict):
+        raise InputError(f"{path}: is no results.json or is damaged (no object); {AGAIN}")
+    version = document.get("schema_version")
     # True equals 1, and 2.0 equals 2: only a whole number is a version.
     if type(version) is not int or version != SCHEMA_VERSION:
         found = f"{version!r:.40}" if version is not None else "missing, as in version 0.1"
@@ -145,7 +79,7 @@ def former_from(content: bytes, path: Path) -> Former:
             f"{path}: schema_version is {found}; this version reads {SCHEMA_VERSION}; {AGAIN}"
         )
     try:
-        former = Former.model_validate_json(content)
+        former = Compared.model_validate_json(content, strict=True)
     except ValidationError as error:
         raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
     if (count := _rows(former.model_dump())) > MOST_ROWS:

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.manual.blocks import Block, ManualSection
-from report.pages.parts import Table, TableColumn, TableRow
 from report.pages.symbols import with_symbols
 from report.study.page_parts import MOST_LINES, axis, level, on_building, some
 from report.study.results import (

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.manual.blocks import Block, ManualSection, joined
-from report.pages.parts import Table, TableColumn, TableRow
 from report.pages.symbols import with_symbols
 from report.study.results import StudyResults
 from report.study.spread import FREQ_HZ

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
 from report.manual.blocks import Block, ManualSection
-from report.pages.parts import Table, TableColumn, TableRow
 from report.pages.symbols import with_symbols
 from report.study.page_parts import (
     MOST_CUTS,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from report.document.blocks import Picture
 from report.manual.blocks import Chart, joined
-from report.pages.parts import Picture
 from report.study.results import StudyResults
 from report.study.tables import length_unit
 from report.words.units import measured, no_less

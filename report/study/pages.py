@@ -11,8 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from report.document.tables import Table, TableRow
+from report.entities.columns import TableColumn
+from report.entities.marks import UNVERIFIED
 from report.manual.blocks import Block, Chart, ManualSection, slug
-from report.pages.parts import UNVERIFIED, Table, TableColumn, TableRow
 from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.answer_pages import allowed

@@ -14,7 +14,7 @@ from typing import Any
 
 import xlsxwriter
 
-from report.pages.parts import UNVERIFIED
+from report.entities.marks import UNVERIFIED
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, refusal
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words

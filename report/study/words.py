@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from report.pages.parts import dagger
+from report.entities.marks import dagger
 from report.study.design import I_E, SDC
 from report.study.dispersion import notice
 from report.study.results import MEAN, SLOPE_DECIMALS, StudyResults

@@ -8,10 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from markupsafe import Markup
-
 from report.assessment.verdict import NOT_GIVEN, Row, Verdict
-from report.pages.parts import stamp
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -30,13 +27,6 @@ def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
     if not found or (verdict is Verdict.NG and gap is not None and gap.demand_capacity > 1.0):
         return ""
     return found[0] + (f" and {len(found) - 1} more" if len(found) > 1 else "")
-
-
-def array_stamp(assessment: Assessment, item: ArrayAssessment) -> Markup:
-    """Return the verdict on an array for a table, with the cause of an NG that no D/C shows."""
-    verdict = assessment.array_verdict(item)
-    cause = "" if verdict.is_permitted else unshown_cause(assessment, item)
-    return Markup("{} {}").format(stamp(verdict), cause) if cause else stamp(verdict)
 
 
 def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:

@@ -1,0 +1,1 @@
+"""What documents are made of: tables, blocks and templates. Owns no content of a page."""

@@ -1,0 +1,148 @@
+"""Tables of a document: rows of finished strings, and rows of an entity by the names of its fields.
+
+Templates print these. Owns no content. Read `table_of`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+from markupsafe import Markup
+
+from report.assessment.verdict import Verdict
+from report.entities.columns import TableColumn, UnitFormat
+from report.entities.shown import Entity, shown_by
+from solver.model import DefectError
+
+WHOLE_ROWS = 6  # longer tables may break across pages, with the heading repeated
+
+
+@dataclass(frozen=True, slots=True)
+class Wide:
+    """A cell that spans several columns, left-aligned."""
+
+    text: str
+    span: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableRow:
+    """A row of formatted strings; `kind` is a style: total, counts or empty."""
+
+    cells: tuple[str | Wide, ...]
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Table:
+    """A table with its caption; equal headings of adjacent columns are merged."""
+
+    caption: str
+    columns: tuple[TableColumn, ...]
+    rows: tuple[TableRow, ...]
+    notes: tuple[str, ...] = ()
+    kind: str = ""
+    whole_rows: int = WHOLE_ROWS
+
+    @property
+    def heads(self) -> tuple[tuple[str, int, str, str], ...]:
+        """Headings, with number of columns spanned, alignment and width."""
+        groups = [list(group) for _, group in groupby(self.columns, key=lambda c: c.head)]
+        whole = sum(column.share for column in self.columns)
+        return tuple(
+            (
+                group[0].head,
+                len(group),
+                "center" if len(group) > 1 else group[0].align,
+                f"{100.0 * sum(column.share for column in group) / whole:.2f}%",
+            )
+            for group in groups
+        )
+
+    @property
+    def body(self) -> tuple[tuple[str, tuple[tuple[str, str, int, str], ...]], ...]:
+        """Rows as style and cells: text, marks after it, columns spanned, alignment."""
+        aligns = [column.align for column in self.columns]
+        return tuple((row.kind, tuple(_placed(row.cells, aligns))) for row in self.rows)
+
+    @property
+    def hold(self) -> str:
+        """Style that keeps a short table on one page and lets a long one break."""
+        return "whole" if len(self.rows) <= self.whole_rows else "split"
+
+    @property
+    def has_units(self) -> bool:
+        """Whether any column has a unit."""
+        return any(column.unit for column in self.columns)
+
+
+def _placed(
+    cells: Sequence[str | Wide], aligns: Sequence[str]
+) -> Iterator[tuple[str, str, int, str]]:
+    at = 0
+    for cell in cells:
+        if isinstance(cell, Wide):
+            yield cell.text, "", cell.span, "left"
+            at += cell.span
+            continue
+        # Marks after a number hang outside the column, so that the digits stay aligned.
+        text = cell.rstrip("†‡") if aligns[at] == "right" else cell
+        yield text, cell[len(text) :], 1, aligns[at]
+        at += 1
+    if at != len(aligns):
+        raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
+
+
+def stamp(value: Verdict) -> Markup:
+    """Return a verdict, highlighted where it is not OK."""
+    return Markup('<b class="{}">{}</b>').format(value.name.lower(), value.value)
+
+
+def table_of(
+    rows: Sequence[Entity],
+    names: str,
+    caption: str,
+    fmt: UnitFormat,
+    *,
+    kind: str = "",
+    heads: Mapping[str, str] = {},
+    shares: Mapping[str, float] = {},
+    notes: Sequence[str] = (),
+) -> Table:
+    """Return rows of one entity as a table of the named fields.
+
+    Parameters
+    ----------
+    names : str
+        Of the fields, in order.
+    heads, shares : mapping, optional
+        By field, where this table has another heading or width than the field says.
+    """
+    fields = [(name, shown_by(type(rows[0]), name)) for name in names.split()] if rows else []
+    columns = [
+        column
+        for name, shown in fields
+        for column in shown.columns(fmt, heads.get(name, shown.head), shares.get(name, shown.share))
+    ]
+    return Table(
+        caption=caption,
+        columns=tuple(columns),
+        rows=tuple(
+            TableRow(
+                cells=tuple(cell for name, _ in fields for cell in _cells(row, name, fmt)),
+                kind=row.style,
+            )
+            for row in rows
+        ),
+        notes=tuple(notes),
+        kind=kind,
+    )
+
+
+def _cells(row: Entity, name: str, fmt: UnitFormat) -> tuple[str, ...]:
+    value = getattr(row, name)
+    if isinstance(value, Verdict):
+        return (stamp(value) + row.marks.get(name, ""),)
+    return row.cells(name, fmt)

@@ -1,0 +1,90 @@
+"""The templates of documents, with the filters that their prose uses.
+
+Words are in the templates and numbers in Python: a filter prints a number as every page does.
+A template that is given the data of a package calls it `p`. Owns no content.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from jinja2 import pass_context
+
+from report.document.tables import Table, stamp, table_of
+from report.words.counts import capitalized, counted, spelled
+from report.words.units import Quantity, number
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+    from jinja2.runtime import Context
+
+
+def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
+    """Return a document from a template of a folder."""
+    return _environment(folder).get_template(name).render(context)
+
+
+@cache
+def _environment(folder: Path) -> Environment:
+    """Return the templates of a folder, which are compiled once in a process."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(folder),
+        undefined=StrictUndefined,
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {
+        "both": _both,
+        "capitalized": capitalized,
+        "clause": _clause,
+        "counted": counted,
+        "mark": _mark,
+        "number": number,
+        "rule_length": _rule_length,
+        "spelled": spelled,
+        "stamp": stamp,
+    }
+    environment.tests["nan"] = math.isnan
+    environment.globals["rows"] = _rows
+    return environment
+
+
+@pass_context
+def _both(context: Context, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+    """Return a value in both systems of units: `81.6 in (2072 mm)`."""
+    said: str = context["p"].fmt.both(value_si, Quantity[quantity])
+    return said
+
+
+@pass_context
+def _mark(context: Context, key: str) -> str:
+    """Return the marks of a provision."""
+    said: str = context["p"].mark(key)
+    return said
+
+
+@pass_context
+def _clause(context: Context, key: str) -> str:
+    """Return the clause of a provision with its marks."""
+    said: str = context["p"].clause(key)
+    return said
+
+
+@pass_context
+def _rule_length(context: Context, key: str) -> str:
+    """Return a length of the rule set in both systems of units, with its marks."""
+    said: str = context["p"].fmt.both(context["p"].assessment.rules.length_m(key))
+    return said + _mark(context, key)
+
+
+@pass_context
+def _rows(context: Context, entities: Any, names: str, caption: str, **how: Any) -> Table:
+    """Return rows of an entity as a table of the named fields."""
+    return table_of(entities, names, caption, context["p"].fmt, **how)

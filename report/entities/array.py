@@ -1,0 +1,188 @@
+"""An array as it is written and shown: its displacements, its runs, its limits.
+
+Computes nothing: see `report.assessment.arrays`. Read `ArrayResult`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar
+
+from pydantic import BeforeValidator, Field
+
+from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
+from report.assessment.causes import unshown_cause
+from report.assessment.friction import mu_words
+from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
+from report.entities.marks import Marked
+from report.entities.requirement import limit
+from report.entities.run import PeakResult, RunResult, peak_result, run_result
+from report.entities.shown import Entity, Number, Shown, at, length, ratio_of, unwritten, words
+from report.sheet.schema import Direction, Model
+from report.words.units import number
+from solver.model import Friction
+from solver.rules.provisions import Basis, PrescriptiveBasis
+
+
+class Displacements(Entity):
+    """The displacements of an array: by analysis, prescriptive and design."""
+
+    computed_m: Annotated[Number, at("analysis.value_m"), length("Analysis")]
+    computed_basis: Annotated[Basis, at("analysis.basis")]
+    mean_prd_m: Annotated[Number, at("analysis.mean_m"), length("Mean")]
+    largest_prd_m: Annotated[Number, at("analysis.largest_m"), length("Largest")]
+    prd_variation: Annotated[Number, at("variation")]
+    prescriptive_m: Annotated[float, at("prescriptive.value_m"), length("Prescriptive")]
+    prescriptive_governs: Annotated[PrescriptiveBasis, at("prescriptive.governs")]
+    floor_m: Annotated[float, length("Floor")]
+    design_m: Annotated[Number, length("Design")]
+    design_is_overridden: Annotated[bool, at("design_mark"), BeforeValidator(bool)]
+    design_governs: Annotated[DesignBasis, at("governs")]
+    design_permitted: Annotated[bool, at("is_permitted")]
+
+    @unwritten(length("Floor"))
+    def floor(self) -> float:
+        """The floor [m]; NaN where peer review removes it."""
+        return self.floor_m or math.nan
+
+    @unwritten(ratio_of("Analysis / prescr.", share=1.2))
+    def computed_ratio(self) -> float:
+        """Value from analysis / prescriptive displacement."""
+        return self.computed_m / self.prescriptive_m
+
+    @unwritten(ratio_of("Design / prescr.", share=1.2))
+    def design_ratio(self) -> float:
+        """Design displacement / prescriptive displacement."""
+        return self.design_m / self.prescriptive_m
+
+
+class LowVelocityResult(Displacements):
+    """An array with its low-velocity friction coefficient alone."""
+
+    first: ClassVar[tuple[str, ...]] = ("id", "mu")
+
+    id: Annotated[str, words("Array", 1.1)]
+    mu: Annotated[float, at("array.mu")]
+
+
+class DirectionResult(Entity):
+    """The displacements of an array in a direction."""
+
+    mean_m: Number
+    largest_m: Number
+    computed_m: Annotated[Number, at("value_m")]
+    design_m: Number
+    design_by_chosen_model_m: Number
+
+
+class TippingResult(Entity):
+    """Tipping of an array, for the run nearest to it."""
+
+    demand: float
+    capacity: float
+    held_ratio: Annotated[float, at("at_rest_ratio")]
+    sliding_ratio: float
+    ok: Annotated[bool, at("is_ok")]
+
+
+class UpliftResult(Entity):
+    """Uplift of an array, for the run with the smallest normal force."""
+
+    n_min_g: float
+    t_first_s: Number
+    duration_s: float
+    times: int
+
+
+class ArrayResult(LowVelocityResult):
+    """An array: what it is, its displacements by direction, motion and run, its limits."""
+
+    first: ClassVar[tuple[str, ...]] = (
+        "id",
+        "verdict",
+        "slope_rad",
+        "mu",
+        "friction",
+        "friction_as_run",
+    )
+
+    verdict: Annotated[Verdict, Shown(head="Verdict", align="center", share=1.65)]
+    slope_rad: Annotated[float, at("array.slope_rad")]
+    friction: Annotated[Friction, at("array.friction")]
+    friction_as_run: Annotated[str, Shown(head="μ")]
+    model_asked_for: Annotated[Model, at("array.model")]
+    model_is_enough: Annotated[bool, at("is_model_enough")]
+    directions: Mapping[Direction, DirectionResult]
+    peaks: tuple[PeakResult, ...]
+    peak_speed_mps: Annotated[Number, at("fastest_mps")]
+    interconnection_n: float
+    tipping: TippingResult
+    uplift: UpliftResult
+    route: Route
+    checks: tuple[Mapping[str, Any], ...]
+    analysis_checks: tuple[Mapping[str, Any], ...]
+    prescriptive_checks: tuple[Mapping[str, Any], ...]
+    runs: tuple[RunResult, ...]
+    source: Annotated[str, words("Governs", 1.55)] = Field(default="", exclude=True)
+    limits: Annotated[
+        Verdict, at("limits_verdict"), Shown(head="Limits", align="center", share=0.85)
+    ] = Field(default=Verdict.NONE, exclude=True)
+    governing_gap: Annotated[str, words("Clearance", 1.4)] = Field(default="—", exclude=True)
+    largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = Field(
+        default="none given", exclude=True
+    )
+
+    @unwritten(Shown(head="Slope", unit="deg", share=0.8, text=lambda deg: number(deg, 2)))
+    def slope_deg(self) -> float:
+        """Roof slope [deg]."""
+        return math.degrees(self.slope_rad)
+
+
+def array_result(assessment: Assessment, item: ArrayAssessment, **marks: str) -> ArrayResult:
+    """Return an array with its runs and limits, and the marks of its fields."""
+    gap = assessment.governing_clearance(item.id)
+    near = {}
+    if gap:
+        near = {"governing_gap": f"to {gap.across_from(item.id)}", "largest_dc": gap.ratio_words}
+    is_sound = item.is_permitted and all(check.ok for check in item.limits)
+    return ArrayResult.of(
+        item,
+        **near,
+        limits_verdict=Verdict.OK if is_sound else Verdict.NG,
+        marks=marks,
+        verdict=assessment.array_verdict(item),
+        friction_as_run=mu_words(item.array.friction),
+        directions={direction: _direction(item, direction) for direction in item.directions},
+        peaks=tuple(map(peak_result, item.motions)),
+        uplift=UpliftResult.of(item.uplift),
+        checks=tuple(map(limit, item.checks)),
+        analysis_checks=tuple(map(limit, item.analysis_checks)),
+        prescriptive_checks=tuple(map(limit, item.prescriptive_checks)),
+        runs=tuple(run_result(motion, run) for motion in item.motions for run in motion.runs),
+    )
+
+
+def array_results(marked: Marked) -> Iterator[ArrayResult]:
+    """Yield the arrays with the marks of their numbers and the cause of an NG that no D/C shows."""
+    for item in marked.assessment.arrays:
+        verdict = marked.assessment.array_verdict(item)
+        cause = "" if verdict.is_permitted else unshown_cause(marked.assessment, item)
+        yield array_result(
+            marked.assessment,
+            item,
+            prescriptive_m=marked.prescriptive_mark(item),
+            computed_m=item.mark(lambda array: array.analysis.value_m),
+            floor=marked.floor_mark(item),
+            design_m=marked.design_mark(item),
+            verdict=f" {cause}" if cause else "",
+        )
+
+
+def _direction(item: ArrayAssessment, direction: Direction) -> DirectionResult:
+    return DirectionResult.of(
+        item.directions[direction],
+        design_m=item.directional_m(direction),
+        design_by_chosen_model_m=item.chosen_toward_m(direction),
+    )

@@ -1,0 +1,141 @@
+"""The evidence as it is written and shown: neighbors, remedies, margins, directions, sums.
+
+Computes nothing: see `report.assessment.evidence`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from report.assessment.certainty import Certainty
+from report.assessment.cumulative import Cumulative
+from report.assessment.neighbors import NearbyKind, PlanNeighbor
+from report.assessment.remedies import Remedy, RemedyKind
+from report.entities.shown import Entity, Number, at
+from solver.model import Status
+
+_UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m", RemedyKind.S_DS: "_g"}
+
+
+def remedy(item: Remedy) -> dict[str, Any]:
+    """Return a remedy, with the unit of its quantity in the keys."""
+    unit = _UNITS[item.kind]
+    return {
+        "quantity": item.kind,
+        "clearance": f"{item.clearance}" if item.clearance else None,
+        "array": item.array,
+        "exists": item.exists,
+        f"given{unit}": item.given,
+        f"value{unit}": item.value,
+        f"resolution{unit}": item.resolution,
+        f"verified{unit}": item.verified,
+        "n_values": item.n_values,
+        "basis": item.basis,
+    }
+
+
+class GivenResult(Entity):
+    """A clearance given for a neighbor."""
+
+    cell: str
+    provided_m: Annotated[float, at("clearance.provided_m")]
+
+
+class NeighborResult(Entity):
+    """What the plan shows near an array, and the clearances that contradict it."""
+
+    array: str
+    other: str
+    kind: NearbyKind
+    gap_m: float
+    reach_m: Number
+    is_missing: bool
+    add_to: Annotated[str, at("to_add")]
+    given: tuple[GivenResult, ...]
+    contradictions: tuple[str, ...]
+
+
+class SurfaceResult(Entity):
+    """The mean PRD of an array over friction and slope."""
+
+    array: Annotated[str, at("array.id")]
+    mus: tuple[float, ...]
+    slopes_rad: tuple[float, ...]
+    mean_prd_m: tuple[tuple[Number, ...], ...]
+    n_unfinished: int
+    n_runs: int
+
+
+class MarginResult(Entity):
+    """The margin of a clearance in friction."""
+
+    clearance: Annotated[str, at("number")]
+    array: Annotated[str, at("array.id")]
+    mu: Annotated[float, at("array.array.mu")]
+    least_mu: Number
+    lowest_mu_tried: Annotated[Number, at("lowest_tried")]
+    is_beyond: bool
+    required_m: Number
+
+
+class TurnedResult(Entity):
+    """A run with the horizontal components turned."""
+
+    angle_deg: float
+    prd_m: Annotated[Number, at("result.prd_m")]
+    status: Annotated[Status, at("result.status")]
+
+
+class AnglesResult(Entity):
+    """Directions of shaking that are not run for the design."""
+
+    motion: Annotated[str, at("motion.motion.id")]
+    prd_m: Annotated[Number, at("motion.governing.result.prd_m")]
+    turned: tuple[TurnedResult, ...]
+    vertical_reversed_prd_m: Annotated[Number, at("reversed_m")]
+
+
+class CertaintyResult(Entity):
+    """How sure the displacements are."""
+
+    surface: SurfaceResult
+    margins: tuple[MarginResult, ...]
+    angles: AnglesResult
+
+
+class CumulativeResult(Entity):
+    """The sums of the PRDs of the design event and of smaller ones, by motion."""
+
+    array: Annotated[str, at("array.id")]
+    sums_m: Mapping[str, Number]
+    mean_m: Number
+    largest_m: Number
+
+
+def certainty_result(item: Certainty) -> CertaintyResult:
+    """Return the grid over friction and slope, the margins, and the directions not run."""
+    surface = item.surface
+    return CertaintyResult(
+        surface=SurfaceResult.of(
+            surface,
+            mus=surface.mus.tolist(),
+            slopes_rad=surface.slopes_rad.tolist(),
+            mean_prd_m=surface.mean_m.tolist(),
+        ),
+        margins=tuple(
+            MarginResult.of(margin, number=f"{margin.number}") for margin in item.margins
+        ),
+        angles=AnglesResult.of(item),
+    )
+
+
+def neighbor_result(item: PlanNeighbor) -> NeighborResult:
+    """Return a neighbor."""
+    return NeighborResult.of(item, contradictions=tuple(row.cell for row in item.contradictions))
+
+
+def cumulative_result(item: Cumulative) -> CumulativeResult:
+    """Return the sums of an array."""
+    motions = [run.motion.id for run in item.array.motions]
+    return CumulativeResult.of(item, sums_m=dict(zip(motions, item.sums_m, strict=True)))

@@ -1,0 +1,96 @@
+"""The marks of numbers: not compared with the adopted document, changed by an override.
+
+Computes nothing. Read `Marked`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.overrides import OVERRIDDEN
+from report.assessment.project import Assessment
+from report.entities.columns import UnitFormat
+from report.sheet.schema import Direction, ProjectInput
+from solver.rules.provisions import PrescriptiveBasis, Provision
+
+UNVERIFIED = (
+    "Numbers marked † have not been compared with the text of the adopted document and shall be "
+    "verified against it"
+)
+
+
+def dagger(provision: Provision) -> str:
+    """Return the marks of a number: † unverified, ‡ overridden."""
+    return ("" if provision.verified else "†") + (OVERRIDDEN if provision.reason else "")
+
+
+def joined(marks: str, more: str) -> str:
+    """Return marks, each once."""
+    return marks if more in marks else marks + more
+
+
+@dataclass(frozen=True, kw_only=True)
+class Marked:
+    """An assessment with the marks of its numbers and its system of units."""
+
+    assessment: Assessment
+
+    @property
+    def data(self) -> ProjectInput:
+        """The input."""
+        return self.assessment.project
+
+    @property
+    def fmt(self) -> UnitFormat:
+        """Format of values."""
+        return UnitFormat(us_first=self.data.project.units_first == "US")
+
+    def mark(self, key: str) -> str:
+        """Return the marks of a provision."""
+        return dagger(self.assessment.rules.values[key])
+
+    def clause(self, key: str) -> str:
+        """Return the clause of a provision with its marks."""
+        return self.assessment.rules.values[key].clause + self.mark(key)
+
+    def prescriptive_key(self, array: ArrayAssessment) -> str:
+        """Return which provision the prescriptive displacement comes from."""
+        return {
+            PrescriptiveBasis.FORMULA: "prescriptive_factor_in",
+            PrescriptiveBasis.MINIMUM: "prescriptive_minimum_in",
+            PrescriptiveBasis.LOW_CATEGORY: "prescriptive_low_sdc_in",
+        }[array.prescriptive.governs]
+
+    def design_mark(self, array: ArrayAssessment) -> str:
+        """Return the marks of a design displacement."""
+        if math.isnan(array.design_m):
+            return ""
+        if array.governs is DesignBasis.PRESCRIPTIVE:
+            return joined(self.mark(self.prescriptive_key(array)), array.design_mark)
+        key = "analysis_floor" if array.governs is DesignBasis.FLOOR else "analysis_factor"
+        return joined(self.mark(key), array.design_mark)
+
+    def prescriptive_mark(self, array: ArrayAssessment) -> str:
+        """Return the marks of the prescriptive displacement."""
+        mark = array.mark(lambda item: item.prescriptive.value_m)
+        return joined(self.mark(self.prescriptive_key(array)), mark)
+
+    def floor_m(self, array: ArrayAssessment) -> float:
+        """Return the floor of an array for print [m]; NaN where peer review removes it."""
+        return math.nan if self.data.options.peer_reviewed else array.floor_m
+
+    def floor_mark(self, array: ArrayAssessment) -> str:
+        """Return the marks of the floor of an array, if it has one."""
+        if self.data.options.peer_reviewed:
+            return ""
+        return joined(self.mark("analysis_floor"), array.mark(lambda item: item.floor_m))
+
+    def direction_mark(self, array: ArrayAssessment, direction: Direction) -> str:
+        """Return the marks of a design displacement in a direction."""
+        value = array.directions[direction].value_m
+        key = "analysis_floor" if array.floor_m > value else "analysis_factor"
+        if math.isnan(value):
+            return ""
+        return joined(self.mark(key), array.toward_mark(direction))

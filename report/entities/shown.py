@@ -1,0 +1,168 @@
+"""What every entity of the results has in common: a field says once how it is shown.
+
+The value of a field is that of the attribute of the assessment with its name, or on the path that
+`at` gives. Owns no entity. Read `Entity`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import (
+    AliasPath,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+)
+from pydantic.json_schema import SkipJsonSchema
+
+from report.entities.columns import NO_VALUE, TableColumn, UnitFormat
+from report.words.units import Quantity, Show, measured, number
+
+Number = Annotated[float, BeforeValidator(lambda value: math.nan if value is None else value)]
+"""A number; NaN is none, which is null in JSON."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Shown:
+    """How a field is shown: a quantity in both systems of units, or else as text."""
+
+    head: str
+    unit: str = ""
+    quantity: Quantity | None = None
+    text: Callable[[Any], str] = str
+    align: str = "right"
+    share: float = 1.0
+
+    def columns(self, fmt: UnitFormat, head: str, share: float) -> tuple[TableColumn, ...]:
+        """Return its column, or one for each system of units."""
+        if self.quantity:
+            return fmt.columns(head, self.quantity, share)
+        return (TableColumn(head=head, unit=self.unit, align=self.align, share=share),)
+
+
+def words(head: str, share: float = 1.0, **how: Any) -> Shown:
+    """Return how a field of words is shown."""
+    return Shown(head=head, align="left", share=share, **how)
+
+
+def length(head: str, share: float = 1.0) -> Shown:
+    """Return how a displacement or a size is shown."""
+    return Shown(head=head, quantity=Quantity.DISPLACEMENT, share=share)
+
+
+def ratio_of(head: str, decimals: int = 2, share: float = 1.0) -> Shown:
+    """Return how a plain number is shown; `none` for NaN."""
+
+    def text(value: float) -> str:
+        return NO_VALUE if math.isnan(value) else number(value, decimals)
+
+    return Shown(head=head, text=text, share=share)
+
+
+def at(path: str) -> Any:
+    """Return where the assessment has the value of a field: names of attributes, with dots."""
+    return Field(validation_alias=AliasPath(*path.split(".")))
+
+
+def unwritten(shown: Shown) -> Callable[[Callable[[Any], Any]], Any]:
+    """Make a method a property that is shown, and not written to results.json."""
+
+    def decorate(method: Callable[[Any], Any]) -> Any:
+        method.shown = shown  # type: ignore[attr-defined]
+        return property(method)
+
+    return decorate
+
+
+class Entity(BaseModel):
+    """A row of the results: complete and frozen.
+
+    Attributes
+    ----------
+    marks : mapping of str to str
+        What follows a value, by field: marks of provisions and overrides, the cause of a verdict.
+    rounds : mapping of str to callable
+        Rounding that keeps an order visible, by field.
+    style : str
+        Style of the row.
+    """
+
+    model_config = ConfigDict(frozen=True, from_attributes=True, validate_by_name=True)
+
+    first: ClassVar[tuple[str, ...]] = ()
+    """Fields that are written first: those of a base class would be."""
+
+    marks: SkipJsonSchema[Mapping[str, str]] = Field(default={}, exclude=True)
+    rounds: SkipJsonSchema[Mapping[str, Show]] = Field(default={}, exclude=True)
+    style: SkipJsonSchema[str] = Field(default="", exclude=True)
+
+    @classmethod
+    def of(cls, item: object, **more: Any) -> Self:
+        """Return the entity of an item of the assessment, with what is not said by its attributes.
+
+        A field takes the attribute with its name, or what is on the path that `at` gives.
+        """
+        return cls.model_validate(_Beside(item, more))
+
+    def styled(self, style: str) -> Self:
+        """Return the entity as a row of a style."""
+        return self.model_copy(update={"style": style}) if style else self
+
+    @model_serializer(mode="wrap")
+    def _in_order(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        written = write(self)
+        return {name: written[name] for name in (*self.first, *written)}
+
+    def cells(self, name: str, fmt: UnitFormat) -> tuple[str, ...]:
+        """Return a field for print: one text, or one for each system of units."""
+        shown, value, mark = shown_by(type(self), name), getattr(self, name), self._mark(name)
+        if shown.quantity:
+            show = self.rounds.get(name, measured)
+            return fmt.cells(value, shown.quantity, mark=mark, show=show)
+        text = shown.text(value)
+        return (text + mark if mark else text,)
+
+    def both(self, name: str, fmt: UnitFormat) -> str:
+        """Return a field in a sentence: a quantity in both systems of units."""
+        return self._said(name, fmt, fmt.both)
+
+    def short(self, name: str, fmt: UnitFormat) -> str:
+        """Return a field where there is little room: a quantity in the preferred system."""
+        return self._said(name, fmt, fmt.short)
+
+    def _said(self, name: str, fmt: UnitFormat, said: Callable[..., str]) -> str:
+        shown, value = shown_by(type(self), name), getattr(self, name)
+        if not shown.quantity:
+            return self.cells(name, fmt)[0]
+        text = said(value, shown.quantity, self.rounds.get(name, measured))
+        return text if math.isnan(value) else text + self._mark(name)
+
+    def _mark(self, name: str) -> str:
+        return self.marks.get(name, "")
+
+
+class _Beside:
+    """The attributes of an item, and others beside them."""
+
+    def __init__(self, item: object, more: Mapping[str, Any]) -> None:
+        self._item, self._more = item, more
+
+    def __getattr__(self, name: str) -> Any:
+        return self._more[name] if name in self._more else getattr(self._item, name)
+
+
+@cache
+def shown_by(model: type[Entity], name: str) -> Shown:
+    """Return how a field of a model is shown."""
+    if name in model.model_fields:
+        return next(item for item in model.model_fields[name].metadata if isinstance(item, Shown))
+    shown: Shown = getattr(model, name).fget.shown
+    return shown

@@ -1,0 +1,66 @@
+"""The schema of results: what is written is read back, and a field is shown as it says."""
+
+import json
+import math
+
+import pytest
+
+import scenes
+from report.assessment.evidence import support
+from report.entities.clearance import ClearanceResult
+from report.entities.columns import UnitFormat
+from report.entities.results import Results
+from report.results.json import results_json
+
+
+@pytest.fixture(scope="module")
+def content():
+    assessment = scenes.package().assessment
+    return results_json(assessment, support(assessment))
+
+
+def test_what_is_written_is_read_back_to_the_last_digit(content):
+    read = Results.model_validate_json(content, strict=True)
+    again = read.model_dump_json()
+    assert list(json.loads(again)) == list(json.loads(content))
+    assert read.model_dump(mode="json")["arrays"][0]["id"] == "A1"
+    for old, new in zip(
+        json.loads(content)["arrays"], read.model_dump(mode="json")["arrays"], strict=True
+    ):
+        assert list(old) == list(new)
+        assert old["design_m"] == new["design_m"]
+
+
+def test_the_schema_names_every_key_that_is_written(content):
+    schema = Results.model_json_schema(by_alias=False)
+    assert set(json.loads(content)) <= set(schema["properties"])
+
+
+def gap(**changes):
+    row = {
+        "array": "A1", "object": "RTU-1", "direction": "any", "neighbor": "fixed object",
+        "governing_array": "A1", "governing_direction": "any", "design_m": 0.5, "importance": 1.0,
+        "factor": 1.0, "required_m": 0.5, "required_is_overridden": False, "provided_m": 1.0,
+        "demand_capacity": 0.5, "verdict": "OK",
+    }  # fmt: skip
+    return ClearanceResult.model_validate(row | changes)
+
+
+@pytest.mark.parametrize(
+    ("us_first", "cells", "both"),
+    [
+        (True, ("19.7†", "500†"), "19.7 in (500 mm)†"),
+        (False, ("500†", "19.7†"), "500 mm (19.7 in)†"),
+    ],
+)
+def test_a_quantity_is_shown_in_both_systems_with_its_mark(us_first, cells, both):
+    row, fmt = gap(marks={"required_m": "†"}), UnitFormat(us_first=us_first)
+    assert row.cells("required_m", fmt) == cells
+    assert row.both("required_m", fmt) == both
+
+
+def test_no_value_is_none_without_a_mark():
+    row, fmt = gap(required_m=None, marks={"required_m": "†"}), UnitFormat(us_first=True)
+    assert math.isnan(row.required_m)
+    assert row.cells("required_m", fmt) == ("none", "none")
+    assert row.both("required_m", fmt) == "none"
