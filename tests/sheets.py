@@ -17,7 +17,9 @@ from openpyxl import Workbook, load_workbook
 from openpyxl.cell import Cell
 from openpyxl.utils import coordinate_to_tuple
 
+import inputs
 from cells import address, addressed, cell
+from inputs import FT, INCH, clearance, motion, roof_object
 from report.motions.prepare import Shaking, prepare
 from report.sheet.parts import changed
 from report.sheet.positions import CellPosition
@@ -53,107 +55,56 @@ def read_workbook(path: Path) -> Book:
     return Book(sheet, prepare(sheet))
 
 
-FT, INCH, LB = 0.3048, 0.0254, 4.4482216152605
-
-
 def project(**changes: object) -> ProjectInput:
-    """Return a complete input: two arrays, five objects, six clearances, three motions."""
-    parts: dict[str, object] = {
-        "project": {
-            "name": "Alameda Warehouse",
-            "number": "007",
-            "client": "Harbor Logistics",
-            "address": "1200 Alameda St",
-            "prepared_by": "RG",
-            "checked_by": "MT",
-            "date": dt.date(2026, 3, 5),
-            "revision": "1",
-            "units_first": "US",
-        },
-        "revisions": [
-            {"revision": "0", "date": dt.date(2026, 1, 5), "description": "Draft", "by": "RG"},
-            {"revision": "1", "date": dt.date(2026, 3, 5), "description": "Permit"},
-        ],
-        "site": {
-            "rule_set": "SEAOC PV1-2012",
-            "risk_category": "II",
-            "i_e": 1.0,
-            "s_1_g": 0.7,
-            "site_class": "D",
-            "s_ds_g": 1.566,
-            "sdc": "D",
-            "stories": 1,
-            "structure_height_m": 36 * FT,
-            "roof_height_m": 36 * FT,
-        },
-        "arrays": [
-            _array("A1", 20, 100, 0.5, "degrees"),
-            _array("A2", 110, 200, 3.5, "percent"),
-        ],
-        "objects": [
-            _object("RTU-1", "fixed object", 42, (130, 140, 80, 90)),
-            _object("OLD", "unlike array", None, None),
-            _object("N", "edge with parapet", 36, (0, 300, 120, 121)),
-            _object("S", "edge without parapet", None, (0, 300, -1, 0)),
-        ],
-        "clearances": [
-            _clearance("A1", "A2", "across", 120),
-            _clearance("A1", "S", "down", 180),
-            _clearance("A2", "RTU-1", "any", 60),
-            _clearance("A2", "OLD", "any", 400),
-            _clearance("A2", "N", "up", 540),
-        ],
-        "motions": [
-            _motion("M1", vertical="records/z.csv", source="made"),
-            _motion("M2", "x2", scaling="factor", scale_value=2.0, polarity="reversed"),
-            _motion("M3", "x3", scaling="PPA", scale_value=1.5, polarity="as recorded", dt_s=0.02),
-        ],
-        "options": {"statistic": "1.1 x mean", "peer_reviewed": True},
-        "overrides": [
-            {"provision": "parapet_height_in", "value": 18.0, "reason": "Agreed 2026-02-10"}
-        ],
-    }
-    return ProjectInput(**(parts | changes))
+    """Return a complete input: two arrays, four objects, five clearances, three motions."""
+    return inputs.project(**SECTIONS | changes)
 
 
-def _array(name: str, x_from: float, x_to: float, slope: float, unit: str) -> dict[str, object]:
-    return {
-        "id": name,
-        "slope_value": slope,
-        "slope_unit": unit,
-        "mu": 0.45,
-        "mu_report": "Lab 12",
-        "construction": "Tray 10 deg",
-        "weight_n": 42000 * LB,
-        "cg_height_m": 9 * INCH,
-        "support_spacing_m": 40 * INCH,
-        "x_from_m": x_from * FT,
-        "x_to_m": x_to * FT,
-        "y_from_m": 15 * FT,
-        "y_to_m": 75 * FT,
-        "downslope_deg": 270.0,
-    }
+SECTIONS = {
+    "revisions": [
+        {"revision": "0", "date": dt.date(2026, 1, 5), "description": "Draft", "by": "RG"},
+        {"revision": "1", "date": dt.date(2026, 3, 5), "description": "Permit"},
+    ],
+    "arrays": [
+        inputs.array("A1", 0.5),
+        inputs.array("A2", 3.5, x=110, x_to_m=200 * FT, slope_unit="percent"),
+    ],
+    "objects": [
+        roof_object("RTU-1", "fixed object", 130, 140, 80, 90, height=42 * INCH),
+        roof_object("OLD", "unlike array"),
+        roof_object("N", "edge with parapet", 0, 300, 120, 121, height=36 * INCH),
+        roof_object("S", "edge without parapet", 0, 300, -1, 0),
+    ],
+    "clearances": [
+        clearance("A1", "A2", 120 * INCH, "across"),
+        clearance("A1", "S", 180 * INCH, "down"),
+        clearance("A2", "RTU-1", 60 * INCH),
+        clearance("A2", "OLD", 400 * INCH),
+        clearance("A2", "N", 540 * INCH, "up"),
+    ],
+    "motions": [
+        motion("M1", dt_s=0.01, vertical="records/z.csv", source="made"),
+        motion("M2", "x2", dt_s=0.01, scaling="factor", scale_value=2.0, polarity="reversed"),
+        motion("M3", "x3", dt_s=0.02, scaling="PPA", scale_value=1.5, polarity="as recorded"),
+    ],
+    "options": {"statistic": "1.1 x mean", "peer_reviewed": True},
+    "overrides": [{"provision": "parapet_height_in", "value": 18.0, "reason": "Agreed 2026-02-10"}],
+}
 
 
-def _object(
-    name: str, kind: str, height: float | None, sides: tuple[float, ...] | None
-) -> dict[str, object]:
-    names = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
-    rectangle = dict(zip(names, (side * FT for side in sides), strict=True)) if sides else {}
-    return {"id": name, "kind": kind, "height_m": height and height * INCH, **rectangle}
+def site(**changes: object) -> dict[str, object]:
+    """Return the site of the project with changes."""
+    return project().site.model_dump() | changes
 
 
-def _clearance(array: str, other: str, direction: str, provided: float) -> dict[str, object]:
-    return {
-        "array": array,
-        "object": other,
-        "direction": direction,
-        "provided_m": provided * INCH,
-    }
-
-
-def _motion(name: str, record: str = "x", **changes: object) -> dict[str, object]:
-    return {"id": name, "record": f"records/{record}.csv", "units": "g", "dt_s": 0.01, **changes}
+def row_changed(section: str, index: int | None, **changes: object) -> ProjectInput:
+    """Return the project with one row of a section changed; with no index, the section itself."""
+    rows = project().model_dump()[section]
+    if index is None:
+        return project(**{section: rows | changes})
+    rows = [dict(row) for row in rows]
+    rows[index] |= changes
+    return project(**{section: rows})
 
 
 WAVES = (("x", 0.5, 0.3), ("x2", 0.5, 0.31), ("x3", 0.5, 0.32), ("z", 0.25, 0.3))

@@ -9,6 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
+import inputs
+from inputs import FT as FOOT
+from inputs import INCH, array, clearance, links, roof_object
 from report.assessment.evidence import support
 from report.assessment.project import Assessment, assess
 from report.motions.components import RecordFile
@@ -23,9 +26,9 @@ from solver.model import Motion
 from solver.records.measures import measures
 from solver.records.record import Record
 
+__all__ = ("FOOT", "INCH", "array", "clearance", "links", "roof_object")  # of `inputs`
+
 G = 9.80665
-FOOT = 0.3048
-INCH = 0.0254
 DT_S = 0.005
 
 
@@ -86,78 +89,50 @@ LOW_SPECTRUM = [
 
 def project(**changes) -> ProjectInput:
     """Three arrays, five kinds of clearance; `changes` replace whole sections."""
-    data = {
-        "project": {
-            "name": "Alameda Warehouse",
-            "number": "24-117",
-            "client": "Harbor Logistics LLC",
-            "address": "1200 Alameda St, Los Angeles, CA",
-            "prepared_by": "Engineer of record",
-            "checked_by": "",
-            "date": dt.date(2026, 3, 5),
+    return inputs.project(**SECTIONS | changes)
+
+
+SECTIONS = {
+    "project": inputs.HEAD
+    | {
+        "number": "24-117",
+        "client": "Harbor Logistics LLC",
+        "address": "1200 Alameda St, Los Angeles, CA",
+        "prepared_by": "Engineer of record",
+        "checked_by": "",
+        "revision": "0",
+    },
+    "revisions": [
+        {
             "revision": "0",
-        },
-        "revisions": [
-            {
-                "revision": "0",
-                "date": dt.date(2026, 3, 5),
-                "description": "Issued for permit",
-                "by": "Engineer of record",
-            }
-        ],
-        "site": {
-            "rule_set": "SEAOC PV1-2012",
-            "risk_category": "II",
-            "i_e": 1.0,
-            "s_s_g": 1.97,
-            "s_1_g": 0.70,
-            "site_class": "D",
-            "f_a": 1.2,
-            "f_v": 1.7,
-            "s_ds_g": 1.566,
-            "sdc": "D",
-            "stories": 1,
-            "structure_height_m": 36 * FOOT,
-            "roof_height_m": 36 * FOOT,
-        },
-        "arrays": [array("A1", 0.5), array("A2", 2.0, x=120), array("A3", 3.0, mu=0.55, y=90)],
-        "objects": [
-            roof_object("RTU-1", "fixed object", 107, 112, 35, 42, height=42 * INCH),
-            roof_object("T-1", "unlike array", 107, 160, 90, 120),
-            roof_object("N edge", "edge with parapet", 0, 220, 170, 171, height=30 * INCH),
-            roof_object("S edge", "edge without parapet", 0, 220, -1, 0),
-        ],
-        "clearances": [
-            clearance("A1", "A3", 15 * FOOT),
-            clearance("A1", "RTU-1", 7 * FOOT),
-            clearance("A3", "T-1", 7 * FOOT),
-            clearance("A3", "N edge", 20 * FOOT, "up"),
-            clearance("A2", "S edge", 5 * FOOT, "down"),
-        ],
-        "motions": [{"id": "M1", "record": "records/m1-x.csv", "units": "g"}],
-        "spectrum": LOW_SPECTRUM,
-    }
-    return ProjectInput.model_validate(data | changes)
+            "date": dt.date(2026, 3, 5),
+            "description": "Issued for permit",
+            "by": "Engineer of record",
+        }
+    ],
+    "site": inputs.SITE | {"s_s_g": 1.97, "f_a": 1.2, "f_v": 1.7},
+    "arrays": [array("A1", 0.5), array("A2", 2.0, x=120), array("A3", 3.0, mu=0.55, y=90)],
+    "objects": [
+        roof_object("RTU-1", "fixed object", 107, 112, 35, 42, height=42 * INCH),
+        roof_object("T-1", "unlike array", 107, 160, 90, 120),
+        roof_object("N edge", "edge with parapet", 0, 220, 170, 171, height=30 * INCH),
+        roof_object("S edge", "edge without parapet", 0, 220, -1, 0),
+    ],
+    "clearances": [
+        clearance("A1", "A3", 15 * FOOT),
+        clearance("A1", "RTU-1", 7 * FOOT),
+        clearance("A3", "T-1", 7 * FOOT),
+        clearance("A3", "N edge", 20 * FOOT, "up"),
+        clearance("A2", "S edge", 5 * FOOT, "down"),
+    ],
+    "motions": [{"id": "M1", "record": "records/m1-x.csv", "units": "g"}],
+    "spectrum": LOW_SPECTRUM,
+}
 
 
-def array(name, slope, *, mu=0.45, x=20, y=15, **changes):
-    """One array of 80 ft x 60 ft."""
-    return {
-        "id": name,
-        "slope_value": slope,
-        "slope_unit": "degrees",
-        "mu": mu,
-        "mu_report": "ASTM G115, Lab 1234, 2025-06-12",
-        "construction": "Tray 10 deg, landscape",
-        "weight_n": 42000 * 4.4482216152605,
-        "cg_height_m": 9 * INCH,
-        "support_spacing_m": 40 * INCH,
-        "x_from_m": x * FOOT,
-        "x_to_m": (x + 80) * FOOT,
-        "y_from_m": y * FOOT,
-        "y_to_m": (y + 60) * FOOT,
-        "downslope_deg": 270.0,
-    } | changes
+def site(**changes):
+    """The site of the project with changes."""
+    return project().site.model_dump() | changes
 
 
 def steep(**changes):
@@ -184,24 +159,6 @@ def unpermitted(**changes):
     weak = motions(3, seconds=8.0, peak_g=0.1)
     alone = tuple(replace(motion, az_mps2=NO_RECORD) for motion in weak)
     return assess_input(project(**given | changes), alone)
-
-
-def roof_object(name, kind, x0, x1, y0, y1, height=None):
-    """One object, its rectangle in feet."""
-    sides = {"x_from_m": x0, "x_to_m": x1, "y_from_m": y0, "y_to_m": y1}
-    plan = {side: value * FOOT for side, value in sides.items()}
-    return {"id": name, "kind": kind, "height_m": height} | plan
-
-
-def clearance(near, far, provided_m, direction="any"):
-    """One clearance."""
-    return {"array": near, "object": far, "direction": direction, "provided_m": provided_m}
-
-
-def links(name, friction, lb_per_in, **changes):
-    """One array that is to be held against a row of linked blocks."""
-    stiffness = lb_per_in * 4.4482216152605 / INCH
-    return {"array": name, "friction": friction, "stiffness_n_per_m": stiffness} | changes
 
 
 def sheet(data):

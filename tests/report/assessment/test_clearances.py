@@ -20,10 +20,6 @@ def assessed(shaking=None, **changes):
     return scenes.package(shaking or motions(), **changes).assessment
 
 
-def site(**changes):
-    return stand_in.project().site.model_dump() | changes
-
-
 @pytest.fixture(scope="module")
 def done():
     return assessed()
@@ -96,8 +92,8 @@ def test_a_low_parapet_leaves_an_edge_without():
 
 
 def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7():
-    pv1 = assessed(site=site(risk_category="III", i_e=1.25))
-    asce = assessed(site=site(risk_category="III", i_e=1.25, rule_set="ASCE 7-16"))
+    pv1 = assessed(site=stand_in.site(risk_category="III", i_e=1.25))
+    asce = assessed(site=stand_in.site(risk_category="III", i_e=1.25, rule_set="ASCE 7-16"))
     assert [gap.importance for gap in pv1.clearances] == [1.0, 1.0, 1.0, 1.25, 1.25]
     assert pv1.clearances[4].factor == 1.5 * 1.25
     assert asce.clearances[1].factor == 1.0
@@ -108,7 +104,7 @@ def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7(
 def test_asce_requires_four_feet_to_an_edge():
     done = assessed(
         motions(peak_g=0.05, vertical_peak_g=0.01),
-        site=site(rule_set="ASCE 7-16", s_ds_g=0.5),
+        site=stand_in.site(rule_set="ASCE 7-16", s_ds_g=0.5),
         options={"peer_reviewed": True},
     )
     edge = done.clearances[4]
@@ -123,7 +119,7 @@ def test_the_larger_component_importance_of_both_sides_governs():
     gaps = [stand_in.clearance("A2", "A1", 3.0), stand_in.clearance("A1", "RTU", 7.0)]
     for rule_set, expected in (("SEAOC PV1-2012", [1.25, 1.5]), ("ASCE 7-16", [1.0, 1.0])):
         done = assessed(
-            arrays=arrays, objects=objects, clearances=gaps, site=site(rule_set=rule_set)
+            arrays=arrays, objects=objects, clearances=gaps, site=stand_in.site(rule_set=rule_set)
         )
         assert [gap.importance for gap in done.clearances] == expected
 

@@ -21,10 +21,6 @@ def assessed(**changes):
     return scenes.package(**changes).assessment
 
 
-def site(**changes):
-    return stand_in.project().site.model_dump() | changes
-
-
 def row(done, key):
     return next((item for item in done.rows if item.id == key), None)
 
@@ -50,8 +46,11 @@ def test_a_peer_review_without_name_license_and_date_is_a_condition(missing):
     [("mapped values", False), ("site-specific analysis", True), ("exception of 11.4.8", True)],
 )
 def test_site_class_d_with_a_large_s_1_asks_for_a_hazard_analysis(hazard, satisfied):
-    assert row(assessed(site=site(hazard=hazard)), "site_specific_hazard").is_satisfied is satisfied
-    assert row(assessed(site=site(site_class="C")), "site_specific_hazard") is None
+    assert (
+        row(assessed(site=stand_in.site(hazard=hazard)), "site_specific_hazard").is_satisfied
+        is satisfied
+    )
+    assert row(assessed(site=stand_in.site(site_class="C")), "site_specific_hazard") is None
 
 
 SOURCED = {"hazard_source": "ASCE 7 Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
@@ -61,7 +60,7 @@ BLANK = dict.fromkeys(("s_s_g", "s_1_g", "f_a", "f_v", "s_ms_g", "s_m1_g", "s_d1
 def conditions(**changes):
     """Ids of the open requirements on the hazard."""
     keys = ("hazard_source", "sdc", "site_class", "site_specific_hazard")
-    found = hazard_rows(stand_in.project(site=site(**changes)))
+    found = hazard_rows(stand_in.project(site=stand_in.site(**changes)))
     assert {item.consequence for item in found} == {Consequence.CONDITION}
     return [key for key in keys for item in found if item.id == key and not item.is_satisfied]
 
@@ -89,7 +88,7 @@ def test_s_ds_alone_is_ok_with_conditions_at_most():
     ],
 )
 def test_the_sdc_is_confirmed_by_s_1_and_s_d1_only(given, words):
-    data = stand_in.project(site=site(**BLANK | given | {"s_ds_g": 1.0}))
+    data = stand_in.project(site=stand_in.site(**BLANK | given | {"s_ds_g": 1.0}))
     (found,) = (item for item in hazard_rows(data) if item.id == "sdc")
     assert found.found == words
     assert found.is_satisfied is ("not" not in words)
@@ -98,7 +97,7 @@ def test_the_sdc_is_confirmed_by_s_1_and_s_d1_only(given, words):
 
 @pytest.mark.parametrize("site_class", [None, "D (default)"])
 def test_site_class_d_by_default_says_11_4_8(site_class):
-    found = hazard_rows(stand_in.project(site=site(site_class=site_class)))
+    found = hazard_rows(stand_in.project(site=stand_in.site(site_class=site_class)))
     (by_default,) = (item for item in found if item.id == "site_class")
     assert not by_default.is_satisfied
     assert "F_a is then at least 1.2" in by_default.remedy
@@ -116,7 +115,7 @@ def test_a_site_class_is_asked_for_with_any_edition():
     assert conditions(**given) == ["site_class"]
     (found,) = (
         item
-        for item in hazard_rows(stand_in.project(site=site(**given)))
+        for item in hazard_rows(stand_in.project(site=stand_in.site(**given)))
         if item.id == "site_class"
     )
     assert "11.4.8" not in found.remedy
@@ -134,7 +133,7 @@ def test_a_site_class_is_asked_for_with_any_edition():
     ],
 )
 def test_what_11_4_8_asks_for_is_said_also_where_it_cannot_be_told(given, asked):
-    rows = hazard_rows(stand_in.project(site=site(**given)))
+    rows = hazard_rows(stand_in.project(site=stand_in.site(**given)))
     found = [item.title for item in rows if item.id == "site_specific_hazard"]
     assert found == ([f"Hazard analysis for {asked}"] if asked else [])
 
@@ -143,7 +142,7 @@ def test_what_11_4_8_asks_for_is_said_also_where_it_cannot_be_told(given, asked)
 def test_a_site_specific_analysis_without_its_report_is_a_condition(missing):
     stated = {"hazard_report": "GE-12", **SOURCED}
     given = {name: value for name, value in stated.items() if name != missing}
-    data = stand_in.project(site=site(hazard="site-specific analysis", **given))
+    data = stand_in.project(site=stand_in.site(hazard="site-specific analysis", **given))
     (found,) = (item for item in hazard_rows(data) if item.id == "hazard_source")
     assert found.title == "Report on the site-specific hazard analysis"
     assert found.is_satisfied is (missing is None)
@@ -218,7 +217,7 @@ def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_n
                "y_to_m": 50.0}  # fmt: skip
     done = assessed(
         arrays=[stand_in.array("A1", 0.5, mu=1.4)], objects=[], clearances=[], roof=outline,
-        options={"peer_reviewed": True, **STATED}, site=site(rule_set="ASCE 7-16"),
+        options={"peer_reviewed": True, **STATED}, site=stand_in.site(rule_set="ASCE 7-16"),
     )  # fmt: skip
     (near,) = done.neighbors
     assert near.gap_m == pytest.approx(1.0)

@@ -13,7 +13,7 @@ from report.sheet.findings import Level
 from sheets import Book
 
 motions = partial(scenes.motions, seconds=12.0)  # half a second less for a run of seven
-SITE = stand_in.project().site.model_dump()
+SITE = stand_in.site()
 BARE = stand_in.project(
     arrays=[stand_in.array("A1", 8.0, mu_report="", x_to_m=200 * 0.3048)], clearances=[]
 )

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import scenes
 import stand_in
+from inputs import FT, INCH
 from report.assessment.clearances import least_gap_m
 from report.assessment.neighbors import NearbyKind, bare_edges, neighbors, unplaced
 from report.assessment.project import assess
@@ -17,7 +18,7 @@ from report.motions.prepare import prepare
 from report.sheet.read import read
 from report.sheet.schema import ProjectInput, Rectangle
 from report.sheet.shapes import gap_m
-from sheets import FT, INCH, at, make, project
+from sheets import at, make, project
 
 OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 * FT}
 

@@ -87,7 +87,7 @@ def test_a_departure_is_a_condition():
 
 @pytest.mark.parametrize(("rule_set", "count"), [("SEAOC PV1-2012", 1), ("ASCE 7-16", 0)])
 def test_a_mean_without_factor_departs_from_a_rule_set_that_states_a_statistic(rule_set, count):
-    site = stand_in.project().site.model_dump() | {"rule_set": rule_set}
+    site = stand_in.site(rule_set=rule_set)
     data = stand_in.project(site=site, options={"statistic": "mean"})
     assert len(override_rows(data)) == count
     assert override_rows(stand_in.project(options={"statistic": "1.1 x largest"})) == ()

@@ -33,10 +33,6 @@ def assessed(shaking=None, **changes):
     return scenes.package(shaking or motions(), **changes).assessment
 
 
-def site(**changes):
-    return stand_in.project().site.model_dump() | changes
-
-
 def resting(count=7, **changes):
     """Motions too weak to move anything."""
     return motions(count, peak_g=0.05, vertical_peak_g=0.01, **changes)
@@ -265,8 +261,8 @@ def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
 
 
 def test_a_limit_of_the_building_fails_the_whole():
-    assert not assessed(site=site(risk_category="IV", i_e=1.5)).verdict.is_permitted
-    assert not assessed(site=site(stories=7)).verdict.is_permitted
+    assert not assessed(site=stand_in.site(risk_category="IV", i_e=1.5)).verdict.is_permitted
+    assert not assessed(site=stand_in.site(stories=7)).verdict.is_permitted
 
 
 def test_an_override_changes_the_result_and_is_kept_with_its_reason():

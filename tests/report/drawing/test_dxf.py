@@ -13,11 +13,11 @@ import pytest
 
 import scenes
 import stand_in
+from inputs import FT
 from report.assessment.envelopes import design_envelope
 from report.drawing.dxf import APPLICATION, write_dxf
 from report.drawing.layers import Layer
 from report.drawing.plan import gap_lines, plan_drawing
-from sheets import FT
 
 OUTLINE = {"x_from_m": 0.0, "x_to_m": 220 * FT, "y_from_m": 0.0, "y_to_m": 170 * FT}
 

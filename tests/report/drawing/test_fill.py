@@ -7,11 +7,12 @@ from click.testing import CliRunner
 from openpyxl import load_workbook
 
 from cells import cell
+from inputs import FT
 from report.cli.main import main
 from report.sheet.live import overwritten
 from report.sheet.read import read
 from report.sheet.schema import Polygon, UnitsFirst
-from sheets import FT, at, blank, edit, make, parts, project, put, type_into
+from sheets import at, blank, edit, make, parts, project, put, type_into
 from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
 
 

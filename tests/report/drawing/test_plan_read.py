@@ -8,11 +8,11 @@ import shapely
 from ezdxf.math import UCS
 
 import stand_in
+from inputs import FT, INCH
 from report.drawing.dxf import write_dxf
 from report.drawing.plan import plan_drawing
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema import LayerKind, Polygon, Rectangle
-from sheets import FT, INCH
 from sketch import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan
 
 

@@ -16,7 +16,7 @@ from sheets import of, put
 
 INCH = 0.0254
 GOVERNING = "Governing array, direction"
-SITE = stand_in.project().site.model_dump()
+SITE = stand_in.site()
 REVIEWED = {
     "peer_reviewed": True,
     "peer_reviewer": "Reviewer of record",

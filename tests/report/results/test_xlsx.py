@@ -144,7 +144,7 @@ def evaluated(book, sheet, cell, known):
     return eval(re.sub(pattern, reference, text), {"__builtins__": {}}, FUNCTIONS)
 
 
-SITE = stand_in.project().site.model_dump()
+SITE = stand_in.site()
 CASES = {
     "PV1": {},
     "PV1, low category": {"site": SITE | {"sdc": "C", "s_ds_g": 0.45}},

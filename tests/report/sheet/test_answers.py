@@ -11,13 +11,14 @@ from openpyxl.utils.cell import coordinate_to_tuple
 from recalculated import Cell, Sheets, recalculated_sheets
 
 from cells import cell
+from inputs import FT, INCH, LB, NO_SIDES
 from places import ROOT
 from report.assessment.clearances import _importance, _neighbor, are_alike
 from report.pages.section import weight_per_area_pa
 from report.sheet.schema import ProjectInput, SiteClass, UnitsFirst
 from report.sheet.template import write_template
 from report.words.units import PRESSURES, Quantity, number, ratio
-from sheets import FT, INCH, LB, formula_cells, project, retitle
+from sheets import formula_cells, project, retitle, site
 from solver.rules import hazard
 from solver.rules.provisions import Neighbor, prescriptive_displacement, required_separation
 from solver.rules.rulesets import RULE_SETS, RuleSet
@@ -33,14 +34,8 @@ def of_script(name: str) -> ProjectInput:
     return module.project()
 
 
-def site(**changes):
-    return project().site.model_dump() | changes
-
-
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))
 """An array of 3,600 ft2 around a corner."""
-
-NO_SIDES = dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))
 
 
 def edge_cases() -> dict[str, ProjectInput]:

@@ -6,9 +6,10 @@ import pytest
 from openpyxl import load_workbook
 
 from cells import cell
+from inputs import INCH
 from report.sheet.grids import BLOCK_WIDTHS
 from report.sheet.schema import FrictionTests, UnitsFirst
-from sheets import INCH, arrays, at, edit, make, problems, project, read_workbook, said, type_into
+from sheets import arrays, at, edit, make, problems, project, read_workbook, said, type_into
 
 SHEET = "Friction tests"
 REPORT = {

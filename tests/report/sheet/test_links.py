@@ -7,21 +7,9 @@ from openpyxl import load_workbook
 from pydantic import ValidationError
 
 from cells import cell
+from inputs import INCH, LB
 from report.sheet.schema import Links, UnitsFirst, coefficients
-from sheets import (
-    INCH,
-    LB,
-    arrays,
-    at,
-    edit,
-    make,
-    of,
-    problems,
-    project,
-    read_workbook,
-    said,
-    type_into,
-)
+from sheets import arrays, at, edit, make, of, problems, project, read_workbook, said, type_into
 from solver.sliding.row import MOST_STEPS, least_steps
 
 G = 9.80665

@@ -3,7 +3,8 @@
 import pytest
 
 from cells import cell
-from sheets import FT, edit, make, problems, project, read_workbook, said, same, type_into
+from inputs import FT
+from sheets import edit, make, problems, project, read_workbook, said, same, type_into
 
 ROOF = {"x_from_m": 0.0, "x_to_m": 300 * FT, "y_from_m": 0.0, "y_to_m": 120 * FT, "north_deg": 60.0}
 

@@ -3,10 +3,10 @@
 import pytest
 from openpyxl import load_workbook
 
+from inputs import FT, NO_SIDES
 from report.sheet.read import read
 from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
 from sheets import (
-    FT,
     arrays,
     at,
     blank,
@@ -23,7 +23,6 @@ from sheets import (
 
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))
 ROOF_FT = ((0, -1), (300, -1), (300, 121), (150, 121), (150, 140), (0, 140))
-BLANK = dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))
 
 
 def vertices(name, points):
@@ -33,7 +32,7 @@ def vertices(name, points):
 def outlined(points=L_FT, *, roof=(), clearances=()):
     """Changes to the project: A1 by an outline."""
     return {
-        "arrays": arrays(**BLANK),
+        "arrays": arrays(**NO_SIDES),
         "outlines": [*vertices("A1", points), *vertices(ROOF, roof)],
         "clearances": list(clearances),
     }
@@ -152,7 +151,7 @@ def test_an_array_that_spans_the_notch_of_the_roof_is_outside(tmp_path):
 
 def test_an_outlined_array_outside_of_a_rectangular_roof_is_told_at_its_outline(tmp_path):
     roof = {"x_from_m": 0.0, "x_to_m": 300 * FT, "y_from_m": 0.0, "y_to_m": 74 * FT}
-    changes = outlined() | {"arrays": arrays(**BLANK)[:1], "roof": roof}
+    changes = outlined() | {"arrays": arrays(**NO_SIDES)[:1], "roof": roof}
     (found,) = problems(make(tmp_path, **changes))
     assert found.startswith(at(f"{FIRST}: A1 is outside the roof near x "))
 

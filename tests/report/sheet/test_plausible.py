@@ -6,21 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from inputs import FT, INCH, LB
 from report.assessment.foresight import findings
 from report.sheet.fields import Place
 from report.sheet.findings import Level, lines, located, note, warning
 from report.sheet.plausible import implausible
-from sheets import FT, INCH, LB, at, make, project, read_workbook
-
-
-def changed(section, index, **changes):
-    """The usual input with one row changed."""
-    rows = project().model_dump()[section]
-    if index is None:
-        return project(**{section: rows | changes})
-    rows = list(rows)
-    rows[index] = rows[index] | changes
-    return project(**{section: rows})
+from sheets import at, make, project, read_workbook, row_changed
 
 
 def warnings(data):
@@ -84,7 +75,7 @@ def test_two_clearances_in_feet_keep_their_own_warnings():
 
 @pytest.mark.parametrize(("section", "index", "change", "name", "text"), CASES)
 def test_an_improbable_value_gives_one_warning(section, index, change, name, text):
-    found = warnings(changed(section, index, **change))
+    found = warnings(row_changed(section, index, **change))
     assert list(found) == [name]
     assert text in found[name]
 
@@ -102,14 +93,14 @@ ISSUED, LATER = dt.date(2026, 3, 5), dt.date(2026, 3, 6)
     ],
 )
 def test_a_source_later_than_the_package_gives_a_warning(section, field, noun):
-    assert warnings(changed(section, None, **{field: ISSUED})) == {}
-    assert warnings(changed(section, None, **{field: LATER})) == {
+    assert warnings(row_changed(section, None, **{field: ISSUED})) == {}
+    assert warnings(row_changed(section, None, **{field: LATER})) == {
         noun: f"{noun} is 2026-03-06, later than the package, 2026-03-05; correct one of them"
     }
 
 
 def test_a_revision_without_its_row_gives_a_warning():
-    assert warnings(changed("project", None, revision="C")) == {
+    assert warnings(row_changed("project", None, revision="C")) == {
         "revision C": "revision is 'C', which is not in the revision block; add its row, or"
         " correct it"
     }
@@ -143,13 +134,13 @@ def test_a_site_coefficient_below_its_table_gives_a_note_with_a_site_specific_an
     change, field, text
 ):
     """Without one it is an error."""
-    (found,) = implausible(changed("site", None, **SITE | change))
+    (found,) = implausible(row_changed("site", None, **SITE | change))
     assert (found.level, found.place.field) == (Level.NOTE, field)
     assert text in found.text
 
 
 def test_a_site_coefficient_above_its_table_gives_a_note():
-    (found,) = implausible(changed("site", None, **SITE | {"f_a": 1.6, "f_v": 1.4}))
+    (found,) = implausible(row_changed("site", None, **SITE | {"f_a": 1.6, "f_v": 1.4}))
     assert (found.level, found.place.field) == (Level.NOTE, "f_a")
     assert "F_a is 1.6, more than 1.2 in ASCE 7-16 Table 11.4-1" in found.text
 
@@ -169,7 +160,7 @@ def test_a_site_coefficient_above_its_table_gives_a_note():
     ],
 )
 def test_a_site_coefficient_of_the_table_gives_none(change):
-    assert list(implausible(changed("site", None, **SITE | change))) == []
+    assert list(implausible(row_changed("site", None, **SITE | change))) == []
 
 
 def overridden(**values):
@@ -200,9 +191,11 @@ def test_an_override_at_a_limit_of_the_usual_range_gives_none():
 
 def test_a_weight_in_the_usual_range_and_a_gap_within_tolerance_give_none():
     for psf in (1.01, 29.9):
-        assert warnings(changed("arrays", 0, weight_n=psf * 4800 * LB)) == {}
-    assert warnings(changed("clearances", 0, provided_m=119.1 * INCH)) == {}
-    assert "clearance A1 to A2 across" in warnings(changed("clearances", 0, provided_m=119 * INCH))
+        assert warnings(row_changed("arrays", 0, weight_n=psf * 4800 * LB)) == {}
+    assert warnings(row_changed("clearances", 0, provided_m=119.1 * INCH)) == {}
+    assert "clearance A1 to A2 across" in warnings(
+        row_changed("clearances", 0, provided_m=119 * INCH)
+    )
 
 
 def test_an_object_at_a_corner_lies_in_both_directions():
@@ -222,7 +215,7 @@ def read(tmp_path, acknowledged=(), **changes):
     return book.sheet, findings(book.sheet, book.shaking)
 
 
-LIGHT = {"arrays": changed("arrays", 0, weight_n=30 * LB).model_dump()["arrays"]}
+LIGHT = {"arrays": row_changed("arrays", 0, weight_n=30 * LB).model_dump()["arrays"]}
 
 
 def test_a_warning_names_its_cell(tmp_path):

@@ -6,6 +6,7 @@ import math
 import pytest
 from pydantic import ValidationError
 
+from inputs import INCH
 from report.sheet.fields import Bounds, YesNo, entries
 from report.sheet.schema import (
     PROVISION_KEYS,
@@ -22,7 +23,7 @@ from report.sheet.schema import (
 )
 from report.sheet.shapes import gap_m
 from report.words.units import LENGTHS, WEIGHTS, Quantity
-from sheets import INCH, project
+from sheets import project
 from solver.formats import UNIT_CHOICES
 from solver.rules.provisions import OVERRIDABLE
 

@@ -2,24 +2,12 @@
 
 import pytest
 
+from inputs import INCH, LB
 from report.sheet.fields import Place, entries
 from report.sheet.plausible import implausible
 from report.sheet.schema import SECTIONS
 from report.sheet.usual import unusual
-from sheets import project
-
-FT, INCH, LB = 0.3048, 0.0254, 4.4482216152605
-
-
-def changed(section, index, units="US", **changes):
-    """The usual input with one row changed."""
-    data = project().model_dump()
-    rows = [dict(row) for row in data[section]] if index is not None else data[section]
-    if index is None:
-        rows = rows | changes
-    else:
-        rows[index] |= changes
-    return project(**{"project": data["project"] | {"units_first": units}, section: rows})
+from sheets import arrays, project, row_changed
 
 
 def test_the_usual_project_has_none():
@@ -44,24 +32,25 @@ def test_the_usual_project_has_none():
     ],
 )  # fmt: skip
 def test_a_number_outside_its_usual_range_gives_a_warning(section, index, change, name, text):
-    (finding,) = unusual(changed(section, index, **change))
+    (finding,) = unusual(row_changed(section, index, **change))
     assert finding.id == name
     assert finding.place == Place(section, index or 0, next(iter(change)))
     assert text in finding.text
 
 
 def test_the_range_is_in_the_units_that_come_first():
-    (finding,) = unusual(changed("arrays", 0, "SI", cg_height_m=0.05))
+    metric = project().project.model_dump() | {"units_first": "SI"}
+    (finding,) = unusual(project(project=metric, arrays=arrays(cg_height_m=0.05)))
     assert finding.text.startswith("CG height is 50 mm; 101.6 to 914.4 mm is usual")
 
 
 def test_the_limits_of_a_range_are_usual():
     for inches in (4, 36):
-        assert list(unusual(changed("arrays", 0, cg_height_m=inches * INCH))) == []
+        assert list(unusual(row_changed("arrays", 0, cg_height_m=inches * INCH))) == []
 
 
 def test_a_cell_with_another_warning_has_no_second_one():
-    found = list(implausible(changed("arrays", 0, weight_n=30 * LB)))
+    found = list(implausible(row_changed("arrays", 0, weight_n=30 * LB)))
     assert [finding.id for finding in found] == ["weight A1"]
 
 

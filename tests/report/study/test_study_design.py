@@ -59,7 +59,7 @@ def peaks_m(results, slope_deg, mu, level):
     motions = [
         dataclasses.replace(m, scale=m.scale * level) for m in results.plan.motions.motions[0]
     ]
-    site = {**stand_in.project().site.model_dump(), "s_ds_g": level}
+    site = stand_in.site(s_ds_g=level)
     data = stand_in.project(
         arrays=[stand_in.array("A1", slope_deg, mu=mu)], objects=[], clearances=[], site=site
     )
