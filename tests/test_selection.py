@@ -1,10 +1,14 @@
 """Which tests run by day, at night and as quick ones."""
 
+import os
+import subprocess
+import sys
 from dataclasses import dataclass, field
 
 import pytest
 
 import selection
+from places import ROOT
 
 
 @dataclass(frozen=True)
@@ -39,3 +43,19 @@ def test_a_nightly_test_runs_by_day_where_one_of_its_files_changed():
 def test_of_each_file_the_shortest_test_is_quick_and_every_one_that_is_short():
     durations = {"a::f": 3.0, "a::g": 2.0, "b::f": 0.4, "b::g": 0.6}
     assert selection.is_quick(durations, [*durations, "b::h"]) == {"a::g", "b::f", "b::h"}
+
+
+@pytest.mark.parametrize("workers", ["-pno:xdist", "-n2"])
+def test_what_is_left_out_is_counted_at_the_end(tmp_path, workers):
+    (tmp_path / "test_two.py").write_text(
+        "import pytest\n\n\ndef test_day(): pass\n\n\n"
+        "@pytest.mark.nightly\n@pytest.mark.parametrize('k', range(3))\ndef test_night(k): pass\n"
+    )
+    (tmp_path / "pytest.ini").write_text("[pytest]\nmarkers = nightly\n")
+    command = [sys.executable, "-m", "pytest", "-p", "selection", workers, str(tmp_path)]
+    paths = os.pathsep.join([str(ROOT / "tests"), os.environ.get("PYTHONPATH", "")])
+    done = subprocess.run(
+        command, env=os.environ | {"PYTHONPATH": paths}, capture_output=True, text=True, timeout=60
+    )
+    assert "roofslip: 3 nightly tests are left out: ./roofslip test --nightly" in done.stdout
+    assert "1 passed" in done.stdout
