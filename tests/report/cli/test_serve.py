@@ -66,7 +66,7 @@ def test_the_server_answers_to_the_names_of_its_address(host, port, name, hosts)
 
 
 def test_a_missing_package_is_named(monkeypatch):
-    monkeypatch.setattr("report.cli.serve.find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "uvicorn", None)
     done = served("--no-browser")
     assert done.exit_code == 2
     assert "install roofslip[web]" in done.output
