@@ -255,6 +255,7 @@ def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
         ("20161113_110300_HSES_20.V2A", 7.0, 0.5, 3.0),
     ],
 )
+@pytest.mark.by_day(1)
 def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
     if not (RECORDS / name).is_file():
         pytest.skip("the real records are not here; noise covers the same code")

@@ -70,8 +70,9 @@ def test_as_the_difference_vanishes_it_is_coulombs_friction(transverse, sign):
 
 # SciPy's steps are short where friction grows: ten times those of the others.
 @pytest.mark.parametrize(
-    "friction", [pytest.param(GROWING, marks=pytest.mark.nightly), FALLING, HELD, BOTH]
+    "friction", [pytest.param(GROWING, marks=pytest.mark.nightly), BOTH, FALLING, HELD]
 )
+@pytest.mark.by_day(1)
 def test_it_is_as_scipy_follows_it(friction):
     ax, ay, az = shaking(12, n=45, dt=0.04, peak=5.0)
     block = scene(ax, ay, 0.04, degrees=2.0, friction=friction, az=az)
