@@ -180,6 +180,7 @@ def test_a_pasted_column_may_be_shown_with_its_units(paste):
         ),
     ],
 )
+@pytest.mark.by_day(6)
 def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
     assert list(problems(paste(cells))) == lines
 

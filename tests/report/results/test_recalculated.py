@@ -123,6 +123,7 @@ def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
     assert sheet["M5"].value == ("OK" if sheet["I5"].value <= sheet["K5"].value else "NG")
 
 
+@pytest.mark.nightly
 def test_every_sheet_prints_as_wide_as_a_page(before, tmp_path):
     path = tmp_path / "results.xlsx"
     path.write_bytes(results_xlsx(before, spectra(before)))

@@ -213,6 +213,7 @@ def holds(sheet, cell):
     return value in ("TRUE", 1.0)
 
 
+@pytest.mark.nightly
 def test_a_half_filled_sheet_counts_what_is_missing(computed):
     book = computed[half_filled]
     said = {title: at(sheet, "A3") for title, sheet in book.items()}
@@ -227,6 +228,7 @@ def test_a_half_filled_sheet_counts_what_is_missing(computed):
     assert said["Clearances"] == said["Links"] == "No cells missing"
 
 
+@pytest.mark.nightly
 def test_a_choice_that_is_none_of_the_list_is_no_complete_row(computed):
     book = computed[other_choices]
     status = [at(book["Objects"], f"A{row}") for row in (8, 9, 10)]
@@ -236,15 +238,18 @@ def test_a_choice_that_is_none_of_the_list_is_no_complete_row(computed):
     assert at(book["Project"], "A3") == "5 cells missing"
 
 
+@pytest.mark.nightly
 def test_an_inserted_row_without_formulas_counts_as_wrong(computed):
     assert at(computed[inserted_row]["Objects"], "A3") == "1 cell missing or wrong"
 
 
+@pytest.mark.nightly
 def test_a_pasted_column_needs_its_units_and_time_step(computed):
     motions = computed[pasted_column]["Motions"]
     assert [at(motions, f"A{row}") for row in (8, 9)] == [2, 0]
 
 
+@pytest.mark.nightly
 def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(computed):
     book = computed[mistyped_names]
     found = [holds(book["Arrays"], f"AZ{row}") for row in (8, 9, 10)]
@@ -253,6 +258,7 @@ def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(computed):
     assert found == [[False, False], [False, True], [True, False]]
 
 
+@pytest.mark.nightly
 def test_a_computed_cell_that_was_typed_over_turns_violet(computed):
     book = computed[typed_over]
     found = [holds(book["Arrays"], f"AZ{row}") for row in (8, 9, 10)]
@@ -260,6 +266,7 @@ def test_a_computed_cell_that_was_typed_over_turns_violet(computed):
     assert [holds(book["Site"], cell) for cell in ("H13", "H14")] == [True, False]
 
 
+@pytest.mark.nightly
 def test_a_blank_sheet_asks_for_arrays_and_motions(computed):
     book = computed[None]
     for title in ("Arrays", "Motions"):
@@ -289,6 +296,7 @@ def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path, print
     assert all("Status" in text and "ID" in text for text in arrays)
 
 
+@pytest.mark.nightly
 def test_the_count_of_missing_cells_fits_its_column_in_print(printed):
     text = "".join(printed)
     assert "12 missing" in text

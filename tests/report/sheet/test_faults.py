@@ -562,6 +562,7 @@ def formatted(path, section, field, code, row=0):
 
 
 @pytest.mark.parametrize(("section", "field", "code", "what", "wish"), MISLEADING)
+@pytest.mark.by_day(3)
 def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
     tmp_path, section, field, code, what, wish
 ):
@@ -588,6 +589,7 @@ def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
         ("site", "s_ds_g", '0.000"g"', 0),
     ],
 )
+@pytest.mark.by_day(3)
 def test_a_number_format_may_name_the_unit_of_its_cell(tmp_path, section, field, code, row):
     path = make(tmp_path)
     formatted(path, section, field, code, row)
@@ -726,6 +728,7 @@ def test_the_unit_of_a_single_field_must_be_valid(tmp_path):
         ("Options!C23", "Hz", "long-period transition T_L is 'Hz'; give the number in s, and"),
     ],
 )
+@pytest.mark.by_day(2)
 def test_a_unit_that_cannot_be_chosen_must_be_that_of_the_sheet(tmp_path, cell, unit, words):
     (line,) = problems(type_into(make(tmp_path), {cell: unit}))
     assert line.startswith(f"{cell}: unit of {words}")
@@ -741,6 +744,7 @@ def test_merged_cells_in_a_table_are_reported(tmp_path):
 
 
 @pytest.mark.parametrize("to", [(1, 0), (0, 1), (0, -1)], ids=["below", "unit", "label"])
+@pytest.mark.by_day(1)
 def test_merged_cells_that_cover_a_single_field_are_reported(tmp_path, to):
     path = make(tmp_path)
     sheet, cell = read(path).addresses[Place("site", 0, "structure_height_m")].split("!")
@@ -777,6 +781,7 @@ def test_characters_of_no_width_at_the_ends_of_a_text_are_not_read(tmp_path):
         ("Arrays!M10", 1e-9),
     ],
 )
+@pytest.mark.by_day(2)
 def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it(
     tmp_path, cell, value
 ):

@@ -87,6 +87,7 @@ CELLS = [
 
 
 @pytest.mark.parametrize(("cell", "value", "line"), CELLS)
+@pytest.mark.by_day(3)
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
     reported = problems(type_into(path, {f"{SHEET}!{cell}": value}))
     assert any(problem.startswith(f"{SHEET}!{cell}: {line}") for problem in reported), reported

@@ -128,6 +128,7 @@ CELLS = [
 
 
 @pytest.mark.parametrize(("cell", "value", "line"), CELLS)
+@pytest.mark.by_day(5)
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, cell, value, line):
     reported = problems(type_into(path, {f"Links!{cell}": value}))
     assert any(problem.startswith(f"Links!{cell}: {line}") for problem in reported), reported

@@ -70,6 +70,7 @@ def test_workers_of_another_version_are_an_error_before_anything_runs(cluster, t
     assert "here 0.1" in str(caught.value)
 
 
+@pytest.mark.nightly("report/study/clusters.py")
 def test_a_study_runs_on_a_cluster(cluster, tmp_path):
     folder = write(tmp_path)
     done = CliRunner().invoke(

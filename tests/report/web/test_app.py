@@ -318,6 +318,7 @@ def test_a_package_of_a_workbook_that_is_no_longer_open_is_not_begun(client, mon
     assert answer.json()["error"].startswith("Another workbook was opened meanwhile")
 
 
+@pytest.mark.nightly("report/web/workers.py")
 def test_a_process_that_is_killed_is_replaced(client, served):
     import os
     import signal
