@@ -16,7 +16,7 @@ from report.web import receiving
 from report.web.access import Gate
 from report.web.app import made
 from report.web.sessions import Sessions
-from report.web.worker import _answered
+from report.web.worker import answered
 from sheets import edit
 
 TOKEN = "a-token-of-this-server"
@@ -201,7 +201,7 @@ def test_a_full_disk_is_said_to_a_visitor_who_comes(tmp_path):
 def test_a_full_disk_is_said_where_another_process_writes(client, sessions, monkeypatch):
     async def ask(_, job, *__):
         Path(job["to"]).write_bytes(b"half")
-        return json.loads(_answered(full, "{}"))
+        return json.loads(answered(full, "{}"))
 
     monkeypatch.setattr("report.web.workers.Workers.ask", ask)
     answer = client.post("/api/workbook", json={"values": {}})
