@@ -2,6 +2,8 @@
 
 import gc
 import os
+import resource
+from contextlib import contextmanager
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are small: as in ./roofslip
 
@@ -62,6 +64,22 @@ def noise():
     phase = rng.uniform(0.0, 2 * np.pi, 60)
     wave = np.sin(2 * np.pi * freq * t[:, None] + phase).sum(axis=1)
     return G * wave / np.abs(wave).max() * np.sin(np.pi * t / 20.0)
+
+
+@pytest.fixture
+def files_up_to():
+    """A context in which no file grows beyond some bytes: a write fails as on a full disk."""
+
+    @contextmanager
+    def limited(size):
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+        try:
+            yield
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+    return limited
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ import subprocess
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,6 +23,10 @@ KEPT_S = 0.1
 
 QUICK_S = 0.5
 """Longest quick test; of a file whose tests all take longer, the shortest one is quick."""
+
+
+COUNT = pytest.StashKey[int]()
+"""How many tests are left out."""
 
 
 def function_of(nodeid: str) -> str:
@@ -55,6 +60,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         if not runs[which]:
             left_out.append(item)
     config.hook.pytest_deselected(items=left_out)
+    config.stash[COUNT] = len(left_out)
     gone = set(left_out)
     items[:] = [item for item in items if item not in gone]
 
@@ -172,17 +178,31 @@ def pytest_configure(config: pytest.Config) -> None:
         config.pluginmanager.register(Clock())
 
 
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Have a worker tell how many tests it left out; each leaves out the same."""
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["left_out"] = session.config.stash.get(COUNT, 0)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """Keep what a worker told."""
+    node.config.stash[COUNT] = getattr(node, "workeroutput", {}).get("left_out", 0)
+
+
 def pytest_terminal_summary(
     terminalreporter: pytest.TerminalReporter, config: pytest.Config
 ) -> None:
-    """Say which tests were left out."""
-    which = config.getoption("--which")
-    if which != "all" and not config.option.collectonly:
-        terminalreporter.write_line(f"roofslip: {LEFT_OUT[which]}")
+    """Say how many tests were left out."""
+    left_out = config.stash.get(COUNT, 0)
+    if left_out and not config.option.collectonly:
+        terminalreporter.write_line(
+            f"roofslip: {left_out:,} {LEFT_OUT[config.getoption('--which')]}"
+        )
 
 
 LEFT_OUT = {
     "usual": "nightly tests are left out: ./roofslip test --nightly runs them",
     "quick": "tests that take longer are left out: ./roofslip test runs them",
-    "nightly": "these were the nightly tests alone: ./roofslip test runs the others",
+    "nightly": "tests of the day are left out: ./roofslip test runs them",
 }

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mutations import trouble
 
+from mutations import trouble
 from report.sheet.archive import open_book
 from sheets import make
 from solver import InputError, slide
@@ -108,9 +108,17 @@ def written(element):
     return f"<{tag}{said}>{''.join(map(written, inside))}</{tag}>"
 
 
-@settings(made, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
-@given(data=st.data())
-def test_a_workbook_with_any_elements_in_a_part_is_opened_or_refused(folder, parts, data):
+@pytest.mark.parametrize("examples", [10, pytest.param(100, marks=pytest.mark.nightly)])
+def test_a_workbook_with_any_elements_in_a_part_is_opened_or_refused(folder, parts, examples):
+    @settings(made, max_examples=examples, suppress_health_check=[HealthCheck.too_slow])
+    @given(data=st.data())
+    def opened_or_refused(data):
+        open_with_elements(folder, parts, data)
+
+    opened_or_refused()
+
+
+def open_with_elements(folder, parts, data):
     name = data.draw(st.sampled_from(sorted(parts)))
     added = written(data.draw(ELEMENTS)).encode()
     content = parts[name]

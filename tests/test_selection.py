@@ -1,10 +1,14 @@
 """Which tests run by day, at night and as quick ones; golden texts are compared and taken over."""
 
+import os
+import subprocess
+import sys
 from dataclasses import dataclass, field
 
 import pytest
 
 import selection
+from places import ROOT
 
 
 @dataclass(frozen=True)
@@ -51,3 +55,19 @@ def test_a_golden_text_is_shown_as_a_difference_and_taken_over_where_asked_for(t
     assert selection.difference(path, "a\nc\n", is_taken_over=False).splitlines() == [
         "--- before/page.txt", "+++ now/page.txt", "@@ -1,2 +1,2 @@", " a", "-b", "+c",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("workers", ["-pno:xdist", "-n2"])
+def test_what_is_left_out_is_counted_at_the_end(tmp_path, workers):
+    (tmp_path / "test_two.py").write_text(
+        "import pytest\n\n\ndef test_day(): pass\n\n\n"
+        "@pytest.mark.nightly\n@pytest.mark.parametrize('k', range(3))\ndef test_night(k): pass\n"
+    )
+    (tmp_path / "pytest.ini").write_text("[pytest]\nmarkers = nightly\n")
+    command = [sys.executable, "-m", "pytest", "-p", "selection", workers, str(tmp_path)]
+    paths = os.pathsep.join([str(ROOT / "tests"), os.environ.get("PYTHONPATH", "")])
+    done = subprocess.run(
+        command, env=os.environ | {"PYTHONPATH": paths}, capture_output=True, text=True, timeout=60
+    )
+    assert "roofslip: 3 nightly tests are left out: ./roofslip test --nightly" in done.stdout
+    assert "1 passed" in done.stdout

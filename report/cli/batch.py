@@ -11,7 +11,7 @@ import os
 import sys
 import time
 import traceback
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
@@ -94,7 +94,7 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
 
     outcomes = run(sources, quiet=quiet or as_json)
     if as_json:
-        click.echo(json.dumps(_document(outcomes), ensure_ascii=False))
+        click.echo(json.dumps(document(outcomes), ensure_ascii=False))
     elif not quiet:
         for line in table(outcomes):
             click.echo(line)
@@ -102,15 +102,20 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
         problems = () if as_json else (each.line for each in grouped(outcome.problems))
         for text in (*problems, *outcome.internal.splitlines()):
             click.echo(f"{outcome.source}: {text}", err=True)
+    sys.exit(exit_code(outcomes, fail_on_ng=fail_on_ng))
+
+
+def exit_code(outcomes: Sequence[Outcome], *, fail_on_ng: bool) -> int:
+    """Return the code of the worst outcome."""
     if any(outcome.internal for outcome in outcomes):
-        sys.exit(INTERNAL_ERROR)
+        return INTERNAL_ERROR
     if any(outcome.problems for outcome in outcomes):
-        sys.exit(INPUT_ERROR)
-    if fail_on_ng and any(outcome.verdict != "OK" for outcome in outcomes):
-        sys.exit(NOT_OK)
+        return INPUT_ERROR
+    is_not_ok = any(outcome.verdict != "OK" for outcome in outcomes)
+    return NOT_OK if fail_on_ng and is_not_ok else 0
 
 
-def _document(outcomes: Sequence[Outcome]) -> Mapping[str, Any]:
+def document(outcomes: Sequence[Outcome]) -> Mapping[str, Any]:
     """Return the outcomes for JSON, with null for no value."""
     return {
         "schema_version": SCHEMA_VERSION,
@@ -152,11 +157,11 @@ def _outcome(future: Future[Outcome], source: Path) -> Outcome:
         return Outcome(source=source, internal=f"its process ended: {error}")
 
 
-def package(source: Path) -> Outcome:
+def package(source: Path, make: Callable[[Path], Outcome] | None = None) -> Outcome:
     """Make the package of one project; every error is part of the outcome."""
     started = time.monotonic()
     try:
-        done = _package(source)
+        done = (make or _package)(source)
     except OSError as error:
         done = Outcome(source=source, problems=(system_problem(error),))
     except Exception as error:

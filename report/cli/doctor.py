@@ -9,7 +9,7 @@ import os
 import platform
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
@@ -47,16 +47,21 @@ def doctor() -> None:
 
     The exit code is 1 if something is missing; the command says what to install.
     """
-    looks = [look for check in CHECKS for look in check()]
+    if not say([look for check in CHECKS for look in check()]):
+        sys.exit(1)
+
+
+def say(looks: list[Look]) -> bool:
+    """Print what was found, then what to do; return whether everything is here."""
     width = max(len(look.name) for look in looks)
     for look in looks:
         click.echo(f"{look.name:{width}}  {look.found}")
     wrong = [look for look in looks if look.remedy]
     for look in wrong:
         click.echo(f"{look.name}: {look.remedy}", err=True)
-    if wrong:
-        sys.exit(1)
-    click.echo("Everything that a package needs is here.")
+    if not wrong:
+        click.echo("Everything that a package needs is here.")
+    return not wrong
 
 
 def _python() -> Iterator[Look]:
@@ -64,17 +69,19 @@ def _python() -> Iterator[Look]:
     yield Look("Python", f"{platform.python_version()}, {platform.platform()}", remedy)
 
 
-def _packages() -> Iterator[Look]:
-    for name in ("roofslip", *PACKAGES):
+def packages(names: Iterable[str] = PACKAGES) -> Iterator[Look]:
+    """Look for Python packages."""
+    for name in ("roofslip", *names):
         try:
             yield Look(name, version(name))
         except PackageNotFoundError:
             yield Look(name, "missing", "install it: ./roofslip does so from requirements.lock")
 
 
-def _native() -> Iterator[Look]:
+def native(find: Callable[[str], str | None] = find_library) -> Iterator[Look]:
+    """Look for the native libraries as the renderer does, by the names that it loads."""
     for name, package in NATIVE.items():
-        path = find_library(name)
+        path = find(name)
         remedy = "" if path else f"install it: sudo apt-get install {package}"
         yield Look(name, path or "missing", remedy)
 
@@ -92,11 +99,11 @@ def _cores() -> Iterator[Look]:
     yield Look("cores", str(count))
 
 
-def _solver() -> Iterator[Look]:
+def solver_run(pushed_m: Callable[[], float] | None = None) -> Iterator[Look]:
     """Run one block for which the displacement is known in closed form."""
     started = time.perf_counter()
     try:
-        displacement_m = _pushed_m()
+        displacement_m = (pushed_m or _pushed_m)()
     except Exception as error:  # whatever is wrong here is the finding
         yield Look("test run", _said(error), "reinstall: remove .venv and run ./roofslip again")
         return
@@ -121,13 +128,14 @@ def _pushed_m() -> float:
     return solve(scene(accelerations, _END_S, slope_rad=0.0, mu=_MU)).result.prd_m
 
 
-def _page() -> Iterator[Look]:
+def page(render: Callable[[str], bytes] | None = None) -> Iterator[Look]:
+    """Lay out a page in the style of a package."""
     started = time.perf_counter()
     try:
         from report.typeset.pdf import TEMPLATES, lay_out
 
         style = (TEMPLATES / "package.css").read_text(encoding="utf-8")
-        size = len(lay_out(_PAGE.format(style=style)))
+        size = len((render or lay_out)(_PAGE.format(style=style)))
     except Exception as error:  # the renderer fails with whatever the system gives
         yield Look("test page", _said(error), "install what is missing above, then try again")
         return
@@ -145,5 +153,5 @@ def _said(error: Exception) -> str:
 
 
 CHECKS: tuple[Callable[[], Iterator[Look]], ...] = (
-    _python, _packages, _native, _fonts, _cores, _solver, _page,
+    _python, packages, native, _fonts, _cores, solver_run, page,
 )  # fmt: skip

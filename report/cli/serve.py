@@ -68,11 +68,11 @@ def serve(
         raise click.UsageError("--host needs --token-file: a file with the token of the address")
     token = secrets.token_urlsafe(24) if token_file is None else _token(token_file)
     with ExitStack() as stack:
-        listening = stack.enter_context(_listening(host or LOOPBACK, port))
+        listening = stack.enter_context(listen(host or LOOPBACK, port))
         with input_errors(Path("serve")):
             folder = stack.enter_context(own_folder(Path(tempfile.gettempdir())))
         port = listening.getsockname()[1]
-        name, hosts = _names(host, port)
+        name, hosts = names_of(host, port)
         address = f"http://{name}:{port}/?token={token}"
         click.echo(address)
         if host is not None:
@@ -102,7 +102,7 @@ def _check_packages() -> None:
         sys.exit(INPUT_ERROR)
 
 
-def _names(host: str | None, port: int) -> tuple[str, Sequence[str]]:
+def names_of(host: str | None, port: int) -> tuple[str, Sequence[str]]:
     """Return the name in the address, and the values of Host that are answered; none for any."""
     # A browser leaves out the port of HTTP.
     end = "" if port == HTTP_PORT else f":{port}"
@@ -126,7 +126,7 @@ def _token(file: Path) -> str:
     return token
 
 
-def _listening(host: str, port: int) -> socket.socket:
+def listen(host: str, port: int) -> socket.socket:
     """Return a socket that listens; exit where it cannot."""
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]

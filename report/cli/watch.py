@@ -88,8 +88,11 @@ class Round:
     What it computes is kept in both processes, so that the next round repeats only what changed.
     """
 
-    def __init__(self, workbook: Path, folder: Path, second: Executor) -> None:
+    def __init__(
+        self, workbook: Path, folder: Path, second: Executor, settle_s: float = SETTLE_S
+    ) -> None:
         self._workbook, self._folder, self._second = workbook, folder, second
+        self._settle_s = settle_s
         self._before: Compared | None = None
 
     def run(self) -> bool:
@@ -124,7 +127,7 @@ class Round:
         from report.kept import begin_round
         from report.making import make
 
-        settle(self._workbook)
+        settle(self._workbook, self._settle_s)
         begin_round()
         self._second.submit(begin_round)
         with no_collections():
@@ -170,8 +173,8 @@ def _interrupted_after() -> Iterator[None]:
         raise KeyboardInterrupt
 
 
-def settle(workbook: Path) -> None:
-    """Wait until a workbook can be opened, at most `SETTLE_S`.
+def settle(workbook: Path, settle_s: float = SETTLE_S) -> None:
+    """Wait until a workbook can be opened, at most so long.
 
     Raises
     ------
@@ -180,7 +183,7 @@ def settle(workbook: Path) -> None:
     """
     from report.sheet.archive import open_book
 
-    last = time.monotonic() + SETTLE_S
+    last = time.monotonic() + settle_s
     while not _is_whole(workbook):
         if time.monotonic() > last:
             open_book(workbook)
@@ -198,23 +201,23 @@ def _is_whole(workbook: Path) -> bool:
         return False
 
 
-def saves(workbook: Path, folder: Path) -> Iterator[list[str]]:
+def saves(workbook: Path, folder: Path, settle_s: float = SETTLE_S) -> Iterator[list[str]]:
     """Yield the names of the files of each save beside a workbook, except in the output folder.
 
     None at once, when the watch has begun, and again whenever there was no save for a moment. A
     save is a file with other content, whatever its time stamp. One that is still being written is
-    waited for, at most `SETTLE_S`.
+    waited for, at most `settle_s`.
     """
     # Shares over a network tell no program of a change: the folder is polled.
     top, written = workbook.parent.resolve(), folder.resolve()
-    known = _settled(workbook, _files(top, written, {}), written)
+    known = _settled(workbook, _files(top, written, {}), written, settle_s)
     while True:
         yield []
         time.sleep(_POLL_S)
         found = _files(top, written, known)
         if found == known:
             continue
-        found = _settled(workbook, found, written)
+        found = _settled(workbook, found, written, settle_s)
         contents = ({path: file.sha256 for path, file in files.items()} for files in (known, found))
         changed = set.symmetric_difference(*(set(content.items()) for content in contents))
         known = found
@@ -230,9 +233,11 @@ class _File:
     sha256: str
 
 
-def _settled(workbook: Path, found: Mapping[Path, _File], written: Path) -> Mapping[Path, _File]:
+def _settled(
+    workbook: Path, found: Mapping[Path, _File], written: Path, settle_s: float
+) -> Mapping[Path, _File]:
     """Return the files once none changes any more and the workbook is whole."""
-    last = time.monotonic() + SETTLE_S
+    last = time.monotonic() + settle_s
     while True:
         time.sleep(_POLL_S)
         now = _files(workbook.parent.resolve(), written, found)

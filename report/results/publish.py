@@ -30,6 +30,8 @@ Files that do not agree with it are of two sets: a run was killed, or is about t
 _HIDDEN = ".roofslip-"
 _LOCK = f"{_HIDDEN}lock"
 WAIT_S = 60.0
+"""How long a run waits for another that writes to the same folder [s]."""
+
 _POLL_S = 0.05
 
 # Of a hidden folder: the new files, copies of the old ones, and one of two journals.
@@ -37,7 +39,7 @@ _NEW, _OLD = "new", "old"
 _FORWARD, _BACK = "forward.json", "back.json"
 
 
-def publish(files: Mapping[str, bytes], folder: Path) -> None:
+def publish(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) -> None:
     """Write files to a folder, all of them or none, and `STAMP`.
 
     A name may include a subfolder. Two runs that write to one folder do so one after the other.
@@ -50,7 +52,7 @@ def publish(files: Mapping[str, bytes], folder: Path) -> None:
     files = {**files, STAMP: stamp(files)}
     with _errors_of(folder):
         folder.mkdir(parents=True, exist_ok=True)
-        with locked(folder):
+        with locked(folder, wait_s):
             finish(folder)
             staging = Path(tempfile.mkdtemp(prefix=_HIDDEN, dir=folder))
             try:
@@ -112,19 +114,19 @@ def _errors_of(folder: Path) -> Iterator[None]:
 
 
 @contextmanager
-def locked(folder: Path) -> Iterator[None]:
+def locked(folder: Path, wait_s: float = WAIT_S) -> Iterator[None]:
     """Hold the lock of a folder, which ends with its process.
 
     Raises
     ------
     InputError
-        If another process holds it for a minute.
+        If another process holds it for so long.
     """
     path, started = folder / _LOCK, time.monotonic()
     while (lock := _try_lock(path)) < 0:
-        if time.monotonic() - started > WAIT_S:
+        if time.monotonic() - started > wait_s:
             raise InputError(
-                f"{folder}: another run has been writing there for {WAIT_S:g} s; wait until it"
+                f"{folder}: another run has been writing there for {wait_s:g} s; wait until it"
                 " ends, or choose another folder with --out"
             )
         time.sleep(_POLL_S)

@@ -96,7 +96,7 @@ def convert(sources: Iterable[str], css: Path) -> dict[str, Converted]:
 
 
 @cache
-def _fonts(css: Path) -> Any:
+def fonts_of(css: Path) -> Any:
     """Return the fonts of a style sheet, loaded for the renderer; they live as long as the process.
 
     Reads nothing else of the styles: a whole sheet takes longer than most pictures.
@@ -121,12 +121,12 @@ def discard(fonts: Any) -> None:
 
 @kept
 def _converted(source: str, css: Path) -> Converted:
-    svg = _svg(source)
-    width, height = _size_px(svg)
+    svg = svg_of(source)
+    width, height = size_px(svg)
     stream = _recorder()(
-        {}, (0.0, 0.0, width, height), _no_resources(), {}, None, {}, None, compress=False
+        {}, (0.0, 0.0, width, height), no_resources(), {}, None, {}, None, compress=False
     )
-    _draw(svg, source, _fonts(css), stream, width, height)
+    draw(svg, source, fonts_of(css), stream, width, height)
     faces = tuple(
         Face(
             hash=font.hash,
@@ -141,13 +141,15 @@ def _converted(source: str, css: Path) -> Converted:
     return Converted(width=width, height=height, drawing=_recorded(stream, ()), faces=faces)
 
 
-def _svg(source: str) -> bytes:
+def svg_of(source: str) -> bytes:
+    """Return the picture that an address holds."""
     if not source.startswith(_HEAD):
         raise DefectError(f"not the address of an SVG picture: {source[:40]}")
     return base64.b64decode(source.removeprefix(_HEAD))
 
 
-def _size_px(svg: bytes) -> tuple[float, float]:
+def size_px(svg: bytes) -> tuple[float, float]:
+    """Return the width and height that a picture states."""
     from weasyprint.svg.utils import size
 
     found = _SIZE.search(svg)
@@ -157,14 +159,16 @@ def _size_px(svg: bytes) -> tuple[float, float]:
     return width, height
 
 
-def _draw(svg: bytes, source: str, fonts: Any, stream: Any, width: float, height: float) -> None:
+def draw(svg: bytes, source: str, fonts: Any, stream: Any, width: float, height: float) -> None:
+    """Draw a picture as the renderer does."""
     from weasyprint.svg import SVG
 
     picture = SVG(ElementTree.fromstring(svg), source, fonts, None)
     picture.draw(stream, width, height, source, None)
 
 
-def _no_resources() -> Any:
+def no_resources() -> Any:
+    """Return the resources of a stream before anything is drawn."""
     import pydyf
 
     kinds = ("ExtGState", "XObject", "Pattern", "Shading", "ColorSpace")
@@ -250,7 +254,7 @@ class Shown:
 
     @cached_property
     def _size(self) -> tuple[float, float]:
-        return _size_px(_svg(self._source))
+        return size_px(svg_of(self._source))
 
     def get_intrinsic_size(self, *_: Any) -> tuple[float, float, float]:
         """Return width, height [px] and their ratio."""
@@ -261,14 +265,15 @@ class Shown:
         """Paint the picture, at the place and scale of the stream."""
         picture = self._converted.result()[self._source]
         for face in picture.faces:
-            _use(stream, face, self._fonts)
+            use(stream, face, self._fonts)
         stream.push_state()
         stream.transform(a=width / picture.width, d=height / picture.height)
-        _replay(stream, picture.drawing)
+        replay(stream, picture.drawing)
         stream.pop_state()
 
 
-def _replay(stream: Any, drawing: Drawing) -> None:
+def replay(stream: Any, drawing: Drawing) -> None:
+    """Draw again what was recorded."""
     import pydyf
 
     states = stream._resources["ExtGState"]
@@ -278,7 +283,7 @@ def _replay(stream: Any, drawing: Drawing) -> None:
         if isinstance(part, Drawing):
             group = stream.add_group(0, 0, 0, 0)
             group.extra["BBox"][:] = part.box
-            _replay(group, part)
+            replay(group, part)
             stream.draw_x_object(group.id)
         elif isinstance(part, Hatch):
             from weasyprint.matrix import Matrix
@@ -286,13 +291,13 @@ def _replay(stream: Any, drawing: Drawing) -> None:
             matrix = Matrix(*part.matrix) @ stream.ctm
             pattern = stream.add_pattern(0, 0, 0, 0, *part.step, matrix)
             pattern.extra["BBox"][:] = part.tile.box
-            _replay(pattern, part.tile)
+            replay(pattern, part.tile)
             stream.set_color_special(pattern.id, part.strokes)
         elif part:
             stream.stream.append(part)
 
 
-def _use(stream: Any, face: Face, fonts: Any) -> None:
+def use(stream: Any, face: Face, fonts: Any) -> None:
     """Add the glyphs of a face to the font of the document, which is loaded if it is not yet."""
     same = (font for font in stream._fonts.values() if font.hash == face.hash)
     font = next(same, None) or _load(stream, face, fonts)

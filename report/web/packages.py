@@ -14,7 +14,7 @@ import shutil
 import signal
 import sys
 from asyncio.subprocess import DEVNULL, PIPE, Process
-from collections.abc import Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
@@ -76,10 +76,21 @@ class Package:
         return self.workbook.parent / "out"
 
 
+async def started(package: Package) -> Process:
+    """Start the process that makes a package."""
+    return await asyncio.create_subprocess_exec(
+        sys.executable, "-P", "-m", "report.web.maker", str(package.workbook), str(package.out),
+        stdin=DEVNULL, stdout=PIPE, start_new_session=True,
+        # What it leaves among the temporary files where it is ended goes with the package.
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "TMPDIR": str(package.workbook.parent)},
+    )  # fmt: skip
+
+
 class Packages:
     """The packages of all sessions."""
 
-    def __init__(self) -> None:
+    def __init__(self, start: Callable[[Package], Awaitable[Process]] = started) -> None:
+        self._start = start
         self._all: dict[str, Package] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._turn = asyncio.Lock()
@@ -178,13 +189,7 @@ class Packages:
 
     async def _run(self, package: Package) -> None:
         """Have a process make a package, and follow it."""
-        package.process = process = await asyncio.create_subprocess_exec(
-            sys.executable, "-P", "-m", "report.web.maker", str(package.workbook),
-            str(package.out),
-            stdin=DEVNULL, stdout=PIPE, start_new_session=True,
-            # What it leaves among the temporary files where it is ended goes with the package.
-            env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "TMPDIR": str(package.workbook.parent)},
-        )  # fmt: skip
+        package.process = process = await self._start(package)
         if package.state.is_over:  # canceled while the process started
             await _end(process)
             return

@@ -93,14 +93,16 @@ class Session:
 class Sessions:
     """The sessions of a server, in a folder that ends with it."""
 
-    def __init__(self, folder: Path, clock: Callable[[], float] = time.monotonic) -> None:
-        self._folder, self._clock = folder, clock
+    def __init__(
+        self, folder: Path, clock: Callable[[], float] = time.monotonic, most: int = MOST
+    ) -> None:
+        self._folder, self._clock, self._most = folder, clock, most
         self._by_id: dict[str, Session] = {}
 
     def begin(self) -> Session:
         """Begin a session; where there are too many, the one unused for longest ends."""
         self.end_unused()
-        if len(self._by_id) >= MOST:
+        if len(self._by_id) >= self._most:
             self.end(min(self._by_id.values(), key=lambda session: session.used_s))
         name = secrets.token_urlsafe(32)
         # Its name in the file system is another one: a listing opens no session.

@@ -33,13 +33,15 @@ _ENCRYPTED = 0x1
 File = tuple[str, IO[bytes]]
 
 
-def store(files: Sequence[File], folder: Path) -> Path:
+def store(files: Sequence[File], folder: Path, most_bytes: int = MOST_STORED) -> Path:
     """Store what was sent in an empty folder, and return the workbook among it.
 
     Parameters
     ----------
     files : sequence of (str, binary file)
         Each with its relative path; one of them may be a zip, which is then the only one.
+    most_bytes : int
+        Of all files as they are stored.
 
     Raises
     ------
@@ -51,7 +53,7 @@ def store(files: Sequence[File], folder: Path) -> Path:
     zips = [item for item in files if item[0].lower().endswith(".zip")]
     if zips and len(files) > 1:
         raise InputError("a zip was sent with other files; drop the zip alone, or the files alone")
-    room = _Room(folder)
+    room = _Room(folder, most_bytes)
     if zips:
         with _opened(zips[0][1]) as archive:
             _unpack(archive, room)
@@ -63,10 +65,10 @@ def store(files: Sequence[File], folder: Path) -> Path:
 class _Room:
     """A folder while it is filled: its names without regard to capitals, and its bytes."""
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    def __init__(self, folder: Path, most_bytes: int) -> None:
+        self._folder, self._most_bytes = folder, most_bytes
         self._spelled: dict[str, str] = {}
-        self._left = MOST_STORED
+        self._left = most_bytes
         self.paths: list[Path] = []
 
     def take(self, name: str, content: IO[bytes]) -> None:
@@ -84,7 +86,9 @@ class _Room:
                 while chunk := content.read(_CHUNK):
                     self._left -= len(chunk)
                     if self._left < 0:
-                        raise InputError(f"more than {MOST_STORED // MB} MB; drop fewer records")
+                        raise InputError(
+                            f"more than {self._most_bytes // MB} MB; drop fewer records"
+                        )
                     out.write(chunk)
         except (FileExistsError, NotADirectoryError, IsADirectoryError) as error:
             raise InputError(f"{name}: a file and a folder of one name; rename one") from error

@@ -29,7 +29,7 @@ def main() -> None:
     from report.web.jobs import perform
 
     for number, line in enumerate(sys.stdin):
-        out.write(f"{_answered(perform, line)}\n")
+        out.write(f"{answered(perform, line)}\n")
         out.flush()
         if number == 0:
             # What the first answer loaded stays: searching it for garbage would hold up an answer
@@ -38,7 +38,8 @@ def main() -> None:
             gc.freeze()
 
 
-def _answered(perform: Any, line: str) -> str:
+def answered(perform: Any, line: str) -> str:
+    """Return the answer to a line: what is performed, or why it is not."""
     try:
         return json.dumps(perform(json.loads(line)), allow_nan=False)
     except MemoryError:

@@ -11,7 +11,7 @@ import json
 import os
 import sys
 from asyncio.subprocess import PIPE, Process
-from collections.abc import Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -64,11 +64,25 @@ class _Waiting:
     tries: int = 0
 
 
+async def started(is_quick: bool) -> Process:
+    """Start a process that computes; the others give way to that of quick jobs."""
+    return await asyncio.create_subprocess_exec(
+        sys.executable, "-P", "-m", "report.web.worker", "0" if is_quick else str(NICE),
+        stdin=PIPE, stdout=PIPE, limit=_MOST_LINE,
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+    )  # fmt: skip
+
+
 class Workers:
     """The processes, and the jobs that wait for one."""
 
-    def __init__(self, number: int) -> None:
-        self._number = number
+    def __init__(
+        self,
+        number: int,
+        start: Callable[[bool], Awaitable[Process]] = started,
+        longest_s: float = LONGEST_S,
+    ) -> None:
+        self._number, self._start, self._longest_s = number, start, longest_s
         self._waiting: list[_Waiting] = []
         self._arrived = asyncio.Condition()
         self._orders = count()
@@ -124,9 +138,10 @@ class Workers:
                 await self._warmed.wait()
             while True:
                 if process is None or process.returncode is not None:
-                    process = await self._started(is_quick)
+                    process = await self._start(is_quick)
+                    self._processes.add(process)
                     try:
-                        await _exchange(process, warm)
+                        await _exchange(process, warm, self._longest_s)
                     except LostError:
                         await asyncio.sleep(_PAUSE_S)
                     self._warmed.set()
@@ -142,7 +157,7 @@ class Workers:
         """Have one job done; where its process is lost, it waits once more."""
         waiting.tries += 1
         try:
-            found = await _exchange(process, waiting.job)
+            found = await _exchange(process, waiting.job, self._longest_s)
         except LostError as error:
             self._processes.discard(process)
             if waiting.tries < _TRIES and not error.args:
@@ -167,17 +182,10 @@ class Workers:
                     return chosen
                 await self._arrived.wait()
 
-    async def _started(self, is_quick: bool) -> Process:
-        process = await asyncio.create_subprocess_exec(
-            sys.executable, "-P", "-m", "report.web.worker", "0" if is_quick else str(NICE),
-            stdin=PIPE, stdout=PIPE, limit=_MOST_LINE,
-            env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
-        )  # fmt: skip
-        self._processes.add(process)
-        return process
 
-
-async def _exchange(process: Process, job: Mapping[str, Any]) -> Mapping[str, Any]:
+async def _exchange(
+    process: Process, job: Mapping[str, Any], longest_s: float
+) -> Mapping[str, Any]:
     """Send a job and return its answer; a process that fails to answer is ended."""
     assert process.stdin is not None
     assert process.stdout is not None
@@ -185,11 +193,11 @@ async def _exchange(process: Process, job: Mapping[str, Any]) -> Mapping[str, An
         process.stdin.write(json.dumps(job).encode() + b"\n")
         await process.stdin.drain()
         # Not `wait_for`: it drops a cancellation that comes with the answer.
-        async with asyncio.timeout(LONGEST_S):
+        async with asyncio.timeout(longest_s):
             line = await process.stdout.readline()
     except TimeoutError as error:
         await _ended(process)
-        raise LostError(f"This took longer than {LONGEST_S:.0f} s and was stopped.") from error
+        raise LostError(f"This took longer than {longest_s:.0f} s and was stopped.") from error
     except (ConnectionError, ValueError):
         line = b""
     if not line.endswith(b"\n"):

@@ -33,7 +33,7 @@ def normal_cdf(z):
 
 
 @njit(cache=True)
-def _inverse_mills(z):
+def inverse_mills(z):
     """Return phi(z) / Phi(z)."""
     if z < -FAR:
         return -z
@@ -68,7 +68,7 @@ def fit_censored(y, is_censored):
             v = (y[i] - shift) / spread
             if is_censored[i]:
                 z = a - b * v
-                slope = _inverse_mills(z)
+                slope = inverse_mills(z)
                 bend = slope * (z + slope)
                 ga, gb = ga + slope, gb - v * slope
             else:
@@ -117,7 +117,7 @@ def _log_likelihood(y, is_censored, mean, b):
         z = b * (y[i] - mean)
         if is_censored[i]:
             # ln Phi(-z) = ln phi(z) - ln of the inverse Mills ratio, which is finite far out.
-            total += -0.5 * z * z - math.log(ROOT_TWO_PI) - math.log(_inverse_mills(-z))
+            total += -0.5 * z * z - math.log(ROOT_TWO_PI) - math.log(inverse_mills(-z))
         else:
             total += math.log(b) - 0.5 * z * z - math.log(ROOT_TWO_PI)
     return total
@@ -135,7 +135,7 @@ def log_likelihood_at(y, is_censored, mean, deviation):
         for i in range(y.size):
             v = y[i] - mean
             if is_censored[i]:
-                slope = _inverse_mills(-b * v)
+                slope = inverse_mills(-b * v)
                 g, h = g - v * slope, h + v * v * slope * (slope - b * v)
             else:
                 g, h = g + 1.0 / b - b * v * v, h + 1.0 / (b * b) + v * v

@@ -332,13 +332,13 @@ RULE_SETS: Mapping[str, RuleSet] = {
 }
 
 
-def usual(key: str) -> Allowed:
+def usual(key: str, rule_sets: Mapping[str, RuleSet] = RULE_SETS) -> Allowed:
     """Return the range beyond which an override of a provision is unusual.
 
     Half of the least to twice the greatest value of the rule sets, as far as it is allowed; all
     that is allowed where they have no value but zero.
     """
-    values = [rules.values[key].value for rules in RULE_SETS.values() if key in rules.values]
+    values = [rules.values[key].value for rules in rule_sets.values() if key in rules.values]
     allowed = ALLOWED[key]
     if not any(values):
         return allowed

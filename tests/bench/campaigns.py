@@ -15,10 +15,10 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 from measure import SMOKE, figure
-from mutations import trouble
 
 import report  # noqa: F401  # before openpyxl is loaded: it decides what that reads with
 from campaign import Ended, campaign, run_pair
+from mutations import trouble
 from solver.verification.random_pairs import KINDS
 
 INPUTS, PAIRS = (40, 20) if SMOKE else (10_000, 10_000)

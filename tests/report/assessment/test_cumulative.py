@@ -107,6 +107,7 @@ def test_results_have_what_is_added():
 @pytest.mark.parametrize(
     "typed", ["0.5, 1.2", "0.0", "half", "0,5", "-0.5", ", ".join(["0.5"] * 21)]
 )
+@pytest.mark.by_day(2)
 def test_factors_outside_of_the_range_are_refused_by_cell(tmp_path, typed):
     path = edit(make(tmp_path), lambda book: found(book).__setattr__("value", typed))
     (line,) = problems(path)

@@ -34,6 +34,9 @@ def test_a_project_that_fails_stops_no_other(tmp_path):
     record = at("Motions/M1/Horizontal record")
     assert f"{tmp_path / 'two'}: {record}: horizontal record: x.csv:2: found 'abc'" in done.stderr
     assert f"{tmp_path / 'none'}: no such file" in done.stderr
+    as_json = run(tmp_path / "none", "--json")
+    assert (as_json.exit_code, as_json.stderr) == (2, "")
+    assert "no such file" in json.loads(as_json.stdout)["projects"][0]["errors"][0]
 
 
 def outcome(**about):
@@ -41,30 +44,27 @@ def outcome(**about):
 
 
 @pytest.mark.parametrize(
-    ("outcomes", "options", "code"),
+    ("outcomes", "fail_on_ng", "code"),
     [
-        ([outcome(verdict="OK"), outcome(verdict="NG")], [], 0),
-        ([outcome(verdict="OK"), outcome(verdict="NG")], ["--fail-on-ng"], 3),
-        ([outcome(verdict="OK with conditions")], ["--fail-on-ng"], 3),
-        ([outcome(verdict="NG"), outcome(problems=("wrong",))], ["--fail-on-ng"], 2),
-        ([outcome(problems=("wrong",)), outcome(internal="Traceback")], [], 1),
+        ([outcome(verdict="OK"), outcome(verdict="NG")], False, 0),
+        ([outcome(verdict="OK"), outcome(verdict="NG")], True, 3),
+        ([outcome(verdict="OK with conditions")], True, 3),
+        ([outcome(verdict="NG"), outcome(problems=("wrong",))], True, 2),
+        ([outcome(problems=("wrong",)), outcome(internal="Traceback")], False, 1),
     ],
 )
-def test_the_exit_code_is_that_of_the_worst(monkeypatch, outcomes, options, code):
-    monkeypatch.setattr(batch, "run", lambda *_, **__: outcomes)
-    assert run("a", *options).exit_code == code
+def test_the_exit_code_is_that_of_the_worst(outcomes, fail_on_ng, code):
+    assert batch.exit_code(outcomes, fail_on_ng=fail_on_ng) == code
 
 
-def test_json_has_a_schema_version_and_an_entry_for_each_project(monkeypatch):
+def test_json_has_a_schema_version_and_an_entry_for_each_project():
     outcomes = [
         outcome(verdict="NG", ratios=(0.5, 1.25), package="a/out/calc-package.pdf", seconds=2.5),
         outcome(verdict="NG", ratios=(0.5, math.nan)),
         outcome(problems=("Arrays!C8: slope is 'x'; give a number",)),
     ]
-    monkeypatch.setattr(batch, "run", lambda *_, **__: outcomes)
-    done = run("a", "b", "c", "--json")
-    document = json.loads(done.stdout)
-    assert (done.exit_code, document["schema_version"], done.stderr) == (2, 1, "")
+    document = json.loads(json.dumps(batch.document(outcomes)))
+    assert document["schema_version"] == 1
     first, second, third = document["projects"]
     assert first == {
         "source": "a",
@@ -79,11 +79,10 @@ def test_json_has_a_schema_version_and_an_entry_for_each_project(monkeypatch):
     assert (third["verdict"], third["errors"]) == (None, ["Arrays!C8: slope is 'x'; give a number"])
 
 
-def test_an_internal_error_in_one_project_is_printed_with_its_traceback(monkeypatch):
+def test_an_internal_error_in_one_project_is_printed_with_its_traceback():
     def broken(_):
         raise RuntimeError("internal error")
 
-    monkeypatch.setattr(batch, "_package", broken)
-    done = batch.package(Path("a"))
+    done = batch.package(Path("a"), broken)
     assert done.word == "internal error"
     assert "RuntimeError: internal error" in done.internal

@@ -24,38 +24,28 @@ def test_with_everything_installed_it_says_so():
     assert lines[-1] == "Everything that a package needs is here."
 
 
-def quick(monkeypatch, *checks):
-    monkeypatch.setattr(doctor, "CHECKS", checks)
-    return run()
-
-
 def test_a_native_library_that_is_missing_is_named_with_its_package(monkeypatch):
-    monkeypatch.setattr(doctor, "find_library", lambda name: None if "pangoft2" in name else name)
-    done = quick(monkeypatch, doctor._native)
+    monkeypatch.setitem(doctor.NATIVE, "no-such-library", "libnone0")
+    done = run()
     assert done.exit_code == 1
-    assert done.stderr == "pangoft2-1.0: install it: sudo apt-get install libpangoft2-1.0-0\n"
-
-
-def test_a_package_that_is_missing_is_named(monkeypatch):
-    monkeypatch.setattr(doctor, "PACKAGES", ("numpy", "no-such-package"))
-    done = quick(monkeypatch, doctor._packages)
-    assert done.exit_code == 1
-    assert "no-such-package: install it" in done.stderr
-
-
-def test_a_renderer_that_fails_is_a_finding_not_a_traceback(monkeypatch):
-    def broken(_):
-        raise OSError("cannot load library 'libpango-1.0-0'")
-
-    monkeypatch.setattr("report.typeset.pdf.lay_out", broken)
-    done = quick(monkeypatch, doctor._page)
-    assert (done.exit_code, done.exception.code) == (1, 1)
-    assert "fails: cannot load library 'libpango-1.0-0'" in done.stdout
+    assert done.stderr == "no-such-library: install it: sudo apt-get install libnone0\n"
     assert "Everything" not in done.stdout
 
 
-def test_a_solver_that_is_wrong_is_found(monkeypatch):
-    monkeypatch.setattr(doctor, "_pushed_m", lambda: 0.1)
-    done = quick(monkeypatch, doctor._solver)
-    assert done.exit_code == 1
-    assert "the solver is wrong on this computer" in done.stderr
+def test_a_package_that_is_missing_is_named(capsys):
+    assert not doctor.say(list(doctor.packages(("numpy", "no-such-package"))))
+    assert "no-such-package: install it" in capsys.readouterr().err
+
+
+def test_a_renderer_that_fails_is_a_finding_not_a_traceback():
+    def broken(_):
+        raise OSError("cannot load library 'libpango-1.0-0'")
+
+    (look,) = doctor.page(broken)
+    assert look.found == "fails: cannot load library 'libpango-1.0-0'"
+    assert look.remedy
+
+
+def test_a_solver_that_is_wrong_is_found():
+    (look,) = doctor.solver_run(lambda: 0.1)
+    assert look.remedy == "the solver is wrong on this computer; report it"

@@ -37,6 +37,7 @@ needs_full = pytest.mark.skipif(not os.path.exists(FULL), reason=f"no {FULL} her
 @pytest.mark.parametrize(
     "arguments", [["--help"], ["motion", "info", RECORD], ["check", "none", "--json"]]
 )
+@pytest.mark.by_day(1)
 def test_an_output_on_a_full_disk_ends_with_a_message(arguments):
     with open(FULL, "w") as full:
         done = roofslip(*arguments, stdout=full)
@@ -80,6 +81,7 @@ def test_what_the_system_refuses_is_a_problem_of_the_input(command):
     "arguments",
     [["motion", "convert", RECORD, "made.csv"], ["motion", "info", RECORD, "--plot", "made.svg"]],
 )
+@pytest.mark.by_day(1)
 def test_a_limit_on_the_size_of_files_leaves_no_half_file(arguments, tmp_path):
     *arguments, name = arguments
     done = roofslip(*arguments, tmp_path / name, preexec_fn=small_files)

@@ -16,7 +16,7 @@ from click.testing import CliRunner
 
 from places import ROOT
 from report.cli.main import main
-from report.cli.serve import _listening, _names
+from report.cli.serve import listen, names_of
 from report.web.connections import TimedProtocol
 
 WAIT_S = 120.0
@@ -61,12 +61,12 @@ def test_a_port_that_is_taken_is_named():
     ],
 )
 def test_the_server_answers_to_the_names_of_its_address(host, port, name, hosts):
-    found = _names(host, port)
+    found = names_of(host, port)
     assert (found[0], list(found[1])) == (name, hosts)
 
 
 def test_a_missing_package_is_named(monkeypatch):
-    monkeypatch.setattr("report.cli.serve.find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "uvicorn", None)
     done = served("--no-browser")
     assert done.exit_code == 2
     assert "install roofslip[web]" in done.output
@@ -82,6 +82,7 @@ def assert_connections_are_limited(page):
 
 
 @pytest.mark.parametrize("end", ["SIGTERM", "SIGHUP"])
+@pytest.mark.by_day(1)
 def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     token = tmp_path / "token"
     token.write_text(f"{TOKEN}\n")
@@ -124,7 +125,7 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
 def test_a_short_answer_is_sent_at_once():
     """Otherwise its body waits 40 ms for the acknowledgment of its head."""
     with (
-        _listening("127.0.0.1", 0) as listening,
+        listen("127.0.0.1", 0) as listening,
         socket.create_connection(listening.getsockname()),
         listening.accept()[0] as accepted,
     ):

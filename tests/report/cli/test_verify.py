@@ -1,12 +1,10 @@
 """The manual states all results, and a failed check is clearly visible."""
 
-import datetime as dt
 import io
 import math
 import re
 from dataclasses import replace
 from html import unescape
-from types import SimpleNamespace
 
 import numba
 import numpy as np
@@ -15,95 +13,52 @@ import pytest
 from click.testing import CliRunner
 from pypdf import PdfReader
 
-import report.cli.verify
 import report.manual.render
 import report.manual.sections
 import solver.verification.run
 import tables
+import verified
 from report.cli.main import main
-from report.cli.terminal import Progress
 from report.figures import work
 from report.manual import blocks
-from report.manual.sections import sections
-from report.typeset.pdf import lay_out
 from report.words.letters import lettered
 from report.words.validation import NOT_VALIDATED
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import PeerPoint
-from solver.verification.run import verify
 from solver.verification.shake_table import compare
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
 )
-DATE = dt.date(2026, 3, 5)
-
-
-class Counting(Progress):
-    """Progress whose bar must be full at the end."""
-
-    def __exit__(self, *about):
-        assert self._done == self._steps == report.cli.verify.STEPS
-        super().__exit__(*about)
 
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory):
-    """What `roofslip verify --quick` computes and lays out, how the command ends, its folder, and
-    its sections by name.
-
-    Other programs, where some are installed, are tested apart.
-    """
-    computed, laid_out, parts = [], [], {}
-    with pytest.MonkeyPatch.context() as patch:
-
-        def kept(*arguments, **options):
-            computed.append(replace(verify(*arguments, **options), peers=()))
-            return computed[0]
-
-        def kept_sections(*about):
-            found = sections(*about)
-            parts.update((part.id, part) for part in found)
-            return found
-
-        def kept_html(html):
-            laid_out.append(html)
-            return lay_out(html)
-
-        patch.setattr(solver.verification.run, "verify", kept)
-        patch.setattr(report.manual.render, "sections", kept_sections)
-        patch.setattr(report.manual.render, "lay_out", kept_html)
-        today = SimpleNamespace(date=SimpleNamespace(today=lambda: DATE))
-        patch.setattr(report.cli.verify, "dt", today)
-        patch.setattr(report.cli.verify, "Progress", Counting)
-        out = tmp_path_factory.mktemp("quick") / "v"
-        done = CliRunner().invoke(main, ["verify", "--quick", "--out", str(out)])
-    assert done.exit_code == 0, done.output
-    return computed[0], laid_out[0], done, out, parts
+    """What `roofslip verify --quick` does."""
+    return verified.verified(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
 def verification(quick):
-    return quick[0]
+    return quick.verification
 
 
 @pytest.fixture(scope="module")
 def made(quick):
     """Every file that the command writes, by its name in the folder."""
-    out = quick[3]
+    out = quick.out
     written = (path for path in out.rglob("*") if path.is_file())
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in written}
 
 
 @pytest.mark.nightly
 def test_the_quick_command_of_the_readme_passes_and_writes_everything(quick, made):
-    verification, _, done, out, _ = quick
-    count = len(verification.checks)
-    assert done.stdout.startswith(f"PASS: {count} of {count} checks passed\n")
+    out, count = quick.out, len(quick.verification.checks)
+    assert quick.stdout.startswith(f"PASS: {count} of {count} checks passed\n")
     assert made["verification.pdf"].startswith(b"%PDF")
     for name in ("verification.pdf", "verification.csv", "charts/work-percent.svg"):
-        assert str(out / name) in done.output
+        assert str(out / name) in quick.output
         assert len(made[name]) > 1000
     assert not list(out.glob(".roofslip-*"))
 
@@ -127,7 +82,7 @@ def said(html):
 
 @pytest.fixture(scope="module")
 def words(quick):
-    return said(quick[1])
+    return said(quick.html)
 
 
 @pytest.fixture(scope="module")
@@ -374,7 +329,7 @@ def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
     monkeypatch, tmp_path, quick, verification
 ):
     """The charts of the other sections are not drawn again."""
-    given, drawn = [], quick[4]
+    given, drawn = [], quick.parts
     for name in ("work", "stability", "convergence", "links", "curves", "conditioning", "rungs"):
         monkeypatch.setattr(report.manual.sections, name, lambda _, part=drawn[name]: part)
 

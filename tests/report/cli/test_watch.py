@@ -22,7 +22,6 @@ from cells import address
 from packages import unlaid
 from places import ROOT, TESTS
 from report.beside import SameProcess, beside
-from report.cli import watch
 from report.cli.main import main
 from report.cli.watch import Round, is_input, saves, settle
 from report.kept import forget
@@ -50,11 +49,10 @@ def test_locks_and_temporary_files_are_no_save(name, counts):
     assert is_input(Path(name)) is counts
 
 
-def test_a_folder_that_only_received_the_package_is_no_save(tmp_path, monkeypatch):
-    monkeypatch.setattr(watch, "SETTLE_S", 0.0)
+def test_a_folder_that_only_received_the_package_is_no_save(tmp_path):
     path, folder = tmp_path / "input.xlsx", tmp_path / "out"
     path.write_bytes(b"before")
-    found = saves(path, folder)
+    found = saves(path, folder, settle_s=0.0)
     next(found)
     (tmp_path / "records").mkdir()
     folder.mkdir()
@@ -64,12 +62,11 @@ def test_a_folder_that_only_received_the_package_is_no_save(tmp_path, monkeypatc
     assert next(filter(None, found)) == ["input.xlsx"]
 
 
-def test_a_save_with_an_older_time_stamp_is_seen(tmp_path, monkeypatch):
+def test_a_save_with_an_older_time_stamp_is_seen(tmp_path):
     """As of a file that is copied back from a backup with its time."""
-    monkeypatch.setattr(watch, "SETTLE_S", 0.0)
     path = tmp_path / "input.xlsx"
     path.write_bytes(b"before")
-    found = saves(path, tmp_path / "out")
+    found = saves(path, tmp_path / "out", settle_s=0.0)
     next(found)
     path.write_bytes(b"backup")
     os.utime(path, (1e9, 1e9))
@@ -120,20 +117,16 @@ def test_a_workbook_that_shrinks_while_it_is_read_is_read_again(tmp_path, monkey
         return read(archive)
 
     monkeypatch.setattr(zipfile.ZipFile, "testzip", shrinking)
-    monkeypatch.setattr(watch, "SETTLE_S", 60.0)
     timer = later(0.5, lambda: path.write_bytes(whole))
-    settle(path)
+    settle(path, settle_s=60.0)
     timer.join()
     assert len(looks) == 2
 
 
-def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_save(
-    tmp_path, monkeypatch, capsys
-):
-    monkeypatch.setattr(watch, "SETTLE_S", 0.0)
+def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_save(tmp_path, capsys):
     path, folder = tmp_path / "input.xlsx", tmp_path / "out"
     path.write_bytes(b"half")
-    round_ = Round(path, folder, SameProcess())
+    round_ = Round(path, folder, SameProcess(), settle_s=0.0)
     try:
         assert not round_.run()
         first = capsys.readouterr().err
@@ -155,32 +148,31 @@ def later(seconds, action):
 
 
 @pytest.mark.parametrize("start", ["half saved", "gone", "empty"])
-def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, start, monkeypatch):
+def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, start):
     path = make(tmp_path)
     whole = path.read_bytes()
     if start == "gone":
         path.unlink()
     else:
         path.write_bytes(whole[: len(whole) // 2] if start == "half saved" else b"")
-    monkeypatch.setattr(watch, "SETTLE_S", 60.0)
     timer = later(0.5, lambda: path.write_bytes(whole))
     began = time.monotonic()
-    settle(path)
+    settle(path, settle_s=60.0)
     timer.join()
     assert 0.4 < time.monotonic() - began < 60.0
 
 
-def test_a_workbook_that_stays_away_is_an_error(tmp_path, monkeypatch):
-    monkeypatch.setattr(watch, "SETTLE_S", 0.4)
+def test_a_workbook_that_stays_away_is_an_error(tmp_path):
     with pytest.raises(InputError, match="no such file"):
-        settle(tmp_path / "input.xlsx")
+        settle(tmp_path / "input.xlsx", settle_s=0.4)
 
 
-def test_once_ends_after_one_round(tmp_path, monkeypatch):
-    monkeypatch.setattr(watch, "SETTLE_S", 0.4)
-    missing = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
-    assert missing.exit_code == 2
-    assert "no such file" in missing.stderr
+def test_once_ends_after_one_round(tmp_path):
+    with zipfile.ZipFile(tmp_path / "input.xlsx", "w") as archive:
+        archive.writestr("notes.txt", "no workbook")
+    refused = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
+    assert refused.exit_code == 2
+    assert "1 problem found" in refused.stderr
     make(tmp_path)
     with unlaid():
         done = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
@@ -192,11 +184,9 @@ def test_once_ends_after_one_round(tmp_path, monkeypatch):
 UNLAID = """
 import report.beside
 from packages import unlaid
-from report.cli import watch
 from report.cli.main import main
 
 report.beside.SecondProcess = report.beside.SameProcess
-watch.SETTLE_S = 1.0
 with unlaid(): main()
 """
 

@@ -113,6 +113,7 @@ def extents(drawn):
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("name", ["done", "crowded", "outlined"])
+@pytest.mark.by_day(3)
 def test_no_label_touches_another_or_leaves_the_sheet(request, name, size):
     drawn = figure(request.getfixturevalue(name), size)
     found = extents(drawn)

@@ -230,6 +230,7 @@ def test_a_signature_that_does_not_fit_is_a_difference(signed, found):
 
 
 @pytest.mark.parametrize("entry", ["/AA", "/A", "/Lock"])
+@pytest.mark.by_day(1)
 def test_a_hidden_field_with_an_action_is_found_though_it_is_signed(sign, data, found, entry):
     from pyhanko.pdf_utils import generic
     from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter

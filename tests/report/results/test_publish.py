@@ -15,7 +15,7 @@ import time
 
 import pytest
 
-from report.results.publish import STAMP, check_apart, finish, publish
+from report.results.publish import STAMP, check_apart, finish, locked, publish
 from solver.model import InputError
 
 
@@ -43,12 +43,12 @@ def test_a_locked_file_changes_nothing_and_is_named(tmp_path, monkeypatch):
     publish({"a.txt": b"old a"}, tmp_path)
     replace = os.replace
 
-    def locked(source, target):
+    def opened(source, target):
         if str(target).endswith("c.txt"):
             raise PermissionError(13, "Permission denied")
         replace(source, target)
 
-    monkeypatch.setattr(os, "replace", locked)
+    monkeypatch.setattr(os, "replace", opened)
     with pytest.raises(InputError, match=r"c\.txt: cannot be replaced .*close it"):
         publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
     assert names_in(tmp_path) == ["a.txt", STAMP]
@@ -88,15 +88,10 @@ def test_a_folder_that_cannot_be_created_is_reported(tmp_path):
         publish({"a.txt": b"1"}, tmp_path / "out")
 
 
-def test_a_full_disk_leaves_the_old_package(tmp_path, monkeypatch):
+def test_a_full_disk_leaves_the_old_package(tmp_path, files_up_to):
     publish({"a.txt": b"old"}, tmp_path)
-
-    def full(descriptor):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(InputError, match="No space left"):
-        publish({"a.txt": b"new"}, tmp_path)
+    with files_up_to(1000), pytest.raises(InputError, match="File too large"):
+        publish({"b.txt": b"new", "a.txt": b"new" * 1000}, tmp_path)
     assert names_in(tmp_path) == ["a.txt", STAMP]
     assert (tmp_path / "a.txt").read_bytes() == b"old"
 
@@ -170,12 +165,11 @@ def test_a_run_killed_after_any_rename_is_finished_by_the_next(tmp_path, monkeyp
 
     def counted(source, target):
         left[0] -= 1
-        if left[0] == 0:
+        if left[0] <= 0:  # nothing is done from there on
             raise Killed
         replace(source, target)
 
     monkeypatch.setattr(os, "replace", counted)
-    monkeypatch.setattr("report.results.publish._discard", lambda staging: None)
     try:
         publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
     except Killed:
@@ -209,7 +203,6 @@ def test_a_set_half_put_back_is_put_back_by_the_next_run(tmp_path, monkeypatch):
         replace(source, target)
 
     monkeypatch.setattr(os, "replace", failing)
-    monkeypatch.setattr("report.results.publish._discard", lambda staging: None)
     with pytest.raises(Killed):
         publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
     monkeypatch.undo()
@@ -240,16 +233,13 @@ def test_two_runs_at_once_never_mix_their_sets(tmp_path):
     assert len(seen) > 2
 
 
-def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path, monkeypatch):
-    from report.results import publish as module
-
-    monkeypatch.setattr(module, "WAIT_S", 0.2)
-    with module.locked(tmp_path):
+def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path):
+    with locked(tmp_path):
         errors = []
 
         def second():
             try:
-                publish({"a.txt": b"1"}, tmp_path)
+                publish({"a.txt": b"1"}, tmp_path, wait_s=0.2)
             except InputError as error:
                 errors.append(str(error))
 

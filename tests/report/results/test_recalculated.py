@@ -6,10 +6,10 @@ import io
 import openpyxl
 import pytest
 from pypdf import PdfReader
-from recalculated import converted, recalculated
 
 import stand_in
 from cells import cell
+from recalculated import converted, recalculated
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
 from sheets import of, put
@@ -129,6 +129,7 @@ def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
     assert result == ("OK" if required <= provided else "NG")
 
 
+@pytest.mark.nightly
 def test_every_sheet_prints_as_wide_as_a_page(before, tmp_path):
     path = tmp_path / "results.xlsx"
     path.write_bytes(results_xlsx(before, spectra(before)))

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import pytest
 from openpyxl import Workbook, load_workbook
 from openpyxl.utils.cell import coordinate_to_tuple
-from recalculated import Cell, Sheets, recalculated_sheets
 
 from cells import cell
 from inputs import FT, INCH, LB, NO_SIDES
 from places import ROOT
+from recalculated import Cell, Sheets, recalculated_sheets
 from report.assessment.clearances import _importance, _neighbor, are_alike
 from report.pages.section import weight_per_area_pa
 from report.sheet.schema import ProjectInput, SiteClass, UnitsFirst

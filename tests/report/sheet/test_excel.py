@@ -8,9 +8,9 @@ import pytest
 from openpyxl import load_workbook
 from openpyxl.utils.cell import coordinate_to_tuple
 from pypdf import PdfReader
-from recalculated import converted, recalculated_sheets
 
 from cells import cell
+from recalculated import converted, recalculated_sheets
 from report.sheet.fields import Place
 from report.sheet.marks import AMBER, VIOLET
 from report.sheet.read import read
@@ -228,6 +228,7 @@ def holds(book, name, column=BESIDE):
     return found in ("TRUE", 1.0)
 
 
+@pytest.mark.nightly
 def test_a_half_filled_sheet_counts_what_is_missing(computed):
     book = computed[half_filled]
     wanted = {
@@ -246,6 +247,7 @@ def test_a_half_filled_sheet_counts_what_is_missing(computed):
     assert statuses(book, "Objects", 2) == [1, 3]  # height; three sides
 
 
+@pytest.mark.nightly
 def test_a_choice_that_is_none_of_the_list_is_no_complete_row(computed):
     book = computed[other_choices]
     # One wrong; capitals and blanks do not matter; no height.
@@ -255,14 +257,17 @@ def test_a_choice_that_is_none_of_the_list_is_no_complete_row(computed):
     assert state(book, "Project") == "5 cells missing"
 
 
+@pytest.mark.nightly
 def test_an_inserted_row_without_formulas_counts_as_wrong(computed):
     assert state(computed[inserted_row], "Objects") == "1 cell missing or wrong"
 
 
+@pytest.mark.nightly
 def test_a_pasted_column_needs_its_units_and_time_step(computed):
     assert statuses(computed[pasted_column], "Motions", 2) == [2, 0]
 
 
+@pytest.mark.nightly
 def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(computed):
     book = computed[mistyped_names]
     rows = (1, 2, 3)
@@ -271,6 +276,7 @@ def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(computed):
     assert found == [[False, False], [False, True], [True, False]]
 
 
+@pytest.mark.nightly
 def test_a_computed_cell_that_was_typed_over_turns_violet(computed):
     book = computed[typed_over]
     # Typed over, blank, as it should be.
@@ -278,6 +284,7 @@ def test_a_computed_cell_that_was_typed_over_turns_violet(computed):
     assert [holds(book, name) for name in SITE_COMPUTED] == [True, False]
 
 
+@pytest.mark.nightly
 def test_a_blank_sheet_asks_for_arrays_and_motions(computed):
     book = computed[None]
     for title in ("Arrays", "Motions"):
@@ -307,6 +314,7 @@ def test_wide_tables_print_on_two_pages_with_their_first_columns(tmp_path, print
     assert all("Status" in text and "ID" in text for text in arrays)
 
 
+@pytest.mark.nightly
 def test_the_count_of_missing_cells_fits_its_column_in_print(printed):
     text = "".join(printed)
     assert "12 missing" in text

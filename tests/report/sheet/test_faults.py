@@ -355,6 +355,7 @@ def formatted(path, formats):
 
 
 @pytest.mark.parametrize(("name", "code", "what", "wish"), MISLEADING)
+@pytest.mark.by_day(3)
 def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
     tmp_path, name, code, what, wish
 ):
@@ -571,6 +572,7 @@ def test_characters_of_no_width_at_the_ends_of_a_text_are_not_read(tmp_path):
         ("Arrays/3/y from", 1e-9),
     ],
 )
+@pytest.mark.by_day(2)
 def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it(
     tmp_path, name, value
 ):

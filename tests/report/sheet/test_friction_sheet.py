@@ -85,6 +85,7 @@ CELLS = [
 
 
 @pytest.mark.parametrize(("name", "value", "line"), CELLS)
+@pytest.mark.by_day(3)
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, name, value, line):
     (reported,) = problems(type_into(path, {f"{SHEET}/{name}": value}))
     assert reported.startswith(at(f"<{SHEET}/{name}>: {line}"))

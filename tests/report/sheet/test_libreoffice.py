@@ -2,10 +2,10 @@
 
 import pytest
 from openpyxl import load_workbook
-from recalculated import converted
 from test_live import OVER, check, formulas, lost, typed_over
 
 from cells import cell
+from recalculated import converted
 from report.sheet.parts import write_cells
 from report.sheet.positions import CellPosition
 from report.sheet.read import read
@@ -34,12 +34,14 @@ def saved(tmp_path_factory):
     return {path.stem: path for path in paths}
 
 
+@pytest.mark.nightly
 def test_what_libreoffice_saved_is_read_the_same(saved):
     """With formulas as LibreOffice writes them, and the value of one that was typed."""
     assert same(read(saved["filled"]).project, project())
     assert same(read(saved["metric"]).project, METRIC)
 
 
+@pytest.mark.nightly
 def test_cells_of_a_saved_book_are_changed_and_read(saved):
     book = saved["filled"].with_name("changed.xlsx")
     book.write_bytes(saved["filled"].read_bytes())

@@ -40,6 +40,7 @@ def formulas_of(book):
 
 @pytest.mark.parametrize("units", list(UnitsFirst))
 @pytest.mark.parametrize("is_filled", [False, True])
+@pytest.mark.by_day(2)
 def test_every_formula_of_a_new_workbook_is_watched_and_as_it_should_be(tmp_path, units, is_filled):
     path = make(tmp_path, units) if is_filled else blank(tmp_path / "input.xlsx", units)
     book = open_book(path)

@@ -192,6 +192,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+@pytest.mark.by_day(2)
 def test_arrangement_does_not_matter(tmp_path, change):
     assert same(read_workbook(edit(make(tmp_path), change)).input, project())
 
@@ -376,6 +377,7 @@ WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
         ("long_name.csv | EW", "records/long_name.csv"),
     ],
 )
+@pytest.mark.by_day(2)
 def test_a_file_name_that_nearly_fits_is_asked_about(tmp_path, name, meant):
     path = type_into(make(tmp_path), {"Motions/M1/Horizontal record": name})
     for kind in ("at2", "csv"):

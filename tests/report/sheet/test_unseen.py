@@ -176,6 +176,7 @@ def looks(font=None, fill=None, number_format=None):
         looks(number_format=";;;"),
     ],
 )
+@pytest.mark.by_day(2)
 def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, change):
     path = make(tmp_path)
     sheet, letter, row = cell_of("Arrays/A1/Friction coefficient")
@@ -199,6 +200,7 @@ def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, change):
         looks(None, PatternFill("darkGray", start_color="000000")),
     ],
 )
+@pytest.mark.by_day(1)
 def test_text_in_another_color_is_no_warning(tmp_path, change):
     path = make(tmp_path)
     sheet, letter, row = cell_of("Arrays/A1/Friction coefficient")

@@ -18,10 +18,12 @@ from dlml._tabular import load_tabular
 from openpyxl import load_workbook
 from pypdf import PdfReader
 from test_study_exports import read_nrml
+from test_study_read import at, given, write
 
 import packages
 import printed
 from report.cli.main import main
+from report.cli.study import make
 from report.pages.symbols import with_symbols
 from report.results.publish import locked
 from report.sheet.schema import UnitsFirst
@@ -37,10 +39,9 @@ from report.study.words import design_words, headline
 from report.typeset.pdf import lay_out
 from report.words.units import digits_down
 from solver import solve
-from solver.model import coulomb
+from solver.model import InputError, coulomb
 from solver.studies.curves import least_friction
 from solver.studies.fragility import UNKNOWN, Lognormal
-from test_study_read import at, given, write
 
 
 def small(**changes):
@@ -508,8 +509,7 @@ def run_command(folder, *options):
     return CliRunner().invoke(main, ["study", str(folder), *map(str, options)])
 
 
-def test_a_study_does_not_replace_its_own_workbook(tmp_path, monkeypatch):
-    monkeypatch.setattr("report.study.run.run_study", lambda *_, **__: 1 / 0)
+def test_a_study_does_not_replace_its_own_workbook(tmp_path):
     folder = write(tmp_path, small())
     book = (folder / "input.xlsx").rename(folder / "study.xlsx")
     content = book.read_bytes()
@@ -528,16 +528,13 @@ def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
     assert "is a file, not a folder; choose another folder" in done.output
 
 
-def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("report.results.publish.WAIT_S", 0.1)
-    monkeypatch.setattr("report.study.run.run_study", lambda *_, **__: 1 / 0)
+def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path):
     folder = write(tmp_path, small())
     runs = folder / "out" / "study" / "runs"
     runs.mkdir(parents=True)
-    with locked(runs):
-        done = run_command(folder)
-    assert done.exit_code == 2
-    assert "another run has been writing there" in done.output
+    plan, _ = planned(folder)
+    with locked(runs), pytest.raises(InputError, match="another run has been writing there"):
+        make(plan, runs.parent, "", lambda _: None, allow_matched=False, wait_s=0.1)
     assert list(runs.iterdir()) == []
 
 

@@ -5,6 +5,7 @@ import signal
 
 import pytest
 from click.testing import CliRunner
+from test_study_read import write
 
 from report.cli.main import main
 from report.study import cluster as clusters
@@ -13,7 +14,6 @@ from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, part_name, run_missing
 from solver.model import InputError
 from studied import campaign
-from test_study_read import write
 
 pytestmark = pytest.mark.filterwarnings("ignore")  # of the cluster's own shut-down
 
@@ -70,6 +70,7 @@ def test_workers_of_another_version_are_an_error_before_anything_runs(cluster, t
     assert "here 0.1" in str(caught.value)
 
 
+@pytest.mark.nightly("report/study/clusters.py")
 def test_a_study_runs_on_a_cluster(cluster, tmp_path):
     folder = write(tmp_path)
     done = CliRunner().invoke(

@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, example, settings
 from hypothesis import given as over
 from hypothesis import strategies as st
 from openpyxl import load_workbook
+from test_study_read import given, write
 
 import packages
 import printed
@@ -35,7 +36,6 @@ from solver.rules.provisions import (
     prescriptive_displacement,
 )
 from solver.studies.fragility import Lognormal
-from test_study_read import given, write
 
 S_DS = 1.0
 S_DS_GIVEN = {"intensity": Intensity.S_DS, "s_ds_g": 0.5, "intensities": "0.5, 1, 2"}

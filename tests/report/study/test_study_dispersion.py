@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
+from test_study_read import given, write
 
 import printed
 from report.cli.main import main
@@ -23,7 +24,6 @@ from report.study.words import headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import fit_lognormal
 from solver.studies.runs import Runner, Track
-from test_study_read import given, write
 
 SIGMA = np.log([0.38, 0.40, 0.42]).std(ddof=1)
 """Standard deviation of ln of the tests of mat A."""

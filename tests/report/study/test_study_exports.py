@@ -82,8 +82,11 @@ def project(tmp_path_factory):
     shutil.copytree(PROJECT / "records", folder / "records")
     given = script.study()
     few = {
-        "slopes_deg": "2", "intensities": "1 to 2 by 0.1", "samples": 10, "slope_tolerance_deg": 0.0
-    }  # fmt: skip
+        "slopes_deg": "2",
+        "intensities": "1 to 2 by 0.25",
+        "samples": 10,
+        "slope_tolerance_deg": 0.0,
+    }
     example = dataclasses.replace(given, study=given.study.model_copy(update=few))
     write_study(folder / "input.xlsx", units=UnitsFirst.US, example=example)
     return run_study(planned(folder)[0], folder / "out")

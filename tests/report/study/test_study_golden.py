@@ -2,10 +2,11 @@
 
 import re
 
+from test_study_read import given, write
+
 import printed
 from report.study.run import planned, run_study
 from report.study.schema import Intensity, StudyArray
-from test_study_read import given, write
 
 CHANGING = (
     (r"Program( \|)? Roofslip.*", "Program <versions>"),

@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 from openpyxl import load_workbook
+from test_study_read import given, write
 
 import printed
 from report.figures.base import load_fonts
@@ -19,7 +20,6 @@ from report.typeset.pdf import TEMPLATES
 from report.words.units import digits_down
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import fragility
-from test_study_read import given, write
 
 LEVELS = np.array([0.5, 1.0, 1.5, 2.0])
 

@@ -11,6 +11,7 @@ import defusedxml.ElementTree
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from test_study_read import at, given, problems, write
 
 import printed
 from report.cli.main import main
@@ -27,7 +28,6 @@ from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread
 from studied import motion
-from test_study_read import at, given, problems, write
 
 
 def like(number, factor):

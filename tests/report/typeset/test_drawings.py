@@ -71,7 +71,7 @@ def ahead(html):
 
 
 def blank(kind):
-    return kind({}, (0.0, 0.0, 192.0, 96.0), drawings._no_resources(), {}, None, {}, None)
+    return kind({}, (0.0, 0.0, 192.0, 96.0), drawings.no_resources(), {}, None, {}, None)
 
 
 def tree(stream):
@@ -103,15 +103,15 @@ def placed(tile):
 def test_operators_groups_hatches_and_glyphs_are_those_of_the_renderer(source):
     from weasyprint.pdf.stream import Stream
 
-    fonts = drawings._fonts(CSS)
-    data = drawings._svg(source)
-    size = drawings._size_px(data)
+    fonts = drawings.fonts_of(CSS)
+    data = drawings.svg_of(source)
+    size = drawings.size_px(data)
     direct, replayed = blank(Stream), blank(Stream)
-    drawings._draw(data, source, fonts, direct, *size)
+    drawings.draw(data, source, fonts, direct, *size)
     picture = convert([source], CSS)[source]
     for face in picture.faces:
-        drawings._use(replayed, face, fonts)
-    drawings._replay(replayed, picture.drawing)
+        drawings.use(replayed, face, fonts)
+    drawings.replay(replayed, picture.drawing)
     assert tree(replayed) == tree(direct)
 
 

@@ -16,7 +16,7 @@ from report.web import receiving
 from report.web.access import Gate
 from report.web.app import made
 from report.web.sessions import Sessions
-from report.web.worker import _answered
+from report.web.worker import answered
 from sheets import at, type_into
 
 TOKEN = "a-token-of-this-server"
@@ -201,7 +201,7 @@ def test_a_full_disk_is_said_to_a_visitor_who_comes(tmp_path):
 def test_a_full_disk_is_said_where_another_process_writes(client, sessions, monkeypatch):
     async def ask(_, job, *__):
         Path(job["to"]).write_bytes(b"half")
-        return json.loads(_answered(full, "{}"))
+        return json.loads(answered(full, "{}"))
 
     monkeypatch.setattr("report.web.workers.Workers.ask", ask)
     answer = client.post("/api/workbook", json={"values": {}})
@@ -319,6 +319,7 @@ def test_a_package_of_a_workbook_that_is_no_longer_open_is_not_begun(client, mon
     assert answer.json()["error"].startswith("Another workbook was opened meanwhile")
 
 
+@pytest.mark.nightly("report/web/workers.py")
 def test_a_process_that_is_killed_is_replaced(client, served):
     import os
     import signal

@@ -3,6 +3,7 @@
 import asyncio
 import errno
 import sys
+from asyncio.subprocess import PIPE
 from pathlib import Path
 
 import pytest
@@ -13,24 +14,26 @@ from report.web.sessions import Session
 from solver.model import InputError
 
 
-def test_a_package_that_is_canceled_while_its_process_starts_leaves_no_process(monkeypatch):
-    start = asyncio.create_subprocess_exec
+async def waiting(code):
+    """Start a process that runs some Python in place of a package."""
+    return await asyncio.create_subprocess_exec(
+        sys.executable, "-I", "-S", "-c", code, stdout=PIPE, start_new_session=True
+    )
+
+
+def test_a_package_that_is_canceled_while_its_process_starts_leaves_no_process():
     started = []
 
+    async def slow(package):
+        await packages.cancel(package)
+        started.append(await waiting("import time; time.sleep(60)"))
+        return started[0]
+
+    packages = Packages(slow)
+
     async def run():
-        packages = Packages()
         session = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
         package = packages.begin(session, Path("/nowhere/p/input.xlsx"), {})
-
-        async def slow(*_, **options):
-            await packages.cancel(package)
-            options.pop("env")
-            started.append(
-                await start(sys.executable, "-c", "import time; time.sleep(60)", **options)
-            )
-            return started[0]
-
-        monkeypatch.setattr("asyncio.create_subprocess_exec", slow)
         async with asyncio.timeout(20.0):
             while package.state is State.QUEUED or not started:
                 await asyncio.sleep(0.01)
@@ -66,18 +69,19 @@ def test_a_full_disk_is_the_reason_that_a_package_failed(fails, capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_the_last_five_packages_of_a_session_are_kept(monkeypatch):
-    async def made(_, package):
-        package.state = State.DONE
+def test_the_last_five_packages_of_a_session_are_kept():
+    async def at_once(package):
+        return await waiting("""print('{"stage": "done"}')""")
 
     async def run():
-        packages = Packages()
+        packages = Packages(at_once)
         session = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
         found = []
         for k in range(7):
             found.append(packages.begin(session, Path(f"/nowhere/{k}/input.xlsx"), {}))
-            await asyncio.sleep(0)
+            while not found[-1].state.is_over:
+                await asyncio.sleep(0.01)
+        assert {one.state for one in found} == {State.DONE}
         return [packages.find(session, one.ticket) is not None for one in found]
 
-    monkeypatch.setattr(Packages, "_make", made)
     assert asyncio.run(run()) == [False] * 2 + [True] * 5

@@ -541,6 +541,7 @@ def test_in_print_a_run_is_named_and_no_control_is_left(page, run):
 
 
 @pytest.mark.parametrize("wide", [411, 590, 760])
+@pytest.mark.by_day(1)
 def test_nothing_of_a_view_is_cut_off_in_any_width_of_the_page(page, run, assessment, wide):
     for view, data in (
         ("slide", run),

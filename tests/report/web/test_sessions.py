@@ -34,10 +34,9 @@ def test_the_folder_of_a_session_does_not_tell_its_name(tmp_path):
     assert session.folder.stat().st_mode & 0o077 == 0
 
 
-def test_where_there_are_too_many_the_one_unused_for_longest_ends(tmp_path, monkeypatch):
-    monkeypatch.setattr(sessions, "MOST", 2)
+def test_where_there_are_too_many_the_one_unused_for_longest_ends(tmp_path):
     clock = Clock()
-    all_ = Sessions(tmp_path, clock)
+    all_ = Sessions(tmp_path, clock, most=2)
     first, second = all_.begin(), all_.begin()
     clock.now = 1.0
     all_.find(first.id)

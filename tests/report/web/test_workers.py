@@ -5,9 +5,6 @@ import json
 import sys
 from asyncio.subprocess import PIPE
 
-import pytest
-
-from report.web import workers
 from report.web.workers import LostError, Place, Rank, StaleError, Workers
 
 # Answers with the job itself, after the seconds that it says; ends where it says so.
@@ -22,25 +19,18 @@ for line in sys.stdin:
 """
 
 
-@pytest.fixture(autouse=True)
-def echoing(monkeypatch):
-    """Processes that load nothing."""
-
-    async def started(self, is_quick):
-        process = await asyncio.create_subprocess_exec(
-            sys.executable, "-I", "-S", "-c", ECHO, stdin=PIPE, stdout=PIPE
-        )
-        self._processes.add(process)
-        return process
-
-    monkeypatch.setattr(Workers, "_started", started)
+async def echoing(is_quick):
+    """Start a process that loads nothing."""
+    return await asyncio.create_subprocess_exec(
+        sys.executable, "-I", "-S", "-c", ECHO, stdin=PIPE, stdout=PIPE
+    )
 
 
-def done(number, script):
+def done(number, script, **options):
     """Run a script with so many processes, which are all ended after it."""
 
     async def run():
-        pool = Workers(number)
+        pool = Workers(number, echoing, **options)
         pool.start({})
         try:
             return await asyncio.wait_for(script(pool), 60.0)
@@ -72,14 +62,14 @@ class Answering:
         pass
 
 
-def test_an_answer_that_comes_with_the_end_does_not_keep_the_processes(monkeypatch):
+def test_an_answer_that_comes_with_the_end_does_not_keep_the_processes():
     async def run():
-        process, pool = Answering(), Workers(1)
+        process = Answering()
 
-        async def started(self, is_quick):
+        async def start(is_quick):
             return process
 
-        monkeypatch.setattr(Workers, "_started", started)
+        pool = Workers(1, start)
         pool.start({})
         await asyncio.sleep(0.1)
         process.stdout.feed_data(b"{}\n")
@@ -145,7 +135,7 @@ def test_quick_jobs_go_first_and_equal_ones_in_order():
 
 def test_the_process_kept_free_starts_once_another_has_its_first_answer():
     async def run():
-        pool = Workers(2)
+        pool = Workers(2, echoing)
         pool.start({"seconds": 0.5})
         try:
             await asyncio.sleep(0.2)
@@ -181,14 +171,12 @@ def test_a_job_whose_process_ends_is_tried_once_more_and_then_lost():
     assert (again, left) == ("after it", set())
 
 
-def test_a_job_that_takes_too_long_is_stopped_and_says_so(monkeypatch):
-    monkeypatch.setattr(workers, "LONGEST_S", 0.3)
-
+def test_a_job_that_takes_too_long_is_stopped_and_says_so():
     async def script(pool):
         lost = await asyncio.gather(ask(pool, "slow", seconds=30), return_exceptions=True)
         return lost[0], (await ask(pool, "quick", number=2))["name"]
 
-    lost, quick = done(1, script)
+    lost, quick = done(1, script, longest_s=0.3)
     assert str(lost) == "This took longer than 0 s and was stopped."
     assert quick == "quick"
 

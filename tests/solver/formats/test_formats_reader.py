@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from test_formats import HELD
 
 from places import DATA, ROOT
 from solver.formats import MotionFile, read_motion_file, read_record
@@ -24,28 +25,8 @@ RECORDS = ROOT.parent / "shared" / "records"
 SAMPLES = DATA / "motions"
 BARE = {"units": "gal", "dt_s": 0.005}
 
-FORMATS = {
-    "columns.csv": "text",
-    "cosmos.v1c": "COSMOS V1.20",
-    "cosmos.v2c": "COSMOS V1.20",
-    "csmip-even.raw": "CSMIP V1",
-    "csmip-new.v2": "CSMIP V2",
-    "csmip-old.v2": "CSMIP V2",
-    "csmip-pairs.v1": "CSMIP V1",
-    "geonet.v1a": "GeoNet V1A",
-    "geonet.v2a": "GeoNet V2A",
-    "kiknet.ew1": "KiK-net",
-    "knet.ns": "K-NET",
-    "one.txt": "text",
-    "peer-nga.at2": "PEER AT2",
-    "peer-old.at2": "PEER AT2",
-    "remark.csv": "text",
-    "renadic.v1": "RENADIC V1",
-    "smc-corrected.smc": "USGS SMC",
-    "smc-even.smc": "USGS SMC",
-    "smc-uneven.smc": "USGS SMC",
-    "uneven.txt": "text",
-}
+TEXTS = ("columns.csv", "one.txt", "remark.csv", "uneven.txt")
+FORMATS = dict.fromkeys(TEXTS, "text") | {name: held.format for name, held in HELD.items()}
 
 
 def manifest() -> list[Any]:

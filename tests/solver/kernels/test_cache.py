@@ -66,6 +66,7 @@ def test_an_install_that_cannot_be_written_keeps_its_cache_elsewhere(copied, tmp
     assert (folder / "__pycache__").is_file()
 
 
+@pytest.mark.nightly("solver/kernels/cache.py")
 def test_without_any_folder_for_its_cache_a_run_goes_on_and_says_how_to_keep_it(copied, tmp_path):
     folder, run = copied
     (folder / "__pycache__").write_text("a file where the folder would be: nothing can be written")
@@ -75,6 +76,7 @@ def test_without_any_folder_for_its_cache_a_run_goes_on_and_says_how_to_keep_it(
     assert run() == 1.0
 
 
+@pytest.mark.nightly("solver/kernels/cache.py")
 def test_on_a_full_disk_a_run_goes_on_and_says_how_to_keep_its_cache(copied):
     _, run = copied
     full = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))}

@@ -213,6 +213,7 @@ def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
     assert (seen.stretch_m, seen.n_stops) == (result.stretch_m, result.n_stops)
 
 
+@pytest.mark.nightly("solver/kernels/row.py")
 def test_blocks_that_mirror_each_other_without_a_slope_stop_and_slip_together():
     """Every event of one end is one of the other at the same time."""
     block = scene(shaking(6, 1.0), slope=0.0)

@@ -208,6 +208,7 @@ TRAPS = {
 @pytest.mark.parametrize("name", TRAPS)
 @pytest.mark.parametrize("mu", [0.2, 2.0 / G])
 @pytest.mark.by_day(5)
+@pytest.mark.by_day(2)
 def test_traps_are_followed_as_scipy_follows_them(name, mu):
     ax, ay = TRAPS[name]
     exact = plane_oracle.slide(ax, ay, 0.05, slope_rad=0.0, mu=mu, g=G)
@@ -255,6 +256,7 @@ def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
         ("20161113_110300_HSES_20.V2A", 7.0, 0.5, 3.0),
     ],
 )
+@pytest.mark.by_day(1)
 def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
     if not (RECORDS / name).is_file():
         pytest.skip("the real records are not here; noise covers the same code")

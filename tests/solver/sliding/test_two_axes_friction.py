@@ -70,8 +70,9 @@ def test_as_the_difference_vanishes_it_is_coulombs_friction(transverse, sign):
 
 # SciPy's steps are short where friction grows: ten times those of the others.
 @pytest.mark.parametrize(
-    "friction", [pytest.param(GROWING, marks=pytest.mark.nightly), FALLING, HELD, BOTH]
+    "friction", [pytest.param(GROWING, marks=pytest.mark.nightly), BOTH, FALLING, HELD]
 )
+@pytest.mark.by_day(1)
 def test_it_is_as_scipy_follows_it(friction):
     ax, ay, az = shaking(12, n=45, dt=0.04, peak=5.0)
     block = scene(ax, ay, 0.04, degrees=2.0, friction=friction, az=az)
@@ -157,6 +158,7 @@ def nearly_stops(seed):
 # At the step of tolerance 1e-3 the PRDs were 16.421 and 11.346 m.
 @pytest.mark.parametrize(("seed", "rough_m"), [(16174, 16.421), (3889, 11.346)])
 @pytest.mark.by_day(1)
+@pytest.mark.nightly("solver/kernels/two_axes.py")
 def test_a_rough_tolerance_does_not_decide_whether_a_block_stops(seed, rough_m):
     block = nearly_stops(seed)
     theirs = plane_oracle.slide(

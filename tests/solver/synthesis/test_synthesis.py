@@ -61,7 +61,7 @@ def counts(record: Record) -> list[int]:
 @pytest.fixture(
     scope="module",
     params=[
-        pytest.param(range(3), id="three"),
+        pytest.param(range(2), id="two"),
         pytest.param(range(10), id="ten", marks=pytest.mark.nightly),
     ],
 )
@@ -84,11 +84,12 @@ class TestSuite:
             assert fit.greatest <= 1.30
             assert 1.0 <= fit.mean <= 1.07
 
+    @pytest.mark.parametrize("grids", [10, pytest.param(100, marks=pytest.mark.nightly)])
     def test_no_point_of_a_sixth_of_an_octave_is_below_the_target_wherever_the_first_lies(
-        self, components: Any
+        self, components: Any, grids: int
     ) -> None:
-        # 100 grids; another routine finds the same.
-        shift = np.arange(100) / 600.0
+        # Another routine finds the same.
+        shift = np.arange(grids) / (6.0 * grids)
         freq_hz = 1.3 * 2.0 ** (np.arange(-22, 28) / 6.0 + shift[:, None]).ravel()
         for record, wanted in components[:6]:
             ratio = psa_over(record, wanted, freq_hz)
@@ -167,8 +168,8 @@ class TestSuite:
 
     @pytest.mark.nightly
     def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites: Any) -> None:
-        again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=2)
-        for component, other in zip(again[0].components, suites[2].components, strict=True):
+        again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=1)
+        for component, other in zip(again[0].components, suites[1].components, strict=True):
             assert np.array_equal(component.a_mps2, other.a_mps2)
         names = [record.name for record in again[1].components]
         assert names == ["motion-02-x", "motion-02-y", "motion-02-z"]

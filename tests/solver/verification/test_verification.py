@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import oracle
+import verified
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
 from solver.verification import checks, crosschecks, paper_studies, plane_scipy, reference
 from solver.verification.evidence import DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
-from solver.verification.run import verify
 from solver.verification.scenes import near_fault_pulse, own_records, scale_to, shortened
 
 pytestmark = pytest.mark.skipif(
@@ -22,9 +22,9 @@ pytestmark = pytest.mark.skipif(
 
 
 @pytest.fixture(scope="module")
-def verified():
-    stages = []
-    return verify([], quick=True, progress=stages.append), stages
+def verification(tmp_path_factory):
+    """That of the command, which counts the steps that it reports."""
+    return verified.verified(tmp_path_factory).verification
 
 
 @pytest.fixture(scope="module")
@@ -32,12 +32,10 @@ def pulse():
     return near_fault_pulse()
 
 
-def test_a_quick_verification_passes_and_fills_every_part(verified):
-    verification, stages = verified
+def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.passed
     assert verification.quick
     assert verification.records == ("motion-01-x", "near-fault-pulse")
-    assert len(stages) == 11
     for name in (
         "checks",
         "work",
@@ -56,8 +54,8 @@ def test_a_quick_verification_passes_and_fills_every_part(verified):
     ]
 
 
-def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(verified):
-    rows = verified[0].checks
+def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(verification):
+    rows = verification.checks
     assert {row.section for row in rows} == {
         "Closed forms",
         "Physical checks of the paper",
@@ -74,19 +72,21 @@ def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(veri
     assert len({(row.problem, row.quantity) for row in digits}) == len(digits)
 
 
-def test_every_check_that_a_feature_names_ran_and_passed_and_every_check_belongs_to_one(verified):
-    ran = {row.id for row in verified[0].checks}
+def test_every_check_that_a_feature_names_ran_and_passed_and_every_check_belongs_to_one(
+    verification,
+):
+    ran = {row.id for row in verification.checks}
     named = {id for feature in FEATURES for id in feature.checks}
     extra = {id for feature in FEATURES for id in feature.extra}
     assert named <= ran
     assert ran <= named | extra
     assert extra <= ran or not plane_scipy.is_installed()
-    for status in statuses(verified[0].checks, ()):
+    for status in statuses(verification.checks, ()):
         assert status.is_verified == bool(status.feature.checks), status
 
 
-def test_no_two_rows_are_alike(verified):
-    names = [(row.section, row.problem, row.quantity) for row in verified[0].checks]
+def test_no_two_rows_are_alike(verification):
+    names = [(row.section, row.problem, row.quantity) for row in verification.checks]
     assert len(set(names)) == len(names)
 
 
@@ -155,8 +155,8 @@ def test_errors_in_percent_have_a_floor_of_a_millimetre():
 # The paper's figures
 
 
-def test_the_papers_method_converges_at_first_order_under_an_envelope(verified):
-    for study in verified[0].convergence:
+def test_the_papers_method_converges_at_first_order_under_an_envelope(verification):
+    for study in verification.convergence:
         assert study.scenarios == 60
         assert study.substeps == (1, 2, 4, 8, 16, 32, 64, 128, 256)
         error = study.largest_error_exact_percent
@@ -170,13 +170,13 @@ def test_the_papers_method_converges_at_first_order_under_an_envelope(verified):
         assert (study.longest_seconds > 0.0).all()
 
 
-def test_a_single_pulse_has_errors_like_the_papers_own(verified):
-    pulse = verified[0].convergence[1]
+def test_a_single_pulse_has_errors_like_the_papers_own(verification):
+    pulse = verification.convergence[1]
     assert 0.01 < pulse.largest_error_exact_percent[6] < 1.0  # 0.48 % in the paper
 
 
-def test_the_link_differs_by_about_as_much_as_in_the_paper(verified):
-    for link in verified[0].links:
+def test_the_link_differs_by_about_as_much_as_in_the_paper(verification):
+    for link in verification.links:
         assert len(link.mus) == (10 if link.slope_deg == 0.0 else 6)
         assert link.mean_percent < link.worst_percent < 15.0  # 6.78 and 1.69 % in the paper
         assert link.history_mu in link.mus
@@ -186,8 +186,8 @@ def test_the_link_differs_by_about_as_much_as_in_the_paper(verified):
         assert (link.prd_exact_m >= link.rrd_exact_m - 1e-15).all()
 
 
-def test_design_curves_are_the_papers_6960_runs(verified):
-    curves = verified[0].curves[0]
+def test_design_curves_are_the_papers_6960_runs(verification):
+    curves = verification.curves[0]
     assert curves.runs == 6960
     assert curves.prd_m.shape == (15, 15, 16)
     record = own_records(True)[0]

@@ -1,0 +1,527 @@
+"""One table of files: what each holds, what may be written otherwise, and each fault by its line.
+
+Oracle: the wave that the samples were made of, typed again here; units by their definition.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+
+from places import SAMPLES
+from solver.formats import read_motion_file
+from solver.model import InputError
+
+G = 9.80665
+# fmt: off
+WAVE = np.array([0.25, -1.5, 12.125, -34.5, 98, -123.456, 77.125, -45.25, 30.5, -20, 15.75, -9.5,
+                 6.25, -4, 2.5, -1.25, 0.75, -0.5, 0.25, -0.125, 0])
+SMC_WAVE = np.where(WAVE == -123.456, -123.46, WAVE)
+COUNTS = np.round(200 * WAVE[:20]), np.round(100 * WAVE[:20])
+PEER = np.array([0.001, -0.0025, 0.125, 0.25, -0.5, 0.0625, -0.03125])
+UNEVEN_S = [0, 0.012, 0.02, 0.033, 0.04, 0.052, 0.06, 0.071, 0.08, 0.092, 0.1, 0.111, 0.12]
+UNEVEN = np.interp(np.arange(121) * 0.001, UNEVEN_S,
+                   [0, 1.25, -2.5, 4, -6.125, 7.5, -5.25, 3.5, -2, 1, -0.5, 0.25, 0])
+# fmt: on
+ROOF = "Location: Roof"
+OTHERS = ", the file has 1: the others are in other files, or the file is truncated"
+RESAMPLED = (
+    "times are uneven, steps of 0.007 to 0.013 s: resampled at 0.001 s by linear interpolation,"
+    " which changes no sample"
+)
+OFFSET = "uncorrected: the mean is {}; it is not removed"
+
+
+@dataclass(frozen=True)
+class Held:
+    """What a file holds: channels with their samples [m/s2], to an absolute or relative error."""
+
+    format: str
+    dt_s: float
+    channels: dict[str, np.ndarray]
+    error: dict[str, float]
+    notes: tuple[str, ...] = ()
+
+
+EXACT = {"rel": 1e-14}
+HELD = {
+    "cosmos.v1c": Held(
+        "COSMOS V1.20",
+        0.01,
+        {
+            f"Sta Chan 1: 360 deg (Rcrdr Chan 1) {ROOF}": WAVE / 1000 * G,
+            f"Sta Chan 2: Up (Rcrdr Chan 2) {ROOF}": WAVE / 2000 * G,
+        },
+        {"abs": 1.01e-5 * G},
+    ),
+    # Milliseconds of the series, not the step of the record it was made of.
+    "cosmos.v2c": Held(
+        "COSMOS V1.20",
+        0.0078125,
+        {f"Sta Chan 1: 360 deg (Rcrdr Chan 1) {ROOF}": WAVE / 100},
+        EXACT,
+        (f"line 7 states 2 channels of the recorder{OTHERS}",),
+    ),
+    "csmip-even.raw": Held(
+        "CSMIP V1",
+        0.005,
+        {"Chan 1: 360 Deg": WAVE / 1000 * G, "Chan 2: Up": WAVE / 2000 * G},
+        {"abs": 0.51e-6 * G},
+    ),
+    # Touching fields are cut, and the step has all digits.
+    "csmip-new.v2": Held(
+        "CSMIP V2",
+        1 / 128,
+        {"Chan 1: 90 deg": 1.5 * WAVE / 100},
+        EXACT,
+        (f"line 6 states 2 channels of the recorder{OTHERS}",),
+    ),
+    "csmip-old.v2": Held(
+        "CSMIP V2",
+        0.005,
+        {
+            f"CHAN 1: 360 DEG (STA CHN: 1) {ROOF.upper()}, NORTH WALL": WAVE / 100,
+            f"CHAN 2: UP (STA CHN: 2) {ROOF.upper()}, NORTH WALL": -WAVE / 200,
+        },
+        {"abs": 0.51e-5},
+    ),
+    "csmip-pairs.v1": Held(
+        "CSMIP V1",
+        0.001,
+        {"CHAN 1: 90 DEG (STA CHN: 1)": UNEVEN * G / 10},
+        {"abs": 1e-12},
+        (
+            f"line 5 states 3 channels of the recorder{OTHERS}",
+            RESAMPLED,
+            OFFSET.format("0.0123 g, 1.6 % of the peak"),
+        ),
+    ),
+    # Uncorrected readings keep their offset, which the first component has.
+    "geonet.v1a": Held(
+        "GeoNet V1A",
+        0.005,
+        {
+            "Component N28W": WAVE / 100 - 0.006,
+            "Component S62W": WAVE / 200,
+            "Component Up": WAVE / 400,
+        },
+        {"abs": 1.01e-4},
+    ),
+    "geonet.v2a": Held(
+        "GeoNet V2A",
+        0.02,
+        {
+            "Component N28W Longitudinal Accelerometer Axis": WAVE / 100,
+            "Component S62W Transverse Accelerometer Axis": WAVE / 200,
+            "Component Up Vertical Accelerometer Axis": WAVE / 400,
+        },
+        {"abs": 1.01e-4},
+    ),
+    # Counts are scaled and their offset is kept.
+    "kiknet.ew1": Held(
+        "KiK-net",
+        0.005,
+        {"EW1": (-2471 + COUNTS[1]) * 2000 / 8388608 / 100},
+        EXACT,
+        (
+            OFFSET.format("-0.000597 g, 17 % of the peak"),
+            "the sensor is in the borehole, not at the surface",
+        ),
+    ),
+    "knet.ns": Held(
+        "K-NET",
+        0.01,
+        {"N-S": (13186 + COUNTS[0]) * 3920 / 6182761 / 100},
+        EXACT,
+        (OFFSET.format("0.00855 g, 40 % of the peak"),),
+    ),
+    "peer-nga.at2": Held("PEER AT2", 0.005, {"180": PEER * G}, {"abs": 0.0}),
+    "peer-old.at2": Held("PEER AT2", 0.005, {"180": PEER * G}, {"abs": 0.0}),
+    "renadic.v1": Held(
+        "RENADIC V1",
+        0.005,
+        {
+            "CHAN 1: L (STA CHN: 1)": WAVE / 100 * G,
+            "CHAN 2: V (STA CHN: 2)": WAVE / 200 * G,
+            "CHAN 3: T (STA CHN: 3)": WAVE / 400 * G,
+        },
+        {"abs": 0.51e-4 * G},
+    ),
+    "smc-corrected.smc": Held("USGS SMC", 0.005, {"up": SMC_WAVE / 100}, EXACT),
+    "smc-even.smc": Held(
+        "USGS SMC",
+        0.01,
+        {"90": (0.25 * SMC_WAVE + 1.0) / 100},
+        {"abs": 1.01e-5},
+        (OFFSET.format("0.00106 g, 3.5 % of the peak"),),
+    ),
+    # Pairs with a short line.
+    "smc-uneven.smc": Held(
+        "USGS SMC",
+        0.001,
+        {"45": UNEVEN / 10},
+        {"abs": 1e-13},
+        (RESAMPLED, OFFSET.format("0.00126 g, 1.6 % of the peak")),
+    ),
+}
+
+
+def problems_of(path: Any, **how: Any) -> tuple[str, ...]:
+    with pytest.raises(InputError) as caught:
+        read_motion_file(path, **how)
+    return caught.value.problems
+
+
+@pytest.mark.parametrize("name", HELD)
+def test_a_file_gives_its_channels_step_samples_and_notes(name: str) -> None:
+    held, motion_file = HELD[name], read_motion_file(SAMPLES / name)
+    assert motion_file.format == held.format
+    assert motion_file.notes == held.notes
+    assert [record.name for record in motion_file.channels] == list(held.channels)
+    for record in motion_file.channels:
+        assert record.dt_s == held.dt_s
+        assert record.a_mps2 == pytest.approx(held.channels[record.name], **held.error)
+
+
+def test_the_first_channel_of_some_files_is_known_better() -> None:
+    for name, error in (("cosmos.v1c", {"abs": 0.51e-5 * G}), ("csmip-old.v2", EXACT)):
+        record = read_motion_file(SAMPLES / name).channels[0]
+        assert record.a_mps2 == pytest.approx(HELD[name].channels[record.name], **error)
+
+
+# What stays as it is where a heading is written otherwise: a factor of the samples, and notes
+# that come with it.
+READ_OTHERWISE = [
+    # Units are named, coded or both; the peak of the real heading is in the unit of the values.
+    ("cosmos.v2c", [("cm/sec2(04)", "cm/s^2 (4)")], 1.0, ()),
+    ("cosmos.v2c", [("cm/sec2(04)", "cm/s^2")], 1.0, ()),
+    ("cosmos.v2c", [("cm/sec2(04)", "gal (10)")], 1.0, ()),
+    ("cosmos.v2c", [("cm/sec2(04)", "(04)")], 1.0, ()),
+    ("cosmos.v2c", [("cm/sec2(04)", "in/sec2(07)")], 2.54, ()),
+    ("cosmos.v2c", [("cm/sec2(04)", "mg(11)")], G / 10, ()),
+    ("cosmos.v2c", [("(1E15.6)", "(1F15.6E)")], 1.0, ()),
+    ("cosmos.v2c", [("End-of-data for Chan  1 acceleration", "")], 1.0,
+     ("no end-of-data line follows the values: the file may be truncated",)),
+    ("knet.ns", [("Max. Acc. (gal)   ", "Max Acc. (gal)    ")], 1.0, ()),
+    ("smc-uneven.smc", [("        26    -32768", "        13    -32768")], 1.0, ()),
+    ("smc-corrected.smc", [("        21    -32768", "        21         1")], 1.0,
+     ("the heading flags a problem with this record: read its comments",)),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "changes", "factor", "more"), READ_OTHERWISE)
+def test_what_is_written_otherwise_holds_the_same(
+    altered: Any, name: str, changes: list[tuple[str, str]], factor: float, more: tuple[str, ...]
+) -> None:
+    held, motion_file = HELD[name], read_motion_file(altered(name, *changes))
+    assert motion_file.notes == held.notes + more
+    for record in motion_file.channels:
+        expected = factor * held.channels[record.name]
+        assert record.a_mps2 == pytest.approx(expected, **held.error)
+
+
+def test_readings_in_another_unit_than_one_are_scaled(altered: Any) -> None:
+    path = altered("geonet.v1a", ("units of 1.00 mm/s/s", "units of 0.80 mm/s/s"))
+    expected = 0.8 * HELD["geonet.v1a"].channels["Component N28W"]
+    assert read_motion_file(path).channel("1").a_mps2 == pytest.approx(expected, abs=1.01e-4)
+
+
+def test_a_sensor_at_the_surface_needs_no_note(altered: Any) -> None:
+    motion_file = read_motion_file(
+        altered("kiknet.ew1", ("Dir.              2", "Dir.              6"))
+    )
+    assert motion_file.channel().name == "UD2"
+    assert len(motion_file.notes) == 1
+
+
+FAULTS = [
+    ("cosmos.v2c", [("1.212500e+01", "********")], ":52: found '********', a number too large for"),
+    ("cosmos.v2c", [("1.212500e+01", "twelve")], ":52: found 'twelve'; give a number"),
+    ("cosmos.v2c", [("   21 accel", "   22 accel")], ":49: states 22 values, found 21; give the"),
+    ("cosmos.v2c", [("   21 accel", "   20 accel")], ":49: states 20 values, found more in line"),
+    ("cosmos.v2c", [("(1E15.6)", "(free)")], ":49: found format (free); give one as (8F10.3)"),
+    ("cosmos.v2c", [("cm/sec2(04)", "counts(50)")], ":49: found unit 'counts', code 50; give a f"),
+    ("cosmos.v2c", [("cm/sec2(04)", "counts")], ":49: found unit 'counts'; give an acceleration"),
+    ("cosmos.v2c", [("cm/sec2(04)", "g(04)")], ":49: found unit 'g' with code 4, which is cm/s2;"),
+    ("cosmos.v2c", [("approx  0 secs", "approx  9 secs")], ":49: states about 9 s, count times st"),
+    ("cosmos.v2c", [("Real-header", "Some")], ":1: found no block ... Real-header values follow"),
+    ("cosmos.v2c", [("-123.456000", "-923.456000")], ":38: the header states a peak of 0.9417 g,"),
+    ("cosmos.v2c", [("Corrected accel", "Raw accel")], ":1: found raw counts; give a file of unc"),
+    ("cosmos.v2c", [("       7.812500", "       0.000000"), ("       0.005000", "       0.000000")],
+     ":26: found no time step; give dt"),
+    ("cosmos.v2c", [("21 acceleration pts", "21 velocity pts")],
+     ": found no acceleration in this COSMOS V1.20 file; give a file of acceleration"),
+    ("csmip-old.v2", [("    98.000", "  ********")], ":47: found '********', a number too large"),
+    ("csmip-old.v2", [("    98.000", "    wide  ")], ":47: found 'wide'; give a number"),
+    ("csmip-old.v2", [("    98.000", "    98,000")], ":47: found '98,000'; give a number with a d"),
+    ("csmip-old.v2", [("  -45.250\r\n", "  -45.250   1.0000\r\n")], ":47: found 9 values; give 8"),
+    ("csmip-old.v2", [("  -45.250\r\n", "\r\n")], ":47: found 7 values; give 8"),
+    ("csmip-old.v2", [("   21 POINTS OF ACCEL", "   22 POINTS OF ACCEL")], ":46: states 22 values"),
+    ("csmip-old.v2", [("   21 POINTS OF ACCEL", "   31 POINTS OF ACCEL")], ":46: states 31 values"),
+    ("csmip-old.v2", [("   21 POINTS OF ACCEL", "   16 POINTS OF ACCEL")], ":46: states 16 values"),
+    ("csmip-old.v2", [(" 21 POINTS OF ACCEL", " xx POINTS OF ACCEL")], ":1: found no line ... POI"),
+    ("csmip-old.v2", [("  .005 SEC.  (UNITS: CM/SEC/", "  .005 SEC.  (UNITS: CM/")],
+     ":46: found unit 'CM"),
+    ("csmip-old.v2", [("(UNITS: CM/SEC/SEC)", "in cm/sec2. (free)")], ":46: found format (free); "),
+    ("csmip-old.v2", [("AT  .005 SEC.", "AT  .050 SEC.")], ":46: found a step of 0.05 s and one o"),
+    ("csmip-old.v2", [("  -123.456    CM", "  -923.456    CM")], ":18: the header states a peak o"),
+    ("csmip-new.v2", [("  .0078125", "      .008"), ("  .1640625", "  .2640625")],
+     ":38: the heading states 0.264062 s, the record lasts 0.168 s; give dt"),
+    ("renadic.v1", [("=     21", "=     26")], ":11: states 52 values, found 42; give the"),
+    ("renadic.v1", [("=     21", "=     20")], ":11: states 40 values, found more in line"),
+    ("renadic.v1", [("=     21", "=      1")], ":11: states 2 values, found 10; correct the c"),
+    ("csmip-pairs.v1", [("=     13", "=      1")], ":11: states 2 values, found 10; correct t"),
+    ("csmip-pairs.v1", [("=     13", "=      0")], ":11: states 0 values; give at least 2"),
+    ("renadic.v1", [("NO. OF POINTS", "NO. OF THINGS")], ":1: found no line NO. OF POINTS"),
+    ("renadic.v1", [("ARE SEC AND G/10", "ARE UNKNOWN")], ":1: found no line UNITS OF UNCOR"),
+    ("renadic.v1", [("AND G/10.", "AND VOLT.")], ":12: found unit 'VOLT'; give an acceler"),
+    ("renadic.v1", [("100.010  1.212", "100.010*******")], ":28: found '*******', a number"),
+    ("renadic.v1", [("100.010  1.212", "100.000  1.212")], ":28: found time 100 s after 100"),
+    ("csmip-even.raw", [("at 200 pts/sec", "at 0 pts/sec")], ":28: found 0 points per second"),
+    ("csmip-even.raw", [("(8f9.6)", "(free)")], ":28: found 200 points per second in format"),
+    ("csmip-even.raw", [("units of g .", "units of v .")], ":28: found unit 'v'; give an"),
+    ("csmip-even.raw", [("   21 Acc", "   25 Acc")], ":28: states 25 values, found 21; g"),
+    ("geonet.v2a", [("   121.2", "  121,2 ")], ":27: found '121,2'; give a number with a decimal"),
+    ("geonet.v2a", [("   121.2", "********")], ":27: found '********', a number too large for its"),
+    ("geonet.v2a", [(" at 0.020 sec inter", " at 0.010 sec inter")], ":11: found a step of 0.01 s"),
+    ("geonet.v2a", [("mm/s/s at", "mm/s at")], ":14: found unit 'mm/s'; give an acceleration in g"),
+    ("geonet.v2a", [("Acceleration:", "Accel:")], ":14: found no line Acceleration: peak ... mm/s"),
+    ("geonet.v2a", [("  0.0000 -1234.6", "  0.0000 -9234.6")], ":24: the header states a peak of"),
+    ("knet.ns", [("   15611", "   1561x")], ":18: found '1561x'; give a number"),
+    ("knet.ns", [("Duration Time(s)  0.2", "Duration Time(s)  0.3")], ":12: states 30 values, fou"),
+    ("knet.ns", [("Duration Time(s)  0.2", "Duration Time(s)  0.1")], ":12: states 10 values, fou"),
+    ("knet.ns", [("100Hz", "0Hz")], ":11: found '0Hz'; give a number above 0"),
+    ("knet.ns", [("100Hz", "unknown")], ":11: found 'unknown'; give a number above 0"),
+    ("knet.ns", [("3920(gal)/6182761", "3920/6182761")], ":14: found '3920/6182761'; give a scale"),
+    ("knet.ns", [("3920(gal)/6182761", "3920(gal)/0")], ":14: found '3920(gal)/0'; give a scale a"),
+    ("knet.ns", [("(gal)/61", "(kin)/61")], ":14: found unit 'kin'; give an acceleration in g, m/"),
+    ("knet.ns", [("6182761", "618276")], ":15: the header states a peak of 0.01599 g, the values"),
+    ("knet.ns", [("Memo.", "Remark")], ": found no line Memo.; give the whole heading"),
+    ("knet.ns", [("Dir.", "Direct")], ": found no line Dir.; give the whole heading"),
+    ("smc-corrected.smc", [(" 1.2125E+1", " *********")], ":30: found '*********', a nu"),
+    ("smc-corrected.smc", [(" 1.2125E+1", " 1.21x5E+1")], ":30: found '1.21x5E+1'; give a num"),
+    ("smc-corrected.smc", [("        21  ", "        22  ")], ":14: states 22 values, f"),
+    ("smc-corrected.smc", [("        21  ", "        16  ")], ":14: states 16 values, f"),
+    ("smc-corrected.smc", [("        21  ", "    -32768  ")], ":14: found no number of values"),
+    ("smc-corrected.smc", [("         2\r", "    -32768\r")], ":13: found no number of li"),
+    ("smc-corrected.smc", [("         2\r", "         3\r")], ":30: found a line without | am"),
+    ("smc-corrected.smc", [("-0.1234600E+03", "-0.9234600E+03")], ":23: the header states a pe"),
+    ("smc-corrected.smc", [("2 CORRECTED ACCELEROGRAM", "3 VELOCITY")], ":1: found velocity"),
+    ("smc-corrected.smc", [("2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT")], ":1: found displacem"),
+    ("smc-corrected.smc", [("2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA")], ":1: found "),
+    ("smc-uneven.smc", [("        26  ", "        28  ")], ":14: states 28 values, found 26;"),
+    ("smc-uneven.smc", [(" 1.2500E+1", "          ")], ":30: found ''; give a number"),
+    ("smc-uneven.smc", [(" 2.0000E-2", " 1.2000E-2")], ":30: found time 0.012 s after 0.012 s,"),
+    ("smc-uneven.smc", [("-6.1250E+1", "          ")], ":14: states 26 values, found 25; g"),
+    ("smc-uneven.smc", [("-6.1250E+1", "          "), ("        26  ", "        25  ")],
+     ":31: found 1 values; give pairs of time and acceleration"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "changes", "expected"), FAULTS)
+def test_a_fault_is_told_with_its_line(
+    altered: Any, name: str, changes: list[tuple[str, str]], expected: str
+) -> None:
+    (problem,) = problems_of(altered(name, *changes))
+    assert problem.startswith(f"{name}{expected}")
+    if "CORRECTED ACC" in changes[0][0]:
+        assert problem.endswith("; give a file of acceleration")
+
+
+@pytest.mark.parametrize(
+    ("count", "told"),
+    [
+        ("22", "states 22 values, found 21"),
+        ("20", "states 20 values, found more in line 29"),
+        ("0", "states 0 values; give at least 2"),
+        ("none", "found no number of accelerations; give the whole"),
+    ],
+)
+def test_the_counts_of_geonet_must_hold(altered: Any, count: str, told: str) -> None:
+    text = (SAMPLES / "geonet.v1a").read_text()
+    line = next(line for line in text.splitlines() if line.startswith("      21"))
+    changed = line[:24] + count.rjust(8) + line[32:]
+    (problem,) = problems_of(altered("geonet.v1a", (line, changed)))
+    assert problem.startswith(f"geonet.v1a:20: {told}")
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "found"),
+    [
+        ("csmip-old.v2", [("   98.000", "   x8.000"), ("  -49.000", "  y49.000")],
+         ("x8.000", "y49.000")),
+        ("cosmos.v1c", [("    .01213", "    .0121x"), ("  .00606", "  .0060y")],
+         (".0121x", ".0060y")),
+    ],
+)  # fmt: skip
+def test_faults_of_all_channels_are_told_together_with_their_lines(
+    altered: Any, name: str, changes: list[tuple[str, str]], found: tuple[str, ...]
+) -> None:
+    path = altered(name, *changes)
+    lines = path.read_text().splitlines()
+    assert problems_of(path) == tuple(
+        f"{name}:{1 + next(i for i, line in enumerate(lines) if text in line)}: found '{text}'; "
+        "give a number"
+        for text in found
+    )
+
+
+# Units and step of a file, as its problem writes them; a unit and a step that are others.
+STATED = [
+    ("cosmos.v2c", "cm/s2", "cm/sec2", "g", "0.0078125", 0.01),
+    ("csmip-old.v2", "gal", "CM/SEC/SEC", "g", "0.005", 0.02),
+    ("geonet.v2a", "mm/s2", "mm/s/s", "g", "0.02", 0.005),
+    ("knet.ns", "gal", "gal", "g", "0.01", 0.02),
+    ("peer-nga.at2", "g", "G", "m/s2", "0.005", 0.01),
+    ("smc-corrected.smc", "gal", "cm/s2", "mm/s2", "0.005", 0.01),
+]
+
+
+@pytest.mark.parametrize(("name", "units", "written", "other", "step", "other_s"), STATED)
+def test_what_the_caller_says_must_agree(
+    name: str, units: str, written: str, other: str, step: str, other_s: float
+) -> None:
+    path, held = SAMPLES / name, HELD[name]
+    agreed = read_motion_file(path, units=units, dt_s=float(step))
+    assert [record.dt_s for record in agreed.channels] == [held.dt_s] * len(held.channels)
+    told = problems_of(path, units=other)
+    said = f"the file is in {written} but units are {other}; give the units of the file, or none"
+    assert all(one.startswith(f"{name}:") and one.endswith(said) for one in told)
+    told = problems_of(path, dt_s=other_s)
+    said = f"the time step of the file is {step} s but dt is {other_s:g} s; give the dt of the"
+    assert all(said in one for one in told)
+
+
+# Steps that a heading rounds or lacks
+
+
+def test_a_step_within_the_rounding_of_the_heading_is_taken(altered: Any) -> None:
+    path = altered("csmip-new.v2", ("  .0078125", "  .0000000"))
+    assert read_motion_file(path).channel().dt_s == 0.008
+    assert read_motion_file(path, dt_s=1 / 128).channel().dt_s == 1 / 128
+    assert "but dt is 0.0086 s" in problems_of(path, dt_s=0.0086)[0]
+
+
+def test_a_step_that_no_heading_has_may_be_given(altered: Any) -> None:
+    unknown = ("    -999.000000", "    -999.000000")
+    steps = [("       7.812500", unknown[1]), ("       0.005000", unknown[1])]
+    path = altered("cosmos.v2c", *steps)
+    assert problems_of(path, dt_s=0.01) == (
+        "cosmos.v2c:38: the heading states 0.164062 s, the record lasts 0.21 s; give dt with more"
+        " digits, or a file whose headings agree",
+    )
+    path = altered("cosmos.v2c", *steps, ("       0.164062", unknown[1]))
+    assert read_motion_file(path, dt_s=0.01).channel().dt_s == 0.01
+
+
+# Files that are cut, and those of something else
+
+
+def test_a_file_cut_behind_its_accelerations_says_so(file: Any) -> None:
+    text = (SAMPLES / "csmip-new.v2").read_text()
+    motion_file = read_motion_file(file(text[: text.index("points of displ")]))
+    assert motion_file.channel().a_mps2 == pytest.approx(1.5 * WAVE / 100, rel=1e-14)
+    assert motion_file.notes[1:] == (
+        "no end-of-data line (/&) follows the values: the file may be truncated",
+    )
+
+
+def test_a_cut_file_of_three_components_is_told(file: Any) -> None:
+    lines = (SAMPLES / "geonet.v2a").read_text().splitlines()
+    cut = read_motion_file(file("\n".join(lines[:-4])))
+    assert cut.notes == (
+        "Component Up Vertical Accelerometer Axis: velocities or displacements are incomplete: the"
+        " file may be truncated",
+    )
+    (problem,) = problems_of(file("\n".join(lines[:97])))
+    assert problem == "roof.csv:90: states 21 values, found 10; give the whole file"
+    (problem,) = problems_of(file("\n".join(lines[:70])))
+    assert problem == (
+        "roof.csv:36: found the heading of component 2, the last one, where the format has 3"
+        " components; give the whole file"
+    )
+
+
+SERIES = "2 acceleration pts, approx 0 secs, units=g(02),Format=(8F10.3)\n"
+PEER_HEADING = """PEER STRONG MOTION DATABASE RECORD. PROCESSING BY HAND.
+MADE-UP VALLEY 01/02/03 0405, NO SUCH SCHOOL, 180
+ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz
+"""
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ("RESPONSE AND FOURIER AMPLITUDE SPECTRA\nCORRECTED ACCELEROGRAM\n",
+         ":1: found spectra; give a file of volume 1 or 2"),
+        ("Corrected acceleration    (Format v01.20 with 13 text lines)\n" + SERIES * 2000,
+         ": found 2000 channels; give at most 1000 in a file"),
+        ("PEER\nX, Y, 1\nVELOCITY TIME HISTORY IN UNITS OF CM/S\nNPTS= 2, DT= .01 SEC\n1 2\n",
+         ":3: found velocity; give the file of acceleration"),
+    ],
+)  # fmt: skip
+def test_what_is_no_record_is_refused(file: Any, content: str, expected: str) -> None:
+    assert problems_of(file(content)) == (f"roof.csv{expected}",)
+
+
+# PEER: count and step are found however they are set
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "NPTS=  3, DT=   .0100 SEC",
+        "NPTS=  3, DT= .01000 SEC,",
+        "npts=3,dt=0.01",
+        "NPTS = 3 DT = 1.0E-2",
+        "    3    0.0100    NPTS, DT",
+        "3, .01 NPTS, DT",
+    ],
+)
+def test_count_and_step_are_found_however_they_are_set(file: Any, line: str) -> None:
+    record = read_motion_file(file(f"{PEER_HEADING}{line}\n .1E+00 -.2D+00\n3.\n\n")).channel()
+    assert record.dt_s == 0.01
+    assert record.a_mps2.tolist() == [0.1 * G, -0.2 * G, 3.0 * G]
+
+
+@pytest.mark.parametrize(
+    ("line", "values", "expected"),
+    [
+        ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; give the whole file"),
+        ("NPTS= 2, DT= .01 SEC", "1 2 3", "4: states 2 values, found 3; correct the count"),
+        ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; give dt"),
+        ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; give a number above 0"),
+        ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; give the count and the step as in NPTS="),
+        ("NPTS= 3, DT= .01 SEC", "1 wide 3", "5: found 'wide'; give a number"),
+        ("NPTS= 3, DT= .01 SEC", "1 ***** 3", "5: found '*****', a number too large for its"),
+        ("NPTS= 3, DT= .01 SEC", "1 1_0 3", "5: found '1_0'; give a number"),
+        ("NPTS= 3, DT= .01 SEC", "1 nan 3", "5: found 'nan'; give a number"),
+        ("NPTS= 1, DT= .01 SEC", "1", "4: states 1 value; give at least 2"),
+        ("NPTS= 0, DT= .01 SEC", "", "4: states 0 values; give at least 2"),
+    ],
+)
+def test_faults_of_a_short_file_are_told_with_their_line(
+    file: Any, line: str, values: str, expected: str
+) -> None:
+    (problem,) = problems_of(file(f"{PEER_HEADING}{line}\n{values}\n"))
+    assert problem.startswith(f"roof.csv:{expected}")
+
+
+def test_a_step_that_the_heading_lacks_may_be_given(file: Any) -> None:
+    path = file(f"{PEER_HEADING}NPTS= 3, DT= SEC\n1 2 3\n")
+    assert read_motion_file(path, dt_s=0.02).channel().dt_s == 0.02
+
+
+def test_a_file_named_as_text_is_known_by_its_content(file: Any) -> None:
+    content = (SAMPLES / "peer-nga.at2").read_text()
+    assert read_motion_file(file(content, "a.txt")).format == "PEER AT2"
+
+
+def test_units_are_asked_for_only_where_the_heading_has_none(file: Any) -> None:
+    bare = "SOMETHING\nELSE\n\nNPTS= 2, DT= .01 SEC\n1 2\n"
+    assert problems_of(file(bare))[0].startswith("roof.csv: found no unit of acceleration; give")
+    record = read_motion_file(file(bare), units="gal").channel()
+    assert (record.name, record.a_mps2.tolist()) == ("roof.csv", [0.01, 0.02])

@@ -1,0 +1,91 @@
+"""`roofslip verify --quick`, run once in a run of the tests; only read what it gives."""
+
+from __future__ import annotations
+
+import copyreg
+import datetime as dt
+import pickle
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import MappingProxyType, SimpleNamespace
+
+import pytest
+from click.testing import CliRunner
+
+import packages
+import report.cli.verify
+import report.manual.render
+import solver.verification.run
+from report.cli.main import main
+from report.cli.terminal import Progress
+from report.manual.sections import sections
+from report.typeset.pdf import lay_out
+from solver.verification.evidence import Verification
+from solver.verification.run import verify
+
+DATE = dt.date(2026, 3, 5)
+
+
+def read_only(mapping: dict[str, object]) -> MappingProxyType[str, object]:
+    """Return a mapping as the solver keeps the parameters of a method."""
+    return MappingProxyType(mapping)
+
+
+copyreg.pickle(MappingProxyType, lambda mapping: (read_only, (dict(mapping),)))
+
+
+class Counting(Progress):
+    """Progress whose bar must be full at the end."""
+
+    def __exit__(self, *about: object) -> None:
+        assert self._done == self._steps == report.cli.verify.STEPS
+        super().__exit__(*about)
+
+
+@dataclass(frozen=True)
+class Verified:
+    """What the command computed, laid out and printed, its sections by name, and its folder."""
+
+    verification: Verification
+    html: str
+    parts: dict[str, object]
+    stdout: str
+    output: str
+    out: Path
+
+
+def verified(factory: pytest.TempPathFactory) -> Verified:
+    """Return what the command did; other programs, where some are installed, are tested apart."""
+    folder = packages.once(factory, "verified", _fill)
+    found = pickle.loads((folder / "kept").read_bytes())  # this run of the tests has written it
+    return Verified(**found, out=folder / "v")
+
+
+def _fill(folder: Path) -> None:
+    computed, laid_out, parts = [], [], {}
+    with pytest.MonkeyPatch.context() as patch:
+
+        def kept(*arguments, **options):
+            computed.append(replace(verify(*arguments, **options), peers=()))
+            return computed[0]
+
+        def kept_sections(*about):
+            found = sections(*about)
+            parts.update((part.id, part) for part in found)
+            return found
+
+        def kept_html(html):
+            laid_out.append(html)
+            return lay_out(html)
+
+        patch.setattr(solver.verification.run, "verify", kept)
+        patch.setattr(report.manual.render, "sections", kept_sections)
+        patch.setattr(report.manual.render, "lay_out", kept_html)
+        today = SimpleNamespace(date=SimpleNamespace(today=lambda: DATE))
+        patch.setattr(report.cli.verify, "dt", today)
+        patch.setattr(report.cli.verify, "Progress", Counting)
+        done = CliRunner().invoke(main, ["verify", "--quick", "--out", str(folder / "v")])
+    assert done.exit_code == 0, done.output
+    found = {"verification": computed[0], "html": laid_out[0], "parts": parts}
+    kept_bytes = pickle.dumps(found | {"stdout": done.stdout, "output": done.output})
+    (folder / "kept").write_bytes(kept_bytes)
