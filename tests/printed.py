@@ -21,8 +21,6 @@ from report.assessment.evidence import plotted
 from report.assessment.highpass import beyond_corners
 from report.assessment.project import Assessment
 from report.assessment.remedies import remedies
-from report.assessment.sensitivity import accuracy
-from report.assessment.spectra import spectra
 from report.package.html import part
 from report.pages.parts import PackageData
 from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
@@ -122,9 +120,10 @@ class _Evidence:
     remedies = cached_property(lambda self: remedies(self._assessment))
     certainty = cached_property(lambda self: certainty(self._assessment))
     cumulative = cached_property(lambda self: cumulative(self._assessment))
-    spectra = cached_property(lambda self: spectra(self._assessment))
-    histories = cached_property(lambda self: plotted(self._assessment).histories)
-    accuracy = cached_property(lambda self: accuracy(self._assessment))
+    plotted = cached_property(lambda self: plotted(self._assessment))
+    spectra = cached_property(lambda self: self.plotted.spectra)
+    histories = cached_property(lambda self: self.plotted.histories)
+    accuracy = cached_property(lambda self: self.plotted.accuracy)
 
 
 class _Pictures(dict):

@@ -82,7 +82,7 @@ def reported(tmp_path_factory):
         assert done.exit_code == 0, done.output
     complete(job / "input.xlsx", folder)
     shutil.copytree(ROOT / "projects" / "example" / "records", job / "records", dirs_exist_ok=True)
-    with packages.unlaid():
+    with packages.unlaid(), packages.undrawn():
         done = CliRunner().invoke(main, ["report", str(job)])
     assert done.exit_code == 0, done.output
     return job, done.output
