@@ -267,6 +267,7 @@ def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
     assert_every_tolerance_is_kept_to(block)
 
 
+@pytest.mark.nightly("solver/sliding/two_axes.py", "solver/kernels/two_axes.py")
 def test_the_history_is_that_of_scipy_and_its_events_alternate():
     ax, ay, az = shaking(8, n=40, dt=0.04)
     exact = plane_oracle.slide(ax, ay, 0.04, slope_rad=0.05, mu=0.35, az=az, g=G)
