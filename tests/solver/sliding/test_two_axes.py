@@ -207,7 +207,6 @@ TRAPS = {
 
 @pytest.mark.parametrize("name", TRAPS)
 @pytest.mark.parametrize("mu", [0.2, 2.0 / G])
-@pytest.mark.by_day(5)
 @pytest.mark.by_day(2)
 def test_traps_are_followed_as_scipy_follows_them(name, mu):
     ax, ay = TRAPS[name]
