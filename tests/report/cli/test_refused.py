@@ -46,6 +46,7 @@ def test_an_output_on_a_full_disk_ends_with_a_message(arguments):
 
 
 @needs_full
+@pytest.mark.nightly("report/cli/terminal.py")
 def test_errors_on_a_full_disk_keep_the_exit_code():
     with open(FULL, "w") as full:
         done = roofslip("check", "none", stderr=full)
@@ -127,6 +128,7 @@ def no_override():
         libc.prctl(drop_from_bounding_set, override, 0, 0, 0)
 
 
+@pytest.mark.nightly("report/cli/terminal.py")
 def test_without_permission_each_command_says_which_file(tmp_path):
     book = make(tmp_path / "book")
     books = {name: make(tmp_path / name) for name in ("workbook", "record", "records", "out")}

@@ -67,6 +67,7 @@ def test_a_working_folder_that_is_gone_is_an_input_error(arguments, tmp_path):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.nightly("report/cli/terminal.py")
 def test_without_a_standard_error_the_exit_code_is_the_same(tmp_path):
     code = (
         "import os, sys; os.close(2); sys.stderr = None; from report.cli.main import main; main()"

@@ -36,6 +36,7 @@ def new(tmp_path, units=UnitsFirst.US):
 
 
 @pytest.mark.parametrize("units", UnitsFirst)
+@pytest.mark.by_day(1)
 def test_a_blank_workbook_is_filled(tmp_path, units):
     path = new(tmp_path, units)
     done = run(drawing(tmp_path), path)
@@ -109,6 +110,7 @@ def test_formulas_and_all_other_parts_stay(tmp_path):
 
 
 @pytest.mark.parametrize("units", UnitsFirst)
+@pytest.mark.by_day(1)
 def test_rows_that_a_table_grows_by_have_their_formulas(tmp_path, units):
     path = new(tmp_path, units)
     sketch = Sketch("R2018")

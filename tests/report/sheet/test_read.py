@@ -7,7 +7,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 from openpyxl.utils import get_column_letter, range_boundaries
@@ -82,12 +82,17 @@ def inputs(draw):
     return project(**changes, objects=[])
 
 
-@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(data=inputs(), units=st.sampled_from(UnitsFirst))
-def test_every_valid_project_is_recovered_from_the_workbook(tmp_path, data, units):
+@pytest.mark.parametrize("examples", [3, pytest.param(30, marks=pytest.mark.nightly)])
+def test_every_valid_project_is_recovered_from_the_workbook(tmp_path, examples):
     path = make(tmp_path)
-    write_template(path, units=units, example=data)
-    assert same(read_workbook(path).input, data)
+
+    @settings(max_examples=examples)
+    @given(data=inputs(), units=st.sampled_from(UnitsFirst))
+    def recovered(data, units):
+        write_template(path, units=units, example=data)
+        assert same(read_workbook(path).input, data)
+
+    recovered()
 
 
 # Changes that users make. openpyxl moves neither names nor tables, so they are moved here as Excel

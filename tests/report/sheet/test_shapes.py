@@ -92,9 +92,12 @@ def sampled(shape, count=400):
     return np.concatenate([a + shares * (b - a) for a, b in itertools.pairwise(points)])
 
 
-@settings(max_examples=40)
-@given(stars(), stars())
-def test_the_gap_is_that_between_densely_sampled_boundaries(a, b):
+@pytest.mark.parametrize("examples", [8, pytest.param(80, marks=pytest.mark.nightly)])
+def test_the_gap_is_that_between_densely_sampled_boundaries(examples):
+    settings(max_examples=examples)(given(stars(), stars())(assert_gap_is_as_sampled))()
+
+
+def assert_gap_is_as_sampled(a, b):
     assume(crossing(a.points) is None)
     assume(crossing(b.points) is None)
     gap = gap_m(a, b)

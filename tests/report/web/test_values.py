@@ -67,6 +67,7 @@ def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
 
 
 @pytest.mark.parametrize("project", ["example", "school", "conditions"])
+@pytest.mark.by_day(1)
 def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
     given = start(project)
     values = {"friction": 0.87, "slope": 0.3, "intensity": 0.94, "clearance": 2.0}

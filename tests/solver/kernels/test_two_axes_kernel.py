@@ -74,6 +74,7 @@ def run_all():
     return np.array(numbers, dtype=float)
 
 
+@pytest.mark.nightly("solver/kernels/two_axes.py")
 def test_compiled_and_plain_kernels_give_the_same_bits(tmp_path):
     """Plain in a process of its own: here, the functions inside would be compiled all the same."""
     if "NUMBA_DISABLE_JIT" in os.environ:

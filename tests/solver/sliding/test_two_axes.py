@@ -207,7 +207,6 @@ TRAPS = {
 
 @pytest.mark.parametrize("name", TRAPS)
 @pytest.mark.parametrize("mu", [0.2, 2.0 / G])
-@pytest.mark.by_day(5)
 @pytest.mark.by_day(2)
 def test_traps_are_followed_as_scipy_follows_them(name, mu):
     ax, ay = TRAPS[name]
@@ -267,6 +266,7 @@ def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
     assert_every_tolerance_is_kept_to(block)
 
 
+@pytest.mark.nightly("solver/sliding/two_axes.py", "solver/kernels/two_axes.py")
 def test_the_history_is_that_of_scipy_and_its_events_alternate():
     ax, ay, az = shaking(8, n=40, dt=0.04)
     exact = plane_oracle.slide(ax, ay, 0.04, slope_rad=0.05, mu=0.35, az=az, g=G)

@@ -157,7 +157,6 @@ def nearly_stops(seed):
 
 # At the step of tolerance 1e-3 the PRDs were 16.421 and 11.346 m.
 @pytest.mark.parametrize(("seed", "rough_m"), [(16174, 16.421), (3889, 11.346)])
-@pytest.mark.by_day(1)
 @pytest.mark.nightly("solver/kernels/two_axes.py")
 def test_a_rough_tolerance_does_not_decide_whether_a_block_stops(seed, rough_m):
     block = nearly_stops(seed)

@@ -45,7 +45,6 @@ CASES = [
 
 @pytest.mark.parametrize(("letters", "slope", "mu", "limit"), CASES)
 @pytest.mark.parametrize("number", range(2))
-@pytest.mark.by_day(3)
 @pytest.mark.by_day(1)
 def test_one_axis_capacity_is_the_first_of_a_dense_scan(letters, slope, mu, limit, number):
     curve = curve_of(motion(number, letters), slope, mu)

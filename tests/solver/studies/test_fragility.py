@@ -108,7 +108,6 @@ def held(motions, beta, end, sets):
 
 @pytest.mark.parametrize("beta", [0.05, 0.2, 0.4])
 @pytest.mark.parametrize("motions", [7, 20, 40])
-@pytest.mark.by_day(3)
 @pytest.mark.by_day(1)
 def test_the_intervals_hold_the_truth_in_88_to_92_percent_of_sets(motions, beta):
     share = held(motions, beta, math.inf, 2000)

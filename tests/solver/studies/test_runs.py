@@ -91,6 +91,7 @@ def test_a_part_without_vertical_agrees_with_a_sweep():
     assert np.array_equal(rows.lengths[0, :, 0], swept.prd_m.ravel(), equal_nan=True)
 
 
+@pytest.mark.nightly("solver/studies/runs.py")
 def test_curves_are_those_of_the_paper_procedure():
     """Figs. 10 to 12: both signs of the slope are both polarities of the record."""
     record = own_records(True)[0]
