@@ -31,7 +31,7 @@ def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
     ("objects", "governing"),
     [
         ([], "A1: μ 0.45; "),
-        ([stand_in.roof_object("RTU-9", "fixed object", 301, 306, 35, 42, 1.0)], "A2: NG; "),
+        ([stand_in.roof_object("RTU-9", "fixed object", 301, 306, 35, 42, height=1.0)], "A2: NG; "),
     ],
 )
 def test_the_governing_array_is_one_that_is_ng_where_any_is(objects, governing):
