@@ -42,6 +42,11 @@ class Displacements(Entity):
     design_governs: Annotated[DesignBasis, at("governs")]
     design_permitted: Annotated[bool, at("is_permitted")]
 
+    @property
+    def is_refused(self) -> bool:
+        """Whether there is a design displacement, by a route that is not permitted."""
+        return not (math.isnan(self.design_m) or self.design_permitted)
+
     @unwritten(length("Floor"))
     def floor(self) -> float:
         """The floor [m]; NaN where peer review removes it."""
@@ -129,10 +134,13 @@ class ArrayResult(LowVelocityResult):
     limits: Annotated[
         Verdict, at("limits_verdict"), Shown(head="Limits", align="center", share=0.85)
     ] = Field(default=Verdict.NONE, exclude=True)
-    governing_gap: Annotated[str, words("Clearance", 1.4)] = Field(default="—", exclude=True)
-    largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = Field(
+    governing_gap: Annotated[str, words("Clearance", 1.4)] = Field(
         default="none given", exclude=True
     )
+    largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = Field(default="—", exclude=True)
+
+    cause: str = Field(default="", exclude=True)
+    """Of a verdict that the D/C beside it does not show."""
 
     @unwritten(Shown(head="Slope", unit="deg", share=0.8, text=lambda deg: number(deg, 2)))
     def slope_deg(self) -> float:
@@ -150,6 +158,7 @@ def array_result(assessment: Assessment, item: ArrayAssessment, **marks: str) ->
     return ArrayResult.of(
         item,
         **near,
+        cause=unshown_cause(assessment, item),
         limits_verdict=Verdict.OK if is_sound else Verdict.NG,
         marks=marks,
         verdict=assessment.array_verdict(item),
@@ -165,10 +174,10 @@ def array_result(assessment: Assessment, item: ArrayAssessment, **marks: str) ->
 
 
 def array_results(marked: Marked) -> Iterator[ArrayResult]:
-    """Yield the arrays with the marks of their numbers and the cause of an NG that no D/C shows."""
+    """Yield the arrays with the marks of their numbers, and beside an NG its cause."""
     for item in marked.assessment.arrays:
-        verdict = marked.assessment.array_verdict(item)
-        cause = "" if verdict.is_permitted else unshown_cause(marked.assessment, item)
+        cause = unshown_cause(marked.assessment, item)
+        is_said = cause and not marked.assessment.array_verdict(item).is_permitted
         yield array_result(
             marked.assessment,
             item,
@@ -176,7 +185,7 @@ def array_results(marked: Marked) -> Iterator[ArrayResult]:
             computed_m=item.mark(lambda array: array.analysis.value_m),
             floor=marked.floor_mark(item),
             design_m=marked.design_mark(item),
-            verdict=f" {cause}" if cause else "",
+            verdict=f" {cause}" if is_said else "",
         )
 
 

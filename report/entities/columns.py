@@ -28,6 +28,7 @@ class UnitFormat:
     """Formats values, the preferred system of units first."""
 
     us_first: bool
+    none: str = NO_VALUE
 
     def both(
         self,
@@ -36,7 +37,7 @@ class UnitFormat:
         show: Show = measured,
     ) -> str:
         """Return `81.6 in (2072 mm)`; `none` for NaN."""
-        return NO_VALUE if math.isnan(value_si) else pair(value_si, quantity, self.us_first, show)
+        return self.none if math.isnan(value_si) else pair(value_si, quantity, self.us_first, show)
 
     def short(
         self,
@@ -46,7 +47,7 @@ class UnitFormat:
     ) -> str:
         """Return a value with its unit in the preferred system; `none` for NaN."""
         unit = self.units(quantity)[0]
-        return NO_VALUE if math.isnan(value_si) else f"{show(value_si, unit)} {unit.symbol}"
+        return self.none if math.isnan(value_si) else f"{show(value_si, unit)} {unit.symbol}"
 
     def cells(
         self,
@@ -58,7 +59,7 @@ class UnitFormat:
     ) -> tuple[str, str]:
         """Return the value in both systems, for two columns; `none` for NaN."""
         if math.isnan(value_si):
-            return NO_VALUE, NO_VALUE
+            return self.none, self.none
         first, second = self.units(quantity)
         return show(value_si, first) + mark, show(value_si, second) + mark
 

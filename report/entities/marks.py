@@ -33,9 +33,16 @@ def joined(marks: str, more: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Marked:
-    """An assessment with the marks of its numbers and its system of units."""
+    """An assessment with the marks of its numbers and its system of units.
+
+    Attributes
+    ----------
+    has_daggers : bool
+        Whether numbers that were not compared with the adopted document are marked.
+    """
 
     assessment: Assessment
+    has_daggers: bool = True
 
     @property
     def data(self) -> ProjectInput:
@@ -49,7 +56,8 @@ class Marked:
 
     def mark(self, key: str) -> str:
         """Return the marks of a provision."""
-        return dagger(self.assessment.rules.values[key])
+        marks = dagger(self.assessment.rules.values[key])
+        return marks if self.has_daggers else marks.removeprefix("†")
 
     def clause(self, key: str) -> str:
         """Return the clause of a provision with its marks."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import (
@@ -23,7 +23,7 @@ from pydantic import (
 )
 from pydantic.json_schema import SkipJsonSchema
 
-from report.entities.columns import NO_VALUE, TableColumn, UnitFormat
+from report.entities.columns import TableColumn, UnitFormat
 from report.words.units import Quantity, Show, measured, number
 
 Number = Annotated[float, BeforeValidator(lambda value: math.nan if value is None else value)]
@@ -59,12 +59,8 @@ def length(head: str, share: float = 1.0) -> Shown:
 
 
 def ratio_of(head: str, decimals: int = 2, share: float = 1.0) -> Shown:
-    """Return how a plain number is shown; `none` for NaN."""
-
-    def text(value: float) -> str:
-        return NO_VALUE if math.isnan(value) else number(value, decimals)
-
-    return Shown(head=head, text=text, share=share)
+    """Return how a plain number is shown."""
+    return Shown(head=head, text=partial(number, decimals=decimals), share=share)
 
 
 def at(path: str) -> Any:
@@ -127,6 +123,8 @@ class Entity(BaseModel):
         if shown.quantity:
             show = self.rounds.get(name, measured)
             return fmt.cells(value, shown.quantity, mark=mark, show=show)
+        if isinstance(value, float) and math.isnan(value):
+            return (fmt.none,)
         text = shown.text(value)
         return (text + mark if mark else text,)
 

@@ -11,10 +11,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from report.assessment.arrays import NOT_PERMITTED
-from report.assessment.causes import causes, unshown_cause
+from report.assessment.causes import causes
 from report.assessment.foresight import findings, limit_words
 from report.assessment.overrides import MEANING
 from report.assessment.verdict import Verdict
+from report.entities.array import ArrayResult, array_results
+from report.entities.columns import UnitFormat
+from report.entities.marks import Marked
 from report.pages.registry import package_data
 from report.sheet.findings import Level, lines
 from report.sheet.older import what_is_new
@@ -47,7 +50,8 @@ class Line:
 
 def summary(assessment: Assessment) -> Iterator[str]:
     """Yield the table of the arrays, what needs attention, and the verdict."""
-    rows = [_COLUMNS, *(_row(assessment, item) for item in assessment.arrays)]
+    marked = Marked(assessment=assessment, has_daggers=False)
+    rows = [_COLUMNS, *(_row(marked.fmt, item) for item in array_results(marked))]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
@@ -88,30 +92,16 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _row(assessment: Assessment, item: ArrayAssessment) -> tuple[str, ...]:
-    us_first = assessment.project.project.units_first == "US"
-
-    def shown(value_m: float, mark: str) -> str:
-        is_none = math.isnan(value_m)
-        return "none" if is_none else pair(value_m, Quantity.DISPLACEMENT, us_first) + mark
-
-    gap = assessment.governing_clearance(item.id)
-    clearance = (f"to {gap.across_from(item.id)}", gap.ratio_words) if gap else ()
+def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
+    refused = f", {NOT_PERMITTED}" if item.is_refused else ""
     return (
         item.id,
-        shown(item.analysis.value_m, item.mark(lambda array: array.analysis.value_m)),
-        shown(item.prescriptive.value_m, item.mark(lambda array: array.prescriptive.value_m)),
-        shown(item.design_m, item.design_mark)
-        + (f", {NOT_PERMITTED}" if item.has_unpermitted_value else ""),
-        *(clearance or ("none given", "")),
-        _verdict(assessment, item),
+        *(item.both(name, fmt) for name in ("computed_m", "prescriptive_m")),
+        item.both("design_m", fmt) + refused,
+        item.governing_gap,
+        item.largest_dc,
+        item.verdict + (f": {item.cause}" if item.cause else ""),
     )
-
-
-def _verdict(assessment: Assessment, item: ArrayAssessment) -> str:
-    """Return the verdict on an array; where it is not that of the D/C beside it, with its cause."""
-    verdict, cause = assessment.array_verdict(item), unshown_cause(assessment, item)
-    return f"{verdict.value}: {cause}" if cause else verdict.value
 
 
 def attention(assessment: Assessment) -> Iterator[Line]:

@@ -10,15 +10,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
-from report.assessment.clearances import ClearanceCheck
 from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
+from report.assessment.runs import MotionRun
 from report.assessment.verdict import Verdict
+from report.entities.array import ArrayResult, array_results
+from report.entities.clearance import ClearanceResult, clearance_results
+from report.entities.columns import UnitFormat
+from report.entities.marks import Marked
+from report.entities.shown import Entity
 from report.pages.front import verdict_sentence
 from report.pages.registry import package_data
 from report.pages.summary import attention
 from report.web.plan import NO_VALUE, plan
-from report.words.units import Quantity, Show, compared, measured, pair
 
 ONE_AXIS, FULL = "one axis", "full"
 
@@ -31,51 +35,73 @@ _PROVISIONAL = (
 
 def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
     """Return what the page shows; values that are provisional have no verdict."""
-    shown = _Shown(assessment, is_provisional)
+    marked = Marked(assessment=assessment, has_daggers=False)
+    fmt = UnitFormat(us_first=marked.fmt.us_first, none=NO_VALUE)
+    gaps = dict(enumerate(assessment.clearances))
+
+    def verdict(found: Verdict) -> str | None:
+        return None if is_provisional else found.value
+
+    def array(item: ArrayResult, assessed: ArrayAssessment) -> Mapping[str, Any]:
+        is_refused = item.is_refused and not is_provisional
+        return {
+            "id": item.id,
+            **_lengths(item, ("mean_prd", "largest_prd", "design", "prescriptive"), fmt),
+            **({"design_m": None, "design_short": NOT_PERMITTED} if is_refused else {}),
+            "source": _source(item, is_provisional),
+            "verdict": verdict(item.verdict),
+            "bars": [_bar(run, fmt) for run in assessed.motions],
+        }
+
+    def clearance(item: ClearanceResult) -> Mapping[str, Any]:
+        return {
+            **item.model_dump(include={"array", "object", "direction"}),
+            **_lengths(item, ("provided", "required"), fmt),
+            "ratio": finite(item.demand_capacity),
+            "ratio_text": item.both("demand_capacity", fmt),
+            "verdict": verdict(item.verdict),
+        }
+
+    rows = list(clearance_results(marked, gaps))
     return {
         "model": ONE_AXIS if is_provisional else FULL,
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
         "is_provisional": is_provisional,
-        "verdict": shown.verdict(assessment.verdict),
+        "verdict": verdict(assessment.verdict),
         "verdict_text": None if is_provisional else verdict_sentence(package_data(assessment)),
         "reasons": [] if is_provisional else reasons(assessment),
         "scale_m": _scale_m(assessment),
-        "arrays": [_array(shown, item) for item in assessment.arrays],
-        "clearances": [_clearance(shown, gap) for gap in assessment.clearances],
-        "plan": plan(assessment, shown.verdict),
+        "arrays": list(map(array, array_results(marked), assessment.arrays)),
+        "clearances": list(map(clearance, rows)),
+        "plan": plan(assessment, rows, fmt, verdict),
     }
 
 
-class _Shown:
-    """How values of an assessment are shown."""
+def _lengths(item: Entity, names: Sequence[str], fmt: UnitFormat) -> dict[str, Any]:
+    """Return displacements and sizes: the numbers, in both systems of units, and in one."""
+    return {
+        **{f"{name}_m": finite(getattr(item, f"{name}_m")) for name in names},
+        **{name: item.both(f"{name}_m", fmt) for name in names},
+        **{f"{name}_short": item.short(f"{name}_m", fmt) for name in names},
+    }
 
-    def __init__(self, assessment: Assessment, is_provisional: bool) -> None:
-        self.assessment, self._is_provisional = assessment, is_provisional
-        self.us_first = assessment.project.project.units_first == "US"
 
-    def verdict(self, verdict: Verdict) -> str | None:
-        """Return a verdict; none while values are provisional."""
-        return None if self._is_provisional else verdict.value
+def _source(item: ArrayResult, is_provisional: bool) -> str:
+    """Return what governs, if anything; while values are provisional, not whether it may."""
+    if math.isnan(item.design_m):
+        return ""
+    return item.design_governs.value if is_provisional else item.source
 
-    def source(self, item: ArrayAssessment) -> str:
-        """Return what governs, if anything; while values are provisional, not whether it may."""
-        if math.isnan(item.design_m):
-            return ""
-        return item.governs.value if self._is_provisional else item.source
 
-    def is_refused(self, item: ArrayAssessment) -> bool:
-        """Whether a design displacement is not permitted; while provisional, that is not known."""
-        return item.has_unpermitted_value and not self._is_provisional
-
-    def length(self, value_m: float) -> str:
-        """Return a displacement in both systems of units, or that there is none."""
-        return NO_VALUE if math.isnan(value_m) else pair(value_m, Quantity.SIZE, self.us_first)
-
-    def short(self, value_m: float, show: Show = measured) -> str:
-        """Return a length in the first system of units."""
-        unit = Quantity.SIZE.us if self.us_first else Quantity.SIZE.si
-        return NO_VALUE if math.isnan(value_m) else f"{show(value_m, unit)} {unit.symbol}"
+def _bar(run: MotionRun, fmt: UnitFormat) -> Mapping[str, Any]:
+    prd_m = run.governing.prd_m
+    return {
+        "motion": run.motion.id,
+        "prd_m": finite(prd_m),
+        "text": fmt.both(prd_m),
+        "short": fmt.short(prd_m),
+    }
 
 
 def _whole(assessment: Assessment) -> str:
@@ -95,71 +121,12 @@ def finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _array(shown: _Shown, item: ArrayAssessment) -> Mapping[str, Any]:
-    values = {
-        "mean_prd": item.analysis.mean_m,
-        "largest_prd": item.analysis.largest_m,
-        "design": item.design_m,
-        "prescriptive": item.prescriptive.value_m,
-    }
-    return {
-        "id": item.id,
-        **{f"{name}_m": finite(value) for name, value in values.items()},
-        **{name: shown.length(value) + _mark(item, name) for name, value in values.items()},
-        **{
-            f"{name}_short": shown.short(value) + _mark(item, name)
-            for name, value in values.items()
-        },
-        **({"design_m": None, "design_short": NOT_PERMITTED} if shown.is_refused(item) else {}),
-        "source": shown.source(item),
-        "verdict": shown.verdict(shown.assessment.array_verdict(item)),
-        "bars": [
-            {
-                "motion": run.motion.id,
-                "prd_m": finite(run.governing.prd_m),
-                "text": shown.length(run.governing.prd_m),
-                "short": shown.short(run.governing.prd_m),
-            }
-            for run in item.motions
-        ],
-    }
-
-
-def _mark(item: ArrayAssessment, name: str) -> str:
-    """Return the mark of a number of an array that an override or a departure changes."""
-    if math.isnan(item.design_m):
-        return ""
-    prescriptive = item.mark(lambda array: array.prescriptive.value_m)
-    return {"design": item.design_mark, "prescriptive": prescriptive}.get(name, "")
-
-
-def _clearance(shown: _Shown, gap: ClearanceCheck) -> Mapping[str, Any]:
-    row = gap.clearance
-    required, provided = compared(gap.required_m, row.provided_m)
-    has_none = math.isnan(gap.required_m)
-    return {
-        "array": row.array,
-        "object": row.object,
-        "direction": row.direction.value,
-        "provided_m": row.provided_m,
-        "required_m": finite(gap.required_m),
-        "ratio": finite(gap.demand_capacity),
-        "provided": pair(row.provided_m, Quantity.SIZE, shown.us_first, provided),
-        "required": NO_VALUE if has_none
-        else pair(gap.required_m, Quantity.SIZE, shown.us_first, required) + gap.mark,
-        "provided_short": shown.short(row.provided_m, provided),
-        "required_short": shown.short(gap.required_m, required) + gap.mark,
-        "ratio_text": NO_VALUE if has_none else gap.ratio_words,
-        "verdict": shown.verdict(gap.verdict),
-    }  # fmt: skip
-
-
 def _scale_m(assessment: Assessment) -> float:
     """Return the largest length that the bars show [m]."""
-    return max(filter(math.isfinite, _lengths(assessment.arrays)), default=0.0)
+    return max(filter(math.isfinite, _drawn(assessment.arrays)), default=0.0)
 
 
-def _lengths(arrays: Sequence[ArrayAssessment]) -> Iterator[float]:
+def _drawn(arrays: Sequence[ArrayAssessment]) -> Iterator[float]:
     for item in arrays:
         yield from (item.design_m, item.prescriptive.value_m)
         yield from (run.governing.prd_m for run in item.motions)

@@ -6,7 +6,6 @@ Points are in plan [m], y upward. Reads finished numbers; the package draws the 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -14,9 +13,11 @@ from report.assessment.envelopes import design_envelope
 from report.assessment.neighbors import EDGES
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
+from report.entities.clearance import ClearanceResult
+from report.entities.columns import UnitFormat
 from report.sheet.schema import ObjectKind, ProjectInput, Shape
 from report.sheet.shapes import Point, around, closest, label_point
-from report.words.units import Quantity, compared, round_below
+from report.words.units import Quantity, round_below
 
 NO_VALUE = "no value"
 """In place of a length that no run gives: nothing is required only where it is zero."""
@@ -24,8 +25,10 @@ NO_VALUE = "no value"
 ShowVerdict = Callable[[Verdict], str | None]
 
 
-def plan(assessment: Assessment, show: ShowVerdict) -> Mapping[str, Any]:
-    """Return the plan."""
+def plan(
+    assessment: Assessment, gaps: Sequence[ClearanceResult], fmt: UnitFormat, show: ShowVerdict
+) -> Mapping[str, Any]:
+    """Return the plan, with its clearances as they are shown."""
     data = assessment.project
     envelopes = {item.id: design_envelope(item) for item in assessment.arrays}
     return {
@@ -54,7 +57,7 @@ def plan(assessment: Assessment, show: ShowVerdict) -> Mapping[str, Any]:
             for item in data.objects
             if item.placed is not None
         ],
-        "gaps": list(_gaps(assessment, show)),
+        "gaps": list(_gaps(data, gaps, fmt, show)),
         "scale_bar": _scale_bar(data),
     }
 
@@ -73,27 +76,23 @@ def _scale_bar(data: ProjectInput) -> Mapping[str, Any]:
     return {"length_m": length * unit.si, "text": f"{length:g} {unit.symbol}"}
 
 
-def _gaps(assessment: Assessment, show: ShowVerdict) -> Iterator[Mapping[str, Any]]:
-    data = assessment.project
+def _gaps(
+    data: ProjectInput, gaps: Sequence[ClearanceResult], fmt: UnitFormat, show: ShowVerdict
+) -> Iterator[Mapping[str, Any]]:
     shapes: dict[str, Shape] = {row.id: row.placed for row in data.objects if row.placed}
     shapes |= {array.id: array.shape for array in data.arrays}
-    unit = Quantity.SIZE.us if data.project.units_first == "US" else Quantity.SIZE.si
-    for index, check in enumerate(assessment.clearances):
-        near, far = (shapes.get(n) for n in (check.clearance.array, check.clearance.object))
+    for index, gap in enumerate(gaps):
+        near, far = shapes.get(gap.array), shapes.get(gap.object)
         if near is None or far is None:
             continue
         start, end = closest(near, far)
-        provided, required = check.clearance.provided_m, check.required_m
-        show_required, show_provided = compared(required, provided)
         yield {
             "clearance": index,
             "from": _point(start),
             "to": _point(end),
-            "provided": f"{show_provided(provided, unit)} {unit.symbol}",
-            "required": NO_VALUE
-            if math.isnan(required)
-            else f"{show_required(required, unit)} {unit.symbol}{check.mark}",
-            "verdict": show(check.verdict),
+            "provided": gap.short("provided_m", fmt),
+            "required": gap.short("required_m", fmt),
+            "verdict": show(gap.verdict),
         }
 
 
