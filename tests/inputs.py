@@ -64,9 +64,18 @@ def array(name: str, slope: float, *, x: float = 20, y: float = 15, **changes: o
     } | changes
 
 
-def roof_object(name: str, kind: str, *plan_ft: float, height: float | None = None) -> Row:
-    """Return an object or edge, its rectangle in feet if it has one."""
-    return {"id": name, "kind": kind, "height_m": height} | (sides(*plan_ft) if plan_ft else {})
+def roof_object(
+    name: str,
+    kind: str,
+    x_from: float | None = None,
+    x_to: float = 0,
+    y_from: float = 0,
+    y_to: float = 0,
+    height: float | None = None,
+) -> Row:
+    """Return an object or edge, with a height [m] and its rectangle in feet if it has one."""
+    plan = {} if x_from is None else sides(x_from, x_to, y_from, y_to)
+    return {"id": name, "kind": kind, "height_m": height} | plan
 
 
 def clearance(near: str, far: str, provided_m: float, direction: str = "any") -> Row:

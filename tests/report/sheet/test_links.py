@@ -6,6 +6,7 @@ import pytest
 from openpyxl import load_workbook
 from pydantic import ValidationError
 
+import inputs
 from cells import cell
 from inputs import INCH, LB
 from report.sheet.schema import Links, UnitsFirst, coefficients
@@ -17,8 +18,7 @@ WANTED = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0
 
 
 def links(array="A1", friction="0.40, 0.45, 0.50", lb_in=5000, **changes):
-    stiffness = {"stiffness_n_per_m": lb_in * LB / INCH}
-    return {"array": array, "friction": friction, **stiffness} | changes
+    return inputs.links(array, friction, lb_in, **changes)
 
 
 @pytest.fixture

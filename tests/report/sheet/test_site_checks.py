@@ -2,24 +2,14 @@
 
 import pytest
 
+from inputs import SITE
 from report.sheet.schema import Site, SiteClass
 from report.sheet.site_checks import site_faults
 from solver.rules.hazard import HazardBasis
 
-GIVEN = {
-    "rule_set": "SEAOC PV1-2012",
-    "risk_category": "II",
-    "i_e": 1.0,
-    "s_s_g": 1.271,
-    "s_1_g": 0.455,
-    "site_class": "C",
-    "f_a": 1.2,
-    "f_v": 1.5,
-    "sdc": "D",
-    "stories": 1,
-    "structure_height_m": 9.0,
-    "roof_height_m": 9.0,
-}
+GIVEN = SITE | {
+    "s_ds_g": None, "s_s_g": 1.271, "s_1_g": 0.455, "site_class": "C", "f_a": 1.2, "f_v": 1.5,
+}  # fmt: skip
 
 
 def faults(**changes):
