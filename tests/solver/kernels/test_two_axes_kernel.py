@@ -110,7 +110,7 @@ def test_a_run_without_an_answer_says_why():
     assert given_up(wave(2, 30), 2000, dt=1e200)[0] == two_axes.NOT_FINITE
 
 
-def test_a_run_holds_and_releases_none_of_its_arrays():
+def test_a_run_keeps_no_references_to_its_arrays():
     """The functions inside count no references to what they borrow."""
     ax, ay, az = readonly(wave(2, 30)), readonly(wave(3, 30)), readonly(np.zeros(30))
     given = [ax, ay, az, *(one_axis.bounds(a) for a in (ax, ay, az))]
@@ -126,23 +126,40 @@ def test_the_blocks_passed_over_are_those_of_the_bounds():
     assert two_axes.SHIFT == one_axis.SHIFT
 
 
-def test_blocks_passed_over_change_nothing():
-    ax, ay, az = readonly(QUIET), readonly(-QUIET[::-1]), readonly(0.0 * QUIET)
-    x, y, z = (one_axis.bounds(a) for a in (ax, ay, az))
+def hardly_pushed(seed):
+    """Three components of noise that seldom pushes a block of samples beyond friction."""
+    rng = np.random.default_rng(seed)
+    parts = rng.uniform(0.2, 1.0, (3, 1)) * rng.choice([0.3, 1.0], (1, 10), p=[0.7, 0.3])
+    return (2.5 * np.repeat(parts, 16, axis=1) * rng.normal(size=(3, 160))).round(2)
+
+
+@pytest.mark.parametrize(
+    ("shaking", "sn"),
+    [((QUIET, -QUIET[::-1], 0.0 * QUIET), 0.1), *((hardly_pushed(k), 0.15) for k in (1, 2, 5, 6))],
+)
+def test_blocks_passed_over_change_nothing(shaking, sn):
+    ax, ay, az = map(readonly, shaking)
+    bounds = [one_axis.bounds(a) for a in (ax, ay, az)]
     # All of a record but its peak, which rounding is told from.
-    least_and_greatest = np.array([[-99.0], [99.0]])
-    wide = [least_and_greatest * np.ones_like(bounds) for bounds in (x, y)]
-    for widened, bounds in zip(wide, (x, y), strict=True):
-        widened[:, -1] = bounds[:, -1]
-    runs = []
-    for bounds in ((x, y), wide):
-        top, end = np.empty(7), np.empty(4)
-        run = two_axes.slide_plane(
-            ax, ay, az, *bounds, z, 0.05, 0.1, 0.99, 0.3, G, 1.0, 1e-9, 16, 2000, None,
-            np.empty((0, 4)), np.empty((4, 0)), top, end,
-        )  # fmt: skip
-        runs.append([*run, *top, *end])
-    assert runs[0] == runs[1]
+    wide = [np.array([[-99.0], [99.0]]) * np.ones_like(each) for each in bounds]
+    for widened, each in zip(wide, bounds, strict=True):
+        widened[:, -1] = each[:, -1]
+    cs, held = math.sqrt(1.0 - sn * sn), (0.3, 0.0, 0.0, 0.4)
+    for sine, scale, mu, law in (
+        (sn, 1.0, 0.45, None),
+        (-sn, -1.0, 0.45, None),
+        (sn, 1.0, 1.0, held),
+    ):
+        runs = []
+        for given in (bounds, wide):
+            top, end = np.empty(7), np.empty(4)
+            run = two_axes.slide_plane(
+                ax, ay, az, *given, 0.05, sine, cs, mu, G, scale, 1e-6, 12, 2000, law,
+                np.empty((0, 4)), np.empty((4, 0)), top, end,
+            )  # fmt: skip
+            runs.append([*run, *top, *end])
+        assert runs[0] == runs[1]
+        assert runs[0][0] == two_axes.FOLLOWED
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
