@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 from jinja2 import pass_context
 
+from report.assessment.friction import mu_words
 from report.document.tables import Table, stamp, table_of
+from report.typeset.equations import symbol
 from report.words.counts import capitalized, counted, spelled
 from report.words.units import Quantity, number
 
@@ -26,6 +28,12 @@ if TYPE_CHECKING:
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
     """Return a document from a template of a folder."""
     return _environment(folder).get_template(name).render(context)
+
+
+def sentence(folder: Path, name: str, package: object) -> str:
+    """Return a sentence that pages and the screen share, from `sentences.html`."""
+    macros = _environment(folder).get_template("sentences.html").module
+    return " ".join(str(getattr(macros, name)(package)).split())
 
 
 @cache
@@ -45,11 +53,14 @@ def _environment(folder: Path) -> Environment:
         "capitalized": capitalized,
         "clause": _clause,
         "counted": counted,
+        "friction": mu_words,
+        "lowered": lambda text: text[:1].lower() + text[1:],
         "mark": _mark,
         "number": number,
         "rule_length": _rule_length,
         "spelled": spelled,
         "stamp": stamp,
+        "symbol": symbol,
     }
     environment.tests["nan"] = math.isnan
     environment.globals["rows"] = _rows

@@ -22,6 +22,7 @@ from report.pages.letter import letter
 from report.pages.parts import PackageData
 from report.pages.pictures import Pictures, draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import Content, package_data, pages_of, parts
+from report.pages.symbols import with_symbols
 from report.typeset.equations import Formula, formulas
 from report.typeset.pdf import TEMPLATES
 
@@ -121,6 +122,7 @@ def _html(
     equations = {**ready, **formulas(set(_latex(content)) - ready.keys())}
     context = {
         "p": package,
+        "with_symbols": with_symbols,
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
         "sheet": front.sheet(package),
         "parts": tuple(listed.values()),

@@ -26,24 +26,13 @@ EXCEPTED = "permitted*"
 """Verdict on a value beyond a limit that the rule set permits to be exceeded."""
 
 
-def all_checks(package: PackageData) -> Sequence[tuple[str, Check]]:
-    """Return every limit with the item that it applies to."""
-    building = [("Building", check) for check in package.assessment.building_checks]
-    arrays = [
-        (f"Array {array.id}", check)
-        for array in package.assessment.arrays
-        for check in array.limits
-    ]
-    return [*building, *arrays]
-
-
 def failed_limits(package: PackageData) -> Sequence[str]:
     """Return the limits that are not satisfied, in words."""
     return [
         f"{place}: {check.title} is {check_value(check, check.value, package.fmt)}, limit "
         f"{check_value(check, check.limit, package.fmt)} "
         f"({check.provision.clause}{dagger(check.provision)})."
-        for place, check in all_checks(package)
+        for place, check in package.checks
         if not check.ok
     ]
 
@@ -197,7 +186,7 @@ def limits(package: PackageData) -> Mapping[str, object]:
     return {
         "texts": (),
         "tables": (
-            check_table(_limits_caption(package), package, all_checks(package)),
+            check_table(_limits_caption(package), package, package.checks),
             requirements(package),
             *_warnings(package),
             _interconnection(package),

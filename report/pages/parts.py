@@ -6,7 +6,7 @@ Owns no content: see the other `report.pages` modules. Read `PackageData`.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -72,6 +72,31 @@ class PackageData(Marked):
         rows = clearance_results(self, dict(enumerate(self.assessment.clearances, start=1)))
         changed = self.changes.clearances
         return tuple(row.styled(self.bar(row.count in changed)) for row in rows)
+
+    @property
+    def n_runs(self) -> int:
+        """Number of runs of all arrays."""
+        return sum(len(motion.runs) for item in self.assessment.arrays for motion in item.motions)
+
+    @property
+    def checks(self) -> tuple[tuple[str, Check], ...]:
+        """Every limit with the item that it applies to."""
+        given = self.assessment
+        return (
+            *(("Building", check) for check in given.building_checks),
+            *((f"Array {item.id}", check) for item in given.arrays for check in item.limits),
+        )
+
+    @property
+    def verdicts(self) -> Mapping[str, Sequence[bool]]:
+        """Whether each array, clearance, limit and requirement is not NG."""
+        given = self.assessment
+        return {
+            "array": [item.verdict.is_permitted for item in self.arrays],
+            "clearance": [gap.verdict.is_permitted for gap in given.clearances],
+            "limit": [check.ok for _, check in self.checks],
+            "requirement": [row.verdict.is_permitted for row in given.rows],
+        }
 
     @property
     def fingerprint(self) -> str:

@@ -83,7 +83,7 @@ def test_runs_without_a_vertical_component_are_not_said_to_have_one(unqualified)
     [
         ((0.1, 0.2), "None of the two clearances is satisfied."),
         ((0.1, 30.0), "One of two clearances is satisfied."),
-        ((30.0, 30.0), "All two clearances are satisfied."),
+        ((30.0, 30.0), "Both clearances are satisfied."),
         ((0.1,), "The clearance is not satisfied."),
         ((30.0,), "The clearance is satisfied."),
     ],
