@@ -5,15 +5,16 @@ Templates print these. Owns no content. Read `table_of`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from typing import Any
 
 from markupsafe import Markup
 
 from report.assessment.verdict import Verdict
 from report.entities.columns import TableColumn, UnitFormat
-from report.entities.shown import Entity, shown_by
+from report.entities.shown import Entity, Shown, shown_by
 from solver.model import DefectError
 
 WHOLE_ROWS = 6  # longer tables may break across pages, with the heading repeated
@@ -138,6 +139,48 @@ def table_of(
         ),
         notes=tuple(notes),
         kind=kind,
+    )
+
+
+Column = tuple[Shown, Callable[[Any], Any]]
+"""How a column is shown, and what gives its value for an item."""
+
+
+def listed(
+    items: Iterable[Any],
+    columns: Sequence[Column],
+    caption: str,
+    fmt: UnitFormat,
+    *,
+    kind: str = "",
+    notes: Sequence[str] = (),
+    whole_rows: int = WHOLE_ROWS,
+    style: Callable[[Any], str] = lambda _: "",
+) -> Table:
+    """Return items that are no entity as a table: each column says its heading and its value.
+
+    Parameters
+    ----------
+    style : callable, optional
+        Gives the style of the row of an item.
+    """
+    return Table(
+        caption=caption,
+        columns=tuple(
+            column for shown, _ in columns for column in shown.columns(fmt, shown.head, shown.share)
+        ),
+        rows=tuple(
+            TableRow(
+                cells=tuple(
+                    cell for shown, value in columns for cell in shown.cells(value(item), fmt)
+                ),
+                kind=style(item),
+            )
+            for item in items
+        ),
+        notes=tuple(notes),
+        kind=kind,
+        whole_rows=whole_rows,
     )
 
 

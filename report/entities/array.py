@@ -19,7 +19,7 @@ from report.assessment.verdict import Verdict
 from report.entities.marks import Marked
 from report.entities.requirement import limit
 from report.entities.run import PeakResult, RunResult, peak_result, run_result
-from report.entities.shown import Entity, Number, Shown, at, length, ratio_of, unwritten, words
+from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
 from report.sheet.schema import Direction, Model
 from report.words.units import number
 from solver.model import Friction
@@ -52,12 +52,12 @@ class Displacements(Entity):
         """The floor [m]; NaN where peer review removes it."""
         return self.floor_m or math.nan
 
-    @unwritten(ratio_of("Analysis / prescr.", share=1.2))
+    @unwritten(plain("Analysis / prescr.", share=1.2))
     def computed_ratio(self) -> float:
         """Value from analysis / prescriptive displacement."""
         return self.computed_m / self.prescriptive_m
 
-    @unwritten(ratio_of("Design / prescr.", share=1.2))
+    @unwritten(plain("Design / prescr.", share=1.2))
     def design_ratio(self) -> float:
         """Design displacement / prescriptive displacement."""
         return self.design_m / self.prescriptive_m

@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, Field
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.verdict import Verdict
 from report.entities.marks import Marked, joined
-from report.entities.shown import Entity, Number, Shown, at, length, ratio_of, unwritten, words
+from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
 from report.sheet.schema import Direction
 from report.words.units import Quantity, compared, ratio, rounded_apart
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
@@ -30,7 +30,7 @@ class ClearanceResult(Entity):
     governing_direction: Annotated[Direction, words("Direction", 1.05)]
     design_m: Annotated[Number, length("Displ.", 0.8)]
     importance: float
-    factor: Annotated[float, ratio_of("Factor", share=0.75)]
+    factor: Annotated[float, plain("Factor", share=0.75)]
     required_m: Annotated[Number, length("Required", 0.8)]
     required_is_overridden: Annotated[bool, at("mark"), BeforeValidator(bool)]
     provided_m: Annotated[float, at("clearance.provided_m"), length("Provided", 0.8)]

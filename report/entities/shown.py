@@ -30,6 +30,10 @@ Number = Annotated[float, BeforeValidator(lambda value: math.nan if value is Non
 """A number; NaN is none, which is null in JSON."""
 
 
+def _as_it_is(value: Any) -> str:
+    return value if isinstance(value, str) else str(value)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shown:
     """How a field is shown: a quantity in both systems of units, or else as text."""
@@ -37,7 +41,7 @@ class Shown:
     head: str
     unit: str = ""
     quantity: Quantity | None = None
-    text: Callable[[Any], str] = str
+    text: Callable[[Any], str] = _as_it_is
     align: str = "right"
     share: float = 1.0
 
@@ -47,10 +51,21 @@ class Shown:
             return fmt.columns(head, self.quantity, share)
         return (TableColumn(head=head, unit=self.unit, align=self.align, share=share),)
 
+    def cells(
+        self, value: Any, fmt: UnitFormat, mark: str = "", show: Show = measured
+    ) -> tuple[str, ...]:
+        """Return a value for print: one text, or one for each system of units."""
+        if self.quantity:
+            return fmt.cells(value, self.quantity, mark=mark, show=show)
+        if isinstance(value, float) and math.isnan(value):
+            return (fmt.none,)
+        text = self.text(value)
+        return (text + mark if mark else text,)
 
-def words(head: str, share: float = 1.0, **how: Any) -> Shown:
+
+def words(head: str, share: float = 1.0) -> Shown:
     """Return how a field of words is shown."""
-    return Shown(head=head, align="left", share=share, **how)
+    return Shown(head=head, align="left", share=share, text=_as_it_is)
 
 
 def length(head: str, share: float = 1.0) -> Shown:
@@ -58,9 +73,19 @@ def length(head: str, share: float = 1.0) -> Shown:
     return Shown(head=head, quantity=Quantity.DISPLACEMENT, share=share)
 
 
-def ratio_of(head: str, decimals: int = 2, share: float = 1.0) -> Shown:
-    """Return how a plain number is shown."""
-    return Shown(head=head, text=partial(number, decimals=decimals), share=share)
+def text(head: str, unit: str = "", share: float = 1.0) -> Shown:
+    """Return how a finished text is shown, aligned as numbers are."""
+    return Shown(head=head, unit=unit, share=share, text=_as_it_is)
+
+
+def plain(head: str, decimals: int = 2, unit: str = "", share: float = 1.0) -> Shown:
+    """Return how a number is shown that is no quantity in two systems of units."""
+    return Shown(head=head, unit=unit, text=partial(number, decimals=decimals), share=share)
+
+
+def centered(head: str, share: float = 1.0) -> Shown:
+    """Return how a verdict is shown."""
+    return Shown(head=head, align="center", share=share, text=_as_it_is)
 
 
 def at(path: str) -> Any:
@@ -119,14 +144,8 @@ class Entity(BaseModel):
 
     def cells(self, name: str, fmt: UnitFormat) -> tuple[str, ...]:
         """Return a field for print: one text, or one for each system of units."""
-        shown, value, mark = shown_by(type(self), name), getattr(self, name), self._mark(name)
-        if shown.quantity:
-            show = self.rounds.get(name, measured)
-            return fmt.cells(value, shown.quantity, mark=mark, show=show)
-        if isinstance(value, float) and math.isnan(value):
-            return (fmt.none,)
-        text = shown.text(value)
-        return (text + mark if mark else text,)
+        shown, show = shown_by(type(self), name), self.rounds.get(name, measured)
+        return shown.cells(getattr(self, name), fmt, self._mark(name), show)
 
     def both(self, name: str, fmt: UnitFormat) -> str:
         """Return a field in a sentence: a quantity in both systems of units."""

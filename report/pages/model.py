@@ -13,8 +13,9 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words
 from report.assessment.runs import RUNGS, HeadingRun
-from report.document.tables import Table, TableRow, Wide
+from report.document.tables import Table, TableRow, Wide, listed
 from report.entities.columns import NO_VALUE, TableColumn
+from report.entities.shown import centered, plain, text, words
 from report.pages import links
 from report.pages.accuracy import below_mm
 from report.pages.parts import PackageData, nan_is_worst, verdict
@@ -76,20 +77,31 @@ def tipping_troubles(package: PackageData) -> Iterator[str]:
 
 def _stability_table(package: PackageData) -> Table:
     """Return the checks of uplift and tipping."""
-    return Table(
-        caption="Checks independent of the model: uplift and tipping",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.8),
-            TableColumn(head="Min. N", unit="m g", share=1.0),
-            TableColumn(head="Uplift time", unit="s", share=1.1),
-            TableColumn(head="Demand", unit="V/N", share=1.0),
-            TableColumn(head="Transmitted", unit="V/N", share=1.1),
-            TableColumn(head="Capacity", unit="b/(2c)", share=1.1),
-            TableColumn(head="Ratio, at rest", share=1.2),
-            TableColumn(head="Ratio, sliding", share=1.2),
-            TableColumn(head="Verdict", align="center", share=1.0),
+
+    def demand(array: ArrayAssessment) -> str:
+        demand = array.tipping.demand
+        return number(demand, 2) if math.isfinite(demand) else "no limit"
+
+    columns = (
+        (words("Array", 0.8), lambda item: item.id),
+        (plain("Min. N", unit="m g"), lambda item: item.uplift.n_min_g),
+        (
+            text("Uplift time", "s", 1.1),
+            lambda item: number(item.uplift.duration_s, 3) if item.uplift.lifts else "none",
         ),
-        rows=tuple(TableRow(cells=_stability(array)) for array in package.assessment.arrays),
+        (text("Demand", "V/N"), demand),
+        (plain("Transmitted", unit="V/N", share=1.1), lambda item: item.tipping.transmitted),
+        (plain("Capacity", unit="b/(2c)", share=1.1), lambda item: item.tipping.capacity),
+        (text("Ratio, at rest", share=1.2), lambda item: ratio(item.tipping.at_rest_ratio)),
+        (text("Ratio, sliding", share=1.2), lambda item: ratio(item.tipping.sliding_ratio)),
+        (centered("Verdict"), lambda item: verdict(item.tipping.is_ok and not item.uplift.lifts)),
+    )
+    return listed(
+        package.assessment.arrays,
+        columns,
+        "Checks independent of the model: uplift and tipping",
+        package.fmt,
+        kind="compact",
         notes=(
             "The worst run of each array. Tipping: an array begins to tip about an edge of its "
             "supports where the transmitted shear exceeds b/(2c) times the normal force. "
@@ -97,22 +109,6 @@ def _stability_table(package: PackageData) -> Table:
             "support spacing; c: height of the center of gravity, midway between the supports "
             "(Housner, 1963; Ishiyama, 1982).",
         ),
-        kind="compact",
-    )
-
-
-def _stability(array: ArrayAssessment) -> tuple[str, ...]:
-    tips, lifts = array.tipping, array.uplift
-    return (
-        array.id,
-        number(lifts.n_min_g, 2),
-        number(lifts.duration_s, 3) if lifts.lifts else "none",
-        number(tips.demand, 2) if math.isfinite(tips.demand) else "no limit",
-        number(tips.transmitted, 2),
-        number(tips.capacity, 2),
-        ratio(tips.at_rest_ratio),
-        ratio(tips.sliding_ratio),
-        verdict(tips.is_ok and not lifts.lifts),
     )
 
 
