@@ -61,7 +61,7 @@ def counts(record: Record) -> list[int]:
 @pytest.fixture(
     scope="module",
     params=[
-        pytest.param(range(2), id="two"),
+        pytest.param(range(3), id="three"),
         pytest.param(range(10), id="ten", marks=pytest.mark.nightly),
     ],
 )
