@@ -40,7 +40,8 @@ def test_check_prints_one_line_and_counts_all(tmp_path):
     path = type_into(make(tmp_path), WET | {"Arrays/A1/Weight": 0})
     done = CliRunner().invoke(main, ["check", str(path)])
     assert done.exit_code == 2
-    head, *lines = done.stderr.splitlines()
+    # After a second, a slow machine says what it does.
+    head, *lines = (line for line in done.stderr.splitlines() if not line.startswith("["))
     assert head == f"{path}: 3 problems found."
     assert lines == [f"  {', '.join(said(*WET))}: {WRONG}", at(f"  <Arrays/A1/Weight>: {OTHER}")]
     data = json.loads(CliRunner().invoke(main, ["check", str(path), "--json"]).stdout)
