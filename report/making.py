@@ -26,12 +26,12 @@ def make(
     since: Path | None,
     progress: Callable[[str], None],
     second: Executor,
-    told: Callable[[Assessment], None] = lambda _: None,
+    on_assessment: Callable[[Assessment], None] = lambda _: None,
 ) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
     """Read a workbook, run its motions, and write the package and the tables.
 
-    A second process (`report.beside`) draws and writes what it can meanwhile. `told` is given the
-    assessment before the package is made, which takes longer.
+    A second process (`report.beside`) draws and writes what it can meanwhile. `on_assessment` is
+    given the assessment before the package is made, which takes longer.
     """
     second.submit(load)
     from report.assessment.changes import NO_FORMER
@@ -61,14 +61,14 @@ def make(
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
     shaking = prepare(sheet)
     found = sources(sheet, shaking, since)
-    dear = cost(sheet.project, shaking)
-    progress(f"running the motions ({dear or 'the first run compiles the solver'})")
+    long_run_notice = cost(sheet.project, shaking)
+    progress(f"running the motions ({long_run_notice or 'the first run compiles the solver'})")
     assessment = assess(sheet, shaking)
     changed = changes(former[0], assessment) if former else NO_FORMER
     begun = begin(assessment, changed, second)
     shown = plotted(assessment)
     begun = begun.plot(shown)
-    told(assessment)
+    on_assessment(assessment)
     evidence = support(assessment, shown)
     progress("writing the pages")
     html = pages(assessment, evidence, changed, begun)

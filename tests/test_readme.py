@@ -22,7 +22,7 @@ from places import ROOT
 from report.beside import SameProcess
 from report.cli import batch
 from report.cli.main import main
-from report.kept import begin_round, forget
+from report.memoized import clear, new_generation
 from report.results.publish import STAMP
 from report.typeset.pdf import lay_out
 from sheets import edit, make
@@ -87,7 +87,7 @@ def commanded(folder):
         return laid_out[html, files]
 
     with pytest.MonkeyPatch.context() as patch, ExitStack() as after:
-        after.callback(forget)
+        after.callback(clear)
         patch.chdir(folder)
         patch.setattr(report.typeset.pdf, "lay_out", kept)
         patch.setattr(batch, "ProcessPoolExecutor", lambda *_, **__: SameProcess())
@@ -95,7 +95,7 @@ def commanded(folder):
             words = shlex.split(command)[1:]
             if words in ELSEWHERE:
                 continue
-            begin_round()
+            new_generation()
             done = CliRunner().invoke(main, words)
             assert done.exit_code == 0, command + done.output
             printed[shlex.join(words)] = done.output

@@ -28,7 +28,7 @@ from report.assessment.trials import (
     reach,
     with_mu,
 )
-from report.kept import kept
+from report.memoized import memoized
 from report.sheet.schema import Array
 from solver.model import Floats, Heading, Motion, Scene, SlideResult, Status
 from solver.sliding import one_axis, two_axes
@@ -206,7 +206,7 @@ def _cell(array: ArrayAssessment, cell: tuple[float, float]) -> list[SlideResult
     return [_slid(replace(scene, slope_rad=slope, friction=friction)) for scene in scenes]
 
 
-@kept
+@memoized
 def _slid(scene: Scene) -> SlideResult:
     """Slide with every component of the scene, to the tolerance of the grid."""
     if scene.friction.is_constant and not scene.ay_mps2.any():

@@ -38,7 +38,7 @@ from report.assessment.friction_velocity import (
 )
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
-from report.assessment.rough import run_roughly, told_by_rough_runs
+from report.assessment.rough import decided_at_coarse_tolerance, run_roughly
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
 from report.assessment.verdict import Row, Verdict, worst
@@ -201,23 +201,25 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
         begin = partial(begin_runs, pool, motions=shaking.motions)
         begun = begin(run_motion, data, check_models=True, former=former.arrays if former else ())
         # The runs with less friction follow without a pause, while motions and arrays are checked.
-        softer = with_friction(data, 1.0 - SHIFT)
+        reduced = with_friction(data, 1.0 - SHIFT)
         known = former.less.arrays if former and former.less else ()
-        rough = begin(run_roughly, softer, check_models=False, former=known)
+        rough = begin(run_roughly, reduced, check_models=False, former=known)
         known = former.low_velocity.arrays if former else ()
         slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
 
-        def less() -> Assessment:
-            found = whole(softer, begun=rough)
-            told = told_by_rough_runs(softer, found.rules, found.arrays, found.clearances)
-            if len(told) == len(found.arrays):
+        def reduced_friction() -> Assessment:
+            found = whole(reduced, begun=rough)
+            decided = decided_at_coarse_tolerance(
+                reduced, found.rules, found.arrays, found.clearances
+            )
+            if len(decided) == len(found.arrays):
                 return found
-            exact = begin(run_motion, softer, check_models=False, former=told)
-            return whole(softer, begun=exact)
+            exact = begin(run_motion, reduced, check_models=False, former=decided)
+            return whole(reduced, begun=exact)
 
-        return whole(data, begun=begun, slow=slow, less=less)
+        return whole(data, begun=begun, slow=slow, less=reduced_friction)
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:

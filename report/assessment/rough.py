@@ -1,6 +1,6 @@
 """Runs to a tolerance that is enough to tell OK from NG, and where it is not.
 
-Read `run_roughly`, then `told_by_rough_runs`.
+Read `run_roughly`, then `decided_at_coarse_tolerance`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def run_roughly(array: Array, motion: Motion) -> MotionRun:
     return run_motion(array, motion, tolerance=tolerance)
 
 
-def told_by_rough_runs(
+def decided_at_coarse_tolerance(
     data: ProjectInput,
     rules: RuleSet,
     arrays: Sequence[ArrayAssessment],
@@ -36,16 +36,16 @@ def told_by_rough_runs(
 
     The others are beside a clearance near its limit, or without a value.
     """
-    not_told = {
+    undecided = {
         scene_key(item.array)
         for check in clearances
         for item, direction in facing(data, arrays, check.clearance)
-        if not _is_told(rules, check, item, direction)
+        if not _is_decided(rules, check, item, direction)
     }
-    return [item for item in arrays if scene_key(item.array) not in not_told]
+    return [item for item in arrays if scene_key(item.array) not in undecided]
 
 
-def _is_told(
+def _is_decided(
     rules: RuleSet, check: ClearanceCheck, item: ArrayAssessment, direction: Direction
 ) -> bool:
     """Whether exact runs of an array leave the verdict on a clearance; not without a value."""

@@ -10,7 +10,7 @@ import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from report.kept import kept
+from report.memoized import memoized
 from report.sheet.schema import Array, Direction, Model
 from solver.model import Heading, Motion, Scene, SlideHistory, SlideResult, Status
 from solver.rivals.methods import NO_RECORD
@@ -161,12 +161,12 @@ def run_heading(
     return HeadingRun(heading=heading, scene=scene, solution=_solved(scene, settings))
 
 
-@kept
+@memoized
 def _solved(scene: Scene, settings: Settings) -> Solution:
     return least_model.solve(scene, settings)
 
 
-@kept
+@memoized
 def _followed(scene: Scene, solution: Solution) -> SlideHistory:
     return least_model.history(scene, solution)
 

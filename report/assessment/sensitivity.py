@@ -19,7 +19,7 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import SHIFT, with_friction
 from report.assessment.project import Assessment, reassess
 from report.assessment.runs import MotionRun
-from report.kept import kept
+from report.memoized import memoized
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, SlideResult, Status
 from solver.rivals.methods import METHODS, Method
 from solver.rules.provisions import Check
@@ -129,7 +129,7 @@ class Accuracy:
         )
 
 
-@kept
+@memoized
 def rivals(array: ArrayAssessment) -> Rivals:
     """Run the governing motion of an array by every method."""
     motion = array.worst

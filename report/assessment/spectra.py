@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.assessment.project import Assessment
-from report.kept import kept
+from report.memoized import memoized
 from report.motions.targets import TargetSpectrum
 from report.sheet.schema import RecordedAt
 from report.words.units import G_MPS2
@@ -181,6 +181,6 @@ def _spectra(
     )
 
 
-@kept
+@memoized
 def _ordinates(a_mps2: Floats, dt_s: float) -> Floats:
     return response_spectrum(a_mps2, dt_s, PERIODS_S)

@@ -56,7 +56,7 @@ def watch(source: Path, out: Path | None, once: bool) -> None:
     moment is read again.
     """
     from report.beside import beside
-    from report.kept import forget
+    from report.memoized import clear
 
     with input_errors(source):
         if not source.is_dir():
@@ -79,7 +79,7 @@ def watch(source: Path, out: Path | None, once: bool) -> None:
                 round_.run()
                 round_.sweep()
         finally:
-            forget()
+            clear()
 
 
 class Round:
@@ -124,12 +124,12 @@ class Round:
         ------
         InputError
         """
-        from report.kept import begin_round
         from report.making import make
+        from report.memoized import new_generation
 
         settle(self._workbook, self._settle_s)
-        begin_round()
-        self._second.submit(begin_round)
+        new_generation()
+        self._second.submit(new_generation)
         with no_collections():
             _, _, files, _ = make(
                 self._workbook, self._folder, None, lambda _: None, self._second, self._print

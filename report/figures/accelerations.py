@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from report.figures.base import GRAY, INK, WIDTH_IN, Broken, style, svg_text, tick_text
 from report.figures.history import envelope
-from report.kept import kept
+from report.memoized import memoized
 from report.words.units import G_MPS2, round_below
 from solver.model import Floats, Motion
 
@@ -24,7 +24,7 @@ _BAR = 0.8  # a bar at most, of the largest peak and of the longest motion; at l
 _COLUMNS = ("Record", "Transverse", "Vertical")
 
 
-@kept
+@memoized
 def accelerations(motions: Sequence[Motion]) -> str:
     """Return the scaled accelerations of the motions over time, all at one scale.
 

@@ -14,14 +14,14 @@ from report.assessment.sensitivity import MethodRun, Rivals
 from report.figures.base import bare, framed, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades
-from report.kept import kept
+from report.memoized import memoized
 from report.words.units import Quantity
 
 FLOOR = 1e-16  # an error of zero is drawn here: the resolution of a double
 _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 
 
-@kept
+@memoized
 def work_precision(rivals: Rivals, us_first: bool) -> str:
     """Return the error in PRD against steps per sampling interval, one line per method."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si

@@ -16,14 +16,14 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Surface
 from report.figures.base import GRAY, INK, bare, framed, style, svg_text, tick_text
 from report.figures.levels import LEAST_M, is_decade, levels
-from report.kept import kept
+from report.memoized import memoized
 from report.words.units import Quantity
 from solver.model import Floats
 
 TYPE_PT = 9.0  # at smaller sizes the renderer clips the first letter of a label
 
 
-@kept
+@memoized
 def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
     """Return the contours in the primary unit; hollow dots have another friction law."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si

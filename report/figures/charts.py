@@ -32,7 +32,7 @@ from report.figures.hodograph import hodographs
 from report.figures.plan import is_wide, roof_plan
 from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.figures.spectra import spectra
-from report.kept import kept
+from report.memoized import memoized
 from report.words.units import Quantity, Unit
 
 __all__ = [
@@ -54,7 +54,7 @@ __all__ = [
 ]
 
 
-@kept
+@memoized
 def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
     """Return prescriptive value, floor, PRD of each motion, mean and design value by array."""
     first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
@@ -158,7 +158,7 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labele
         axes.text(prescriptive / 2, row, "none", ha="center", va="center")
 
 
-@kept
+@memoized
 def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -> str:
     """Return required and provided separations as bars, numbered from `start`."""
     first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]

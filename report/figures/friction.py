@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from report.figures.base import ACCENT, ACROSS, GRAY, INK, WIDTH_IN, bare, framed, style, svg_text
 from report.figures.labels import TYPE_PT, width_in
-from report.kept import kept
+from report.memoized import memoized
 from report.sheet.schema import Array
 from report.words.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface
@@ -35,7 +35,7 @@ _LEADER_IN = 0.15
 _LABEL_GAP = 0.12  # least distance of two labels, as a share of the height
 
 
-@kept
+@memoized
 def friction_by_velocity(
     runs: Sequence[FrictionRun],
     arrays: Sequence[Array],

@@ -25,7 +25,7 @@ from report.figures.base import (
     svg_text,
     tick_text,
 )
-from report.kept import kept
+from report.memoized import memoized
 from report.words.units import Quantity, Unit, number, pair
 from solver.model import Floats, SlideHistory
 
@@ -38,7 +38,7 @@ MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
 
-@kept
+@memoized
 def histories(
     motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
 ) -> str:

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from report.assessment.runs import MotionRun
 from report.figures.base import GRAY, INK, WIDTH_IN, style, svg_text, tick_text
-from report.kept import kept
+from report.memoized import memoized
 from report.words.units import Quantity, round_below
 from solver.model import Floats, SlideHistory
 
@@ -26,7 +26,7 @@ TITLE_IN, FOOT_IN, APART_IN = 0.2, 0.3, 0.1
 STEP_IN = 0.008  # between points of a path: what print resolves
 
 
-@kept
+@memoized
 def hodographs(
     motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
 ) -> str:

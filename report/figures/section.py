@@ -12,7 +12,7 @@ from matplotlib.patches import Arc, Polygon
 
 from report.assessment.friction import mu_words
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, style, svg_text
-from report.kept import kept
+from report.memoized import memoized
 from report.sheet.schema import Array
 from report.words.units import Quantity, number, pair
 
@@ -38,7 +38,7 @@ class _Roof(NamedTuple):
         return self.x + s * c + n * d, self.y - s * d + n * c
 
 
-@kept
+@memoized
 def array_section(array: Array, us_first: bool) -> str:
     """Return the section with b, c, slope and friction, and the forces during downslope slip."""
     drawn = math.radians(drawn_slope_deg(array))

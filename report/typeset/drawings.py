@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from report.kept import kept
+from report.memoized import memoized
 from report.typeset.renderer import load
 from solver.model import DefectError
 
@@ -119,7 +119,7 @@ def discard(fonts: Any) -> None:
     fonts._folder = None
 
 
-@kept
+@memoized
 def _converted(source: str, css: Path) -> Converted:
     svg = svg_of(source)
     width, height = size_px(svg)

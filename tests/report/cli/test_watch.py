@@ -24,8 +24,8 @@ from places import ROOT, TESTS
 from report.beside import SameProcess, beside
 from report.cli.main import main
 from report.cli.watch import Round, is_input, saves, settle
-from report.kept import forget
 from report.making import OUTPUTS
+from report.memoized import clear
 from sheets import make, type_into
 from solver.model import InputError
 from solver.sliding import least_model
@@ -134,7 +134,7 @@ def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_save(tmp_p
         (folder / "calc-package.pdf").write_bytes(b"%PDF")
         assert not round_.run()
     finally:
-        forget()
+        clear()
     told = capsys.readouterr().err.splitlines()
     assert told[0] == f"{path}: 1 problem found."
     assert told[-1] == f"{folder}: not written again; its files are of an earlier save"
@@ -350,7 +350,7 @@ def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
             others = counted(round_, "record")
             round_.sweep()
     finally:
-        forget()
+        clear()
     assert warm == fresh(copies)
     assert warm[-1]["calc-package.pdf"].startswith(b"%PDF")
     assert none == 0

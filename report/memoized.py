@@ -2,7 +2,7 @@
 
 `roofslip watch` computes nearly the same again after each save. A kept result is found only by the
 function and the content of all its arguments, so that none can be stale. Elsewhere nothing is kept
-and nothing is hashed. Read `kept`, then `begin_round`.
+and nothing is hashed. Read `memoized`, then `new_generation`.
 """
 
 from __future__ import annotations
@@ -17,29 +17,29 @@ from typing import Any, ParamSpec, TypeVar
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
-ROUNDS = 3
-"""Rounds after which a result that none of them asked for is dropped: an input is often changed
+GENERATIONS = 3
+"""Generations after which a result that none asked for is dropped: an input is often changed
 back."""
 
 
 @dataclass(slots=True)
 class _Result:
     value: Any
-    last_round: int
+    last_generation: int
 
 
 class _Store:
-    """The results that a process keeps: as many as `ROUNDS` rounds asked for."""
+    """The results that a process keeps: those that the last `GENERATIONS` generations asked for."""
 
     def __init__(self) -> None:
         self._results: dict[bytes, _Result] = {}
-        self._round = 0
+        self._generation = 0
 
-    def begin_round(self) -> None:
-        self._round += 1
-        oldest = self._round - ROUNDS
+    def new_generation(self) -> None:
+        self._generation += 1
+        oldest = self._generation - GENERATIONS
         self._results = {
-            key: result for key, result in self._results.items() if result.last_round >= oldest
+            key: result for key, result in self._results.items() if result.last_generation >= oldest
         }
 
     def result(self, function: Callable[..., Any], *call: Any) -> Any:
@@ -50,28 +50,28 @@ class _Store:
         if found is None:
             positional, named = call
             found = self._results[key] = _Result(function(*positional, **named), 0)
-        found.last_round = self._round
+        found.last_generation = self._generation
         return found.value
 
 
 _store: _Store | None = None
 
 
-def begin_round() -> None:
-    """Keep results in this process from now on, and drop what no recent round asked for."""
+def new_generation() -> None:
+    """Keep results in this process from now on, and drop what no recent generation asked for."""
     global _store
     _store = _store or _Store()
-    _store.begin_round()
+    _store.new_generation()
 
 
-def forget() -> None:
+def clear() -> None:
     """Drop all results and keep none."""
     global _store
     _store = None
 
 
-def kept(function: Callable[_P, _R]) -> Callable[_P, _R]:
-    """Return a function whose results are kept between rounds, and shared: none may be changed.
+def memoized(function: Callable[_P, _R]) -> Callable[_P, _R]:
+    """Return a function whose results are kept for generations, and shared: none may be changed.
 
     It must depend on its arguments alone, which must be picklable: no files, no clock.
     """

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from report.kept import ROUNDS, begin_round, forget, kept
+from report.memoized import GENERATIONS, clear, memoized, new_generation
 
 
 @dataclass(frozen=True)
@@ -17,19 +17,19 @@ class Scene:
 asked = []
 
 
-@kept
+@memoized
 def largest(scene: Scene, factor: float = 1.0) -> float:
     asked.append(factor)
     return factor * scene.mu * float(np.abs(scene.samples).max())
 
 
-@kept
+@memoized
 def smallest(scene: Scene, factor: float = 1.0) -> float:
     asked.append(factor)
     return factor * scene.mu * float(np.abs(scene.samples).min())
 
 
-@kept
+@memoized
 def refuse(scene: Scene) -> float:
     asked.append(0.0)
     raise ValueError("no such scene")
@@ -38,9 +38,9 @@ def refuse(scene: Scene) -> float:
 @pytest.fixture(autouse=True)
 def nothing_kept():
     asked.clear()
-    forget()
+    clear()
     yield
-    forget()
+    clear()
 
 
 def scene(mu=0.5, last=2.0):
@@ -53,15 +53,15 @@ def test_nothing_is_kept_unless_rounds_have_begun():
 
 
 def test_equal_content_is_computed_once():
-    begin_round()
+    new_generation()
     assert [largest(scene()), largest(scene())] == [1.0, 1.0]
-    begin_round()
+    new_generation()
     assert largest(scene()) == 1.0
     assert len(asked) == 1
 
 
 def test_any_change_of_content_is_computed_again():
-    begin_round()
+    new_generation()
     one = scene()
     given = [
         largest(one),
@@ -79,7 +79,7 @@ def test_any_change_of_content_is_computed_again():
 
 
 def test_a_failure_is_not_kept():
-    begin_round()
+    new_generation()
     for _ in range(2):
         with pytest.raises(ValueError, match="no such scene"):
             refuse(scene())
@@ -87,13 +87,13 @@ def test_a_failure_is_not_kept():
 
 
 def test_what_no_recent_round_asked_for_is_dropped():
-    begin_round()
+    new_generation()
     largest(scene())
-    for _ in range(ROUNDS):
-        begin_round()
+    for _ in range(GENERATIONS):
+        new_generation()
     largest(scene())
     assert len(asked) == 1  # asked for in time
-    for _ in range(ROUNDS + 1):
-        begin_round()
+    for _ in range(GENERATIONS + 1):
+        new_generation()
     largest(scene())
     assert len(asked) == 2
