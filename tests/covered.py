@@ -60,19 +60,19 @@ def in_functions(source: str) -> frozenset[int]:
 
 def measure(which: str, folder: Path) -> dict[Path, Lines]:
     """Return what the tests of a part run: of all processes that they start."""
-    settings = folder / f"{which}.ini"
+    settings = folder / f"settings-{which}.ini"
     sources = "".join(f"\n    {ROOT / package}" for package in PACKAGES)
     settings.write_text(
         f"[run]\nsource ={sources}\ndata_file = {folder / which}\nparallel = true\n"
         "patch = subprocess\ndisable_warnings = no-data-collected, module-not-imported\n"
     )
-    part = ["-p", "no:cacheprovider", "--which", which]
-    _run(settings, ["-p", "xdist", "--numprocesses", "2", "--dist", "worksteal", *part], {})
-    plain = {"NUMBA_DISABLE_JIT": "1"}
+    both = ["-p", "no:cacheprovider", "--which"]
+    _run(settings, ["--numprocesses", "2", "--dist", "worksteal", *both, which], {})
     uncompiled = [str(path) for path in KERNELS.glob("test_*kernel*.py")]
     uncompiled.append(str(KERNELS / "test_fixed_steps.py"))
-    _run(settings, [*part, *uncompiled], plain)
-    counted = Coverage(config_file=str(settings))
+    every = "quick" if which == "quick" else "all"  # as in `tests/uncompiled.py`
+    _run(settings, [*both, every, *uncompiled], {"NUMBA_DISABLE_JIT": "1"})
+    counted = Coverage(config_file=str(settings), messages=False)
     counted.combine()
     return {path: _lines(counted, path) for path in modules()}
 

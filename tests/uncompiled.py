@@ -12,7 +12,7 @@ def assert_every_line_runs(module, test_file, folder):
     """Fail with what the tests print, or with the lines that no test runs."""
     data = f"--data-file={folder / 'coverage'}"
     coverage = [sys.executable, "-m", "coverage"]
-    tests = [str(test_file), "-p", "no:cacheprovider"]
+    tests = [str(test_file), "-p", "no:cacheprovider", "--which", "all"]
     for command in (
         [*coverage, "run", data, f"--include={ROOT / module}", "-m", "pytest", *tests],
         [*coverage, "report", data, "--show-missing", "--fail-under=100"],

@@ -28,6 +28,7 @@ from pyhanko_certvalidator import ValidationContext
 import packages
 import tampering
 from report.cli.main import main
+from report.proof import signatures
 from report.proof.package import Package, reader
 from report.proof.signatures import Signature
 from report.proof.updates import Appended, appended
@@ -125,6 +126,11 @@ def clock(authority):
         yield f"http://127.0.0.1:{server.server_port}"
         server.shutdown()
         thread.join()
+
+
+def test_without_the_library_a_signature_is_named_and_not_checked(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyhanko.sign.validation", None)
+    assert list(signatures.checked(b"", ["S1"])) == [Signature(field="S1", is_checked=False)]
 
 
 @pytest.fixture(scope="module")
