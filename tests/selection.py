@@ -68,12 +68,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def nightly(items: list[pytest.Item], changed: set[str]) -> set[pytest.Item]:
     """Return the tests that are left out by day.
 
-    Of a function marked `by_day(n)`, n cases run by day, evenly spaced, and the others at night.
+    A test marked `nightly(*paths)` runs by day where one of these files, or a file in one of these
+    folders, changed. Of a function marked `by_day(n)`, n cases run by day, evenly spaced.
     """
     found, cases = set(), defaultdict(list)
     for item in items:
         night = item.get_closest_marker("nightly")
-        if night is not None and changed.isdisjoint(night.args):
+        if night is not None and not any(file.startswith(night.args) for file in changed):
             found.add(item)
         elif item.get_closest_marker("by_day"):
             cases[function_of(item.nodeid)].append(item)

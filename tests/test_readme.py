@@ -134,6 +134,7 @@ def test_the_study_of_the_readme_has_its_curves(commanded):
     assert (out / "study.pdf").stat().st_size > 10_000
 
 
+@pytest.mark.nightly("README.md", "roofslip")
 def test_a_report_leaves_four_files_and_their_hashes(reported):
     names = {path.name for path in reported.out.iterdir()}
     assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}

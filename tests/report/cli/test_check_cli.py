@@ -102,6 +102,7 @@ def printed(steep):
     return run("report", steep, "--fail-on-ng")
 
 
+@pytest.mark.nightly("report/cli/")
 def test_report_exits_with_3_only_where_that_is_asked_for(steep, printed):
     assert printed.exit_code == 3
     with packages.unlaid():

@@ -160,6 +160,7 @@ def test_a_failed_run_leaves_the_older_package(tmp_path):
     assert [p.read_bytes() for p in out.iterdir()] == [b"older"]
 
 
+@pytest.mark.nightly("report/assessment/links.py")
 def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     row = {"array": "A2", "friction": "0.30, 0.45, 0.60", "stiffness_n_per_m": 1e3}
     options = {"statistic": "rule set", "peer_reviewed": True}
@@ -186,6 +187,7 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     assert "One rigid block has not been shown to be adequate" in text
 
 
+@pytest.mark.nightly("report/results/", "report/cli/report.py")
 def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_path):
     with packages.unlaid():
         first = run("report", make(tmp_path))

@@ -83,6 +83,7 @@ def assert_connections_are_limited(page):
 
 @pytest.mark.parametrize("end", ["SIGTERM", "SIGHUP"])
 @pytest.mark.by_day(1)
+@pytest.mark.nightly("report/web/", "report/cli/serve.py")
 def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     token = tmp_path / "token"
     token.write_text(f"{TOKEN}\n")

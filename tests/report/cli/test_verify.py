@@ -28,9 +28,12 @@ from solver.rivals.methods import METHODS
 from solver.verification.evidence import PeerPoint
 from solver.verification.shake_table import compare
 
-pytestmark = pytest.mark.skipif(
-    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
-)
+pytestmark = [
+    pytest.mark.skipif(
+        numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
+    ),
+    pytest.mark.nightly("report/manual/", "solver/verification/", "report/cli/verify.py"),
+]
 
 
 @pytest.fixture(scope="module")

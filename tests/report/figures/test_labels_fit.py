@@ -102,6 +102,7 @@ def faults(drawn):
 
 @pytest.mark.parametrize("units", UnitsFirst)
 @pytest.mark.by_day(1)
+@pytest.mark.nightly("report/figures/", "report/drawing/")
 def test_in_a_package(drawn, units):
     data = stand_in.project()
     data = data.model_copy(

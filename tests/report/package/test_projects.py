@@ -180,6 +180,7 @@ def test_the_schools_roof_motions_reach_ac156_at_every_frequency():
             assert (spectrum / target.ordinates(1 / freq)).min() >= 0.90
 
 
+@pytest.mark.nightly("projects/school/", "report/making.py")
 def test_the_school_is_ok_in_the_same_word_everywhere(school):
     assert school.results["verdict"] == "OK"
     assert {array["verdict"] for array in school.results["arrays"]} == {"OK"}
@@ -192,6 +193,7 @@ def test_the_school_is_ok_in_the_same_word_everywhere(school):
     assert [value for value in results if value] == ["OK"] * 7
 
 
+@pytest.mark.nightly("projects/school/", "report/making.py")
 def test_the_school_has_no_condition(school):
     assert all(row["is_satisfied"] for row in school.results["requirements"])
     for key in ("summary", "clearances", "limits"):
@@ -200,6 +202,7 @@ def test_the_school_has_no_condition(school):
     assert "Conditions and requirements not satisfied" not in page("school", "summary")
 
 
+@pytest.mark.nightly("projects/school/", "report/making.py")
 def test_the_schools_design_value_is_from_analysis_without_a_floor(school):
     array = school.results["arrays"][0]
     peaks = [peak["any_m"] for peak in array["peaks"]]
@@ -209,6 +212,7 @@ def test_the_schools_design_value_is_from_analysis_without_a_floor(school):
     assert array["prescriptive_m"] == pytest.approx(24 * 0.0254)
 
 
+@pytest.mark.nightly("projects/school/", "report/making.py")
 def test_the_school_states_the_displacement_of_smaller_events_for_information(school):
     assert "by each of these factors: 0.50, 0.50." in page("school", "how-sure")
     sums = school.results["cumulative"]

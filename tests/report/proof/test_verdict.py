@@ -90,6 +90,7 @@ def test_words_and_numbers_are_compared_whatever_software_is_named(proof, few_sh
     assert found.differences
 
 
+@pytest.mark.nightly("report/proof/")
 def test_a_text_that_is_copied_as_another_one_differs(tampered, few_sheets):
     found = tampered(few_sheets, tampering.of_other_software, tampering.meant_otherwise)
     assert any("where the input gives" in text for text in found.differences)
@@ -117,6 +118,7 @@ ENTRIES = {
 
 @pytest.mark.parametrize("entry", ENTRIES)
 @pytest.mark.by_day(2)
+@pytest.mark.nightly("report/proof/", "report/provenance/")
 def test_every_entry_of_the_manifest_is_compared(tampered, few_sheets, entry):
     found = tampered(few_sheets, relisted(ENTRIES[entry]))
     assert any(text.startswith(f"roofslip.json: {entry}") for text in found.differences)

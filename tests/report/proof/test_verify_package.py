@@ -54,6 +54,7 @@ def after_record_changed(data, tmp_path_factory):
     return run(path, "--json")
 
 
+@pytest.mark.nightly("report/proof/", "report/provenance/")
 def test_a_package_is_the_same_to_the_last_bit_and_nothing_is_left_behind(
     job, after_record_changed, monkeypatch
 ):

@@ -348,6 +348,7 @@ def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(
     assert set(written) == {"study.pdf", "curves.csv", "study.xlsx"}
 
 
+@pytest.mark.nightly("report/study/", "solver/studies/")
 def test_a_family_of_buildings_has_curves_each(other):
     buildings = (StudyBuilding(id="T1", period_s=0.2), StudyBuilding(id="T2", period_s=1.0))
     found = other(

@@ -123,6 +123,7 @@ def test_the_exports_of_the_project_are_read_by_the_readers_of_pelicun(project, 
     assert "record-to-record 0.40 (Example: FEMA P695" in about[placed[""]]["Comments"]
 
 
+@pytest.mark.nightly("report/study/", "solver/studies/", "projects/study/")
 def test_the_exports_of_the_project_are_read_by_the_rules_of_openquake(project):
     names, found = read_nrml(export_files(project)["fragility.xml"])
     assert names == ["LS1", "LS2", "LS3"]

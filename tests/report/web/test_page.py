@@ -103,6 +103,7 @@ def test_a_screen_reader_gets_names_for_all_and_the_verdict_at_rest(untouched):
     assert urlsplit(page.url).query == ""
 
 
+@pytest.mark.nightly("report/web/")
 def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(page):
     page.evaluate(
         """() => {
@@ -170,6 +171,7 @@ CHANGES = {
 
 @pytest.mark.parametrize("how", CHANGES)
 @pytest.mark.by_day(1)
+@pytest.mark.nightly("report/web/")
 def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, how):
     """However late the answer is, no verdict stands beside values that it is not of."""
     moved(page, "slope", 1.5)  # some clearances are NG
@@ -200,6 +202,7 @@ def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, 
     assert page.locator("#verdict .tag").inner_text() in ("OK", "NG", "OK with conditions")
 
 
+@pytest.mark.nightly("report/web/")
 def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, address):
     moved(page, "slope", 1.0)
     page.wait_for_url("**/#slope=1")
@@ -250,6 +253,7 @@ def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
     assert verdicts(page)[0] == "OK with conditions"
 
 
+@pytest.mark.nightly("report/web/")
 def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     project = tmp_path / "yours"
     shutil.copytree(EXAMPLE / "records", project / "records")
@@ -281,6 +285,7 @@ def test_of_a_workbook_that_is_sent_alone_the_page_says_first_that_its_records_a
     assert page.inner_text("#problems p").startswith("The workbook came alone. Drop its folder")
 
 
+@pytest.mark.nightly("report/web/")
 def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
     workbook = base64.b64encode((EXAMPLE / "input.xlsx").read_bytes()).decode()
     page.evaluate(
@@ -353,6 +358,7 @@ def test_a_package_that_is_canceled_leaves_the_page_as_it_was(page):
     assert page.locator("#make-package").is_enabled()
 
 
+@pytest.mark.nightly("report/web/")
 def test_on_a_tablet_nothing_is_cut_off_and_in_print_no_control_is_left(page):
     page.set_viewport_size(TABLET)
     width = page.evaluate("[document.body.scrollWidth, innerWidth]")
@@ -432,6 +438,7 @@ def test_two_visitors_see_nothing_of_each_other(browser, address, tmp_path):
         assert verdicts(two)[0] == "OK with conditions"
 
 
+@pytest.mark.nightly("report/web/")
 def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(page, tmp_path):
     other = page.context.new_page()
     other.goto(page.url)

@@ -367,6 +367,7 @@ def test_the_picture_of_a_row_shows_its_first_cell_and_those_around_the_fault(pa
     ("key", "at", "goes"),
     [("ArrowRight", 4, 0), ("ArrowLeft", 0, 4), ("Home", 3, 0), ("End", 1, 4), ("a", 1, -1)],
 )
+@pytest.mark.nightly("report/web/")
 def test_arrow_keys_go_around_the_tabs(page, key, at, goes):
     body = "return m.destination(g.key, g.at, 5);"
     assert called(page, "tabs", body, {"key": key, "at": at}) == goes

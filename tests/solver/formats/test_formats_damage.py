@@ -55,6 +55,7 @@ def unnoticed(path: Path, whole: Path, at_lines: Sequence[int]) -> list[tuple[in
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.nightly("solver/formats/")
 def test_no_damage_of_a_line_changes_a_record_without_a_word(tmp_path: Path, name: str) -> None:
     count = len((SAMPLES / name).read_bytes().splitlines())
     assert unnoticed(tmp_path / name, SAMPLES / name, range(count)) == []
@@ -126,6 +127,7 @@ def test_a_line_cut_within_a_number_is_refused(altered: Any) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.nightly("solver/formats/")
 def test_no_cut_within_the_last_value_changes_a_record_without_a_word(
     tmp_path: Path, name: str
 ) -> None:

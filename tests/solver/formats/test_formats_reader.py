@@ -118,6 +118,7 @@ hostile = settings(max_examples=60, suppress_health_check=[HealthCheck.function_
 @hostile
 @pytest.mark.parametrize("name", sorted(FORMATS))
 @given(data=st.data())
+@pytest.mark.nightly("solver/formats/")
 def test_a_file_cut_anywhere_is_read_or_refused(tmp_path: Path, name: str, data: Any) -> None:
     content = (SAMPLES / name).read_bytes()
     path = tmp_path / name

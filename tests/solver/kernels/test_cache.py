@@ -45,6 +45,7 @@ def copied(tmp_path):
     return folder, run
 
 
+@pytest.mark.nightly("solver/kernels/cache.py")
 def test_an_edited_kernel_is_compiled_again(copied):
     folder, run = copied
     assert run() == 1.0
@@ -58,6 +59,7 @@ def test_an_edited_kernel_is_compiled_again(copied):
     assert run() == 2.0
 
 
+@pytest.mark.nightly("solver/kernels/cache.py")
 def test_an_install_that_cannot_be_written_keeps_its_cache_elsewhere(copied, tmp_path):
     folder, run = copied
     (folder / "__pycache__").write_text("a file where the folder would be: nothing can be written")

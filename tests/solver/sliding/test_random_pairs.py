@@ -18,6 +18,7 @@ def ended():
     return campaign(run_pair, [(kind, index) for kind in KINDS for index in range(COUNT)])
 
 
+@pytest.mark.nightly("solver/kernels/", "solver/sliding/")
 def test_no_run_hangs_or_crashes_or_has_no_answer(ended):
     assert len(ended) == COUNT * len(KINDS)
     assert [call for call in ended if call.trouble] == []

@@ -321,6 +321,7 @@ def by_scipy(block, row):
     ],
 )
 @pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.nightly("solver/kernels/row.py", "solver/sliding/row.py")
 def test_an_adaptive_solver_stopped_at_every_event_gives_the_same_motion(mus, shares, k, c, seed):
     rng = np.random.default_rng(seed)
     ax = np.concatenate([[0.0], rng.normal(0.0, 6.0, 24), [0.0, 0.0]])

@@ -243,6 +243,7 @@ def assert_every_tolerance_is_kept_to(block):
 
 @pytest.mark.parametrize(("degrees", "mu"), [(0.0, 0.3), (5.0, 0.4)])
 @pytest.mark.by_day(1)
+@pytest.mark.nightly("solver/kernels/two_axes.py", "solver/sliding/two_axes.py")
 def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
     ax, ay, az = shaking(7, n=45, dt=0.04)
     assert_every_tolerance_is_kept_to(scene(ax, ay, 0.04, degrees=degrees, friction=mu, az=az))

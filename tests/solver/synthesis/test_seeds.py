@@ -41,6 +41,7 @@ def falling(seed: int) -> Record:
     return Record(name=f"falling-{seed}", dt_s=0.01, a_mps2=np.append(np.zeros(300), a))
 
 
+@pytest.mark.nightly("solver/synthesis/", "solver/records/")
 def test_every_component_keeps_to_its_target_and_is_strong_for_long(made: Any) -> None:
     for motion in made[1]:
         for record, wanted in zip(

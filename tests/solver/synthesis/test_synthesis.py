@@ -76,6 +76,7 @@ def components(suites: Any) -> list[tuple[Record, Target]]:
 
 
 class TestSuite:
+    @pytest.mark.nightly("solver/synthesis/", "solver/records/")
     def test_every_component_keeps_to_its_target(self, components: Any) -> None:
         # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:

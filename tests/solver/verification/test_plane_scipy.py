@@ -19,6 +19,7 @@ pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions t
 
 
 @pytest.mark.parametrize("slope_deg", [0.0, 4.0])
+@pytest.mark.nightly("solver/kernels/two_axes.py", "solver/verification/")
 def test_the_reference_is_the_exact_motion_where_there_is_one_axis(slope_deg):
     part = own_triples(True)[0].cut(41)
     scene = part.scene(Case(slope_deg, 0.5, 1.0), coulomb(0.5), second=False)
