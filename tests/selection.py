@@ -21,7 +21,7 @@ DURATIONS = Path(__file__).with_name("durations.csv")
 KEPT_S = 0.1
 """Shorter tests are not kept in the file: they are quick."""
 
-QUICK_S = 0.5
+QUICK_S = 0.2
 """Longest quick test; of a file whose tests all take longer, the shortest one is quick."""
 
 

@@ -52,6 +52,7 @@ def readonly(values):
     return values
 
 
+@pytest.mark.nightly("report/assessment/links.py", "solver/sliding/row.py", "solver/kernels/row.py")
 def test_the_rows_are_those_of_the_solver():
     _, item = assessed("0.40, 0.45, 0.50", 500, damping_ratio=0.1)
     mass, k = 42000 * LB / G / 3, 500 * LB / INCH

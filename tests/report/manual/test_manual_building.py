@@ -26,9 +26,12 @@ from solver.verification.evidence import Verification
 from solver.verification.identification import identify
 from solver.verification.scenes import own_records
 
-pytestmark = pytest.mark.skipif(
-    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
-)
+pytestmark = [
+    pytest.mark.skipif(
+        numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
+    ),
+    pytest.mark.nightly("report/manual/", "solver/verification/", "solver/building/"),
+]
 
 
 @pytest.fixture(scope="module")

@@ -19,6 +19,8 @@ from sketch import Sketch, plan
 
 L_FT = ((30, 140), (180, 140), (180, 190), (140, 190), (140, 232), (30, 232))
 
+pytestmark = pytest.mark.nightly("report/drawing/", "report/figures/")
+
 
 def box(x0, x1, y0, y1):
     return (x0, y0), (x1, y0), (x1, y1), (x0, y1)

@@ -16,9 +16,12 @@ from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 from solver.synthesis import make_suite, seeds, target_sa_g
 
-pytestmark = pytest.mark.skipif(
-    numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
-)
+pytestmark = [
+    pytest.mark.skipif(
+        numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
+    ),
+    pytest.mark.nightly("solver/synthesis/", "solver/records/"),
+]
 
 G = 9.80665
 BAND = 0.3 * 2.0 ** (np.arange(82) / 12.0)

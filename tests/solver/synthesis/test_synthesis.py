@@ -75,6 +75,7 @@ def components(suites: Any) -> list[tuple[Record, Target]]:
     return [pair for motion in suites for pair in zip(motion.components, targets, strict=True)]
 
 
+@pytest.mark.nightly("solver/synthesis/", "solver/records/")
 class TestSuite:
     @pytest.mark.nightly("solver/synthesis/", "solver/records/")
     def test_every_component_keeps_to_its_target(self, components: Any) -> None:

@@ -15,7 +15,10 @@ from solver.verification.scenes import Case
 from solver.verification.triples import own_triples, readonly
 
 pytest.importorskip("scipy")
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+pytestmark = [
+    pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes"),
+    pytest.mark.nightly("solver/kernels/two_axes.py", "solver/verification/"),
+]
 
 
 @pytest.mark.parametrize("slope_deg", [0.0, 4.0])

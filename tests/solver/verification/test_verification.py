@@ -32,6 +32,7 @@ def pulse():
     return near_fault_pulse()
 
 
+@pytest.mark.nightly("solver/verification/")
 def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.passed
     assert verification.quick
@@ -54,6 +55,7 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
     ]
 
 
+@pytest.mark.nightly("solver/verification/")
 def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(verification):
     rows = verification.checks
     assert {row.section for row in rows} == {
@@ -72,6 +74,7 @@ def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(veri
     assert len({(row.problem, row.quantity) for row in digits}) == len(digits)
 
 
+@pytest.mark.nightly("solver/verification/")
 def test_every_check_that_a_feature_names_ran_and_passed_and_every_check_belongs_to_one(
     verification,
 ):
@@ -85,6 +88,7 @@ def test_every_check_that_a_feature_names_ran_and_passed_and_every_check_belongs
         assert status.is_verified == bool(status.feature.checks), status
 
 
+@pytest.mark.nightly("solver/verification/")
 def test_no_two_rows_are_alike(verification):
     names = [(row.section, row.problem, row.quantity) for row in verification.checks]
     assert len(set(names)) == len(names)
@@ -155,6 +159,7 @@ def test_errors_in_percent_have_a_floor_of_a_millimetre():
 # The paper's figures
 
 
+@pytest.mark.nightly("solver/verification/")
 def test_the_papers_method_converges_at_first_order_under_an_envelope(verification):
     for study in verification.convergence:
         assert study.scenarios == 60
@@ -170,11 +175,13 @@ def test_the_papers_method_converges_at_first_order_under_an_envelope(verificati
         assert (study.longest_seconds > 0.0).all()
 
 
+@pytest.mark.nightly("solver/verification/")
 def test_a_single_pulse_has_errors_like_the_papers_own(verification):
     pulse = verification.convergence[1]
     assert 0.01 < pulse.largest_error_exact_percent[6] < 1.0  # 0.48 % in the paper
 
 
+@pytest.mark.nightly("solver/verification/")
 def test_the_link_differs_by_about_as_much_as_in_the_paper(verification):
     for link in verification.links:
         assert len(link.mus) == (10 if link.slope_deg == 0.0 else 6)
@@ -186,6 +193,7 @@ def test_the_link_differs_by_about_as_much_as_in_the_paper(verification):
         assert (link.prd_exact_m >= link.rrd_exact_m - 1e-15).all()
 
 
+@pytest.mark.nightly("solver/verification/")
 def test_design_curves_are_the_papers_6960_runs(verification):
     curves = verification.curves[0]
     assert curves.runs == 6960
