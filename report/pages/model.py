@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 
 from report.assessment.arrays import ArrayAssessment
@@ -20,7 +21,6 @@ from report.pages import links
 from report.pages.accuracy import below_mm
 from report.pages.parts import PackageData, nan_is_worst, verdict
 from report.sheet.schema import Array, Direction
-from report.words.counts import spelled
 from report.words.units import number, ratio
 from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT, Rung, Solution
@@ -34,21 +34,17 @@ _NEGLECTED = {
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
-    arrays = package.assessment.arrays
-    matters = (
-        f"{number(1e3 * DEFAULT.matters_m, 0)} mm ({number(DEFAULT.matters_m / INCH_M, 2)} in) or "
-        f"{number(100.0 * DEFAULT.matters_share, 1)} %"
-    )
+    arrays = package.data.arrays
     return {
-        "rungs": tuple(f"{int(rung)}: {rung.title}" for rung in Rung if rung is not Rung.ROW),
-        "matters": matters,
-        "combinations": _combinations(package),
+        "rungs": [rung for rung in Rung if rung is not Rung.ROW],
+        "matters": DEFAULT,
+        "matters_in": DEFAULT.matters_m / INCH_M,
+        "friction": {array.id: friction(package, array) for array in arrays},
         "table": _table(package),
         "neglected": _neglected_table(package),
         "stability": _stability_table(package),
-        "sentences": [text for array in arrays for text in _sentences(package, array)],
         "troubles": tuple(model_troubles(package)),
-        "links": links.part(package, matters),
+        "links": links.part(package),
     }
 
 
@@ -75,13 +71,12 @@ def tipping_troubles(package: PackageData) -> Iterator[str]:
             )
 
 
+def _limited(demand: float) -> str:
+    return number(demand, 2) if math.isfinite(demand) else "no limit"
+
+
 def _stability_table(package: PackageData) -> Table:
     """Return the checks of uplift and tipping."""
-
-    def demand(array: ArrayAssessment) -> str:
-        demand = array.tipping.demand
-        return number(demand, 2) if math.isfinite(demand) else "no limit"
-
     columns = (
         (words("Array", 0.8), lambda item: item.id),
         (plain("Min. N", unit="m g"), lambda item: item.uplift.n_min_g),
@@ -89,7 +84,7 @@ def _stability_table(package: PackageData) -> Table:
             text("Uplift time", "s", 1.1),
             lambda item: number(item.uplift.duration_s, 3) if item.uplift.lifts else "none",
         ),
-        (text("Demand", "V/N"), demand),
+        (text("Demand", "V/N"), lambda item: _limited(item.tipping.demand)),
         (plain("Transmitted", unit="V/N", share=1.1), lambda item: item.tipping.transmitted),
         (plain("Capacity", unit="b/(2c)", share=1.1), lambda item: item.tipping.capacity),
         (text("Ratio, at rest", share=1.2), lambda item: ratio(item.tipping.at_rest_ratio)),
@@ -102,115 +97,71 @@ def _stability_table(package: PackageData) -> Table:
         "Checks independent of the model: uplift and tipping",
         package.fmt,
         kind="compact",
-        notes=(
-            "The worst run of each array. Tipping: an array begins to tip about an edge of its "
-            "supports where the transmitted shear exceeds b/(2c) times the normal force. "
-            "Transmitted: the lesser of the demand and the friction coefficient; b: smallest "
-            "support spacing; c: height of the center of gravity, midway between the supports "
-            "(Housner, 1963; Ishiyama, 1982).",
-        ),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Group:
+    """The runs of an array with one model."""
+
+    array: ArrayAssessment
+    runs: Sequence[HeadingRun]
+
+    @property
+    def model(self) -> str:
+        """The name of the model, and how many runs have no vertical component to model."""
+        rung, names = self.runs[0].solution.rung, {run.model for run in self.runs}
+        lacking = sum(run.model != rung.title for run in self.runs)
+        name = self.runs[0].model if len(names) == 1 else f"{rung.title} ({lacking} runs without)"
+        return f"{int(rung)}, {name}"
+
+    @property
+    def demand(self) -> float:
+        """The largest friction demand; inf: no limit."""
+        return max(run.solution.friction_demand for run in self.runs)
+
+    @property
+    def reason(self) -> str:
+        """Why the run with the largest PRD has this model."""
+        if self.array.is_model_requested:
+            return "requested in the workbook"
+        return max(self.runs, key=lambda run: nan_is_worst(run.prd_m)).solution.reason
+
+    @property
+    def error(self) -> str:
+        """A bound on the errors of the PRDs."""
+        worst = max((run.result.error_m for run in self.runs), key=nan_is_worst)
+        if math.isnan(worst):
+            return NO_VALUE
+        return below_mm(worst) if worst == 0.0 else f"below {below_mm(worst)}"
 
 
 def _runs(array: ArrayAssessment) -> Sequence[HeadingRun]:
     return [run for motion in array.motions for run in motion.runs]
 
 
-def _by_rung(array: ArrayAssessment) -> Iterator[tuple[Rung, Sequence[HeadingRun]]]:
+def _groups(array: ArrayAssessment) -> Iterator[_Group]:
     ordered = sorted(_runs(array), key=lambda run: run.solution.rung)
-    for rung, group in groupby(ordered, key=lambda run: run.solution.rung):
-        yield rung, list(group)
-
-
-def _combinations(package: PackageData) -> str:
-    motions = [run.motion for run in package.governing.motions]
-    two = sum(motion.has_transverse for motion in motions)
-    if not two:
-        return (
-            "No motion has a second horizontal component: each record is applied along the slope, "
-            "in the polarities that the workbook requests. Cross-slope shaking also uses part of "
-            "the friction: with both components most displacements are larger (verification "
-            "manual)."
-        )
-    both = all(len(motion.signs) == 2 for motion in motions)
-    of = "Each motion has" if two == len(motions) else f"{two} of {len(motions)} motions have"
-    counts = sorted({len(motion.headings) for motion in motions if motion.has_transverse})
-    run = " or ".join(map(spelled, counts))
-    polarities = "" if both else " where the workbook requests both polarities"
-    so = "so" if both else "so in the polarities requested"
-    return (
-        f"{of} eight combinations{polarities}: either horizontal component along the slope, in "
-        "either polarity, with the other component across it in either polarity. Reversing the "
-        "cross-slope component mirrors the motion and changes no downslope, upslope or cross-slope "
-        f"displacement, {so} {run} are run and the largest PRD governs."
-    )
+    for _, runs in groupby(ordered, key=lambda run: run.solution.rung):
+        yield _Group(array, list(runs))
 
 
 def _table(package: PackageData) -> Table:
-    return Table(
-        caption="Model used, by array",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.8),
-            TableColumn(head="Model", align="left", share=2.1),
-            TableColumn(head="Runs", share=1.0),
-            TableColumn(head="μ", unit="at rest", share=0.9),
-            TableColumn(head="Demand", share=0.9),
-            TableColumn(head="Reason", align="left", share=4.2),
-            TableColumn(head="Error of PRD", align="left", share=1.6),
-        ),
-        rows=tuple(
-            TableRow(cells=cells)
-            for array in package.assessment.arrays
-            for cells in _model_rows(array)
-        ),
-        notes=(
-            "Demand: the largest ratio of shear to normal force with no slip; the array slips "
-            "where it exceeds μ at rest. Reason: for the run with the largest PRD. Error: relative "
-            "to the exact solution for acceleration that varies linearly between samples.",
-        ),
-        kind="compact",
+    columns = (
+        (words("Array", 0.8), lambda group: group.array.id),
+        (words("Model", 2.1), lambda group: group.model),
+        (text("Runs"), lambda group: f"{len(group.runs)} of {len(_runs(group.array))}"),
+        (plain("μ", unit="at rest", share=0.9), lambda group: group.array.array.friction.mu_static),
+        (text("Demand", share=0.9), lambda group: _limited(group.demand)),
+        (words("Reason", 4.2), lambda group: group.reason),
+        (words("Error of PRD", 1.6), lambda group: group.error),
     )
-
-
-def _model_rows(array: ArrayAssessment) -> Iterator[tuple[str, ...]]:
-    total = len(_runs(array))
-    for rung, runs in _by_rung(array):
-        worst = max(runs, key=lambda run: nan_is_worst(run.prd_m))
-        demand = max(run.solution.friction_demand for run in runs)
-        yield (
-            array.id,
-            f"{int(rung)}, {_model(runs)}",
-            f"{len(runs)} of {total}",
-            number(array.array.friction.mu_static, 2),
-            number(demand, 2) if math.isfinite(demand) else "no limit",
-            _reason(array, worst),
-            _error(runs),
-        )
-
-
-def _model(runs: Sequence[HeadingRun]) -> str:
-    """Return the name of the model of runs, and how many have no vertical component to model."""
-    title, names = runs[0].solution.rung.title, {run.model for run in runs}
-    lacking = sum(run.model != title for run in runs)
-    return runs[0].model if len(names) == 1 else f"{title} ({lacking} runs without)"
-
-
-def _reason(array: ArrayAssessment, run: HeadingRun) -> str:
-    reason = run.solution.reason
-    return "requested in the workbook" if array.is_model_requested else reason
-
-
-def _error(runs: Sequence[HeadingRun]) -> str:
-    errors = [run.result.error_m for run in runs]
-    if any(map(math.isnan, errors)):
-        return NO_VALUE
-    worst = max(errors)
-    return below_mm(worst) if worst == 0.0 else f"below {below_mm(worst)}"
+    groups = [group for array in package.assessment.arrays for group in _groups(array)]
+    return listed(groups, columns, "Model used, by array", package.fmt, kind="compact")
 
 
 def _neglected_table(package: PackageData) -> Table:
     fmt = package.fmt
-    where = "see below" if package.assessment.linked else package.part("basis")
     return Table(
         caption="Neglected effects and the largest change that they could cause",
         columns=(
@@ -224,10 +175,6 @@ def _neglected_table(package: PackageData) -> Table:
             TableRow(cells=cells)
             for array in package.assessment.arrays
             for cells in _neglected_rows(package, array)
-        ),
-        notes=(
-            "No model includes rotation in plan, rocking, or the flexibility of the array "
-            f"({where}).",
         ),
         kind="compact",
     )
@@ -297,25 +244,6 @@ def _requested_row(package: PackageData, array: ArrayAssessment) -> tuple[str | 
         *fmt.cells(abs(change)),
         "exact: both models run" + ("; the floor governs both" if floor else ""),
     )
-
-
-def _sentences(package: PackageData, array: ArrayAssessment) -> Iterator[str]:
-    name, worst = array.id, array.worst
-    least = array.uplift.n_min_g  # of the whole motion, also where the vertical is neglected
-    lifted = "uplift occurs" if least < 0.0 else "no uplift"
-    yield (
-        f"Array {name}: the governing run is {worst.motion.id}, {worst.governing.heading.name}, "
-        f"with PRD {package.fmt.both(worst.governing.prd_m)}. Minimum normal force "
-        f"{number(least, 2)} m g: {lifted}.{friction(package, array.array)}"
-    )
-    is_bounded = array.array.friction.is_monotone
-    if worst.governing.solution.rung is Rung.SPEED_FRICTION and not is_bounded:
-        yield (
-            f"Array {name}: the friction decreases at the onset of sliding or with velocity. A "
-            "negligible perturbation may then decide whether the array stops, and the error of the "
-            "PRD is the difference between two tolerances, not a bound. With one coefficient, the "
-            "smallest, the error is a bound."
-        )
 
 
 def friction(package: PackageData, array: Array) -> str:
