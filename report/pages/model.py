@@ -9,18 +9,19 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words
 from report.assessment.runs import RUNGS, HeadingRun
-from report.document.tables import Table, TableRow, Wide, listed
-from report.entities.columns import NO_VALUE, TableColumn
-from report.entities.shown import centered, plain, text, words
+from report.document.tables import Table, Wide, listed
+from report.entities.columns import NO_VALUE
+from report.entities.shown import centered, length, plain, text, words
 from report.pages import links
-from report.pages.accuracy import below_mm
 from report.pages.parts import PackageData, nan_is_worst, verdict
 from report.sheet.schema import Array, Direction
+from report.words.letters import below_mm
 from report.words.units import number, ratio
 from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT, Rung, Solution
@@ -30,6 +31,7 @@ _NEGLECTED = {
     Rung.TWO_AXES: "Cross-slope shaking",
     Rung.SPEED_FRICTION: "Velocity-dependent friction",
 }
+_NOT_KNOWN = Wide("not known", 4), ""
 
 
 def page(package: PackageData) -> Mapping[str, object]:
@@ -160,31 +162,26 @@ def _table(package: PackageData) -> Table:
     return listed(groups, columns, "Model used, by array", package.fmt, kind="compact")
 
 
+_Neglected = tuple[str, str, float | Wide | str, float | str, str]
+"""Array, what is neglected, the change of PRD and of design displacement [m], and its basis."""
+
+
 def _neglected_table(package: PackageData) -> Table:
-    fmt = package.fmt
-    return Table(
-        caption="Neglected effects and the largest change that they could cause",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.8),
-            TableColumn(head="Neglected", align="left", share=3.1),
-            *fmt.columns("PRD, at most", share=0.9),
-            *fmt.columns("Design displ., at most", share=0.9),
-            TableColumn(head="Basis", align="left", share=3.6),
-        ),
-        rows=tuple(
-            TableRow(cells=cells)
-            for array in package.assessment.arrays
-            for cells in _neglected_rows(package, array)
-        ),
-        kind="compact",
+    columns = (
+        (words("Array", 0.8), itemgetter(0)),
+        (words("Neglected", 3.1), itemgetter(1)),
+        (length("PRD, at most", 0.9), itemgetter(2)),
+        (length("Design displ., at most", 0.9), itemgetter(3)),
+        (words("Basis", 3.6), itemgetter(4)),
     )
+    effects = [row for array in package.assessment.arrays for row in _neglected(array)]
+    caption = "Neglected effects and the largest change that they could cause"
+    return listed(effects, columns, caption, package.fmt, kind="compact")
 
 
-def _neglected_rows(
-    package: PackageData, array: ArrayAssessment
-) -> Iterator[tuple[str | Wide, ...]]:
+def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
     if array.is_model_requested:
-        yield _requested_row(package, array)
+        yield _requested(array)
         return
     solutions = [run.solution for run in _runs(array)]
     neglected = sorted(
@@ -193,57 +190,43 @@ def _neglected_rows(
     for rung in neglected:
         # A run that already has this model has nothing to tell of it.
         without = [solution for solution in solutions if solution.next_rung is rung > solution.rung]
-        yield _effect_row(package, array, rung, without)
+        yield _effect(array, rung, without)
     if neglected:
         return
-    blank = ("—",) * 4
     if all(solution.rung is Rung.NO_SLIP for solution in solutions):
-        yield array.id, "None: no slip", *blank, "exact"
+        yield array.id, "None: no slip", "—", "—", "exact"
     elif array.array.friction.is_constant:
         basis = "the workbook gives one coefficient"
-        yield array.id, _NEGLECTED[Rung.SPEED_FRICTION], Wide("not known", 4), basis
+        yield array.id, _NEGLECTED[Rung.SPEED_FRICTION], *_NOT_KNOWN, basis
     else:
-        yield array.id, "None of the given inputs", *blank, "the most complete model is used"
+        yield array.id, "None of the given inputs", "—", "—", "the most complete model is used"
 
 
-def _effect_row(
-    package: PackageData, array: ArrayAssessment, rung: Rung, group: Sequence[Solution]
-) -> tuple[str | Wide, ...]:
+def _effect(array: ArrayAssessment, rung: Rung, group: Sequence[Solution]) -> _Neglected:
     effect = max((solution.next_effect_m for solution in group), key=nan_is_worst)
     basis = "both models run; error included" if rung is Rung.TWO_AXES else "exact: both models run"
     if not math.isfinite(effect):
         no_result = "no result with the more complete model"
-        return array.id, _NEGLECTED[rung], Wide("not known", 4), no_result
+        return array.id, _NEGLECTED[rung], *_NOT_KNOWN, no_result
     raised = max(array.analysis.value_m + array.analysis.factor * effect, array.floor_m)
-    return (
-        array.id,
-        _NEGLECTED[rung],
-        *package.fmt.cells(effect),
-        *package.fmt.cells(raised - array.design_m),
-        basis,
-    )
+    return array.id, _NEGLECTED[rung], effect, raised - array.design_m, basis
 
 
-def _requested_row(package: PackageData, array: ArrayAssessment) -> tuple[str | Wide, ...]:
+def _requested(array: ArrayAssessment) -> _Neglected:
     """Return the change that the adequate models make to the requested one."""
-    fmt, other = package.fmt, array.chosen[Direction.ANY]
+    other = array.chosen[Direction.ANY]
     rung = max(run.solution.rung for motion in array.needed for run in motion.runs)
     name = f"Effects of {rung.title}" if rung > RUNGS[array.array.model] else "None"
     if math.isnan(array.design_m) or math.isnan(other.value_m):
-        return array.id, name, Wide(NO_VALUE, 4), "no value from analysis"
+        return array.id, name, Wide(NO_VALUE, 4), "", "no value from analysis"
     effect = max(
         abs(more.governing.prd_m - run.governing.prd_m)
         for run, more in zip(array.motions, array.needed, strict=True)
     )
-    change = array.chosen_toward_m(Direction.ANY) - array.design_m
+    change = abs(array.chosen_toward_m(Direction.ANY) - array.design_m)
     floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
-    return (
-        array.id,
-        name,
-        *fmt.cells(effect),
-        *fmt.cells(abs(change)),
-        "exact: both models run" + ("; the floor governs both" if floor else ""),
-    )
+    basis = "exact: both models run" + ("; the floor governs both" if floor else "")
+    return array.id, name, effect, change, basis
 
 
 def friction(package: PackageData, array: Array) -> str:
