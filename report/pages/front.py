@@ -17,7 +17,7 @@ from report.document.templates import sentence
 from report.pages.limits import conditions, troubles
 from report.pages.motions import departure_place, departure_sentence
 from report.pages.parts import PackageData, shortened, statistic
-from report.pages.remedies import sentences
+from report.pages.remedies import answers
 from report.pages.review import exceptional
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
@@ -55,7 +55,7 @@ def summary(
         "sentence": verdict_sentence(package),
         "numbers": (*_numbers(package), *_missed_targets(package, spectra)),
         "troubles": troubles(package),
-        "answers": sentences(package, remedies),
+        "answers": answers(package, remedies),
     }
 
 
