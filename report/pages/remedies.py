@@ -106,8 +106,14 @@ def _table(package: PackageData, found: Sequence[Answer]) -> Table:
         (text("No.", share=0.5), lambda one: one.remedy.clearance or "—"),
         (words("Quantity", 1.9), quantity),
         (words("Given", 1.9), attrgetter("given")),
-        (words("Would do", 2.1), value),
+        (words("Sufficient", 2.1), value),
         (words("Resolution", 1.1), resolution),
         (words("Verified by all runs", 2.2), verified),
     )
-    return listed(found, columns, "What would do, each by itself", package.fmt, kind="compact")
+    return listed(
+        found,
+        columns,
+        "How to satisfy each clearance: sufficient changes, each by itself",
+        package.fmt,
+        kind="compact",
+    )
