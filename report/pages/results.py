@@ -108,8 +108,8 @@ def _peak(fmt: UnitFormat, heading: Heading, motion: MotionRun) -> str:
     """Return the PRD of one run in the first unit; blank where the motion has no such run."""
     for run in motion.runs:
         if run.heading == heading:
-            text = fmt.cells(run.prd_m)[0]
-            return Markup("<b>{}</b>").format(text) if run is motion.governing else text
+            peak = fmt.cells(run.prd_m)[0]
+            return Markup("<b>{}</b>").format(peak) if run is motion.governing else peak
     return ""
 
 
