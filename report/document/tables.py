@@ -142,8 +142,12 @@ def table_of(
     )
 
 
-Column = tuple[Shown, Callable[[Any], Any]]
-"""How a column is shown, and what gives its value for an item."""
+_Value = Callable[[Any], Any]
+Column = tuple[Shown, _Value] | tuple[Shown, _Value, _Value]
+"""How a column is shown, what gives its value for an item, and what its marks, if it has any.
+
+A value that is `Wide` covers the columns that follow.
+"""
 
 
 def listed(
@@ -167,21 +171,33 @@ def listed(
     return Table(
         caption=caption,
         columns=tuple(
-            column for shown, _ in columns for column in shown.columns(fmt, shown.head, shown.share)
+            column
+            for shown, *_ in columns
+            for column in shown.columns(fmt, shown.head, shown.share)
         ),
         rows=tuple(
-            TableRow(
-                cells=tuple(
-                    cell for shown, value in columns for cell in shown.cells(value(item), fmt)
-                ),
-                kind=style(item),
-            )
+            TableRow(cells=tuple(_listed_cells(columns, item, fmt)), kind=style(item))
             for item in items
         ),
         notes=tuple(notes),
         kind=kind,
         whole_rows=whole_rows,
     )
+
+
+def _listed_cells(columns: Sequence[Column], item: Any, fmt: UnitFormat) -> Iterator[str | Wide]:
+    covered = 0
+    for shown, value_of, *marks in columns:
+        width = 2 if shown.quantity else 1
+        if covered:
+            covered -= width
+            continue
+        value = value_of(item)
+        if isinstance(value, Wide):
+            covered = value.span - width
+            yield value
+        else:
+            yield from shown.cells(value, fmt, "".join(mark(item) for mark in marks))
 
 
 def _cells(row: Entity, name: str, fmt: UnitFormat) -> tuple[str, ...]:

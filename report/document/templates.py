@@ -18,6 +18,7 @@ from report.assessment.friction import mu_words
 from report.document.tables import Table, stamp, table_of
 from report.typeset.equations import symbol
 from report.words.counts import capitalized, counted, spelled
+from report.words.letters import below_mm, power_above
 from report.words.units import Quantity, number
 
 if TYPE_CHECKING:
@@ -49,14 +50,17 @@ def _environment(folder: Path) -> Environment:
         lstrip_blocks=True,
     )
     environment.filters |= {
+        "below_mm": below_mm,
         "both": _both,
         "capitalized": capitalized,
         "clause": _clause,
         "counted": counted,
+        "degrees": lambda value_rad, decimals: number(math.degrees(value_rad), decimals),
         "friction": mu_words,
         "lowered": lambda text: text[:1].lower() + text[1:],
         "mark": _mark,
         "number": number,
+        "power_above": power_above,
         "rule_length": _rule_length,
         "spelled": spelled,
         "stamp": stamp,

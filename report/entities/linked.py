@@ -5,10 +5,27 @@ Computes nothing: see `report.assessment.links`. Read `LinkedResult`.
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
+from pydantic import Field
+
 from report.assessment.links import LinkedArray
-from report.entities.shown import Entity, Number, at
+from report.assessment.verdict import Verdict
+from report.entities.columns import NO_VALUE
+from report.entities.shown import (
+    Entity,
+    Number,
+    Shown,
+    at,
+    centered,
+    length,
+    plain,
+    text,
+    unwritten,
+    words,
+)
+from report.words.units import Quantity, number
 from solver.model import Status
 
 
@@ -29,21 +46,59 @@ class LinkedRunResult(Entity):
     n_stops: Annotated[int, at("row.n_stops")]
 
 
+def ratio_up(value: float) -> str:
+    """Return a ratio, rounded up."""
+    if math.isnan(value):
+        return NO_VALUE
+    return number(math.ceil(value * 1e3 - 1e-6) / 1e3 if math.isfinite(value) else value, 3)
+
+
 class LinkedResult(Entity):
     """An array as a row of linked blocks, beside its design as one rigid block."""
 
-    array: Annotated[str, at("design.id")]
+    array: Annotated[str, at("design.id"), words("Array", 0.9)]
     mus: Annotated[tuple[float, ...], at("row.mus")]
-    stiffness_n_per_m: Annotated[float, at("links.stiffness_n_per_m")]
-    damping_ratio: Annotated[float, at("links.damping_ratio")]
-    rigid_one_axis_m: Annotated[Number, at("rigid.value_m")]
-    linked_one_axis_m: Annotated[Number, at("linked.value_m")]
-    ratio: Number
+    stiffness_n_per_m: Annotated[
+        float,
+        at("links.stiffness_n_per_m"),
+        Shown(head="Link stiffness", quantity=Quantity.STIFFNESS),
+    ]
+    damping_ratio: Annotated[
+        float, at("links.damping_ratio"), plain("Damping", 3, unit="of critical", share=1.2)
+    ]
+    rigid_one_axis_m: Annotated[Number, at("rigid.value_m"), length("Rigid, one axis")]
+    linked_one_axis_m: Annotated[Number, at("linked.value_m"), length("Row, one axis")]
+    ratio: Annotated[Number, Shown(head="Ratio r", text=ratio_up, share=0.9)]
     design_m: Annotated[Number, at("design.design_m")]
-    estimated_m: Number
-    link_force_n: Number
+    estimated_m: Annotated[Number, length("Design, with links")]
+    link_force_n: Annotated[Number, Shown(head="Link force", quantity=Quantity.WEIGHT, share=0.9)]
     rigid_is_enough: Annotated[bool, at("is_rigid_enough")]
     runs: tuple[LinkedRunResult, ...]
+    permitted_m: Annotated[Number, at("design.permitted_m"), length("Design, used")] = Field(
+        default=math.nan, exclude=True
+    )
+    rigid_prd_m: Annotated[Number, length("PRD, rigid", 0.8)] = Field(
+        default=math.nan, exclude=True
+    )
+    prd_m: Annotated[Number, at("farthest.prd_m"), length("PRD, row", 0.8)] = Field(
+        default=math.nan, exclude=True
+    )
+    block: Annotated[Number, plain("Block", 0, share=0.8)] = Field(default=math.nan, exclude=True)
+
+    @unwritten(text("Blocks", share=0.9))
+    def n_blocks(self) -> int:
+        """Number of blocks."""
+        return len(self.mus)
+
+    @unwritten(text("μ", share=1.5))
+    def mu_range(self) -> str:
+        """The smallest and the largest friction coefficient of the blocks."""
+        return " to ".join(number(mu, 3) for mu in sorted({min(self.mus), max(self.mus)}))
+
+    @unwritten(centered("Verdict"))
+    def verdict(self) -> Verdict:
+        """Whether one rigid block is adequate."""
+        return Verdict.OK if self.rigid_is_enough else Verdict.NG
 
 
 def linked_result(item: LinkedArray) -> LinkedResult:
@@ -55,4 +110,5 @@ def linked_result(item: LinkedArray) -> LinkedResult:
         for motion in item.motions
         for run in motion.runs
     )
-    return LinkedResult.of(item, runs=runs)
+    block = math.nan if math.isnan(item.farthest.prd_m) else item.farthest.block
+    return LinkedResult.of(item, runs=runs, block=block)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from report.assessment.friction import mus_words
 from report.assessment.remedies import Remedy
 from report.pages.parts import PackageData
-from report.pages.remedies import table
+from report.pages.remedies import answers
 from report.sheet.schema import ObjectKind
 
 
@@ -28,5 +28,5 @@ def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str,
             if gap[1].kind is ObjectKind.EDGE_WITH_PARAPET and gap[1].height_m is not None
         ],
         "is_least": any(gap.is_least_value for gap in package.assessment.clearances),
-        "remedies": table(package, remedies) if remedies else None,
+        "remedies": answers(package, remedies),
     }

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from operator import itemgetter
 
-from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment, by_id
+from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import (
     LEAST_RUNS,
@@ -22,20 +24,14 @@ from report.assessment.friction_rows import (
 from report.assessment.friction_velocity import VELOCITY_ROW, velocity_check
 from report.assessment.verdict import NOT_GIVEN
 from report.document.blocks import Picture
-from report.document.tables import Table, TableRow, Wide, stamp
+from report.document.tables import Table, Wide, listed, stamp
 from report.entities.clearance import clearance_results
-from report.entities.columns import TableColumn
+from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
 from report.sheet.friction_checks import MU_TOLERANCE
-from report.sheet.schema import Array, FrictionTests, ProjectInput
+from report.sheet.schema import FrictionTests, ProjectInput
 from report.words.units import Quantity, number
-from solver.friction_tests import (
-    FittedLaw,
-    Series,
-    Surface,
-    fit_law,
-    governing,
-)
+from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing
 
 _STATED = (
     ("Laboratory", "laboratory"),
@@ -49,15 +45,31 @@ _STATED = (
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the part on friction as tested."""
+    """Return what the part on friction as tested needs beside its chart."""
+    data, given = package.data, package.assessment
+    found, tests = tested(data), data.friction_tests
+    beyond = (row for row in given.rows if row.id == VELOCITY_ROW)
     return {
-        "is_reported": package.data.friction_tests != FrictionTests(),
-        "report": _report(package.data.friction_tests),
+        "is_reported": tests != FrictionTests(),
+        "report": _report(package),
+        "missing": [label.lower() for label, field in _STATED if not getattr(tests, field)],
         "runs": _runs(package),
-        "sentences": tuple(_sentences(package)),
+        "reports": [
+            _means(package, [one for one in found if one.report == report])
+            for report in dict.fromkeys(one.report for one in found)
+        ],
+        "least_runs": LEAST_RUNS,
+        "compared": _compared(data, found) if found else {},
+        "fits": [(one, fit, _scatter(one)) for one, fit in _fits(package)],
+        "unsatisfied": dict.fromkeys(
+            row.title for row in (*friction_rows(data), *beyond) if not row.is_satisfied
+        ),
         "velocities": _velocities(package),
-        "alone": _alone(package),
-        "alone_gaps": tuple(clearance_results(package, package.assessment.low_velocity.clearances)),
+        "tolerance": MU_TOLERANCE,
+        "alone": [
+            (item, by_id(given.arrays, item.id).design_m) for item in given.low_velocity.arrays
+        ],
+        "alone_gaps": tuple(clearance_results(package, given.low_velocity.clearances)),
     }
 
 
@@ -82,194 +94,118 @@ def picture(package: PackageData) -> Sequence[Picture]:
     )
 
 
-def _report(tests: FrictionTests) -> Table:
-    values = {label: getattr(tests, field) for label, field in _STATED}
-    return Table(
-        caption="Friction tests: the report",
-        columns=(
-            TableColumn(head="Item", align="left", share=1.0),
-            TableColumn(head="As given", align="left", share=3.0),
-        ),
-        rows=tuple(
-            TableRow(cells=(label, str(value) if value else NOT_GIVEN))
-            for label, value in values.items()
-        ),
-    )
+def _report(package: PackageData) -> Table:
+    tests = package.data.friction_tests
+    values = [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED]
+    columns = ((words("Item"), itemgetter(0)), (words("As given", 3.0), itemgetter(1)))
+    return listed(values, columns, "Friction tests: the report", package.fmt)
 
 
 def _runs(package: PackageData) -> Table:
-    fmt = package.fmt
-    return Table(
-        caption="Friction tests: runs",
-        columns=(
-            TableColumn(head="Report", align="left", share=1.6),
-            TableColumn(head="Surface", align="left", share=1.0),
-            TableColumn(head="Run", share=0.6),
-            *fmt.columns("Velocity", Quantity.VELOCITY),
-            TableColumn(head="Kinetic μ"),
-            TableColumn(head="Static μ"),
-        ),
-        rows=tuple(row for one in tested(package.data) for row in _series_rows(package, one)),
+    columns = (
+        (words("Report", 1.6), itemgetter(0)),
+        (words("Surface"), itemgetter(1)),
+        (text("Run", share=0.6), itemgetter(2)),
+        (Shown(head="Velocity", quantity=Quantity.VELOCITY), itemgetter(3)),
+        (text("Kinetic μ"), itemgetter(4)),
+        (text("Static μ"), itemgetter(5)),
+    )
+    return listed(
+        (row for one in tested(package.data) for row in _run_rows(package.data, one)),
+        columns,
+        "Friction tests: runs",
+        package.fmt,
         kind="compact",
+        style=lambda row: "total" if isinstance(row[0], Wide) else "",
     )
 
 
-def _series_rows(package: PackageData, one: Series) -> Iterator[TableRow]:
+def _run_rows(data: ProjectInput, one: Series) -> Iterator[tuple[object, ...]]:
+    """Yield the runs of a series, and their mean."""
     numbers = [
         row.number
-        for row in package.data.friction_runs
-        if (row.report or package.data.friction_tests.report, row.surface)
-        == (one.report, one.surface)
+        for row in data.friction_runs
+        if (row.report or data.friction_tests.report, row.surface) == (one.report, one.surface)
     ]
     for count, run in zip(numbers, one.runs, strict=True):
-        unknown = math.isnan(run.velocity_mps)
-        velocity = ("—", "—") if unknown else package.fmt.cells(run.velocity_mps, Quantity.VELOCITY)
-        yield TableRow(
-            cells=(
-                one.report or "—",
-                one.surface.value,
-                str(count),
-                *velocity,
-                number(run.mu, 3),
-                number(run.mu_static, 3),
-            )
-        )
-    yield TableRow(
-        cells=(
-            Wide(f"Mean, {one.surface}, {runs_text(len(one.runs))}", 5),
-            number(one.mean, 3),
-            number(one.static_mean, 3),
-        ),
-        kind="total",
-    )
+        velocity = "—" if math.isnan(run.velocity_mps) else run.velocity_mps
+        mus = number(run.mu, 3), number(run.mu_static, 3)
+        yield one.report or "—", one.surface, count, velocity, *mus
+    mean = Wide(f"Mean, {one.surface}, {runs_text(len(one.runs))}", 5)
+    yield mean, "", "", "", number(one.mean, 3), number(one.static_mean, 3)
 
 
 def _velocities(package: PackageData) -> Table:
-    fmt = package.fmt
-    return Table(
-        caption="Friction at the sliding velocities of all runs",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.6),
-            TableColumn(head="μ", unit="as run", share=1.5),
-            *fmt.columns("Largest velocity", Quantity.VELOCITY, share=0.8),
-            *fmt.columns("Tested to", Quantity.VELOCITY, share=0.8),
-            TableColumn(head="μ beyond", unit="largest", share=0.9),
-            TableColumn(head="μ tested", unit="smallest", share=0.9),
-            TableColumn(head="Verdict", align="center", share=1.8),
-        ),
-        rows=tuple(_velocity_row(package, item) for item in package.assessment.arrays),
-        notes=(
-            "Beyond: at sliding velocities above those tested. Smallest tested: of the means at"
-            " each velocity, of the series that governs for the array; μ beyond may be"
-            f" {MU_TOLERANCE:g} larger, for rounding.",
-        ),
-        kind="compact",
+    columns = (
+        (words("Array", 0.6), itemgetter(0)),
+        (text("μ", "as run", 1.5), itemgetter(1)),
+        (Shown(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8), itemgetter(2)),
+        (Shown(head="Tested to", quantity=Quantity.VELOCITY, share=0.8), itemgetter(3)),
+        (text("μ beyond", "largest", 0.9), itemgetter(4)),
+        (text("μ tested", "smallest", 0.9), itemgetter(5)),
+        (centered("Verdict", 1.8), itemgetter(6)),
+    )
+    rows = [_velocity(package.data, item) for item in package.assessment.arrays]
+    caption = "Friction at the sliding velocities of all runs"
+    return listed(rows, columns, caption, package.fmt, kind="compact")
+
+
+def _velocity(data: ProjectInput, item: ArrayAssessment) -> tuple[object, ...]:
+    check = velocity_check(data, item)
+    about = item.id, mu_words(item.array.friction), item.fastest_mps
+    if check is None:
+        return *about, "no runs", "—", "—", "not compared"
+    tested_mps = check.tests.velocity_mps
+    return (
+        *about,
+        "not given" if math.isnan(tested_mps) else tested_mps,
+        number(check.mu_beyond, 3),
+        number(check.tests.least_mu, 3),
+        stamp(check.verdict),
     )
 
 
-def _velocity_row(package: PackageData, item: ArrayAssessment) -> TableRow:
-    fmt, check = package.fmt, velocity_check(package.data, item)
-    tested_mps = math.nan if check is None else check.tests.velocity_mps
-    unknown = ("not given", "not given") if check else ("no runs", "no runs")
-    return TableRow(
-        cells=(
-            item.id,
-            mu_words(item.array.friction),
-            *fmt.cells(item.fastest_mps, Quantity.VELOCITY),
-            *(unknown if math.isnan(tested_mps) else fmt.cells(tested_mps, Quantity.VELOCITY)),
-            *(
-                (number(check.mu_beyond, 3), number(check.tests.least_mu, 3), stamp(check.verdict))
-                if check
-                else ("—", "—", "not compared")
-            ),
-        )
-    )
-
-
-def _alone(package: PackageData) -> Sequence[str]:
-    """Return the design displacements with the low-velocity coefficient alone."""
-    fmt, given = package.fmt, package.assessment
-    return [
-        f"Array {item.id} with μ = {mu_words(item.array.friction)} at every velocity, all motions"
-        f" rerun: design displacement {fmt.both(item.design_m)}"
-        f"{f' ({NOT_PERMITTED})' if item.has_unpermitted_value else ''} instead of"
-        f" {fmt.both(by_id(given.arrays, item.id).design_m)}."
-        for item in given.low_velocity.arrays
-    ]
-
-
-def _sentences(package: PackageData) -> Iterator[str]:
-    found = tested(package.data)
-    tests = package.data.friction_tests
-    missing = [label.lower() for label, field in _STATED if not getattr(tests, field)]
-    if missing:
-        yield f"Not given: {', '.join(missing)}."
-    if not found:
-        yield (
-            "The workbook gives no runs of friction tests: the friction coefficients of the arrays"
-            " are as entered and are not compared with tests."
-        )
-    for report in dict.fromkeys(one.report for one in found):
-        yield from _means(package, [one for one in found if one.report == report], report)
-    if found:
-        yield from _compared(package.data, found)
-    for one, fit in _fits(package):
-        yield _fit(one, fit)
-    beyond = (row for row in package.assessment.rows if row.id == VELOCITY_ROW)
-    rows = (*friction_rows(package.data), *beyond)
-    unsatisfied = dict.fromkeys(row.title for row in rows if not row.is_satisfied)
-    if unsatisfied:
-        yield f"Conditions: not satisfied are {', '.join(f'“{title}”' for title in unsatisfied)}."
-
-
-def _means(package: PackageData, found: Sequence[Series], report: str) -> Iterator[str]:
-    several = len(tested(package.data)) > len(found)
-    place = f"Report {report or 'without a number'}: kinetic" if several else "Kinetic"
-    least = min(found, key=lambda one: one.mean)
-    means = ", ".join(
-        f"{number(one.mean, 3)} {one.surface} ({runs_text(len(one.runs))})" for one in found
-    )
-    if len(found) > 1:
-        smaller = f"{number(least.mean, 3)} {least.surface}"
-        yield f"{place} mean {means}; the smaller, {smaller}, governs."
-    else:
-        other = next(surface for surface in Surface if surface is not least.surface)
-        yield f"{place} mean {means}; no {other} runs are given."
+def _means(package: PackageData, found: Sequence[Series]) -> Mapping[str, object]:
+    """Return the series of a report, the smallest mean, and the conditions with too few runs."""
     few: dict[str, list[str]] = {}
     for one in found:
         if not has_enough_runs(one):
             few.setdefault(runs_by_velocity(one, package.fmt.us_first), []).append(one.surface)
-    for runs, surfaces in few.items():
-        those = " and ".join(surfaces).capitalize()
-        yield f"{those}: {runs}; {LEAST_RUNS} at each velocity are required."
+    least = min(found, key=lambda one: one.mean)
+    other = next(surface for surface in Surface if surface is not least.surface)
+    return {"series": found, "least": least, "other": other, "few": few}
 
 
-def _compared(data: ProjectInput, found: Sequence[Series]) -> Iterator[str]:
-    """Yield how the friction of each array compares with the tests, alike arrays together."""
-    ids: dict[str, list[str]] = {}
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Compared:
+    """The friction of an array and the tested mean, as printed."""
+
+    is_by_velocity: bool
+    used: float
+    tested: float
+    surface: Surface
+    basis: str
+
+    @property
+    def above(self) -> float:
+        """How far the friction is above the tested mean."""
+        return round(self.used - self.tested, 3)
+
+
+def _compared(data: ProjectInput, found: Sequence[Series]) -> Mapping[_Compared, Sequence[str]]:
+    """Return how the friction of the arrays compares with the tests, alike arrays together."""
+    ids: dict[_Compared, list[str]] = {}
     for array in data.arrays:
-        ids.setdefault(_array(data, array, found), []).append(array.id)
-    for text, names in ids.items():
-        yield f"Array{'s' if len(names) > 1 else ''} {', '.join(names)}: {text}"
-
-
-def _array(data: ProjectInput, array: Array, found: Sequence[Series]) -> str:
-    one = governing(found, array.mu_report)
-    used = one.mean_of(array.friction)
-    what = (
-        f"mean of μ(v) at the tested velocities {number(used, 3)}"
-        if array.friction.is_by_velocity
-        else (f"μ = {number(used, 3)}")
-    )
-    gap = round(round(used, 3) - round(one.mean, 3), 3)
-    compared = (
-        "equal to" if gap == 0.0 else f"{number(abs(gap), 3)} {'below' if gap < 0.0 else 'above'}"
-    )
-    more = ", within the rounding of two decimals" if gap > 0.0 else ""
-    return (
-        f"{what}, {compared} the tested mean {number(one.mean, 3)}"
-        f" ({one.surface}){more}; {basis_words(data, array)}."
-    )
+        one = governing(found, array.mu_report)
+        alike = _Compared(
+            is_by_velocity=array.friction.is_by_velocity,
+            used=round(one.mean_of(array.friction), 3),
+            tested=round(one.mean, 3),
+            surface=one.surface,
+            basis=basis_words(data, array),
+        )
+        ids.setdefault(alike, []).append(array.id)
+    return ids
 
 
 def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:
@@ -284,18 +220,9 @@ def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:
             yield one, fit
 
 
-def _fit(one: Series, fit: FittedLaw) -> str:
-    velocities = {run.velocity_mps for run in one.runs if not math.isnan(run.velocity_mps)}
-    place = f"{one.surface.value.capitalize()}, {len(velocities)} velocities"
-    if not fit.is_determined:
-        return f"{place}: the runs do not determine a velocity-dependent law."
-    used = [run.mu for run in one.runs if not math.isnan(run.velocity_mps)]
-    mean = math.fsum(used) / len(used)
-    scatter = math.sqrt(math.fsum((mu - mean) ** 2 for mu in used) / len(used))
-    law = fit.law
-    return (
-        f"{place}: least squares gives {number(law.mu_slow, 3)} at low velocity,"
-        f" {number(law.mu_fast, 3)} at high velocity and a rate of {number(law.rate_s_per_m, 1)}"
-        f" s/m. Root mean square residual {number(fit.rms, 4)}, with one coefficient instead"
-        f" {number(scatter, 4)}."
-    )
+def _scatter(one: Series) -> tuple[int, float]:
+    """Return the number of velocities of a series, and the scatter about one coefficient."""
+    runs = [run for run in one.runs if not math.isnan(run.velocity_mps)]
+    mean = math.fsum(run.mu for run in runs) / len(runs)
+    scatter = math.sqrt(math.fsum((run.mu - mean) ** 2 for run in runs) / len(runs))
+    return len({run.velocity_mps for run in runs}), scatter

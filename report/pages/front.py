@@ -14,11 +14,10 @@ from report.assessment.remedies import Remedy
 from report.assessment.spectra import Spectra, departures
 from report.document.tables import stamp
 from report.document.templates import sentence
-from report.pages.certainty import directions
 from report.pages.limits import conditions, troubles
 from report.pages.motions import departure_place, departure_sentence
 from report.pages.parts import PackageData, shortened, statistic
-from report.pages.remedies import sentences
+from report.pages.remedies import answers
 from report.pages.review import exceptional
 from report.sheet.schema import RecordedAt
 from report.typeset.equations import symbol
@@ -56,7 +55,7 @@ def summary(
         "sentence": verdict_sentence(package),
         "numbers": (*_numbers(package), *_missed_targets(package, spectra)),
         "troubles": troubles(package),
-        "answers": sentences(package, remedies),
+        "answers": answers(package, remedies),
     }
 
 
@@ -142,7 +141,6 @@ def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
             if (ids := [array.id for array in arrays if array.route is route])
         },
         "certainty": certainty,
-        "angles": directions(package, certainty),
         "failed": troubles(package),
         "validation": explained(SHIPPED),
     }

@@ -7,20 +7,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import groupby
+from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words
 from report.assessment.runs import RUNGS, HeadingRun
-from report.document.tables import Table, TableRow, Wide, listed
-from report.entities.columns import NO_VALUE, TableColumn
-from report.entities.shown import centered, plain, text, words
+from report.document.tables import Table, Wide, listed
+from report.entities.columns import NO_VALUE
+from report.entities.shown import centered, length, plain, text, words
 from report.pages import links
-from report.pages.accuracy import below_mm
 from report.pages.parts import PackageData, nan_is_worst, verdict
 from report.sheet.schema import Array, Direction
-from report.words.counts import spelled
+from report.words.letters import below_mm
 from report.words.units import number, ratio
 from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT, Rung, Solution
@@ -30,25 +31,22 @@ _NEGLECTED = {
     Rung.TWO_AXES: "Cross-slope shaking",
     Rung.SPEED_FRICTION: "Velocity-dependent friction",
 }
+_NOT_KNOWN = Wide("not known", 4), ""
 
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
-    arrays = package.assessment.arrays
-    matters = (
-        f"{number(1e3 * DEFAULT.matters_m, 0)} mm ({number(DEFAULT.matters_m / INCH_M, 2)} in) or "
-        f"{number(100.0 * DEFAULT.matters_share, 1)} %"
-    )
+    arrays = package.data.arrays
     return {
-        "rungs": tuple(f"{int(rung)}: {rung.title}" for rung in Rung if rung is not Rung.ROW),
-        "matters": matters,
-        "combinations": _combinations(package),
+        "rungs": [rung for rung in Rung if rung is not Rung.ROW],
+        "matters": DEFAULT,
+        "matters_in": DEFAULT.matters_m / INCH_M,
+        "friction": {array.id: friction(package, array) for array in arrays},
         "table": _table(package),
         "neglected": _neglected_table(package),
         "stability": _stability_table(package),
-        "sentences": [text for array in arrays for text in _sentences(package, array)],
         "troubles": tuple(model_troubles(package)),
-        "links": links.part(package, matters),
+        "links": links.part(package),
     }
 
 
@@ -75,13 +73,12 @@ def tipping_troubles(package: PackageData) -> Iterator[str]:
             )
 
 
+def _limited(demand: float) -> str:
+    return number(demand, 2) if math.isfinite(demand) else "no limit"
+
+
 def _stability_table(package: PackageData) -> Table:
     """Return the checks of uplift and tipping."""
-
-    def demand(array: ArrayAssessment) -> str:
-        demand = array.tipping.demand
-        return number(demand, 2) if math.isfinite(demand) else "no limit"
-
     columns = (
         (words("Array", 0.8), lambda item: item.id),
         (plain("Min. N", unit="m g"), lambda item: item.uplift.n_min_g),
@@ -89,7 +86,7 @@ def _stability_table(package: PackageData) -> Table:
             text("Uplift time", "s", 1.1),
             lambda item: number(item.uplift.duration_s, 3) if item.uplift.lifts else "none",
         ),
-        (text("Demand", "V/N"), demand),
+        (text("Demand", "V/N"), lambda item: _limited(item.tipping.demand)),
         (plain("Transmitted", unit="V/N", share=1.1), lambda item: item.tipping.transmitted),
         (plain("Capacity", unit="b/(2c)", share=1.1), lambda item: item.tipping.capacity),
         (text("Ratio, at rest", share=1.2), lambda item: ratio(item.tipping.at_rest_ratio)),
@@ -102,142 +99,89 @@ def _stability_table(package: PackageData) -> Table:
         "Checks independent of the model: uplift and tipping",
         package.fmt,
         kind="compact",
-        notes=(
-            "The worst run of each array. Tipping: an array begins to tip about an edge of its "
-            "supports where the transmitted shear exceeds b/(2c) times the normal force. "
-            "Transmitted: the lesser of the demand and the friction coefficient; b: smallest "
-            "support spacing; c: height of the center of gravity, midway between the supports "
-            "(Housner, 1963; Ishiyama, 1982).",
-        ),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Group:
+    """The runs of an array with one model."""
+
+    array: ArrayAssessment
+    runs: Sequence[HeadingRun]
+
+    @property
+    def model(self) -> str:
+        """The name of the model, and how many runs have no vertical component to model."""
+        rung, names = self.runs[0].solution.rung, {run.model for run in self.runs}
+        lacking = sum(run.model != rung.title for run in self.runs)
+        name = self.runs[0].model if len(names) == 1 else f"{rung.title} ({lacking} runs without)"
+        return f"{int(rung)}, {name}"
+
+    @property
+    def demand(self) -> float:
+        """The largest friction demand; inf: no limit."""
+        return max(run.solution.friction_demand for run in self.runs)
+
+    @property
+    def reason(self) -> str:
+        """Why the run with the largest PRD has this model."""
+        if self.array.is_model_requested:
+            return "requested in the workbook"
+        return max(self.runs, key=lambda run: nan_is_worst(run.prd_m)).solution.reason
+
+    @property
+    def error(self) -> str:
+        """A bound on the errors of the PRDs."""
+        worst = max((run.result.error_m for run in self.runs), key=nan_is_worst)
+        if math.isnan(worst):
+            return NO_VALUE
+        return below_mm(worst) if worst == 0.0 else f"below {below_mm(worst)}"
 
 
 def _runs(array: ArrayAssessment) -> Sequence[HeadingRun]:
     return [run for motion in array.motions for run in motion.runs]
 
 
-def _by_rung(array: ArrayAssessment) -> Iterator[tuple[Rung, Sequence[HeadingRun]]]:
+def _groups(array: ArrayAssessment) -> Iterator[_Group]:
     ordered = sorted(_runs(array), key=lambda run: run.solution.rung)
-    for rung, group in groupby(ordered, key=lambda run: run.solution.rung):
-        yield rung, list(group)
-
-
-def _combinations(package: PackageData) -> str:
-    motions = [run.motion for run in package.governing.motions]
-    two = sum(motion.has_transverse for motion in motions)
-    if not two:
-        return (
-            "No motion has a second horizontal component: each record is applied along the slope, "
-            "in the polarities that the workbook requests. Cross-slope shaking also uses part of "
-            "the friction: with both components most displacements are larger (verification "
-            "manual)."
-        )
-    both = all(len(motion.signs) == 2 for motion in motions)
-    of = "Each motion has" if two == len(motions) else f"{two} of {len(motions)} motions have"
-    counts = sorted({len(motion.headings) for motion in motions if motion.has_transverse})
-    run = " or ".join(map(spelled, counts))
-    polarities = "" if both else " where the workbook requests both polarities"
-    so = "so" if both else "so in the polarities requested"
-    return (
-        f"{of} eight combinations{polarities}: either horizontal component along the slope, in "
-        "either polarity, with the other component across it in either polarity. Reversing the "
-        "cross-slope component mirrors the motion and changes no downslope, upslope or cross-slope "
-        f"displacement, {so} {run} are run and the largest PRD governs."
-    )
+    for _, runs in groupby(ordered, key=lambda run: run.solution.rung):
+        yield _Group(array, list(runs))
 
 
 def _table(package: PackageData) -> Table:
-    return Table(
-        caption="Model used, by array",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.8),
-            TableColumn(head="Model", align="left", share=2.1),
-            TableColumn(head="Runs", share=1.0),
-            TableColumn(head="μ", unit="at rest", share=0.9),
-            TableColumn(head="Demand", share=0.9),
-            TableColumn(head="Reason", align="left", share=4.2),
-            TableColumn(head="Error of PRD", align="left", share=1.6),
-        ),
-        rows=tuple(
-            TableRow(cells=cells)
-            for array in package.assessment.arrays
-            for cells in _model_rows(array)
-        ),
-        notes=(
-            "Demand: the largest ratio of shear to normal force with no slip; the array slips "
-            "where it exceeds μ at rest. Reason: for the run with the largest PRD. Error: relative "
-            "to the exact solution for acceleration that varies linearly between samples.",
-        ),
-        kind="compact",
+    columns = (
+        (words("Array", 0.8), lambda group: group.array.id),
+        (words("Model", 2.1), lambda group: group.model),
+        (text("Runs"), lambda group: f"{len(group.runs)} of {len(_runs(group.array))}"),
+        (plain("μ", unit="at rest", share=0.9), lambda group: group.array.array.friction.mu_static),
+        (text("Demand", share=0.9), lambda group: _limited(group.demand)),
+        (words("Reason", 4.2), lambda group: group.reason),
+        (words("Error of PRD", 1.6), lambda group: group.error),
     )
+    groups = [group for array in package.assessment.arrays for group in _groups(array)]
+    return listed(groups, columns, "Model used, by array", package.fmt, kind="compact")
 
 
-def _model_rows(array: ArrayAssessment) -> Iterator[tuple[str, ...]]:
-    total = len(_runs(array))
-    for rung, runs in _by_rung(array):
-        worst = max(runs, key=lambda run: nan_is_worst(run.prd_m))
-        demand = max(run.solution.friction_demand for run in runs)
-        yield (
-            array.id,
-            f"{int(rung)}, {_model(runs)}",
-            f"{len(runs)} of {total}",
-            number(array.array.friction.mu_static, 2),
-            number(demand, 2) if math.isfinite(demand) else "no limit",
-            _reason(array, worst),
-            _error(runs),
-        )
-
-
-def _model(runs: Sequence[HeadingRun]) -> str:
-    """Return the name of the model of runs, and how many have no vertical component to model."""
-    title, names = runs[0].solution.rung.title, {run.model for run in runs}
-    lacking = sum(run.model != title for run in runs)
-    return runs[0].model if len(names) == 1 else f"{title} ({lacking} runs without)"
-
-
-def _reason(array: ArrayAssessment, run: HeadingRun) -> str:
-    reason = run.solution.reason
-    return "requested in the workbook" if array.is_model_requested else reason
-
-
-def _error(runs: Sequence[HeadingRun]) -> str:
-    errors = [run.result.error_m for run in runs]
-    if any(map(math.isnan, errors)):
-        return NO_VALUE
-    worst = max(errors)
-    return below_mm(worst) if worst == 0.0 else f"below {below_mm(worst)}"
+_Neglected = tuple[str, str, float | Wide | str, float | str, str]
+"""Array, what is neglected, the change of PRD and of design displacement [m], and its basis."""
 
 
 def _neglected_table(package: PackageData) -> Table:
-    fmt = package.fmt
-    where = "see below" if package.assessment.linked else package.part("basis")
-    return Table(
-        caption="Neglected effects and the largest change that they could cause",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.8),
-            TableColumn(head="Neglected", align="left", share=3.1),
-            *fmt.columns("PRD, at most", share=0.9),
-            *fmt.columns("Design displ., at most", share=0.9),
-            TableColumn(head="Basis", align="left", share=3.6),
-        ),
-        rows=tuple(
-            TableRow(cells=cells)
-            for array in package.assessment.arrays
-            for cells in _neglected_rows(package, array)
-        ),
-        notes=(
-            "No model includes rotation in plan, rocking, or the flexibility of the array "
-            f"({where}).",
-        ),
-        kind="compact",
+    columns = (
+        (words("Array", 0.8), itemgetter(0)),
+        (words("Neglected", 3.1), itemgetter(1)),
+        (length("PRD, at most", 0.9), itemgetter(2)),
+        (length("Design displ., at most", 0.9), itemgetter(3)),
+        (words("Basis", 3.6), itemgetter(4)),
     )
+    effects = [row for array in package.assessment.arrays for row in _neglected(array)]
+    caption = "Neglected effects and the largest change that they could cause"
+    return listed(effects, columns, caption, package.fmt, kind="compact")
 
 
-def _neglected_rows(
-    package: PackageData, array: ArrayAssessment
-) -> Iterator[tuple[str | Wide, ...]]:
+def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
     if array.is_model_requested:
-        yield _requested_row(package, array)
+        yield _requested(array)
         return
     solutions = [run.solution for run in _runs(array)]
     neglected = sorted(
@@ -246,76 +190,43 @@ def _neglected_rows(
     for rung in neglected:
         # A run that already has this model has nothing to tell of it.
         without = [solution for solution in solutions if solution.next_rung is rung > solution.rung]
-        yield _effect_row(package, array, rung, without)
+        yield _effect(array, rung, without)
     if neglected:
         return
-    blank = ("—",) * 4
     if all(solution.rung is Rung.NO_SLIP for solution in solutions):
-        yield array.id, "None: no slip", *blank, "exact"
+        yield array.id, "None: no slip", "—", "—", "exact"
     elif array.array.friction.is_constant:
         basis = "the workbook gives one coefficient"
-        yield array.id, _NEGLECTED[Rung.SPEED_FRICTION], Wide("not known", 4), basis
+        yield array.id, _NEGLECTED[Rung.SPEED_FRICTION], *_NOT_KNOWN, basis
     else:
-        yield array.id, "None of the given inputs", *blank, "the most complete model is used"
+        yield array.id, "None of the given inputs", "—", "—", "the most complete model is used"
 
 
-def _effect_row(
-    package: PackageData, array: ArrayAssessment, rung: Rung, group: Sequence[Solution]
-) -> tuple[str | Wide, ...]:
+def _effect(array: ArrayAssessment, rung: Rung, group: Sequence[Solution]) -> _Neglected:
     effect = max((solution.next_effect_m for solution in group), key=nan_is_worst)
     basis = "both models run; error included" if rung is Rung.TWO_AXES else "exact: both models run"
     if not math.isfinite(effect):
         no_result = "no result with the more complete model"
-        return array.id, _NEGLECTED[rung], Wide("not known", 4), no_result
+        return array.id, _NEGLECTED[rung], *_NOT_KNOWN, no_result
     raised = max(array.analysis.value_m + array.analysis.factor * effect, array.floor_m)
-    return (
-        array.id,
-        _NEGLECTED[rung],
-        *package.fmt.cells(effect),
-        *package.fmt.cells(raised - array.design_m),
-        basis,
-    )
+    return array.id, _NEGLECTED[rung], effect, raised - array.design_m, basis
 
 
-def _requested_row(package: PackageData, array: ArrayAssessment) -> tuple[str | Wide, ...]:
+def _requested(array: ArrayAssessment) -> _Neglected:
     """Return the change that the adequate models make to the requested one."""
-    fmt, other = package.fmt, array.chosen[Direction.ANY]
+    other = array.chosen[Direction.ANY]
     rung = max(run.solution.rung for motion in array.needed for run in motion.runs)
     name = f"Effects of {rung.title}" if rung > RUNGS[array.array.model] else "None"
     if math.isnan(array.design_m) or math.isnan(other.value_m):
-        return array.id, name, Wide(NO_VALUE, 4), "no value from analysis"
+        return array.id, name, Wide(NO_VALUE, 4), "", "no value from analysis"
     effect = max(
         abs(more.governing.prd_m - run.governing.prd_m)
         for run, more in zip(array.motions, array.needed, strict=True)
     )
-    change = array.chosen_toward_m(Direction.ANY) - array.design_m
+    change = abs(array.chosen_toward_m(Direction.ANY) - array.design_m)
     floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
-    return (
-        array.id,
-        name,
-        *fmt.cells(effect),
-        *fmt.cells(abs(change)),
-        "exact: both models run" + ("; the floor governs both" if floor else ""),
-    )
-
-
-def _sentences(package: PackageData, array: ArrayAssessment) -> Iterator[str]:
-    name, worst = array.id, array.worst
-    least = array.uplift.n_min_g  # of the whole motion, also where the vertical is neglected
-    lifted = "uplift occurs" if least < 0.0 else "no uplift"
-    yield (
-        f"Array {name}: the governing run is {worst.motion.id}, {worst.governing.heading.name}, "
-        f"with PRD {package.fmt.both(worst.governing.prd_m)}. Minimum normal force "
-        f"{number(least, 2)} m g: {lifted}.{friction(package, array.array)}"
-    )
-    is_bounded = array.array.friction.is_monotone
-    if worst.governing.solution.rung is Rung.SPEED_FRICTION and not is_bounded:
-        yield (
-            f"Array {name}: the friction decreases at the onset of sliding or with velocity. A "
-            "negligible perturbation may then decide whether the array stops, and the error of the "
-            "PRD is the difference between two tolerances, not a bound. With one coefficient, the "
-            "smallest, the error is a bound."
-        )
+    basis = "exact: both models run" + ("; the floor governs both" if floor else "")
+    return array.id, name, effect, change, basis
 
 
 def friction(package: PackageData, array: Array) -> str:

@@ -1,164 +1,119 @@
-"""What would satisfy each clearance and array marked NG, in words and as a table."""
+"""What would satisfy each clearance and array marked NG, for sentences and as a table."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import groupby
+from operator import attrgetter
 
 from report.assessment.friction import mu_words
 from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.trials import with_mu
-from report.document.tables import Table, TableRow, Wide
-from report.entities.columns import TableColumn
+from report.document.tables import Table, Wide, listed
+from report.entities.shown import text, words
 from report.pages.parts import PackageData
 from report.pages.symbols import with_symbols
+from report.words.counts import capitalized
 from report.words.units import Quantity, compared, no_less, number, pair
 
 
-def sentences(package: PackageData, remedies: Sequence[Remedy]) -> Sequence[str]:
-    """Return a sentence for each clearance and array marked NG, and what was varied for it."""
-    groups = groupby(remedies, key=lambda remedy: (remedy.clearance, _of_array(remedy)))
-    texts = [with_symbols(_sentence(package, list(group))) for _, group in groups]
-    return [*texts, *map(with_symbols, bases(remedies))]
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """A remedy with the value given and the one that would do, for print; the latter if any."""
+
+    remedy: Remedy
+    given: str
+    value: str
+
+
+def answers(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, object]:
+    """Return what would do, in groups and as a table, with what was varied; empty if nothing."""
+    if not remedies:
+        return {}
+    found = [_answer(package, remedy) for remedy in remedies]
+    groups = groupby(found, key=lambda one: (one.remedy.clearance, _of_array(one.remedy)))
+    return {
+        "groups": [_group(package, list(group)) for _, group in groups],
+        "bases": dict.fromkeys(
+            (remedy.kind.value, remedy.basis)
+            for remedy in remedies
+            if remedy.exists and remedy.kind is not RemedyKind.SEPARATION
+        ),
+        "table": _table(package, found),
+    }
 
 
 def _of_array(remedy: Remedy) -> str:
     return "" if remedy.clearance else remedy.array
 
 
-def _sentence(package: PackageData, remedies: Sequence[Remedy]) -> str:
-    first = remedies[0]
-    if first.clearance:
-        row = package.assessment.clearances[first.clearance - 1].clearance
-        start = f"Clearance {first.clearance}, {row.array} to {row.object}, would be satisfied"
+def _answer(package: PackageData, remedy: Remedy) -> Answer:
+    given, value = remedy.given, remedy.value
+    if remedy.kind is RemedyKind.SEPARATION:
+        # As the clearances print them.
+        shows = zip((given, value), (compared(value, given)[1], no_less), strict=True)
+        us_first = package.fmt.us_first
+        texts = [pair(length_m, Quantity.SIZE, us_first, show) for length_m, show in shows]
+    elif remedy.kind is RemedyKind.S_DS:
+        texts = [f"{number(given, 3)} g", f"{number(value, 2)} g"]
     else:
-        start = f"Array {first.array} would have final values"
-    frictions = [remedy for remedy in remedies if remedy.kind is RemedyKind.FRICTION]
-    others = [remedy for remedy in remedies if remedy.kind is not RemedyKind.FRICTION]
-    enough = [_friction(package, frictions)] if all(remedy.exists for remedy in frictions) else []
-    enough += [_other(package, remedy) for remedy in others if remedy.exists]
-    reasons = {
-        f"No {remedy.kind.value} would do: {remedy.basis}."
-        for remedy in remedies
-        if not remedy.exists
-    }
-    words = [f"{start} with {_any_of(enough)}."] if enough else [f"{start} by none of these."]
-    return " ".join([*words, *sorted(reasons)])
+        array = next(array for array in package.data.arrays if array.id == remedy.array)
+        mus = (given, value) if remedy.exists else (given, given)
+        texts = [mu_words(with_mu(array, mu).friction) for mu in mus]
+    return Answer(remedy=remedy, given=texts[0], value=texts[1] if remedy.exists else "")
 
 
-def _any_of(texts: Sequence[str]) -> str:
-    """Join alternatives."""
-    return texts[0] if len(texts) == 1 else f"{', with '.join(texts[:-1])}, or with {texts[-1]}"
-
-
-def _friction(package: PackageData, remedies: Sequence[Remedy]) -> str:
-    return "μ of at least " + " and ".join(
-        f"{_law(package, one, one.value)} for {one.array} (given {_law(package, one, one.given)})"
-        for one in remedies
-    )
-
-
-def _law(package: PackageData, remedy: Remedy, mu: float) -> str:
-    """Return the friction of an array as run with a low-velocity coefficient."""
-    array = next(array for array in package.data.arrays if array.id == remedy.array)
-    return mu_words(with_mu(array, mu).friction)
-
-
-def _other(package: PackageData, remedy: Remedy) -> str:
-    if remedy.kind is RemedyKind.S_DS:
-        return f"S_DS of at most {number(remedy.value, 2)} g (given {number(remedy.given, 3)} g)"
-    enough, given = _separations(package, remedy)
-    return f"{enough} provided (given {given})"
-
-
-def _separations(package: PackageData, remedy: Remedy) -> tuple[str, str]:
-    """Return a separation that would do and the one given, as the clearances print them."""
-    _, had = compared(remedy.value, remedy.given)
-    us_first = package.fmt.us_first
-    given = pair(remedy.given, Quantity.SIZE, us_first, had)
-    return pair(remedy.value, Quantity.SIZE, us_first, no_less), given
-
-
-def table(package: PackageData, remedies: Sequence[Remedy]) -> Table:
-    """Return what would do, with the resolution and what was verified."""
-    return Table(
-        caption="What would do, each by itself",
-        columns=(
-            TableColumn(head="No.", share=0.5),
-            TableColumn(head="Quantity", align="left", share=1.9),
-            TableColumn(head="Given", align="left", share=1.9),
-            TableColumn(head="Would do", align="left", share=2.1),
-            TableColumn(head="Resolution", align="left", share=1.1),
-            TableColumn(head="Verified by all runs", align="left", share=2.2),
+def _group(package: PackageData, group: Sequence[Answer]) -> Mapping[str, object]:
+    """Return the ways to satisfy a clearance, or to give an array final values, each by itself."""
+    first = group[0].remedy
+    frictions = [one for one in group if one.remedy.kind is RemedyKind.FRICTION]
+    others = [[one] for one in group if one.remedy.kind is not RemedyKind.FRICTION]
+    return {
+        "number": first.clearance,
+        "gap": package.assessment.clearances[first.clearance - 1] if first.clearance else None,
+        "array": first.array,
+        "ways": [way for way in (frictions, *others) if way and all(one.value for one in way)],
+        "in_vain": sorted(
+            {(one.remedy.kind.value, one.remedy.basis) for one in group if not one.value}
         ),
-        rows=tuple(_row(package, remedy) for remedy in remedies),
-        notes=(with_symbols(f"{_SEARCH} {' '.join(bases(remedies))}"),),
+    }
+
+
+def _table(package: PackageData, found: Sequence[Answer]) -> Table:
+    """Return what would do, with the resolution and what was verified."""
+
+    def quantity(one: Answer) -> str:
+        if one.remedy.kind is RemedyKind.FRICTION:
+            return f"μ of {one.remedy.array}"
+        return with_symbols(capitalized(one.remedy.kind.value))
+
+    def value(one: Answer) -> str | Wide:
+        if not one.value:
+            return Wide(with_symbols(f"none: {one.remedy.basis}"), 3)
+        return f"{'≤' if one.remedy.kind is RemedyKind.S_DS else '≥'} {one.value}"
+
+    def resolution(one: Answer) -> str:
+        return f"{one.remedy.resolution:g}" if one.remedy.resolution else "exact"
+
+    def verified(one: Answer) -> str:
+        if one.remedy.kind is RemedyKind.SEPARATION:
+            return "the runs of this package"
+        low, high = one.remedy.verified
+        return f"{number(low, 2)} to {number(high, 2)}, {one.remedy.n_values} values"
+
+    columns = (
+        (text("No.", share=0.5), lambda one: one.remedy.clearance or "—"),
+        (words("Quantity", 1.9), quantity),
+        (words("Given", 1.9), attrgetter("given")),
+        (words("Sufficient", 2.1), value),
+        (words("Resolution", 1.1), resolution),
+        (words("Verified by all runs", 2.2), verified),
+    )
+    return listed(
+        found,
+        columns,
+        "How to satisfy each clearance: sufficient changes, each by itself",
+        package.fmt,
         kind="compact",
     )
-
-
-_SEARCH = (
-    "Friction is searched from 1.5 down in steps of 0.05 and 0.01, S_DS from 0.05 g up in steps of "
-    "0.20, 0.05 and 0.01 g, to the first value at which a run leaves the clearance not satisfied. "
-    "All values tried from there to the start of the search satisfy."
-)
-
-
-def bases(remedies: Sequence[Remedy]) -> Sequence[str]:
-    """Return what was varied for each quantity, each basis once."""
-    texts = (
-        f"{_sentence_case(remedy)}: {remedy.basis}."
-        for remedy in remedies
-        if remedy.exists and remedy.kind is not RemedyKind.SEPARATION
-    )
-    return list(dict.fromkeys(texts))
-
-
-def _row(package: PackageData, remedy: Remedy) -> TableRow:
-    found = (
-        (_value(package, remedy), f"{remedy.resolution:g}" if remedy.resolution else "exact")
-        if remedy.exists
-        else ()
-    )
-    return TableRow(
-        cells=(
-            str(remedy.clearance) if remedy.clearance else "—",
-            f"μ of {remedy.array}"
-            if remedy.kind is RemedyKind.FRICTION
-            else with_symbols(_sentence_case(remedy)),
-            _given(package, remedy),
-            *((*found, _verified(remedy)) if found else (_none(remedy),)),
-        )
-    )
-
-
-def _none(remedy: Remedy) -> Wide:
-    return Wide(with_symbols(f"none: {remedy.basis}"), 3)
-
-
-def _sentence_case(remedy: Remedy) -> str:
-    name = remedy.kind.value
-    return name[0].upper() + name[1:]
-
-
-def _given(package: PackageData, remedy: Remedy) -> str:
-    if remedy.kind is RemedyKind.SEPARATION:
-        return _separations(package, remedy)[1]
-    if remedy.kind is RemedyKind.S_DS:
-        return f"{number(remedy.given, 3)} g"
-    return _law(package, remedy, remedy.given)
-
-
-def _value(package: PackageData, remedy: Remedy) -> str:
-    if remedy.kind is RemedyKind.SEPARATION:
-        return f"≥ {_separations(package, remedy)[0]}"
-    if remedy.kind is RemedyKind.S_DS:
-        return f"≤ {number(remedy.value, 2)} g"
-    return f"≥ {_law(package, remedy, remedy.value)}"
-
-
-def _verified(remedy: Remedy) -> str:
-    if remedy.kind is RemedyKind.SEPARATION:
-        return "the runs of this package"
-    low, high = remedy.verified
-    return f"{number(low, 2)} to {number(high, 2)}, {remedy.n_values} values"

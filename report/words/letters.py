@@ -5,6 +5,7 @@ Also the characters that no page may print, and those that nobody sees.
 
 from __future__ import annotations
 
+import math
 import re
 
 UNPRINTABLE = re.compile(
@@ -38,6 +39,16 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 def power_of_ten(exponent: int) -> str:
     """Return `10⁻¹⁵` for -15."""
     return f"10{str(exponent).translate(_RAISED)}"
+
+
+def power_above(value: float) -> str:
+    """Return a power of ten above a value: its digits depend on the machine."""
+    return power_of_ten(math.floor(math.log10(value)) + 1)
+
+
+def below_mm(error_m: float) -> str:
+    """Return the power of ten above an error, in mm."""
+    return f"{power_above(1e3 * error_m)} mm" if error_m else "rounding error"
 
 
 def lettered(text: str) -> str:

@@ -90,13 +90,13 @@ class Quantity(Enum):
 
 
 def number(value: float, decimals: int) -> str:
-    """Return a number for print: fixed decimals, a true minus, an em dash for NaN."""
+    """Return a number for print: fixed decimals, a true minus, ∞, an em dash for NaN."""
     if value != value:
         return "—"
     text = f"{value:.{decimals}f}"
     if float(text) == 0.0:
         text = text.lstrip("-")
-    return text.replace("-", "−")
+    return text.replace("-", "−").replace("inf", "∞")
 
 
 def measured(value_si: float, unit: Unit) -> str:

@@ -108,7 +108,7 @@ def test_a_block_that_lifts_off_is_said_without_numbers():
     assert "48 of 48 points have no value" in page
     assert "no displacement" in page.line("PRD used for array")
     assert without_nan(page)
-    assert "What would do" in printed(package, "summary")
+    assert "How to satisfy" in printed(package, "summary")
 
 
 def test_the_chart_names_arrays_and_levels_and_is_the_same_twice(usual):
@@ -142,7 +142,7 @@ def test_each_ng_says_what_would_do_with_the_values_found():
         if one.kind.value != "provided separation":
             assert f"{one.value:.2f}" in text
     assert f"{math.ceil(roomy.required_m / 0.0254 * 10 - 1e-6) / 10:.1f} in" in text
-    table = printed(package, "clearances", remedies=found).table("What would do")
+    table = printed(package, "clearances", remedies=found).table("How to satisfy")
     assert len(table.cells) == len(found)
     assert table.rows[-1]["Quantity"] == "SDS"
 
@@ -151,12 +151,12 @@ def test_a_floor_that_forbids_is_the_reason_given():
     package = scenes.package(clearances=[stand_in.clearance("A1", "RTU-1", 0.9)])
     text = printed(package, "summary").line("Clearance 1")
     assert "SDS of at most" in text
-    assert "No friction coefficient would do: the floor alone" in text
-    table = printed(package, "clearances").table("What would do")
+    assert "No friction coefficient is sufficient: the floor alone" in text
+    table = printed(package, "clearances").table("How to satisfy")
     assert any("floor alone" in cell for row in table.cells for cell in row)
 
 
 def test_without_ng_the_summary_says_nothing_about_it():
     package = scenes.package(options=PEER, clearances=[stand_in.clearance("A2", "A3", 9.0)])
-    assert "What would do" not in printed(package, "summary")
-    assert "What would do" not in printed(package, "clearances")
+    assert "How to satisfy" not in printed(package, "summary")
+    assert "How to satisfy" not in printed(package, "clearances")

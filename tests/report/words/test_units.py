@@ -74,10 +74,10 @@ def test_no_digits_are_asked_of_zero():
     assert digits_up(0.0, 2) == digits_down(0.0, 2) == "0"
 
 
-def test_no_value_stays_no_value():
+def test_no_value_and_an_infinite_one_have_their_signs():
     for show in (measured, no_less, no_more):
         assert show(math.nan, Quantity.SIZE.si) == "—"
-        assert show(math.inf, Quantity.SIZE.si) == "inf"
+        assert show(math.inf, Quantity.SIZE.si) == "∞"
 
 
 @pytest.mark.parametrize(
