@@ -54,7 +54,12 @@ class Shown:
     def cells(
         self, value: Any, fmt: UnitFormat, mark: str = "", show: Show = measured
     ) -> tuple[str, ...]:
-        """Return a value for print: one text, or one for each system of units."""
+        """Return a value for print: one text, or one for each system of units.
+
+        A text in place of a quantity is that of both systems.
+        """
+        if self.quantity and isinstance(value, str):
+            return (value, value)
         if self.quantity:
             return fmt.cells(value, self.quantity, mark=mark, show=show)
         if isinstance(value, float) and math.isnan(value):

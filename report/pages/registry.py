@@ -130,6 +130,7 @@ PAGES = (
         id="limits",
         title="Limits and interconnection strength",
         fill=lambda package, _: limits.limits(package),
+        template="limits.html",
     ),
     Page(
         id="provisions",
