@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,6 +103,7 @@ class Departure:
     from_s: float
     to_s: float
     is_short: bool
+    most_excess: ClassVar[float] = MOST_EXCESS
 
 
 def departures(spectra: Sequence[Spectra]) -> tuple[Departure, ...]:

@@ -14,12 +14,15 @@ from typing import TYPE_CHECKING, Any
 
 from jinja2 import pass_context
 
+from report.assessment.foresight import limit_value
 from report.assessment.friction import mu_words
 from report.document.tables import Table, stamp, table_of
+from report.entities.marks import dagger
 from report.typeset.equations import symbol
 from report.words.counts import capitalized, counted, spelled
 from report.words.letters import below_mm, power_above
 from report.words.units import Quantity, number
+from solver.rules.provisions import Check
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -56,11 +59,13 @@ def _environment(folder: Path) -> Environment:
         "clause": _clause,
         "counted": counted,
         "degrees": lambda value_rad, decimals: number(math.degrees(value_rad), decimals),
+        "dagger": dagger,
         "friction": mu_words,
         "lowered": lambda text: text[:1].lower() + text[1:],
         "mark": _mark,
         "number": number,
         "power_above": power_above,
+        "of_check": _of_check,
         "rule_length": _rule_length,
         "spelled": spelled,
         "stamp": stamp,
@@ -90,6 +95,12 @@ def _clause(context: Context, key: str) -> str:
     """Return the clause of a provision with its marks."""
     said: str = context["p"].clause(key)
     return said
+
+
+@pass_context
+def _of_check(context: Context, value: float, check: Check) -> str:
+    """Return a number of a check with the units of its measure."""
+    return limit_value(check, value, context["p"].fmt.us_first)
 
 
 @pass_context

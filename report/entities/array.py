@@ -21,9 +21,13 @@ from report.entities.requirement import limit
 from report.entities.run import PeakResult, RunResult, peak_result, run_result
 from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
 from report.sheet.schema import Direction, Model
-from report.words.units import number
+from report.words.units import Quantity, compared, number, ratio, rounded_apart
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
+
+
+def _weight(head: str) -> Shown:
+    return Shown(head=head, quantity=Quantity.WEIGHT)
 
 
 class Displacements(Entity):
@@ -122,7 +126,7 @@ class ArrayResult(LowVelocityResult):
     directions: Mapping[Direction, DirectionResult]
     peaks: tuple[PeakResult, ...]
     peak_speed_mps: Annotated[Number, at("fastest_mps")]
-    interconnection_n: float
+    interconnection_n: Annotated[float, _weight("Required")]
     tipping: TippingResult
     uplift: UpliftResult
     route: Route
@@ -138,6 +142,13 @@ class ArrayResult(LowVelocityResult):
         default="none given", exclude=True
     )
     largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = Field(default="—", exclude=True)
+    weight_n: Annotated[float, at("array.weight_n"), _weight("Weight W")] = Field(
+        default=math.nan, exclude=True
+    )
+    given_n: Annotated[float | None, at("array.interconnection_n")] = Field(
+        default=None, exclude=True
+    )
+    clause: Annotated[str, words("Clause", 1.9)] = Field(default="", exclude=True)
 
     cause: str = Field(default="", exclude=True)
     """Of a verdict that the D/C beside it does not show."""
@@ -147,9 +158,34 @@ class ArrayResult(LowVelocityResult):
         """Roof slope [deg]."""
         return math.degrees(self.slope_rad)
 
+    @unwritten(_weight("Lighter part"))
+    def lighter_n(self) -> float:
+        """Weight of the lighter part beside a section, at most [N]."""
+        return self.weight_n / 2.0
 
-def array_result(assessment: Assessment, item: ArrayAssessment, **marks: str) -> ArrayResult:
+    @unwritten(_weight("Provided"))
+    def provided_n(self) -> float | str:
+        """Interconnection strength provided [N]."""
+        return "not given" if self.given_n is None else self.given_n
+
+    @unwritten(Shown(head="D/C", share=0.8))
+    def strength_dc(self) -> str:
+        """Interconnection strength required / provided."""
+        return "—" if self.given_n is None else ratio(self.interconnection_n / self.given_n)
+
+    @property
+    def is_rounded_apart(self) -> bool:
+        """Whether the strengths required and provided would print alike, and are not."""
+        given = self.given_n
+        return given is not None and rounded_apart(self.interconnection_n, given, Quantity.WEIGHT)
+
+
+def array_result(
+    assessment: Assessment, item: ArrayAssessment, clause: str = "", **marks: str
+) -> ArrayResult:
     """Return an array with its runs and limits, and the marks of its fields."""
+    given = item.array.interconnection_n
+    required, provided = compared(item.interconnection_n, math.nan if given is None else given)
     gap = assessment.governing_clearance(item.id)
     near = {}
     if gap:
@@ -160,7 +196,9 @@ def array_result(assessment: Assessment, item: ArrayAssessment, **marks: str) ->
         **near,
         cause=unshown_cause(assessment, item),
         limits_verdict=Verdict.OK if is_sound else Verdict.NG,
+        clause=clause,
         marks=marks,
+        rounds={"interconnection_n": required, "provided_n": provided},
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),
         directions={direction: _direction(item, direction) for direction in item.directions},
@@ -181,6 +219,8 @@ def array_results(marked: Marked) -> Iterator[ArrayResult]:
         yield array_result(
             marked.assessment,
             item,
+            clause=marked.clause("interconnection_sds"),
+            interconnection_n=marked.mark("interconnection_sds"),
             prescriptive_m=marked.prescriptive_mark(item),
             computed_m=item.mark(lambda array: array.analysis.value_m),
             floor=marked.floor_mark(item),

@@ -117,7 +117,6 @@ def _html(
     pictures: Pictures,
     ready: Mapping[str, Formula],
 ) -> str:
-    templates = {page.id: page.template for page in pages_of(package)}
     listed = {part.id: part for part in parts(package)}
     equations = {**ready, **formulas(set(_latex(content)) - ready.keys())}
     context = {
@@ -127,7 +126,7 @@ def _html(
         "sheet": front.sheet(package),
         "parts": tuple(listed.values()),
         "below": {subpart.id: subpart for part in listed.values() for subpart in part.parts},
-        "shown": [(templates.get(id, f"{id}.html"), listed.get(id)) for id in content],
+        "shown": [(f"{id}.html", listed.get(id)) for id in content],
         "ref": package.part,
         "equations": equations,
         "pictures": pictures,

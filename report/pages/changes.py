@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from report.assessment.changes import ChangeKind, Changes
-from report.document.tables import Table, TableRow
-from report.entities.columns import TableColumn
+from report.document.tables import listed
+from report.entities.shown import words
 from report.pages.parts import PackageData
 
 
@@ -27,24 +27,15 @@ def counted(changes: Changes) -> str:
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the changes as a table."""
+    columns = (
+        (words("Kind", 1.2), lambda item: item.kind.value),
+        (words("Quantity", 2.6), lambda item: item.title),
+        (words("Cell", 1.1), lambda item: item.cell),
+        (words("Before", 2.2), lambda item: item.before),
+        (words("Now", 2.2), lambda item: item.now),
+    )
     changes = package.changes
-    text = (
-        f"Compared with revision {changes.revision} of {changes.date}: {counted(changes)}. Results "
-        "that differ by less than one part in a million count as unchanged. Bars in the margin of "
-        "the tables of arrays and clearances and of the input echo mark rows that changed."
-    )
-    table = Table(
-        caption="Changes",
-        columns=(
-            TableColumn(head="Kind", align="left", share=1.2),
-            TableColumn(head="Quantity", align="left", share=2.6),
-            TableColumn(head="Cell", align="left", share=1.1),
-            TableColumn(head="Before", align="left", share=2.2),
-            TableColumn(head="Now", align="left", share=2.2),
-        ),
-        rows=tuple(
-            TableRow(cells=(item.kind.value, item.title, item.cell, item.before, item.now))
-            for item in changes.items
-        ),
-    )
-    return {"texts": (text,), "tables": (table,) if changes.items else ()}
+    return {
+        "counted": counted(changes),
+        "table": listed(changes.items, columns, "Changes", package.fmt),
+    }

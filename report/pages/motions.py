@@ -4,35 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
 import numpy as np
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from report.assessment.conditions import DRIFT_M, drifts
 from report.assessment.evidence import Evidence
 from report.assessment.highpass import Beyond
-from report.assessment.spectra import (
-    MOST_EXCESS,
-    PRINTED_S,
-    Departure,
-    Spectra,
-    departures,
-)
-from report.document.tables import Table, TableRow, Wide
+from report.assessment.spectra import PRINTED_S, Spectra, departures
+from report.document.tables import Column, Table, TableRow, Wide, listed
 from report.entities.columns import TableColumn
+from report.entities.shown import centered, length, plain, text, words
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
-from report.motions.targets import OWN
-from report.pages.acceptance import acceptance_table, event_table, frequency, strength_table
+from report.pages.acceptance import acceptance_table, event_table, lowest_between, strength_table
 from report.pages.building import building_part
 from report.pages.parts import PackageData
 from report.pages.symbols import with_symbols
 from report.sheet.schema import RecordedAt
-from report.typeset.equations import symbol
-from report.words.units import G_MPS2, number
+from report.words.units import G_MPS2, Unit, number
 from solver.model import Floats, Motion
 from solver.records.processing import AS_RECORDED
-from solver.records.spectrum_acceptance import POINTS_HZ
+from solver.records.spectrum_acceptance import N_AC156, N_SETS, N_SLIDING, POINTS_HZ
 from solver.rules.spectra import Tail
 
 
@@ -53,150 +47,93 @@ def has_ground(package: PackageData) -> bool:
     return any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
 
 
-def motion_table(motions: Sequence[Motion], preparations: Sequence[PreparedMotion]) -> Table:
+def _motion_table(package: PackageData) -> Table:
     """Return the list of the motions as run."""
-    grounds = [prepared.recorded_at is RecordedAt.GROUND for prepared in preparations]
-    where = [TableColumn(head="Given at", align="left", share=1.25)] if any(grounds) else []
-    return Table(
-        caption="Roof motions as run, after scaling",
-        columns=(
-            TableColumn(head="Motion", align="left", share=0.9),
-            TableColumn(head="Source", align="left", share=3.5),
-            *where,
-            TableColumn(head="Peak [g]", unit="record", share=1.0),
-            TableColumn(head="Peak [g]", unit="transv.", share=1.0),
-            TableColumn(head="Peak [g]", unit="vertical", share=1.1),
-            TableColumn(head="Step", unit="s", share=1.1),
-            TableColumn(head="Duration", unit="s", share=1.1),
-            TableColumn(head="Scaling", align="left", share=1.35),
-            TableColumn(head="Factor", share=0.8),
-            TableColumn(head="Polarity", align="center", share=1.0),
-        ),
-        rows=tuple(
-            _motion_row(motion, prepared, with_place=any(grounds))
-            for motion, prepared in zip(motions, preparations, strict=True)
-        ),
-        kind="compact",
+    shaking = package.assessment.shaking
+    place: Column = (words("Given at", 1.25), lambda row: row[1].recorded_at.value)
+    columns = (
+        (words("Motion", 0.9), lambda row: row[0].id),
+        (words("Source", 3.5), lambda row: with_symbols(row[0].source or "—")),
+        *([place] if has_ground(package) else []),
+        (plain("Peak [g]", 3, "record"), lambda row: _peak_g(row[0].ax_mps2, row[0].scale)),
+        (plain("Peak [g]", 3, "transv."), lambda row: _peak_g(row[0].ay_mps2, row[0].scale)),
+        (plain("Peak [g]", 3, "vertical", 1.1), lambda row: _peak_g(row[0].az_mps2, row[0].scale)),
+        (text("Step", "s", 1.1), lambda row: f"{row[0].dt_s:.3g}"),
+        (plain("Duration", 2, "s", 1.1), lambda row: (len(row[0].ax_mps2) - 1) * row[0].dt_s),
+        (words("Scaling", 1.35), lambda row: row[1].scaling),
+        (text("Factor", share=0.8), lambda row: f"{row[0].scale:.4g}"),
+        (centered("Polarity"), lambda row: _polarity(row[0])),
     )
+    rows = zip(shaking.motions, shaking.prepared, strict=True)
+    caption = "Roof motions as run, after scaling"
+    return listed(rows, columns, caption, package.fmt, kind="compact")
 
 
-def _motion_row(motion: Motion, prepared: PreparedMotion, *, with_place: bool) -> TableRow:
-    peaks = (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
-    return TableRow(
-        cells=(
-            motion.id,
-            with_symbols(motion.source or "—"),
-            *([prepared.recorded_at.value] if with_place else []),
-            *(_peak(values, motion.scale) for values in peaks),
-            f"{motion.dt_s:.3g}",
-            number((len(motion.ax_mps2) - 1) * motion.dt_s, 2),
-            prepared.scaling,
-            f"{motion.scale:.4g}",
-            "both" if len(motion.signs) == 2 else "+" if motion.signs[0] > 0 else "−",
-        )
-    )
+def _peak_g(values: Floats, scale: float) -> float:
+    return float(np.abs(values).max() * abs(scale) / G_MPS2) if len(values) else math.nan
 
 
-def _peak(values: Floats, scale: float) -> str:
-    return number(float(np.abs(values).max() * abs(scale) / G_MPS2), 3) if len(values) else "none"
+def _polarity(motion: Motion) -> str:
+    return "both" if len(motion.signs) == 2 else "+" if motion.signs[0] > 0 else "−"
 
 
-def drift_table(package: PackageData, preparations: Sequence[PreparedMotion]) -> Table:
-    """Return the processing of each motion and its residual drift."""
-    unit = package.fmt.units()[0]
-    names = ("horizontal", "transverse", "vertical")
-    short = {"horizontal": "record", "transverse": "transv.", "vertical": "vertical"}
-    limit = package.fmt.both(DRIFT_M)
-    return Table(
-        caption="Processing, and final velocity and displacement of each component",
-        columns=(
-            TableColumn(head="Motion", align="left", share=1.1),
-            TableColumn(head="Processing", align="left", share=3.6),
-            *(
-                TableColumn(head=f"Velocity, {unit.symbol}/s", unit=short[name], share=0.9)
-                for name in names
-            ),
-            *(
-                TableColumn(head=f"Displacement, {unit.symbol}", unit=short[name], share=0.9)
-                for name in names
-            ),
-            TableColumn(head="Drift", align="left", share=0.9),
-        ),
-        rows=tuple(_drift_row(prepared, names, unit.si) for prepared in preparations),
-        notes=(
-            "Each component at the place of its record, ground or roof, after processing and "
-            "scaling. Drift in the input becomes slip: a motion is marked where a component has a "
-            f"final displacement of more than {limit}.",
-        ),
-        kind="compact",
-    )
-
-
-def drift_sentence(package: PackageData, preparations: Sequence[PreparedMotion]) -> str:
-    """Return the same as text if all motions are as recorded and none drifts; else nothing."""
-    if any(drifts(prepared) or prepared.done != AS_RECORDED for prepared in preparations):
-        return ""
-    unit = package.fmt.units()[0]
-    measures = [m for prepared in preparations for m in prepared.measures.values()]
-    speed = max(abs(m.final_velocity_mps) for m in measures) / unit.si
-    place = max(abs(m.final_displacement_m) for m in measures) / unit.si
-    return (
-        "All motions are run without trimming, filtering or baseline correction. The "
-        f"final velocity of every component is at most {number(speed, 2)} {unit.symbol}/s and its "
-        f"final displacement at most {number(place, 2)} {unit.symbol}: none drifts. Drift in the "
-        "input would become slip; a final displacement of more than "
-        f"{package.fmt.both(DRIFT_M)} would be marked."
-    )
-
-
-def _drift_row(prepared: PreparedMotion, names: Sequence[str], si: float) -> TableRow:
-    measures = [prepared.measures.get(name) for name in names]
-    speeds = ("none" if m is None else number(m.final_velocity_mps / si, 2) for m in measures)
-    places = ("none" if m is None else number(m.final_displacement_m / si, 2) for m in measures)
-    return TableRow(
-        cells=(
-            prepared.motion_id,
-            prepared.done,
-            *speeds,
-            *places,
-            Markup("<b>drifts</b>") if drifts(prepared) else "none",
-        )
-    )
-
-
-def beyond_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
-    """Return the part of the slip caused by periods that a high-pass filter removes."""
-    fmt = package.fmt
-    return Table(
-        caption=f"Effect of the high-pass filter: PRD of array {package.governing.id}",
-        columns=(
-            TableColumn(head="Motion", align="left", share=1.2),
-            TableColumn(head="Corner", unit="Hz"),
-            TableColumn(head="Period", unit="s"),
-            *fmt.columns("With the high-pass, as run", share=1.3),
-            *fmt.columns("Without it", share=1.3),
-            TableColumn(head="Removed", unit="%", share=1.2),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    run.motion_id,
-                    f"{run.corner_hz:g}",
-                    f"{1.0 / run.corner_hz:.3g}",
-                    *fmt.cells(run.filtered_m),
-                    *fmt.cells(run.unfiltered_m),
-                    "—" if math.isnan(run.share) else number(100.0 * run.share, 0),
-                )
+def _drift_table(package: PackageData, unit: Unit) -> Table:
+    """Return the processing of each motion, and where each component ends."""
+    names = {"horizontal": "record", "transverse": "transv.", "vertical": "vertical"}
+    ends = {
+        f"Velocity, {unit.symbol}/s": "final_velocity_mps",
+        f"Displacement, {unit.symbol}": "final_displacement_m",
+    }
+    columns: Sequence[Column] = (
+        (words("Motion", 1.1), lambda prepared: prepared.motion_id),
+        (words("Processing", 3.6), lambda prepared: prepared.done),
+        *(
+            (
+                plain(head, unit=names[name], share=0.9),
+                partial(_final, name=name, end=end, si=unit.si),
             )
-            for run in beyond
+            for head, end in ends.items()
+            for name in names
         ),
-        notes=(
-            "The same motion at the same scale, with and without the high-pass filter: the largest "
-            "PRD of all runs. A negative value means that the filter increases the PRD. The filter "
-            "may remove ground motion as well as instrument drift: review the corner frequency.",
+        (
+            words("Drift", 0.9),
+            lambda prepared: Markup("<b>drifts</b>") if drifts(prepared) else "none",
         ),
-        kind="compact",
     )
+    caption = "Processing, and final velocity and displacement of each component"
+    prepared = package.assessment.shaking.prepared
+    return listed(prepared, columns, caption, package.fmt, kind="compact")
+
+
+def _final(prepared: PreparedMotion, name: str, end: str, si: float) -> float:
+    """Return an end of a component in a unit; NaN for a component that there is none of."""
+    measures = prepared.measures.get(name)
+    return getattr(measures, end) / si if measures else math.nan
+
+
+def _largest_ends(preparations: Sequence[PreparedMotion]) -> tuple[float, float] | None:
+    """Return the largest final velocity and displacement; None if any is processed or drifts."""
+    if any(drifts(prepared) or prepared.done != AS_RECORDED for prepared in preparations):
+        return None
+    measures = [m for prepared in preparations for m in prepared.measures.values()]
+    return (
+        max(abs(m.final_velocity_mps) for m in measures),
+        max(abs(m.final_displacement_m) for m in measures),
+    )
+
+
+def _highpass_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
+    """Return the part of the slip caused by periods that a high-pass filter removes."""
+    columns = (
+        (words("Motion", 1.2), lambda run: run.motion_id),
+        (text("Corner", "Hz"), lambda run: f"{run.corner_hz:g}"),
+        (text("Period", "s"), lambda run: f"{1.0 / run.corner_hz:.3g}"),
+        (length("With the high-pass, as run", 1.3), lambda run: run.filtered_m),
+        (length("Without it", 1.3), lambda run: run.unfiltered_m),
+        (text("Removed", "%", 1.2), lambda run: number(100.0 * run.share, 0)),
+    )
+    caption = f"Effect of the high-pass filter: PRD of array {package.governing.id}"
+    return listed(beyond, columns, caption, package.fmt, kind="compact")
 
 
 def spectrum_table(spectra: Sequence[Spectra]) -> Table:
@@ -288,69 +225,6 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
     )
 
 
-def target_words(package: PackageData) -> Sequence[str]:
-    """Return the target spectra of the motions, a sentence each."""
-    goals, tail = package.assessment.targets, Tail(package.data.target.tail)
-    roof = (
-        "the project-specific spectrum (workbook sheet Spectrum), which replaces that of AC156"
-        if goals.roof.name == OWN
-        else Markup("AC156 required response spectrum, corners in {}; {}").format(
-            package.part("method"), symbol("A_FLX").join(map(escape, tail.sentence.split("A_FLX")))
-        )
-    )
-    texts: list[str] = [
-        Markup("Target at the roof: {}. Sliding is governed by long periods.").format(roof)
-    ]
-    if has_ground(package):
-        texts.append(with_symbols(_GROUND.get(goals.ground.name, _GROUND[""])))
-    return texts
-
-
-def departure_sentence(found: Departure) -> str:
-    """Return where the motions miss their target, and what follows."""
-    return f"{departure_place(found)} {departure_effect(found)}"
-
-
-def departure_place(found: Departure) -> str:
-    """Return where the motions miss their target, and by how much."""
-    first, *others = found.titles
-    also = f" ({'; '.join(others).lower()} likewise)" if others else ""
-    ratio, at = number(found.ratio, 2), f"at {frequency(found.period_s)}"
-    where = (
-        "there alone"
-        if found.from_s == found.to_s
-        else f"from {1.0 / found.to_s:.3g} to {frequency(found.from_s)}"
-    )
-    if found.is_short:
-        return (
-            f"{first}{also}: the mean of the motions falls to {ratio} times the target "
-            f"({found.target}) {at}; it is below the target {where}."
-        )
-    return (
-        f"{first}{also}: the mean of the motions reaches {ratio} times the target "
-        f"({found.target}) {at}; it exceeds {number(MOST_EXCESS, 2)} times the target {where}."
-    )
-
-
-def departure_effect(found: Departure) -> str:
-    """Return what follows from motions that miss their target."""
-    if found.is_short:
-        return (
-            "Weaker shaking gives smaller displacements: scale or replace the motions, or justify "
-            "the difference."
-        )
-    return "The displacements are those of the stronger motions, and are not reduced."
-
-
-_GROUND = {
-    OWN: "Target of ground motions: the project-specific spectrum (workbook sheet Spectrum).",
-    "": "Ground motions have no target: the workbook gives neither a spectrum nor S_1, F_v and "
-    "T_L for the design spectrum of ASCE 7.",
-    "ASCE 7 design spectrum": "Target of ground motions: the two-period design response spectrum "
-    "of ASCE 7, 11.4.6.",
-}
-
-
 def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
     """Return the notes from reading the records, without repetition within a motion."""
     notes = (f"Motion {row.motion_id}: {note}" for row in records for note in row.notes)
@@ -360,18 +234,23 @@ def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
     shaking, spectra = package.assessment.shaking, evidence.spectra
-    motions, preparations, beyond = shaking.motions, shaking.prepared, evidence.highpass
+    unit = package.fmt.units()[0]
     return {
-        "table": motion_table(motions, preparations),
+        "table": _motion_table(package),
         "notes": _notes(shaking.records),
-        "undisturbed": drift_sentence(package, preparations),
-        "drift": drift_table(package, preparations),
-        "beyond": [beyond_table(package, beyond)] if beyond else [],
-        "building": building_part(package, motions, preparations) if has_ground(package) else None,
-        "target": (*target_words(package), *map(departure_sentence, departures(spectra))),
+        "unit": unit,
+        "ends": _largest_ends(shaking.prepared),
+        "drift": _drift_table(package, unit),
+        "drift_m": DRIFT_M,
+        "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
+        "building": building_part(package) if has_ground(package) else None,
+        "tail": Tail(package.data.target.tail).sentence,
+        "departures": departures(spectra),
         "achieved": achieved_table(spectra),
         "spectra": spectrum_table(spectra),
-        "events": event_table(package.data.motions),
-        "acceptance": acceptance_table(package.assessment.acceptance, spectra),
-        "strength": strength_table(package.assessment.acceptance.motions),
+        "events": event_table(package),
+        "acceptance": acceptance_table(package),
+        "points": {"all": len(POINTS_HZ), "sliding": N_SLIDING, "ac156": N_AC156, "sets": N_SETS},
+        "between": lowest_between(package.assessment.acceptance, spectra),
+        "strength": strength_table(package),
     }

@@ -12,7 +12,7 @@ from functools import cached_property
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.foresight import limit_value
 from report.entities.array import ArrayResult, array_results
@@ -86,6 +86,13 @@ class PackageData(Marked):
             *(("Building", check) for check in given.building_checks),
             *((f"Array {item.id}", check) for item in given.arrays for check in item.limits),
         )
+
+    @property
+    def routes(self) -> Mapping[str, Sequence[str]]:
+        """The arrays of each route that any takes."""
+        arrays = self.assessment.arrays
+        ids = {route.value: [item.id for item in arrays if item.route is route] for route in Route}
+        return {route: of_route for route, of_route in ids.items() if of_route}
 
     @property
     def verdicts(self) -> Mapping[str, Sequence[bool]]:

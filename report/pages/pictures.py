@@ -9,14 +9,12 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from markupsafe import Markup
-
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.certainty import Certainty
 from report.assessment.evidence import Plotted
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra, departures
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import Row, Verdict
 from report.document.blocks import Picture
 from report.pages import accuracy, certainty, friction_tests, limits, section
 from report.pages.parts import PackageData
@@ -110,13 +108,13 @@ def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[Pi
 
 def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
     """Return what the tables and sentences of the summary leave of its last sheet [in]."""
-    assessment, sentences = package.assessment, limits.troubles(package)
+    assessment, found = package.assessment, limits.troubles(package)
     failed = sum(gap.verdict is Verdict.NG for gap in assessment.clearances)
     # Their conditions take two lines.
     edges = sum("without" in gap.neighbor.value for gap in assessment.clearances)
     rows = len(assessment.arrays) + len(assessment.clearances)
     answers = 0.7 + 0.45 * failed if failed else 0.0
-    troubles = 0.3 + 0.33 * len(sentences) if sentences else 0.0
+    troubles = 0.3 + 0.33 * sum(map(len, found.values())) if found else 0.0
     missed = 0.5 * len(departures(spectra))
     room = 5.1 - 0.2 * rows - 0.15 * edges - answers - troubles - missed
     room -= _conditions_in(package) + sum(map(_wrapped_in, assessment.arrays))
@@ -125,8 +123,15 @@ def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
 
 def _conditions_in(package: PackageData) -> float:
     """Return how tall the list of conditions is [in]."""
-    texts = [Markup(text).striptags() for text in limits.conditions(package)]
-    return 0.3 + sum(0.16 * math.ceil(len(text) / 110) for text in texts) if texts else 0.0
+    rows = package.assessment.conditions
+    return 0.3 + sum(0.16 * math.ceil(_letters(row) / 110) for row in rows) if rows else 0.0
+
+
+def _letters(row: Row) -> int:
+    """Return how long a condition is, with the words between its parts."""
+    of_subject = len(f"array {row.subject}, ") if row.subject else 0
+    texts = (row.consequence.value, row.title, row.found, row.limit, row.remedy)
+    return of_subject + len(": : ; required: . ") + sum(map(len, texts))
 
 
 def _wrapped_in(array: ArrayAssessment) -> float:

@@ -6,106 +6,59 @@ from collections.abc import Mapping
 
 from markupsafe import Markup, escape
 
-from report.document.tables import Table, TableRow
-from report.entities.columns import TableColumn
+from report.document.tables import listed
 from report.entities.marks import UNVERIFIED, dagger
+from report.entities.shown import text, words
 from report.pages.parts import PackageData
 from report.typeset.equations import symbol
-from solver.rules.provisions import OVERRIDABLE
+from solver.rules.provisions import OVERRIDABLE, Provision
+
+_BY_DIRECTION = (
+    "Displacement by direction: a clearance takes the displacement toward it, not less than the "
+    "floor. No document of the rule sets states a direction."
+)
+_NONE = "not given"
 
 
 def provisions(package: PackageData) -> Mapping[str, object]:
     """Return every number of the rule set with its status, and the overrides."""
-    rules = package.assessment.rules
+    rules, fmt = package.assessment.rules, package.fmt
+    named = [(_sentence_case(OVERRIDABLE[key]), value) for key, value in rules.values.items()]
+    columns = (
+        (words("Provision", 5.2), lambda row: row[0]),
+        (text("Value", share=0.9), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
+        (words("Clause", 1.7), lambda row: row[1].clause),
+        (words("Status", 1.5), lambda row: _standing(row[1])),
+    )
+    overridden = (
+        (words("Provision", 3.0), lambda row: _sentence_case(OVERRIDABLE[row.provision])),
+        (text("Value", share=0.8), lambda row: f"{row.value:.6g}†‡"),
+        (words("Reason given in the workbook", 4.0), lambda row: row.reason),
+    )
+    departure = (
+        (words("Departure", 3.0), lambda _: _BY_DIRECTION),
+        (words("Reason given in the workbook", 3.0), lambda row: row.directional_reason or _NONE),
+        (words("Reviewer", 1.6), lambda row: row.directional_reviewer or _NONE),
+        (words("License", 1.2), lambda row: row.directional_license or _NONE),
+        (words("Date"), lambda row: row.directional_date or _NONE),
+    )
+    caption, overrides = f"Numbers of {rules.name} used in this package", package.data.overrides
     return {
-        "table": Table(
-            caption=f"Numbers of {rules.name} used in this package",
-            columns=(
-                TableColumn(head="Provision", align="left", share=5.2),
-                TableColumn(head="Value", share=0.9),
-                TableColumn(head="Clause", align="left", share=1.7),
-                TableColumn(head="Status", align="left", share=1.5),
-            ),
-            rows=tuple(
-                TableRow(
-                    cells=(
-                        _sentence_case(OVERRIDABLE[key]),
-                        f"{provision.value:.4g}" + dagger(provision),
-                        provision.clause,
-                        _standing(provision.reason, provision.verified),
-                    )
-                )
-                for key, provision in rules.values.items()
-            ),
-            notes=tuple(
-                Markup("{}: {}{}.").format(
-                    _sentence_case(OVERRIDABLE[key]), provision.note, dagger(provision)
-                )
-                for key, provision in rules.values.items()
-                if provision.note
-            ),
-            kind="compact",
-        ),
+        "table": listed(named, columns, caption, fmt, kind="compact"),
+        "noted": [(name, provision) for name, provision in named if provision.note],
         "unverified": UNVERIFIED,
-        "departure": _departure(package),
-        "overrides": Table(
-            caption="Overridden for this project",
-            columns=(
-                TableColumn(head="Provision", align="left", share=3.0),
-                TableColumn(head="Value", share=0.8),
-                TableColumn(head="Reason given in the workbook", align="left", share=4.0),
-            ),
-            rows=tuple(
-                TableRow(
-                    cells=(
-                        _sentence_case(OVERRIDABLE[row.provision]),
-                        f"{row.value:.6g}†‡",
-                        row.reason,
-                    )
-                )
-                for row in package.data.overrides
-            ),
-        ),
+        "overrides": listed(overrides, overridden, "Overridden for this project", fmt),
+        "departure": listed([package.data.options], departure, "Departure from the rule set", fmt),
     }
 
 
-def _departure(package: PackageData) -> Table | None:
-    """Return the departure that is no number of the rule set, where the workbook asks for it."""
-    options = package.data.options
-    if not options.directional:
-        return None
-    date = "not given" if options.directional_date is None else options.directional_date.isoformat()
-    return Table(
-        caption="Departure from the rule set",
-        columns=(
-            TableColumn(head="Departure", align="left", share=3.0),
-            TableColumn(head="Reason given in the workbook", align="left", share=3.0),
-            TableColumn(head="Reviewer", align="left", share=1.6),
-            TableColumn(head="License", align="left", share=1.2),
-            TableColumn(head="Date", align="left", share=1.0),
-        ),
-        rows=(
-            TableRow(
-                cells=(
-                    "Displacement by direction: a clearance takes the displacement toward it, not "
-                    "less than the floor. No document of the rule sets states a direction.",
-                    options.directional_reason or "not given",
-                    options.directional_reviewer or "not given",
-                    options.directional_license or "not given",
-                    date,
-                )
-            ),
-        ),
-    )
-
-
-def _sentence_case(text: str) -> Markup:
+def _sentence_case(name: str) -> Markup:
     """Return the name of a provision in sentence case with typeset symbols."""
-    plain = escape(text[0].upper() + text[1:]).replace(" - ", " − ").replace("^2", "²")
+    plain = escape(name[0].upper() + name[1:]).replace(" - ", " − ").replace("^2", "²")
     return plain.replace("S_DS", symbol("S_DS")).replace("W1", symbol("W_1"))
 
 
-def _standing(reason: str, verified: bool) -> str:
-    if reason:
+def _standing(provision: Provision) -> str:
+    if provision.reason:
         return "overridden, see below"
-    return "confirmed" if verified else "to be verified"
+    return "confirmed" if provision.verified else "to be verified"

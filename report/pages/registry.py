@@ -1,7 +1,7 @@
-"""The pages of the package in order: title, function that fills it, template.
+"""The pages of the package in order: title, and function that fills it.
 
-To add a page, add it here with the function that fills it; a page of tables and texts only needs
-no template of its own. Parts refer to each other by id (`PackageData.part`). Read `PAGES`.
+To add a page, add it here with the function that fills it, and a template with its id. Parts refer
+to each other by id (`PackageData.part`). Read `PAGES`.
 """
 
 from __future__ import annotations
@@ -48,13 +48,12 @@ class Page:
     Attributes
     ----------
     id, title : str
-        Anchor and heading in the package; the id is also the name of the content in the template.
+        Anchor and heading in the package; the id is also the name of the template and of the
+        content in it.
     fill : callable
         Returns the content for the template.
     below : callable
         Returns the ids and titles of the parts below it.
-    template : str
-        `plain.html` prints `texts` and `tables`.
     is_appendix : bool
         Whether it is an appendix, numbered by a letter.
     """
@@ -63,7 +62,6 @@ class Page:
     title: str
     fill: Callable[[PackageData, Evidence], Content]
     below: Callable[[PackageData], Below] = _nothing_below
-    template: str = "plain.html"
     is_appendix: bool = False
 
 
@@ -72,59 +70,50 @@ PAGES = (
         id="summary",
         title="Summary",
         fill=lambda package, evidence: front.summary(package, evidence.remedies, evidence.spectra),
-        template="summary.html",
     ),
     Page(
         id="plan",
         title="Roof plan",
         fill=lambda package, _: front.plan(package),
-        template="plan.html",
     ),
     Page(
         id="basis",
         title="Basis and limits of the method",
         fill=lambda package, evidence: front.basis(package, evidence.certainty),
-        template="basis.html",
     ),
     Page(
         id="inputs",
         title="Inputs",
         fill=lambda package, _: inputs.inputs(package),
         below=inputs.below,
-        template="inputs.html",
     ),
     Page(
         id="motions",
         title="Roof motions",
         fill=motions.page,
         below=motions.below,
-        template="motions.html",
     ),
     Page(
         id="method",
         title="Method and equations",
         fill=lambda package, _: method.page(package),
         below=method.below,
-        template="method.html",
     ),
     Page(
         id="results",
         title="Results",
         fill=lambda package, _: results.page(package),
         below=results.below,
-        template="results.html",
     ),
     Page(
         id="comparison",
         title="Comparison with the prescriptive displacement",
         fill=lambda package, _: results.comparison(package),
-        template="comparison.html",
     ),
     Page(
         id="clearances",
         title="Clearances",
         fill=lambda package, evidence: clearances.clearances(package, evidence.remedies),
-        template="clearances.html",
     ),
     Page(
         id="limits",
@@ -135,19 +124,16 @@ PAGES = (
         id="provisions",
         title="Provisions and overrides",
         fill=lambda package, _: provisions.provisions(package),
-        template="provisions.html",
     ),
     Page(
         id="model",
         title="Model used",
         fill=lambda package, _: model.page(package),
-        template="model.html",
     ),
     Page(
         id="accuracy",
         title="Accuracy and sensitivity",
         fill=lambda package, evidence: accuracy.page(package, evidence.accuracy),
-        template="accuracy.html",
     ),
     Page(
         id="how-sure",
@@ -156,27 +142,23 @@ PAGES = (
             certainty.page(package, evidence.certainty)
             | cumulative.page(package, evidence.cumulative)
         ),
-        template="how-sure.html",
     ),
     Page(
         id="echo",
         title="Input echo",
         fill=lambda package, _: appendix.echo_page(package),
-        template="echo.html",
         is_appendix=True,
     ),
     Page(
         id="records",
         title="Records and software",
         fill=lambda package, _: appendix.records_page(package),
-        template="records.html",
         is_appendix=True,
     ),
     Page(
         id="symbols",
         title="Symbols and references",
         fill=lambda package, _: symbols.page(package),
-        template="symbols.html",
         is_appendix=True,
     ),
 )
