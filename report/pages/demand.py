@@ -41,35 +41,28 @@ def _parameters(site: Site, names: tuple[str, str, str, str], given: _Given) -> 
     clause = site.edition.clause
     if maximum is None and site.edition.has_site_coefficients and mapped and coefficient:
         maximum = coefficient * mapped
-        yield Line(
-            latex=f"{maximum_name}={coefficient_name}\\,{mapped_name}",
-            reference=clause("s_ms"),
-            steps=(
-                (f"{number(coefficient, 3)} × {number(mapped, 3)} g", f"{number(maximum, 3)} g"),
-            ),
-        )
+        latex = f"{maximum_name}={coefficient_name}\\,{mapped_name}"
+        substituted = f"{number(coefficient, 3)} × {number(mapped, 3)} g"
+        yield _line(latex, clause("s_ms"), (substituted, f"{number(maximum, 3)} g"))
     if design is None and maximum is not None:
-        yield Line(
-            latex=rf"{design_name}=\frac{{2}}{{3}}\,{maximum_name}",
-            reference=clause("s_ds"),
-            steps=(
-                (
-                    Markup("{} × {} g").format(fraction("2", "3"), number(maximum, 3)),
-                    f"{number(2.0 / 3.0 * maximum, 3)} g",
-                ),
-            ),
-        )
+        yield _ratio(clause("s_ds"), design_name, ("2", "3"), maximum_name, maximum)
     if design is not None and maximum is None:
-        yield Line(
-            latex=rf"{maximum_name}=\frac{{3}}{{2}}\,{design_name}",
-            reference=clause("s_ds"),
-            steps=(
-                (
-                    Markup("{} × {} g").format(fraction("3", "2"), number(design, 3)),
-                    f"{number(1.5 * design, 3)} g",
-                ),
-            ),
-        )
+        yield _ratio(clause("s_ds"), maximum_name, ("3", "2"), design_name, design)
+
+
+def _ratio(
+    reference: str, name: str, share: tuple[str, str], other_name: str, other_g: float
+) -> Line:
+    """Return an acceleration as a fraction of another."""
+    above, below = share
+    latex = rf"{name}=\frac{{{above}}}{{{below}}}\,{other_name}"
+    substituted = Markup("{} × {} g").format(fraction(above, below), number(other_g, 3))
+    result_g = float(above) / float(below) * other_g
+    return _line(latex, reference, (substituted, f"{number(result_g, 3)} g"))
+
+
+def _line(latex: str, reference: str, *steps: tuple[str, str]) -> Line:
+    return Line(latex=latex, reference=reference, steps=steps)
 
 
 def _force(package: PackageData) -> Iterator[Line]:
@@ -127,33 +120,14 @@ def _ac156(package: PackageData) -> Iterator[Line]:
     flexible = rf"A_{{FLX}}={formula}\leq 1.6\,S_{{DS}}"
     rigid = rf"A_{{RIG}}=0.4\,{formula}"
     if goals.roof.name != OWN:
-        yield Line(
-            latex=flexible,
-            reference="AC156",
-            steps=(
-                (
-                    f"min({s_ds} g × {amplified}, 1.6 × {s_ds} g)",
-                    f"{number(float(horizontal.sa_g[1]), 3)} g",
-                ),
-            ),
-        )
-        yield Line(
-            latex=rigid,
-            reference="AC156",
-            steps=((f"0.4 × {s_ds} g × {amplified}", f"{number(float(horizontal.sa_g[3]), 3)} g"),),
-        )
+        flexible_g, rigid_g = (f"{number(float(horizontal.sa_g[k]), 3)} g" for k in (1, 3))
+        least = f"min({s_ds} g × {amplified}, 1.6 × {s_ds} g)"
+        yield _line(flexible, "AC156", (least, flexible_g))
+        yield _line(rigid, "AC156", (f"0.4 × {s_ds} g × {amplified}", rigid_g))
     if goals.vertical.name != OWN:
-        yield Line(
-            latex=r"A_{FLX,v}=0.67\,S_{DS},\quad A_{RIG,v}=0.27\,S_{DS}",
-            reference="AC156, vertical",
-            steps=(
-                (
-                    f"0.67 × {s_ds} g, 0.27 × {s_ds} g",
-                    f"{number(float(vertical.sa_g[1]), 3)} g, "
-                    f"{number(float(vertical.sa_g[3]), 3)} g",
-                ),
-            ),
-        )
+        found = ", ".join(f"{number(float(vertical.sa_g[k]), 3)} g" for k in (1, 3))
+        latex = r"A_{FLX,v}=0.67\,S_{DS},\quad A_{RIG,v}=0.27\,S_{DS}"
+        yield _line(latex, "AC156, vertical", (f"0.67 × {s_ds} g, 0.27 × {s_ds} g", found))
 
 
 def _design_spectrum(package: PackageData) -> Iterator[Line]:
