@@ -40,7 +40,11 @@ TESTS_OF = {
     "solver/kernels/two_axes.py": [
         "solver/sliding/test_two_axes_known.py",
         "solver/kernels/test_two_axes_kernel.py",
-        "-k not references",  # a hundred runs
+        "solver/sliding/test_two_axes_bounds.py",
+        "solver/sliding/test_two_axes.py",
+        # Of the dear files those that cost little with the compiler off.
+        "-k test_two_axes_known or test_two_axes_kernel and not references or mirrored"
+        " or crosses_zero_twice or dip_of or presses or before_it_begins or summed_twice",
     ],
     "solver/rules": ["solver/rules"],
 }

@@ -126,16 +126,33 @@ def test_the_blocks_passed_over_are_those_of_the_bounds():
     assert two_axes.SHIFT == one_axis.SHIFT
 
 
-def hardly_pushed(seed):
-    """Three components of noise that seldom pushes a block of samples beyond friction."""
+def hardly_pushed(seed, sn, mu):
+    """Blocks of equal samples but one, of which the greatest push is just above friction.
+
+    Of every other seed the equal ones are zero, and the signs of the one go round: its bounds are
+    then those of one push.
+    """
     rng = np.random.default_rng(seed)
-    parts = rng.uniform(0.2, 1.0, (3, 1)) * rng.choice([0.3, 1.0], (1, 10), p=[0.7, 0.3])
-    return (2.5 * np.repeat(parts, 16, axis=1) * rng.normal(size=(3, 160))).round(2)
+    a = np.repeat(rng.normal(size=(3, 5)) * (seed % 2), 16, axis=1)
+    a[:, 7::16] = rng.normal(size=(3, 5))
+    if seed % 2 == 0:
+        a = np.abs(a) * [[1.0 if seed & 2 else -1.0], [0.3], [1.0 if seed & 4 else -0.1]]
+    low, high = 0.0, 8.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        ax, ay, az = middle * a
+        weight, cs = G + az, math.sqrt(1.0 - sn * sn)
+        push = np.hypot(weight * sn - ax * cs, ay) - mu * (weight * cs + ax * sn)
+        low, high = (low, middle) if push.max() > 1e-3 else (middle, high)
+    return high * a
 
 
 @pytest.mark.parametrize(
     ("shaking", "sn"),
-    [((QUIET, -QUIET[::-1], 0.0 * QUIET), 0.1), *((hardly_pushed(k), 0.15) for k in (1, 2, 5, 6))],
+    [
+        ((QUIET, -QUIET[::-1], 0.0 * QUIET), 0.1),
+        *((hardly_pushed(k, sn, 0.45), sn) for k in range(12) for sn in (0.0, -0.15, 0.3)),
+    ],
 )
 def test_blocks_passed_over_change_nothing(shaking, sn):
     ax, ay, az = map(readonly, shaking)
@@ -144,22 +161,19 @@ def test_blocks_passed_over_change_nothing(shaking, sn):
     wide = [np.array([[-99.0], [99.0]]) * np.ones_like(each) for each in bounds]
     for widened, each in zip(wide, bounds, strict=True):
         widened[:, -1] = each[:, -1]
-    cs, held = math.sqrt(1.0 - sn * sn), (0.3, 0.0, 0.0, 0.4)
-    for sine, scale, mu, law in (
-        (sn, 1.0, 0.45, None),
-        (-sn, -1.0, 0.45, None),
-        (sn, 1.0, 1.0, held),
-    ):
+    cs, held = math.sqrt(1.0 - sn * sn), (0.3, 0.0, 0.0, 0.45)
+    for mu, law in ((0.45, None), (1.0, held)):
         runs = []
         for given in (bounds, wide):
             top, end = np.empty(7), np.empty(4)
             run = two_axes.slide_plane(
-                ax, ay, az, *given, 0.05, sine, cs, mu, G, scale, 1e-6, 12, 2000, law,
+                ax, ay, az, *given, 0.05, sn, cs, mu, G, 1.0, 1e-6, 12, 2000, law,
                 np.empty((0, 4)), np.empty((4, 0)), top, end,
             )  # fmt: skip
             runs.append([*run, *top, *end])
         assert runs[0] == runs[1]
         assert runs[0][0] == two_axes.FOLLOWED
+        assert runs[0][3] > 0
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
