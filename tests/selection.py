@@ -8,8 +8,9 @@ from __future__ import annotations
 import csv
 import difflib
 import subprocess
+import time
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -47,7 +48,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     which = config.getoption("--which")
     if which == "all" or any("::" in argument for argument in config.args):
         return
-    quick = is_quick(read(DURATIONS), {function_of(item.nodeid) for item in items})
+    quick = is_quick(read(DURATIONS), {function_of(i.nodeid): tuple(i.fixturenames) for i in items})
     nights = nightly(items, changed_files())
     left_out = []
     for item in items:
@@ -96,17 +97,33 @@ def changed_files() -> set[str]:
     return set(done.stdout.split())
 
 
-def is_quick(durations: dict[str, float], functions: Iterable[str]) -> set[str]:
-    """Return the quick test functions: each file has one or more."""
+def is_quick(durations: Mapping[str, float], functions: Mapping[str, Iterable[str]]) -> set[str]:
+    """Return the quick test functions: each file has one or more.
+
+    A test that uses a dear fixture is not quick, whichever test sets it up.
+
+    Parameters
+    ----------
+    functions : mapping of str to iterable of str
+        The fixtures that each function uses.
+    """
     of_file = defaultdict(list)
-    for name in functions:
-        of_file[name.partition("::")[0]].append((durations.get(name, 0.0), name))
+    for name, fixtures in functions.items():
+        file = name.partition("::")[0]
+        keys = (fixture_key(place, each) for each in fixtures for place in (file, "tests", ""))
+        dear = sum(s for s in (durations.get(key, 0.0) for key in keys) if s > QUICK_S)
+        of_file[file].append((durations.get(name, 0.0) + dear, name))
     return {
         name
         for tests in of_file.values()
         for seconds, name in tests
         if seconds <= max(QUICK_S, min(tests)[0])
     }
+
+
+def fixture_key(place: str, name: str) -> str:
+    """Return the name of a fixture in the file of durations."""
+    return f"{place}::@{name}"
 
 
 def read(path: Path) -> dict[str, float]:
@@ -152,14 +169,37 @@ def pytest_runtest_logreport(report: pytest.TestReport) -> None:
 
 
 class Clock:
-    """Adds up the durations of setup, call and teardown, and writes them at the end."""
+    """Adds up the durations of tests and of fixtures, and writes them at the end."""
 
     def __init__(self) -> None:
         self._seconds: Counter[str] = Counter()
+        self._set_up: list[tuple[str, float]] = []
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_fixture_setup(self, fixturedef: pytest.FixtureDef) -> Generator[None, Any, Any]:
+        """Time a fixture without those that it uses."""
+        started = time.perf_counter()
+        value = yield
+        key = fixture_key(fixturedef.baseid.partition("::")[0], fixturedef.argname)
+        self._set_up.append((key, time.perf_counter() - started))
+        return value
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_makereport(self, item: pytest.Item) -> None:
+        """Send what was set up to the process that writes."""
+        item.user_properties += [("fixture", each) for each in self._set_up]
+        self._set_up.clear()
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Add a phase of a test."""
-        self._seconds[function_of(report.nodeid)] += report.duration
+        """Add a phase of a test, and apart from it the fixtures that it was the first to use."""
+        name = function_of(report.nodeid)
+        self._seconds[name] += report.duration
+        if report.when == "teardown":
+            for kind, told in report.user_properties:
+                if kind == "fixture":
+                    key, seconds = told
+                    self._seconds[key] = max(self._seconds[key], seconds)
+                    self._seconds[name] -= seconds
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
         """Write what was run; what was not, stays as it was."""
