@@ -11,13 +11,13 @@ from string import ascii_uppercase, digits
 
 from markupsafe import Markup
 
-from report.document.tables import Table, TableRow
+from report.document.tables import Table, TableRow, listed
 from report.entities.columns import TableColumn
+from report.entities.shown import plain, words
 from report.motions.components import RecordFile
 from report.pages.parts import BAR, PackageData, shortened
 from report.provenance.software import sbom_sha256
 from report.sheet.read import IGNORED, EchoRow
-from report.words.units import number
 
 LIBRARIES = (
     "numpy",
@@ -30,7 +30,6 @@ LIBRARIES = (
     "jinja2",
     "weasyprint",
 )
-METHOD = "exact in one axis, to a tolerance in two; linear acceleration between samples"
 WIDEST = 125.0
 """Width of a table of the workbook, in letters."""
 
@@ -40,15 +39,17 @@ MOST_LETTERS = 24
 
 def echo_page(package: PackageData) -> Mapping[str, object]:
     """Return the input echo."""
-    sheet = package.assessment.sheet
-    sheets = echo(sheet.echo, package.changes.cells)
-    return {"workbook": sheet.path.name, "sha256": sheet.sha256, "sheets": sheets}
+    return {"sheets": echo(package.assessment.sheet.echo, package.changes.cells)}
 
 
 def records_page(package: PackageData) -> Mapping[str, object]:
     """Return the records and the software versions."""
-    files = records(package.assessment.shaking.records)
-    return {"files": files, "method": METHOD, "software": software(), "sbom": sbom_sha256()}
+    return {
+        "files": records(package),
+        "alike": _alike(package.assessment.shaking.records),
+        "software": software(),
+        "sbom": sbom_sha256(),
+    }
 
 
 def echo(
@@ -249,37 +250,19 @@ def _column_letters(row: EchoRow) -> str:
     return row.cell.rstrip(digits)
 
 
-def records(rows: Sequence[RecordFile]) -> Table:
+def records(package: PackageData) -> Table:
     """Return the record files with their hashes; what all files have alike is in a note."""
-    alike = {name: len({show(row) for row in rows}) == 1 for name, show in _ALIKE.items()}
-    own = [name for name, is_alike in alike.items() if not is_alike]
-    same = [f"{name} {_ALIKE[name](rows[0])}" for name, is_alike in alike.items() if is_alike]
-    return Table(
-        caption="Records as read",
-        columns=(
-            TableColumn(head="Motion", align="left", share=0.45),
-            TableColumn(head="Component", align="left", share=0.68),
-            *(TableColumn(head=name, align="left", share=0.55) for name in own),
-            TableColumn(head="Peak [g]", share=0.5),
-            TableColumn(head="File", align="left", share=1.04),
-            TableColumn(head="SHA-256", align="left", share=4.15 - 0.55 * len(own)),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    shortened(row.motion_id, 12),
-                    row.component,
-                    *(_ALIKE[name](row) for name in own),
-                    number(row.peak_g, 4),
-                    row.name,
-                    row.sha256,
-                )
-            )
-            for row in rows
-        ),
-        notes=(*([f"Every record: {', '.join(same)}."] if same else []), *_notes(rows)),
-        kind="compact digest",
+    rows = package.assessment.shaking.records
+    own = [name for name in _ALIKE if name not in _alike(rows)]
+    columns = (
+        (words("Motion", 0.45), lambda row: shortened(row.motion_id, 12)),
+        (words("Component", 0.68), lambda row: row.component),
+        *((words(name, 0.55), _ALIKE[name]) for name in own),
+        (plain("Peak [g]", 4, share=0.5), lambda row: row.peak_g),
+        (words("File", 1.04), lambda row: row.name),
+        (words("SHA-256", 4.15 - 0.55 * len(own)), lambda row: row.sha256),
     )
+    return listed(rows, columns, "Records as read", package.fmt, kind="compact digest")
 
 
 _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
@@ -289,11 +272,10 @@ _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
 }
 
 
-def _notes(rows: Sequence[RecordFile]) -> Iterator[str]:
-    for row in rows:
-        hidden = (f"{u.words} on the sheet {u.sheet}: {u.kind}" for u in row.unseen)
-        for note in (*row.notes, *hidden):
-            yield f"{row.motion_id} {row.component}: {note}"
+def _alike(rows: Sequence[RecordFile]) -> Mapping[str, str]:
+    """Return what all files have alike, by name."""
+    found = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
+    return {name: values.pop() for name, values in found.items() if len(values) == 1}
 
 
 def software() -> str:

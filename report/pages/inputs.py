@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from report.assessment.friction import mu_words
 from report.assessment.runs import RUNGS
 from report.assessment.verdict import NOT_GIVEN
-from report.document.tables import Table, TableRow
-from report.entities.columns import TableColumn
+from report.document.tables import Table, listed
+from report.entities.shown import Shown, length, plain, text, words
 from report.pages import friction_tests
 from report.pages.model import friction
 from report.pages.parts import PackageData
-from report.pages.site import s_ds_note, site_table
+from report.pages.site import site_table, unused_s_ds
 from report.sheet.schema import Array, Polygon, RoofObject, Shape
 from report.words.units import Quantity, number
 from solver.rules.rulesets import LowProfileLength
@@ -30,188 +30,96 @@ def below(_: PackageData) -> tuple[tuple[str, str], ...]:
 
 
 def inputs(package: PackageData) -> Mapping[str, object]:
-    """Return the part on inputs."""
+    """Return what the part on inputs needs beside the package."""
+    data = package.data
     return {
         "site": site_table(package),
+        "s_ds": unused_s_ds(data.site),
         "arrays": _arrays(package),
+        "laws": {
+            array.id: friction(package, array)
+            for array in data.arrays
+            if not array.friction.is_constant
+        },
+        "asked": [array.id for array in data.arrays if array.model in RUNGS],
+        "takes_base": package.assessment.rules.low_profile_length is LowProfileLength.BASE,
         "sizes": _sizes(package),
+        "outlined": {"arrays": _outlined(data.arrays), "objects": _outlined(data.objects)},
         "links": _links(package),
         "objects": _objects(package),
         "friction": friction_tests.page(package),
-        "note": s_ds_note(package.data.site),
     }
 
 
 def _arrays(package: PackageData) -> Table:
-    return Table(
-        caption="Arrays: slope and friction",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.9),
-            TableColumn(head="Slope", unit="deg", share=0.7),
-            TableColumn(head="Slope", unit="%", share=0.7),
-            TableColumn(head="Downslope", unit="deg in plan", share=1.0),
-            TableColumn(head="μ", share=1.1),
-            TableColumn(head="Friction test report", align="left", share=2.6),
-            TableColumn(head="Construction", align="left", share=2.2),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    array.id,
-                    number(math.degrees(array.slope_rad), 2),
-                    number(100.0 * math.tan(array.slope_rad), 1),
-                    number(array.downslope_deg, 0),
-                    mu_words(array.friction),
-                    array.mu_report or NOT_GIVEN,
-                    array.construction,
-                )
-            )
-            for array in package.data.arrays
-        ),
-        notes=(
-            "Downslope direction: counterclockwise from +x of the roof plan.",
-            *_by_speed(package),
-        ),
+    columns = (
+        (words("Array", 0.9), lambda array: array.id),
+        (plain("Slope", 2, "deg", 0.7), lambda array: math.degrees(array.slope_rad)),
+        (plain("Slope", 1, "%", 0.7), lambda array: 100.0 * math.tan(array.slope_rad)),
+        (plain("Downslope", 0, "deg in plan"), lambda array: array.downslope_deg),
+        (text("μ", share=1.1), lambda array: mu_words(array.friction)),
+        (words("Friction test report", 2.6), lambda array: array.mu_report or NOT_GIVEN),
+        (words("Construction", 2.2), lambda array: array.construction),
     )
-
-
-def _by_speed(package: PackageData) -> Iterator[str]:
-    """Yield which arrays have velocity-dependent friction or a requested model."""
-    for array in package.data.arrays:
-        if not array.friction.is_constant:
-            yield f"Array {array.id}.{friction(package, array)}"
-        if array.model in RUNGS:
-            where = package.part("model")
-            yield f"Array {array.id}. Requested model: {array.model.value} ({where})."
+    return listed(package.data.arrays, columns, "Arrays: slope and friction", package.fmt)
 
 
 def _sizes(package: PackageData) -> Table:
-    fmt = package.fmt
-    return Table(
-        caption="Arrays: weight and size",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.9),
-            *fmt.columns("Weight", Quantity.WEIGHT),
-            *fmt.columns("Center of gravity", Quantity.SIZE),
-            *fmt.columns("Support spacing", Quantity.SIZE),
-            *fmt.columns("Plan x", Quantity.PLAN),
-            *fmt.columns("Plan y", Quantity.PLAN),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    array.id,
-                    *fmt.cells(array.weight_n, Quantity.WEIGHT),
-                    *fmt.cells(array.cg_height_m, Quantity.SIZE),
-                    *fmt.cells(array.support_spacing_m, Quantity.SIZE),
-                    *fmt.cells(plan.x_to_m - plan.x_from_m, Quantity.PLAN),
-                    *fmt.cells(plan.y_to_m - plan.y_from_m, Quantity.PLAN),
-                )
-            )
-            for array, plan in ((array, array.shape.bounds) for array in package.data.arrays)
-        ),
-        notes=(
-            "Center of gravity: height above the roof surface. Plan x and y: size of the array.",
-            _low_profile(package),
-            *_outlined(package.data.arrays),
-        ),
+    columns = (
+        (words("Array", 0.9), lambda array: array.id),
+        (Shown(head="Weight", quantity=Quantity.WEIGHT), lambda array: array.weight_n),
+        (length("Center of gravity"), lambda array: array.cg_height_m),
+        (length("Support spacing"), lambda array: array.support_spacing_m),
+        (_in_plan("Plan x"), lambda array: _sides(array.shape)[1] - _sides(array.shape)[0]),
+        (_in_plan("Plan y"), lambda array: _sides(array.shape)[3] - _sides(array.shape)[2]),
     )
+    return listed(package.data.arrays, columns, "Arrays: weight and size", package.fmt)
 
 
-def _low_profile(package: PackageData) -> str:
-    """Return the length whose share limits the height of the center of gravity."""
-    rules, fmt = package.assessment.rules, package.fmt
-    takes_base = rules.low_profile_length is LowProfileLength.BASE
-
-    def length(array: Array) -> str:
-        if not takes_base:
-            return f"{array.id} {fmt.both(array.support_spacing_m, Quantity.SIZE)}"
-        stand_in = " (support spacing; no base given)" if array.base_m is None else ""
-        return f"{array.id} {fmt.both(array.base_dimension_m, Quantity.SIZE)}{stand_in}"
-
-    share = f"{rules['low_profile_ratio']:g}{package.mark('low_profile_ratio')}"
-    most = fmt.both(rules.length_m("low_profile_in"), Quantity.SIZE)
-    return (
-        f"Center of gravity at most {most}{package.mark('low_profile_in')} above the roof and at "
-        f"most {share} times the {rules.low_profile_length.value}: "
-        f"{', '.join(map(length, package.data.arrays))}."
-    )
+def _in_plan(head: str) -> Shown:
+    return Shown(head=head, quantity=Quantity.PLAN)
 
 
-def _outlined(rows: Sequence[Array | RoofObject]) -> Iterator[str]:
-    """Yield which rows are drawn by an outline, of which a table gives the rectangle around it."""
-    drawn = [
-        f"{row.id} ({len(row.placed.points)} vertices)"
-        for row in rows
-        if isinstance(row.placed, Polygon)
-    ]
-    if drawn:
-        yield f"By an outline, of which the rectangle around it is given: {', '.join(drawn)}."
+def _outlined(rows: Sequence[Array | RoofObject]) -> Sequence[tuple[str, int]]:
+    """Return which rows are drawn by an outline, with the number of its vertices."""
+    return [(row.id, len(row.placed.points)) for row in rows if isinstance(row.placed, Polygon)]
 
 
 def _links(package: PackageData) -> Table:
-    fmt = package.fmt
-    return Table(
-        caption="Arrays to be compared with a row of linked blocks",
-        columns=(
-            TableColumn(head="Array", align="left", share=0.9),
-            TableColumn(head="Blocks", share=0.8),
-            TableColumn(head="μ of the blocks, from the upslope end", align="left", share=4.2),
-            *fmt.columns("Link stiffness", Quantity.STIFFNESS, share=1.1),
-            TableColumn(head="Link damping", unit="of critical", share=1.3),
+    columns = (
+        (words("Array", 0.9), lambda row: row.array),
+        (text("Blocks", share=0.8), lambda row: len(row.mus)),
+        (
+            words("μ of the blocks, from the upslope end", 4.2),
+            lambda row: ", ".join(number(mu, 3) for mu in row.mus),
         ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    row.array,
-                    str(len(row.mus)),
-                    ", ".join(number(mu, 3) for mu in row.mus),
-                    *fmt.cells(row.stiffness_n_per_m, Quantity.STIFFNESS),
-                    number(row.damping_ratio, 3),
-                )
-            )
-            for row in package.data.links
+        (
+            Shown(head="Link stiffness", quantity=Quantity.STIFFNESS, share=1.1),
+            lambda row: row.stiffness_n_per_m,
         ),
-        notes=(f"Blocks of equal weight, in a row along the slope ({package.part('model')}).",),
+        (plain("Link damping", 3, "of critical", 1.3), lambda row: row.damping_ratio),
     )
+    caption = "Arrays to be compared with a row of linked blocks"
+    return listed(package.data.links, columns, caption, package.fmt)
 
 
 def _objects(package: PackageData) -> Table:
-    fmt = package.fmt
-    return Table(
-        caption="Objects and roof edges",
-        columns=(
-            TableColumn(head="Object", align="left", share=1.2),
-            TableColumn(head="Kind", align="left", share=1.8),
-            *fmt.columns("Height", Quantity.SIZE),
-            *fmt.columns("x from", Quantity.PLAN),
-            *fmt.columns("x to", Quantity.PLAN),
-            *fmt.columns("y from", Quantity.PLAN),
-            *fmt.columns("y to", Quantity.PLAN),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    item.id,
-                    item.kind.value,
-                    *_optional(package, item.height_m, Quantity.SIZE),
-                    *chain(*(_optional(package, at, Quantity.PLAN) for at in _sides(item.placed))),
-                )
-            )
-            for item in package.data.objects
-        ),
-        kind="compact",
-        notes=tuple(_outlined(package.data.objects)),
+    columns = (
+        (words("Object", 1.2), lambda item: item.id),
+        (words("Kind", 1.8), lambda item: item.kind.value),
+        (length("Height"), lambda item: "—" if item.height_m is None else item.height_m),
+        (_in_plan("x from"), lambda item: _sides(item.placed)[0]),
+        (_in_plan("x to"), lambda item: _sides(item.placed)[1]),
+        (_in_plan("y from"), lambda item: _sides(item.placed)[2]),
+        (_in_plan("y to"), lambda item: _sides(item.placed)[3]),
     )
+    caption = "Objects and roof edges"
+    return listed(package.data.objects, columns, caption, package.fmt, kind="compact")
 
 
-def _sides(shape: Shape | None) -> tuple[float | None, ...]:
+def _sides(shape: Shape | None) -> tuple[Any, ...]:
     """Return x from, x to, y from and y to of the rectangle around a shape."""
     if shape is None:
-        return (None,) * 4
+        return ("—",) * 4
     box = shape.bounds
     return box.x_from_m, box.x_to_m, box.y_from_m, box.y_to_m
-
-
-def _optional(package: PackageData, value_m: float | None, quantity: Quantity) -> tuple[str, str]:
-    return ("—", "—") if value_m is None else package.fmt.cells(value_m, quantity)

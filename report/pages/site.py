@@ -5,14 +5,14 @@ Derived values are those of `Site.parameters`, unrounded; printing alone rounds.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from markupsafe import Markup
 
 from report.assessment.verdict import NOT_GIVEN
-from report.document.tables import Table, TableRow
-from report.entities.columns import TableColumn
+from report.document.tables import Table, listed
+from report.entities.shown import text, words
 from report.pages.parts import PackageData
 from report.sheet.schema import RiskCategory, Site
 from report.typeset.equations import symbol
@@ -37,29 +37,15 @@ class Parameter:
 
 def site_table(package: PackageData) -> Table:
     """Return the seismic parameters of the site."""
-    return Table(
-        caption="Site and seismic parameters",
-        columns=(
-            TableColumn(head="Description", align="left", share=3.55),
-            TableColumn(head="Symbol", align="left", share=0.7),
-            TableColumn(head="Value", share=2.0),
-            TableColumn(head="Reference", align="left", share=2.55),
-            TableColumn(head="Source", align="left", share=0.9),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    row.words,
-                    _symbols(row.symbol),
-                    row.value,
-                    row.clause,
-                    "—" if row.value == NOT_GIVEN else row.origin,
-                )
-            )
-            for row in site_parameters(package)
-        ),
-        kind="compact",
+    columns = (
+        (words("Description", 3.55), lambda row: row.words),
+        (words("Symbol", 0.7), lambda row: _symbols(row.symbol)),
+        (text("Value", share=2.0), lambda row: row.value),
+        (words("Reference", 2.55), lambda row: row.clause),
+        (words("Source", 0.9), lambda row: "—" if row.value == NOT_GIVEN else row.origin),
     )
+    rows, caption = site_parameters(package), "Site and seismic parameters"
+    return listed(rows, columns, caption, package.fmt, kind="compact")
 
 
 def _symbols(text: str) -> Markup:
@@ -128,27 +114,27 @@ def _ground(package: PackageData) -> Iterator[Parameter]:
     if site.edition.has_site_coefficients:
         yield Parameter("Site coefficient, 0.2 s", "F_a", _plain(site.f_a, 3), clause("s_ms"))
         yield Parameter("Site coefficient, 1 s", "F_v", _plain(site.f_v, 3), clause("s_ms"))
-    for words, name, value, given, topic in (
+    for name, sign, value, given, topic in (
         ("MCE acceleration, 0.2 s", "S_MS", values.s_ms, site.s_ms_g, "s_ms"),
         ("MCE acceleration, 1 s", "S_M1", values.s_m1, site.s_m1_g, "s_ms"),
         ("Design acceleration, 0.2 s", "S_DS", values.s_ds, site.s_ds_g, "s_ds"),
         ("Design acceleration, 1 s", "S_D1", values.s_d1, site.s_d1_g, "s_ds"),
     ):
         origin = COMPUTED if given is None else GIVEN
-        yield Parameter(words, name, _g(value), clause(topic), origin)
+        yield Parameter(name, sign, _g(value), clause(topic), origin)
 
 
 def _periods(package: PackageData) -> Iterator[Parameter]:
     site, building = package.data.site, package.data.building
     if building.period_s is not None:
-        text = "Period of the building, as given"
-        yield Parameter(text, "T_1", _seconds(building.period_s), "")
+        name = "Period of the building, as given"
+        yield Parameter(name, "T_1", _seconds(building.period_s), "")
     else:
         system = building.structure or "other"
         period = approximate_period_s(system, site.structure_height_m)
         origin = ASSUMED if building.structure is None else COMPUTED
-        text = f"Approximate period, structure type {system}"
-        yield Parameter(text, "T_a", _seconds(period), site.edition.clause("period"), origin)
+        name = f"Approximate period, structure type {system}"
+        yield Parameter(name, "T_a", _seconds(period), site.edition.clause("period"), origin)
     clause = site.edition.clause("t_l")
     yield Parameter("Corner period", "T_S", _seconds(site.parameters.t_s), clause, COMPUTED)
 
@@ -188,9 +174,9 @@ def _force(package: PackageData) -> Iterator[Parameter]:
         yield Parameter("Component force / weight", "F_p/W_p", NOT_GIVEN, clause)
         return
     yield Parameter("Component force / weight", "F_p/W_p", number(force.value, 3), clause, COMPUTED)
-    for words, value in (("at most", force.largest), ("at least", force.least)):
-        text = f"Component force / weight, {words}"
-        yield Parameter(text, "F_p/W_p", number(value, 3), clause, COMPUTED)
+    for bound, value in (("at most", force.largest), ("at least", force.least)):
+        name = f"Component force / weight, {bound}"
+        yield Parameter(name, "F_p/W_p", number(value, 3), clause, COMPUTED)
 
 
 def site_force(package: PackageData) -> ComponentForce | None:
@@ -224,28 +210,20 @@ def _hazard(site: Site) -> Iterator[Parameter]:
     yield Parameter("Date of the hazard values", "", date, "")
 
 
-def s_ds_note(site: Site) -> Markup:
-    """Return how S_DS came about, and a value from other cells that is not used."""
-    s_ds, origin = symbol("S_DS"), _origin(site)
-    if site.s_ds_g is None:
-        return Markup(
-            "{} is computed from {} in full precision and rounded only for printing."
-        ).format(s_ds, origin)
-    s_ms = site.parameters.s_ms
-    if not origin or s_ms is None:
-        return Markup("{} is as given in the workbook.").format(s_ds)
-    return Markup(
-        "{} is as given in the workbook. The value from {} is {} g; it is not used."
-    ).format(s_ds, origin, number(2.0 / 3.0 * s_ms, 3))
+def unused_s_ds(site: Site) -> Mapping[str, object]:
+    """Return the symbols from which S_DS follows, and its value from them if another is given."""
+    origin, s_ms = _origin(site), site.parameters.s_ms
+    is_unused = site.s_ds_g is not None and s_ms is not None and origin
+    return {"origin": origin, "value_g": 2.0 / 3.0 * s_ms if is_unused and s_ms else None}
 
 
-def _origin(site: Site) -> Markup:
-    """Return the given values from which S_DS follows; empty if there are none."""
+def _origin(site: Site) -> tuple[str, ...]:
+    """Return the symbols of the given values from which S_DS follows; none if there are none."""
     if site.s_ms_g is not None:
-        return symbol("S_MS")
+        return ("S_MS",)
     if site.edition.has_site_coefficients and site.s_s_g is not None and site.f_a is not None:
-        return Markup("{} and {}").format(symbol("S_S"), symbol("F_a"))
-    return Markup("")
+        return ("S_S", "F_a")
+    return ()
 
 
 def _g(value: float | None) -> str:

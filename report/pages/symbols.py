@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from itertools import zip_longest
 
 from markupsafe import Markup, escape
 
-from report.document.tables import Table, TableRow
-from report.entities.columns import TableColumn
+from report.document.tables import listed
+from report.entities.shown import words
 from report.pages.parts import PackageData
 from report.pages.references import references
 from report.typeset.equations import symbol
@@ -100,26 +101,16 @@ def with_symbols(text: str) -> Markup:
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the list of symbols and the list of references."""
-    cells = [(symbol(name), with_symbols(meaning)) for name, meaning in SYMBOLS.items()]
-    half = (len(cells) + 1) // 2
-    blank = (Markup(""), "")
-    second = [*cells[half:], *[blank] * (2 * half - len(cells))]
+    items = list(SYMBOLS.items())
+    half = (len(items) + 1) // 2
+    rows = zip_longest(items[:half], items[half:], fillvalue=("", ""))
+    columns = (
+        (words("Symbol", 0.5), lambda row: symbol(row[0][0])),
+        (words("Meaning", 3.0), lambda row: with_symbols(row[0][1])),
+        (words("Symbol", 0.5), lambda row: row[1][0] and symbol(row[1][0])),
+        (words("Meaning", 3.0), lambda row: with_symbols(row[1][1])),
+    )
     return {
-        "table": Table(
-            caption="Symbols",
-            columns=tuple(
-                column
-                for _ in range(2)
-                for column in (
-                    TableColumn(head="Symbol", align="left", share=0.5),
-                    TableColumn(head="Meaning", align="left", share=3.0),
-                )
-            ),
-            rows=tuple(
-                TableRow(cells=(*left, *right))
-                for left, right in zip(cells[:half], second, strict=True)
-            ),
-            kind="compact",
-        ),
+        "table": listed(rows, columns, "Symbols", package.fmt, kind="compact"),
         "references": references(package),
     }
