@@ -1,10 +1,11 @@
 """Whether every output of `report` and every sheet of `new` is as an older commit makes it.
 
-    python tests/unchanged.py COMMIT [--cases SI links] [--folder FOLDER]
+    python tests/unchanged.py COMMIT [--cases SI links] [--folder FOLDER] [--words]
 
-For each project and for altered copies of them: results.json, words and drawings of each page of
-the PDF, plan.dxf, cells of results.xlsx; and cells of the blank and filled input sheets. Prints
-what differs and ends with 1 if anything does. What the older commit made is kept in the folder.
+For each project and for altered copies of them: results.json, plan.dxf, cells of results.xlsx;
+cells of the blank and filled input sheets; with --words also words and drawings of each page of the
+PDF. Prints what differs and ends with 1 if anything does. What the older commit made is kept in the
+folder.
 """
 
 from __future__ import annotations
@@ -178,11 +179,11 @@ def _run(tree: Path, *words: str) -> None:
     subprocess.run(command, cwd=tree, env=os.environ | {"PYTHONPATH": str(tree)}, check=True)
 
 
-def said(folder: Path) -> dict[str, list[str]]:
+def said(folder: Path, *, words: bool) -> dict[str, list[str]]:
     """Return what the files of a case hold, as lines by file and part."""
     found = {}
     for path in sorted(folder.iterdir()):
-        if path.suffix == ".pdf":
+        if path.suffix == ".pdf" and words:
             for count, page in enumerate(PdfReader(path).pages, start=1):
                 lines = (page.extract_text() or "").splitlines()
                 found[f"{path.name}, sheet {count}"] = [*lines, *_drawn(page)]
@@ -220,9 +221,9 @@ def _cells(sheet: Any) -> Iterator[str]:
         yield f"{rule.sqref} {rule.formula1} {rule.prompt}"
 
 
-def differences(before: Path, after: Path) -> Iterator[str]:
+def differences(before: Path, after: Path, *, words: bool) -> Iterator[str]:
     """Yield what differs between the files of two folders."""
-    one, other = said(before), said(after)
+    one, other = said(before, words=words), said(after, words=words)
     for name in sorted(one.keys() | other.keys()):
         lines = difflib.unified_diff(
             one.get(name, []), other.get(name, []), "before", "after", lineterm="", n=0
@@ -251,6 +252,7 @@ def main() -> None:
     parser.add_argument("commit")
     parser.add_argument("--cases", nargs="*", choices=CASES, default=list(CASES))
     parser.add_argument("--folder", type=Path, help="keeps what the commit makes")
+    parser.add_argument("--words", action="store_true", help="also those of the PDF")
     given = parser.parse_args()
     short = ["git", "rev-parse", "--short=12", given.commit]
     commit = subprocess.run(short, cwd=ROOT, capture_output=True, text=True, check=True).stdout
@@ -270,7 +272,7 @@ def main() -> None:
     make(ROOT, cases, after, given.cases)
     count = 0
     for name in (*NEW, "filled-example", "filled-school", *given.cases):
-        for text in differences(before / name, after / name):
+        for text in differences(before / name, after / name, words=given.words):
             count += 1
             print(text, flush=True)
     print(f"{len(given.cases)} cases: {count} parts differ")
