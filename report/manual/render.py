@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 
 from markupsafe import Markup
 
+from report.document.templates import rendered
 from report.figures.base import load_fonts
 from report.manual.blocks import ManualSection, numbered
 from report.manual.front import extent, passed, verdict_line
@@ -49,32 +50,24 @@ def manual_html(
     verification: Verification, parts: tuple[ManualSection, ...], machine: Machine, date: dt.date
 ) -> str:
     """Return the manual as HTML, before layout."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        undefined=StrictUndefined,
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     styles = (TEMPLATES / name for name in ("package.css", "verification.css"))
-    return environment.get_template("verification.html").render(
-        css=Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
-        version=dict(machine.rows)["Roofslip"],
-        date=date.isoformat(),
-        kind="quick" if verification.quick else "full",
-        extent=extent(verification),
-        verdict=verdict_line(verification),
-        validation=validation(verification.tables),
-        checks=passed(verification.checks),
-        machine=machine.line,
-        libraries=", ".join(
+    context: dict[str, object] = {
+        "css": Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
+        "version": dict(machine.rows)["Roofslip"],
+        "date": date.isoformat(),
+        "kind": "quick" if verification.quick else "full",
+        "extent": extent(verification),
+        "verdict": verdict_line(verification),
+        "validation": validation(verification.tables),
+        "checks": passed(verification.checks),
+        "machine": machine.line,
+        "libraries": ", ".join(
             f"{name} {version}" for name, version in machine.rows[1:] if name in _ON_COVER
         ),
-        sections=list(zip(numbered(parts), parts, strict=True)),
-        pictures={},
-    )
+        "sections": list(zip(numbered(parts), parts, strict=True)),
+        "pictures": {},
+    }
+    return rendered(TEMPLATES, "verification.html", context)
 
 
 _ON_COVER = ("Python", "numpy", "numba")

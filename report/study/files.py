@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from markupsafe import Markup
 
+from report.document.templates import rendered
 from report.figures.base import load_fonts
 from report.manual.blocks import numbered
 from report.pages.symbols import with_symbols
@@ -37,28 +38,20 @@ def study_files(results: StudyResults) -> Mapping[str, bytes]:
 
 def study_html(results: StudyResults) -> str:
     """Return the report as HTML, before layout."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    environment = Environment(
-        loader=FileSystemLoader(TEMPLATES),
-        undefined=StrictUndefined,
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     manifest, study = results.manifest, results.plan.input.study
     program = manifest["program"]
     parts = sections(results)
-    environment.filters["typeset"] = with_symbols
-    return environment.get_template("study.html").render(
-        css=Markup((TEMPLATES / "package.css").read_text(encoding="utf-8")),
-        title=study.title,
-        prepared_by=study.prepared_by or "not stated",
-        date=study.date.isoformat(),
-        version=program["roofslip"],
-        libraries=", ".join(f"{name} {program[name]}" for name in ("python", "numpy", "numba")),
-        identity=manifest["identity"][:16],
-        runs=f"{manifest['rows']:,}",
-        sections=list(zip(numbered(parts), parts, strict=True)),
-        pictures={},
-    )
+    context = {
+        "with_symbols": with_symbols,
+        "css": Markup((TEMPLATES / "package.css").read_text(encoding="utf-8")),
+        "title": study.title,
+        "prepared_by": study.prepared_by or "not stated",
+        "date": study.date.isoformat(),
+        "version": program["roofslip"],
+        "libraries": ", ".join(f"{name} {program[name]}" for name in ("python", "numpy", "numba")),
+        "identity": manifest["identity"][:16],
+        "runs": f"{manifest['rows']:,}",
+        "sections": list(zip(numbered(parts), parts, strict=True)),
+        "pictures": {},
+    }
+    return rendered(TEMPLATES, "study.html", context)
