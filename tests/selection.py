@@ -19,10 +19,10 @@ import pytest
 from places import GOLDEN, ROOT
 
 DURATIONS = Path(__file__).with_name("durations.csv")
-KEPT_S = 0.1
+KEPT_S = 0.02
 """Shorter tests are not kept in the file: they are quick."""
 
-QUICK_S = 0.2
+QUICK_S = 0.05
 """Longest quick test; of a file whose tests all take longer, the shortest one is quick."""
 
 
@@ -210,7 +210,7 @@ class Clock:
         with DURATIONS.open("w", encoding="utf-8", newline="") as lines:
             table = csv.writer(lines, lineterminator="\n")
             table.writerow(("test", "seconds"))
-            table.writerows((name, f"{s:.1f}") for name, s in rows if s >= KEPT_S)
+            table.writerows((name, f"{s:.2f}") for name, s in rows if s >= KEPT_S)
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -41,13 +41,13 @@ def test_a_nightly_test_runs_by_day_where_one_of_its_files_changed():
 
 
 def test_of_each_file_the_shortest_test_is_quick_and_every_one_that_is_short():
-    durations = {"a::f": 3.0, "a::g": 2.0, "b::f": 0.1, "b::g": 0.6}
+    durations = {"a::f": 3.0, "a::g": 2.0, "b::f": 0.04, "b::g": 0.6}
     functions = dict.fromkeys([*durations, "b::h"], ())
     assert selection.is_quick(durations, functions) == {"a::g", "b::f", "b::h"}
 
 
 def test_a_test_that_uses_a_dear_fixture_is_not_quick_whoever_sets_it_up():
-    durations = {"a::@made": 2.0, "::@shared": 3.0, "b::@made": 0.1}
+    durations = {"a::@made": 2.0, "::@shared": 3.0, "b::@made": 0.04}
     functions = {"a::f": ["made"], "a::g": [], "b::f": ["shared"], "b::g": ["made"]}
     assert selection.is_quick(durations, functions) == {"a::g", "b::g"}
 

@@ -70,32 +70,21 @@ def record_format(top: Path) -> None:
     replaced(reader, "for module in (cosmos,", "for module in (acc, cosmos,")
 
 
-PAGE = '''"""Wind: what is not in this package."""
-
-from __future__ import annotations
-
-from collections.abc import Mapping
-
-from report.pages.parts import PackageData
-
-
-def page(package: PackageData) -> Mapping[str, object]:
-    """Return the page."""
-    count = len(package.data.arrays)
-    return {"texts": (f"Wind on {count} arrays is not checked, see {package.part('basis')}.",),
-            "tables": ()}
-'''
+PAGE = """<section>
+{{ heading(part) }}
+<p>Wind on {{ p.arrays | length }} arrays is not checked, see {{ ref("basis") }}.</p>
+</section>
+"""
 
 
 def page(top: Path) -> None:
     """Add a page after the limits."""
-    (top / "report" / "pages" / "wind.py").write_text(PAGE, encoding="utf-8")
+    (top / "templates" / "wind.html").write_text(PAGE, encoding="utf-8")
     registry = top / "report" / "pages" / "registry.py"
-    replaced(registry, "    symbols,\n)", "    symbols,\n    wind,\n)")
     replaced(
         registry,
         '    Page(\n        id="provisions",',
-        '    Page(id="wind", title="Wind", fill=lambda package, _: wind.page(package)),\n'
+        '    Page(id="wind", title="Wind", fill=lambda *_: {}),\n'
         '    Page(\n        id="provisions",',
     )
 
