@@ -22,6 +22,7 @@ from report.cli.motion import motion
 from report.cli.plan import plan
 from report.cli.report import new, report
 from report.cli.sbom import sbom
+from report.cli.schema import schema
 from report.cli.serve import serve
 from report.cli.sign import sign
 from report.cli.slide import slide
@@ -76,8 +77,8 @@ def main() -> None:
 
 
 COMMANDS = (
-    batch, check, doctor, motion, new, plan, report, sbom, serve, sign, slide, study, verify,
-    verify_package, watch,
+    batch, check, doctor, motion, new, plan, report, sbom, schema, serve, sign, slide, study,
+    verify, verify_package, watch,
 )  # fmt: skip
 for command in COMMANDS:
     main.add_command(command)

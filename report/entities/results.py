@@ -32,7 +32,7 @@ from report.entities.requirement import (
     finding_results,
     limit,
 )
-from report.entities.shown import Entity
+from report.entities.shown import Entity, Written
 from report.sheet.schema import ProjectInput
 
 SCHEMA_VERSION = 2
@@ -89,6 +89,11 @@ class Results(Compared):
     remedies: tuple[Mapping[str, Any], ...]
     certainty: CertaintyResult
     cumulative: tuple[CumulativeResult, ...]
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of results.json."""
+    return Results.model_json_schema(by_alias=False, schema_generator=Written)
 
 
 def compared(assessment: Assessment) -> Compared:

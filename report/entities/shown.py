@@ -19,14 +19,19 @@ from pydantic import (
     ConfigDict,
     Field,
     SerializerFunctionWrapHandler,
+    WithJsonSchema,
     model_serializer,
 )
-from pydantic.json_schema import SkipJsonSchema
+from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 
 from report.entities.columns import TableColumn, UnitFormat
 from report.words.units import Quantity, Show, measured, number
 
-Number = Annotated[float, BeforeValidator(lambda value: math.nan if value is None else value)]
+Number = Annotated[
+    float,
+    BeforeValidator(lambda value: math.nan if value is None else value),
+    WithJsonSchema({"type": ["number", "null"]}),
+]
 """A number; NaN is none, which is null in JSON."""
 
 
@@ -169,6 +174,14 @@ class Entity(BaseModel):
 
     def _mark(self, name: str) -> str:
         return self.marks.get(name, "")
+
+
+class Written(GenerateJsonSchema):
+    """The JSON schema of what is written: without fields that are only printed."""
+
+    def field_is_present(self, field: Any) -> bool:
+        """Return whether a field is written."""
+        return not field.get("serialization_exclude")
 
 
 class _Beside:

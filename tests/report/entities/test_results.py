@@ -4,9 +4,11 @@ import json
 import math
 
 import pytest
+from click.testing import CliRunner
 
 import scenes
 from report.assessment.evidence import support
+from report.cli.main import main
 from report.entities.clearance import ClearanceResult
 from report.entities.columns import UnitFormat
 from report.entities.results import Results
@@ -31,9 +33,16 @@ def test_what_is_written_is_read_back_to_the_last_digit(content):
         assert old["design_m"] == new["design_m"]
 
 
-def test_the_schema_names_every_key_that_is_written(content):
-    schema = Results.model_json_schema(by_alias=False)
-    assert set(json.loads(content)) <= set(schema["properties"])
+def test_the_schema_names_every_key_that_is_written_and_no_other(content):
+    done = CliRunner().invoke(main, ["schema"])
+    schema = json.loads(done.output)
+    written = json.loads(content)
+    assert set(written) == set(schema["properties"])
+    for name in ("Array", "Run", "Clearance", "Motion", "Record", "Requirement", "Neighbor"):
+        key = f"{name.lower()}s"
+        rows = written["arrays"][0]["runs"] if name == "Run" else written[key]
+        assert set(rows[0]) == set(schema["$defs"][f"{name}Result"]["properties"]), name
+    assert schema["$defs"]["RunResult"]["properties"]["prd_m"]["type"] == ["number", "null"]
 
 
 def gap(**changes):
