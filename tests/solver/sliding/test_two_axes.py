@@ -12,7 +12,7 @@ import plane_oracle
 from places import RECORDS
 from solver.formats.reader import read_motion_file
 from solver.model import EventKind, Friction, Scene, coulomb
-from solver.sliding import checked
+from solver.sliding import checked, one_axis
 from solver.sliding.two_axes import follow, follow_history
 
 G = 9.80665
@@ -176,6 +176,15 @@ def test_a_steep_roof_slides_without_shaking():
     sn, cs = math.sin(math.radians(25.0)), math.cos(math.radians(25.0))
     assert outcome.prd_m == pytest.approx(0.5 * G * (sn - 0.3 * cs) * 4.0 * cs, rel=1e-12)
     assert outcome.n_stops == 0
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_bound_is_never_below_the_rounding_that_one_axis_allows_for(sign):
+    # Without friction there is no other error; one axis doubles that of accelerations.
+    still, ramp = np.zeros(3), np.array([0.0, 0.5, 1.0])
+    for ax, az in ((sign * 1.5 * ramp, NONE), (still, sign * 6.0 * ramp)):
+        block = scene(ax, still, 1.0, degrees=30.0, friction=0.0, az=az)
+        assert follow(block, 1e-10).error_m >= 0.5 * one_axis.rounding(block)
 
 
 def test_nothing_moves_below_the_yield_acceleration():
