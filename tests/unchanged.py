@@ -26,6 +26,8 @@ from pypdf import PdfReader
 from pypdf.generic import StreamObject
 
 from places import ROOT
+from report.sheet.answers import STATUS_FORMAT
+from report.sheet.counts import COUNT_FORMAT, START
 from report.sheet.read import read
 from report.sheet.schema import ProjectInput
 from report.sheet.template import write_template
@@ -35,6 +37,8 @@ NEW = {"new-us": [], "new-si": ["--units", "SI"], "new-study": ["--study"]}
 FILLED = """
 import sys
 from pathlib import Path
+from report.sheet.answers import STATUS_FORMAT
+from report.sheet.counts import COUNT_FORMAT, START
 from report.sheet.read import read
 from report.sheet.template import write_template
 source, path = map(Path, sys.argv[1:])
@@ -191,7 +195,8 @@ def said(folder: Path, *, words: bool) -> dict[str, list[str]]:
             from openpyxl import load_workbook  # after report, which decides what it reads with
 
             for sheet in load_workbook(path).worksheets:
-                found[f"{path.name}!{sheet.title}"] = list(_cells(sheet))
+                cells = _of_input(sheet) if path.name == "input.xlsx" else _cells(sheet)
+                found[f"{path.name}!{sheet.title}"] = list(cells)
         elif path.is_file() and path.suffix in (".json", ".dxf"):
             found[path.name] = path.read_text(encoding="utf-8").splitlines()
     return found
@@ -219,6 +224,16 @@ def _cells(sheet: Any) -> Iterator[str]:
         yield f"{rule.sqref} {[one.formula for one in rule.rules]}"
     for rule in sheet.data_validations.dataValidation:
         yield f"{rule.sqref} {rule.formula1} {rule.prompt}"
+
+
+def _of_input(sheet: Any) -> Iterator[str]:
+    """Yield the cells of an input sheet, without what counts and marks: it follows `check` now."""
+    sheet.conditional_formatting = type(sheet.conditional_formatting)()
+    for line in _cells(sheet):
+        is_count = any(f"[{code}]" in line for code in (STATUS_FORMAT, COUNT_FORMAT))
+        is_legend = sheet.title == START and line.startswith("C")
+        if not (is_count or is_legend or line.startswith("A3 ")):
+            yield line
 
 
 def differences(before: Path, after: Path, *, words: bool) -> Iterator[str]:

@@ -10,13 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from report.sheet.conditions import literal
 from report.sheet.layout import Layout
 from report.words.units import PRESSURES, Quantity
 from solver.model import INCH_M
 from solver.rules.provisions import Neighbor
 
 STATUS = "status"
-"""Name of the first column of every table: how many cells a row lacks; negative if one is wrong."""
+"""Name of the first column of every table: see `report.sheet.needs.row_status`."""
 
 STATUS_HEADING = "Status"
 STATUS_FORMAT = '[=0]"✓";[<0]"wrong";0" missing"'
@@ -125,7 +126,7 @@ def _weight_per_area(layout: Layout, symbol: str) -> str:
     weight = this("weight_n")
     force = f"{weight}*unit_arrays_weight_n/{PRESSURES[symbol]!r}"
     return _blank_on_error(
-        f'IF(TRIM({weight})="","",IF(COUNTIF(live_outlines,{_literal(this("id"))})>0,'
+        f'IF(TRIM({weight})="","",IF(COUNTIF(live_outlines,{literal(this("id"))})>0,'
         f"{force}/({_outlined_area(layout)}),"
         f'IF(OR({x}<=0,{y}<=0),"",{force}/({x}*{y}))))'
     )
@@ -138,7 +139,7 @@ def _outlined_area(layout: Layout) -> str:
     return (
         f"ABS(SUMPRODUCT({is_its},{outlines.all('double_area')}))/2"
         "*unit_outlines_x_m*unit_outlines_y_m"
-        f"/(SUMPRODUCT({is_its})=COUNTIF(live_outlines,{_literal(name)}))"
+        f"/(SUMPRODUCT({is_its})=COUNTIF(live_outlines,{literal(name)}))"
     )
 
 
@@ -148,8 +149,8 @@ def _double_area(layout: Layout) -> str:
     names, name = outlines.all("name"), outlines.this("name")
     number = f"(ROW({name})-ROW({outlines.head('name')}))"
     below = f"INDEX({names},{number}+1):INDEX({names},ROWS({names}))"
-    following = f"MATCH({_literal(name)},{below},0)+{number}"
-    first = f"MATCH({_literal(name)},{names},0)"
+    following = f"MATCH({literal(name)},{below},0)+{number}"
+    first = f"MATCH({literal(name)},{names},0)"
     after = f"IF({number}=ROWS({names}),{first},IFERROR({following},{first}))"
     x, y = (f"INDEX({outlines.all(axis)},{after})" for axis in ("x_m", "y_m"))
     return _blank_on_error(
@@ -237,16 +238,8 @@ def _of_clearances(is_us: bool) -> tuple[Answer, ...]:
 
 def _row_of(layout: Layout, field: str, section: str) -> str:
     """Return where an id is in another table."""
-    name = _literal(layout.tables["clearances"].this(field))
+    name = literal(layout.tables["clearances"].this(field))
     return _blank_on_error(f"MATCH({name},{layout.tables[section].all('id')},0)")
-
-
-def _literal(name: str) -> str:
-    """Return a name without the meaning that wildcards have for MATCH and COUNTIF."""
-    name = f"TRIM({name})"
-    for wildcard in "~*?":
-        name = f'SUBSTITUTE({name},"{wildcard}","~{wildcard}")'
-    return name
 
 
 def _neighbor(layout: Layout) -> str:

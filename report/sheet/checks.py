@@ -7,10 +7,11 @@ Works on a draft, the rows of readable values, so that one invalid cell hides no
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.sheet.cells import cut
+from report.sheet.conditions import REFERENCES, UNIQUE, missing
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.friction_checks import friction_faults
 from report.sheet.motion_checks import motion_faults
@@ -19,7 +20,6 @@ from report.sheet.references import suggestion
 from report.sheet.schema import (
     PROVISION_KEYS,
     Model,
-    ObjectKind,
     Rectangle,
     Shape,
     SlopeUnit,
@@ -58,17 +58,17 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
     """
     checks = (
         _tables,
+        _missing,
+        _unknown,
         _ids,
         site_faults,
         plan_faults,
         _arrays,
         friction_faults,
-        _objects,
         _clearances,
         motion_faults,
         _links,
         _overrides,
-        _directional,
         _smaller_events,
     )
     return [fault for check in checks for fault in check(draft, where)]
@@ -80,9 +80,13 @@ def _tables(draft: Draft, where: Where) -> Iterator[Fault]:
             yield Fault(Place(section), f"no {noun} is given; fill in at least one row")
 
 
+def _missing(draft: Draft, where: Where) -> Iterator[Fault]:
+    yield from missing(draft)
+
+
 def _ids(draft: Draft, where: Where) -> Iterator[Fault]:
     # Arrays come first, so that a duplicate is reported at the object.
-    for sections in (("arrays", "objects"), ("motions",)):
+    for sections in UNIQUE:
         seen: dict[str, Place] = {}
         for place, value in _column(draft, sections, "id"):
             first = seen.setdefault(value.casefold(), place)
@@ -115,17 +119,10 @@ def _slope(index: int, row: DraftRow) -> Iterator[Fault]:
 
 def _friction(index: int, row: DraftRow) -> Iterator[Fault]:
     """Yield inconsistencies of velocity-dependent friction, and models that neglect it."""
-    fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static", "model")
+    fields = ("mu", "mu_fast", "mu_static", "model")
     if any(field not in row for field in fields):
         return
-    mu, fast, rate, static, model = (row[field] for field in fields)
-    for given, field, label in (
-        (rate, "mu_fast", "high-velocity friction"),
-        (fast, "mu_rate_s_per_m", "friction rate"),
-    ):
-        if given is not None and row[field] is None:
-            text = f"{label} is missing; give high-velocity friction and friction rate, or neither"
-            yield Fault(Place("arrays", index, field), text)
+    mu, static, model = row["mu"], row["mu_static"], row["model"]
     if static is not None and static < mu:
         text = f"static friction is {static:g}; give the friction coefficient, {mu:g}, or more"
         yield Fault(Place("arrays", index, "mu_static"), text)
@@ -141,31 +138,24 @@ def _by_speed(array: DraftRow) -> list[str]:
     return [name for name in ("mu_fast", "mu_static") if array.get(name) not in same]
 
 
-def _objects(draft: Draft, where: Where) -> Iterator[Fault]:
-    for index, row in enumerate(draft["objects"]):
-        if row.get("kind") is ObjectKind.EDGE_WITH_PARAPET and row.get("height_m", 1.0) is None:
-            text = "height is missing; give the parapet's height above the roof"
-            yield Fault(Place("objects", index, "height_m"), text)
-
-
 def _clearances(draft: Draft, where: Where) -> Iterator[Fault]:
-    arrays = {row["id"]: row for row in draft["arrays"] if "id" in row}
-    objects = {row["id"]: row for row in draft["objects"] if "id" in row}
-    yield from _known(draft, "clearances", "array", arrays, "Arrays")
-    yield from _known(draft, "clearances", "object", objects | arrays, "Objects or Arrays")
     yield from _repeated(draft, where)
     shapes = shapes_of(draft)
     for index, row in enumerate(draft["clearances"]):
         yield from _room(index, row, shapes, draft, where)
 
 
-def _known(
-    draft: Draft, section: str, field: str, ids: Collection[str], sheets: str
-) -> Iterator[Fault]:
-    for place, value in _column(draft, (section,), field):
-        if value not in ids:
-            text = f"{field} is '{value}', which is not in {sheets}; {suggestion(value, ids)}"
-            yield Fault(place, text)
+def _unknown(draft: Draft, where: Where) -> Iterator[Fault]:
+    """Yield names of what is in no table; `plan_checks` has those of outlines."""
+    for (section, field), tables in REFERENCES.items():
+        if section == "outlines":
+            continue
+        ids = {value: None for _, value in _column(draft, tables, "id")}
+        sheets = " or ".join(table.capitalize() for table in tables)
+        for place, value in _column(draft, (section,), field):
+            if value not in ids:
+                text = f"{field} is '{value}', which is not in {sheets}; {suggestion(value, ids)}"
+                yield Fault(place, text)
 
 
 def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
@@ -209,7 +199,6 @@ def _room(
 
 def _links(draft: Draft, where: Where) -> Iterator[Fault]:
     arrays = {name: place for place, name in _column(draft, ("arrays",), "id")}
-    yield from _known(draft, "links", "array", arrays, "Arrays")
     seen: dict[str, Place] = {}
     for place, name in _column(draft, ("links",), "array"):
         first = seen.setdefault(name, place)
@@ -270,19 +259,3 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:
         if allowed and value is not None and not allowed.has(value):
             text = f"value is {value:g} for {key}; give {allowed.words}"
             yield Fault(Place("overrides", row, "value"), text)
-
-
-def _directional(draft: Draft, where: Where) -> Iterator[Fault]:
-    """Yield what a departure from the full displacement in every direction does not state."""
-    for row in draft["options"]:
-        if not row.get("directional"):
-            continue
-        for field, label in (
-            ("directional_reason", "reason for direction"),
-            ("directional_reviewer", "reviewer of direction"),
-            ("directional_license", "license for direction"),
-            ("directional_date", "date for direction"),
-        ):
-            if field in row and not row[field]:
-                text = f"{label} is missing; give it, or answer No to displacement by direction"
-                yield Fault(Place("options", 0, field), text)

@@ -12,7 +12,7 @@ from report.sheet import style
 from report.sheet.fields import entries
 from report.sheet.layout import Layout, TablePlace, name_cell
 from report.sheet.marks import mark_count
-from report.sheet.needs import block_lacks, block_wrong
+from report.sheet.needs import block_lacks, block_wrong, table_lacks
 from report.sheet.schema import SECTIONS
 
 START = "Start"
@@ -20,7 +20,7 @@ COUNTS_COLUMN = 4
 """Column of the names of the sheets in the list; the counts are beside it."""
 
 _NEED_ROWS = ("arrays", "motions")
-_COUNT_FORMAT = '[<0]"no row yet";[=0]"✓";0" open"'
+COUNT_FORMAT = '[<0]"no row yet";[=0]"✓";0" open"'
 
 
 def write_counts(book: Workbook, layout: Layout, top: int) -> None:
@@ -36,7 +36,7 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
         sheet_name = title.lower().replace(" ", "_")
         name = f"lacks_{sheet_name}"
         count = start.cell(row, COUNTS_COLUMN + 1)
-        style.put_answer(count, "+".join(lacks) or "0", _COUNT_FORMAT)
+        style.put_answer(count, "+".join(lacks) or "0", COUNT_FORMAT)
         name_cell(book, name, start, row, COUNTS_COLUMN + 1)
         mark_count(start, count.coordinate, f"${get_column_letter(COUNTS_COLUMN + 1)}{row}")
         _write_line(book, title, name, "+".join(wrong) or "0")
@@ -46,7 +46,7 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
 def _lacking_in(place: TablePlace) -> str:
     """Return the number of cells that a table lacks; -1 where it needs a row and has none."""
     status = place.all("status")
-    lacking = f'SUMIF({status},">0")-SUMIF({status},"<0")+{_uncounted(place)}'
+    lacking = f"{table_lacks(place)}+{_uncounted(place)}"
     return f"IF(COUNT({status})=0,-1,{lacking})" if place.section.key in _NEED_ROWS else lacking
 
 

@@ -309,7 +309,7 @@ def table_formulas(
 ) -> Mapping[str, tuple[str, str]]:
     """Return formula, without its equals sign, and number format of each column that computes."""
     answers = table_answers(place.section.key, is_us=is_us)
-    return {STATUS: (row_status(place), STATUS_FORMAT)} | {
+    return {STATUS: (row_status(place, layout), STATUS_FORMAT)} | {
         answer.name: (answer.write(layout), answer.number_format) for answer in answers
     }
 

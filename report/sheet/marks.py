@@ -1,8 +1,8 @@
 """The conditional formats of the input sheets: every color that depends on what is typed.
 
-Red for a cell that a begun row or block lacks and for an unknown choice, amber for a number outside
-its usual range and for a name that is unknown or given twice, green for a complete row, violet for
-a computed cell that has lost its formula. Read `mark_table`.
+Red for a cell that a begun row or block lacks and for what `roofslip check` refuses, amber for a
+number outside its usual range, green for a complete row, violet for a computed cell that has lost
+its formula. Read `mark_table`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet.answers import STATUS
 from report.sheet.fields import Entry, entries
 from report.sheet.layout import LAST_ROW, BlockPlace, Layout, TablePlace
-from report.sheet.needs import block_begun, condition, is_unknown
+from report.sheet.needs import block_begun, condition, is_wrong
 
 RED, AMBER, GREEN, VIOLET = "F4B6B0", "FFCE8A", "2E7D4F", "D9C3EC"
 RED_INK = "B3261E"
@@ -44,8 +44,8 @@ def mark_table(sheet: Worksheet, place: TablePlace) -> None:
             lacks = f'{begun},TRIM({cell})=""'
             test = f"AND({lacks})" if entry.is_required else f"AND({lacks},{needed})"
             _mark(sheet, place.cells(entry.name), test, fill=_RED_FILL)
-        size = f"*unit_{place.section.key}_{entry.name}" if entry.quantity else ""
-        _mark_unusual(sheet, place.cells(entry.name), cell, entry, size)
+        unit = f"unit_{place.section.key}_{entry.name}"
+        _mark_values(sheet, place.cells(entry.name), cell, entry, unit)
     _mark_names(sheet, place)
     _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}=0)", font=_GREEN_FONT)
     _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}<>0)", font=_RED_FONT)
@@ -57,13 +57,13 @@ def _mark_names(sheet: Worksheet, place: TablePlace) -> None:
     if "id" in place.letters:
         ids = place.cells("id").replace(place.letters["id"], f"${place.letters['id']}$")
         twice = f'AND(TRIM({cell("id")})<>"",SUMPRODUCT(--(TRIM({ids})=TRIM({cell("id")})))>1)'
-        _mark(sheet, place.cells("id"), twice, fill=_AMBER_FILL)
+        _mark(sheet, place.cells("id"), twice, fill=_RED_FILL)
     if place.section.key == "clearances":
         rows = {"array": ("array_row",), "object": ("other_row", "object_row")}
         for name, found in rows.items():
             nowhere = f'{"&".join(map(cell, found))}=""'
             unknown = f'AND(TRIM({cell(name)})<>"",{nowhere})'
-            _mark(sheet, place.cells(name), unknown, fill=_AMBER_FILL)
+            _mark(sheet, place.cells(name), unknown, fill=_RED_FILL)
 
 
 def mark_block(sheet: Worksheet, place: BlockPlace) -> None:
@@ -80,8 +80,7 @@ def mark_block(sheet: Worksheet, place: BlockPlace) -> None:
         if needed:
             starts = f"{begun}," if begun else ""
             _mark(sheet, at, f'AND({starts}{needed},TRIM({cell})="")', fill=_RED_FILL)
-        size = f"*unit_{place.section.key}_{entry.name}" if entry.quantity else ""
-        _mark_unusual(sheet, at, cell, entry, size)
+        _mark_values(sheet, at, cell, entry, f"unit_{place.section.key}_{entry.name}")
 
 
 def mark_lost(book: Workbook, layout: Layout) -> None:
@@ -115,24 +114,24 @@ def mark_count(sheet: Worksheet, cell: str, count: str) -> None:
     _mark(sheet, cell, f"{count}<>0", font=_RED_FONT)
 
 
-def _mark_unusual(sheet: Worksheet, cells: str, cell: str, entry: Entry, size: str) -> None:
-    if entry.choices:
-        _mark(sheet, cells, is_unknown(cell, entry), fill=_RED_FILL)
-    elif entry.kind in (int, float):
-        test = _outside(f"{cell}{size}", entry, cell)
-        _mark(sheet, cells, f'IF(TRIM({cell})="",FALSE,{test})', fill=_AMBER_FILL)
+def _mark_values(sheet: Worksheet, cells: str, cell: str, entry: Entry, unit: str) -> None:
+    """Mark what is refused, and a number that is not usual."""
+    for test in is_wrong(cell, entry, unit):
+        _mark(sheet, cells, test, fill=_RED_FILL)
+    if entry.kind in (int, float) and not entry.choices:
+        value = f"{cell}*{unit}" if entry.quantity else cell
+        _mark(sheet, cells, f"AND(ISNUMBER({cell}),{_outside(value, entry)})", fill=_AMBER_FILL)
 
 
-def _outside(value: str, entry: Entry, cell: str) -> str:
-    """Return whether a value is no number or outside its expected range."""
+def _outside(value: str, entry: Entry) -> str:
+    """Return whether a number is outside its expected range."""
     low, high = entry.expected.low, entry.expected.high
     parts = []
     if math.isfinite(low):
         parts.append(f"{value}<{low - _EQUAL * abs(low):.12g}")
     if math.isfinite(high):
         parts.append(f"{value}>{high + _EQUAL * abs(high):.12g}")
-    tests = f"OR({','.join(parts)})" if parts else "FALSE"
-    return f"IF(ISNUMBER({cell}),{tests},TRUE)"
+    return f"OR({','.join(parts)})" if parts else "FALSE"
 
 
 def _mark(

@@ -46,9 +46,6 @@ def _scale_value(index: int, row: DraftRow) -> Iterator[Fault]:
     if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
         text = f"factor or PPA is {value:g}, but scaling is '{scaling}'; change the scaling or"
         yield Fault(place, f"{text} leave this blank")
-    elif scaling in (Scaling.FACTOR, Scaling.PPA) and "scale_value" in row and value is None:
-        wanted = "the PPA in g" if scaling is Scaling.PPA else "the factor"
-        yield Fault(place, f"factor or PPA is missing; give {wanted}")
 
 
 def _processing(index: int, row: DraftRow) -> Iterator[Fault]:
@@ -66,11 +63,6 @@ def _building(draft: Draft, where: Where) -> Iterator[Fault]:
     ground = _first_row(draft, "recorded_at", RecordedAt.GROUND)
     for row in draft["building"]:
         first, second = row.get("period_s"), row.get("period_2_s")
-        unread = {"period_s", "structure"} - row.keys()
-        if ground is not None and not unread and first is None and row["structure"] is None:
-            at = where(Place("motions", ground, "recorded_at"))
-            text = f"period T1 is missing; give it, or a structure type: {at} is 'ground'"
-            yield Fault(Place("building", 0, "period_s"), text)
         if second is not None and (first is None or second > first):
             longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
             text = f"period T2 is {second:g} s; give {longest}, or leave it blank"

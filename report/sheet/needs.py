@@ -1,64 +1,34 @@
-"""Which cells a begun row or block still lacks, as formulas for the sheet.
+"""How many cells a begun row or block lacks or has wrong, as formulas for the sheet.
 
-The same conditions mark cells red and count them; `checks` applies its own after reading. Read
-`layout` first.
+`conditions` says what is required and what is wrong, for `checks` too. Read `row_status`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby
 
+from report.sheet.conditions import ORDERED, OTHER_NAMES, REFERENCES, REQUIRED, UNIQUE
 from report.sheet.fields import Entry, entries
-from report.sheet.layout import BlockPlace, TablePlace
+from report.sheet.layout import BlockPlace, Layout, TablePlace
 
-_SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
-_ANY_SIDE = f'TRIM({"&".join(f"{{{side}}}" for side in _SIDES)})<>""'
+WRONG = 1_000_000
+"""A status is the count of cells that a row lacks, less so much for each that is wrong."""
 
-CONDITIONS: Mapping[tuple[str, str], str] = {
-    ("site", "s_ds_g"): 'live_s_ds=""',
-    **{("roof", side): _ANY_SIDE for side in _SIDES},
-    **{("arrays", side): "COUNTIF(live_outlines,{id})=0" for side in _SIDES},
-    **{("objects", side): _ANY_SIDE for side in _SIDES},
-    ("objects", "height_m"): '{kind}="edge with parapet"',
-    ("arrays", "mu_fast"): 'TRIM({mu_rate_s_per_m})<>""',
-    ("arrays", "mu_rate_s_per_m"): 'TRIM({mu_fast})<>""',
-    # A pasted column does not state them.
-    ("motions", "units"): 'ISNUMBER(FIND("!",{record}))',
-    ("motions", "dt_s"): 'ISNUMBER(FIND("!",{record}))',
-    ("motions", "scale_value"): 'OR({scaling}="factor",{scaling}="PPA")',
-    ("building", "period_s"): 'AND(live_ground_motions>0,TRIM({structure})="")',
-    **{
-        ("options", field): f'{{{answer}}}="Yes"'
-        for answer, fields in (
-            ("peer_reviewed", "peer_reviewer peer_license peer_date"),
-            (
-                "directional",
-                "directional_reason directional_reviewer directional_license directional_date",
-            ),
-        )
-        for field in fields.split()
-    },
-}
-"""When an optional cell is required, in terms of other cells of its row or block."""
+SLOPE_TOO_STEEP = "AND(ISNUMBER({slope_deg}),{slope_deg}>=45)"
 
 
 def condition(section: str, entry: Entry, refer: Callable[[str], str]) -> str:
     """Return when an optional cell is required, with references to cells; empty for never."""
-    text = CONDITIONS.get((section, entry.name), "")
-    for name in _names(text):
-        text = text.replace(f"{{{name}}}", refer(name))
-    return text
+    required = REQUIRED.get((section, entry.name))
+    return required.when.formula(refer) if required else ""
 
 
-def _names(text: str) -> set[str]:
-    return {part.split("}")[0] for part in text.split("{")[1:]}
-
-
-def row_status(place: TablePlace) -> str:
+def row_status(place: TablePlace, layout: Layout) -> str:
     """Return the number of cells that a begun row lacks; an empty text for a row not begun.
 
-    Negative where a choice among them is none of its list: it is counted as if it were missing.
+    Negative where a cell is wrong: see `WRONG`.
     """
     fields = entries(place.section.model)
     lacking = [_count(place, run, '=""') for run in _runs(place, _required(fields))]
@@ -67,18 +37,71 @@ def row_status(place: TablePlace) -> str:
         if needed:
             lacking.append(f'IF(AND({needed},TRIM({place.this(entry.name)})=""),1,0)')
     begun = "+".join(_count(place, run, '<>""') for run in _runs(place, [e.name for e in fields]))
-    missing = "+".join(lacking)
-    wrong = "+".join(
-        f"IF({is_unknown(place.this(entry.name), entry)},1,0)" for entry in fields if entry.choices
-    )
-    count = f"IF({wrong}=0,{missing},-({missing}+{wrong}))" if wrong else missing
-    return f'IF({begun}=0,"",{count})'
+    tests = "+".join(f"({test})" for test in _wrong_in_row(place, layout))
+    wrong = f"-{WRONG}*({tests})" if tests else ""
+    return f'IF({begun}=0,"",{"+".join(lacking)}{wrong})'
+
+
+def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
+    """Yield what makes a cell of a row wrong."""
+    section = place.section.key
+    for entry in entries(place.section.model):
+        yield from is_wrong(place.this(entry.name), entry, f"unit_{section}_{entry.name}")
+    for alike in UNIQUE:
+        if section in alike:
+            yield is_twice(place.this("id"), alike, layout)
+    for (home, field), tables in REFERENCES.items():
+        if home == section:
+            yield is_nowhere(place.this(field), tables, OTHER_NAMES.get((home, field), ""), layout)
+    for low, high in ORDERED:
+        if high in place.letters:
+            cells = [place.this(name) for name in (low, high)]
+            given = ",".join(f"ISNUMBER({cell})" for cell in cells)
+            least, most = (f"{place.this(name)}*unit_{section}_{name}" for name in (low, high))
+            yield f"IF(AND({given}),{least}>={most},FALSE)"
+    if "slope_deg" in place.letters:
+        yield SLOPE_TOO_STEEP.replace("{slope_deg}", place.this("slope_deg"))
+
+
+def is_wrong(cell: str, entry: Entry, unit: str) -> Iterator[str]:
+    """Yield whether a filled cell has what its field does not accept, where a formula can tell."""
+    if entry.choices:
+        yield is_unknown(cell, entry)
+    elif entry.kind in (int, float):
+        tests = [*_beyond(f"{cell}*{unit}" if entry.quantity else cell, entry)]
+        tests += [f"{cell}<>INT({cell})"] if entry.kind is int else []
+        # Excel shows 0.45 as 45% where that was typed, and `check` asks which is meant.
+        tests.append(f'LEFT(CELL("format",{cell}))="P"')
+        yield f'IF(ISNUMBER({cell}),OR({",".join(tests)}),TRIM({cell})<>"")'
+
+
+def _beyond(value: str, entry: Entry) -> Iterator[str]:
+    bounds = entry.bounds
+    if math.isfinite(bounds.low):
+        yield f"{value}{'<=' if bounds.excludes_low else '<'}{bounds.low:.12g}"
+    if math.isfinite(bounds.high):
+        yield f"{value}{'>=' if bounds.excludes_high else '>'}{bounds.high:.12g}"
 
 
 def is_unknown(cell: str, entry: Entry) -> str:
     """Return whether a filled cell has a text that is none of its choices."""
     known = f"|{'|'.join(entry.choices)}|".casefold()
     return f'AND(TRIM({cell})<>"",ISERROR(FIND("|"&LOWER(TRIM({cell}))&"|","{known}")))'
+
+
+def is_twice(cell: str, tables: Sequence[str], layout: Layout) -> str:
+    """Return whether an id is given more than once in some tables, with any capitals."""
+    ids = [layout.tables[table].all("id") for table in tables]
+    count = "+".join(f"SUMPRODUCT(--(TRIM({column})=TRIM({cell})))" for column in ids)
+    return f'AND(TRIM({cell})<>"",{count}>1)'
+
+
+def is_nowhere(cell: str, tables: Sequence[str], other: str, layout: Layout) -> str:
+    """Return whether a name is that of no row of some tables."""
+    ids = [layout.tables[table].all("id") for table in tables]
+    count = "+".join(f"SUMPRODUCT(--EXACT(TRIM({column}),TRIM({cell})))" for column in ids)
+    count += f'+(LOWER(TRIM({cell}))="{other}")' if other else ""
+    return f'AND(TRIM({cell})<>"",{count}=0)'
 
 
 def _required(fields: Sequence[Entry]) -> list[str]:
@@ -98,6 +121,12 @@ def _runs(place: TablePlace, names: Sequence[str]) -> Iterator[tuple[str, str]]:
         yield run[0], run[-1]
 
 
+def table_lacks(place: TablePlace) -> str:
+    """Return the number of cells that the rows of a table lack or have wrong."""
+    total = f"SUM({place.all('status')})"
+    return f"MOD({total},{WRONG})+(MOD({total},{WRONG})-{total})/{WRONG}"
+
+
 def block_lacks(place: BlockPlace) -> str:
     """Return the number of cells that a block lacks; empty if it requires none."""
     parts = []
@@ -113,10 +142,14 @@ def block_lacks(place: BlockPlace) -> str:
 
 
 def block_wrong(place: BlockPlace) -> str:
-    """Return the number of cells of a block with a text that is none of their choices."""
+    """Return the number of cells of a block that are wrong."""
     name = place.section.cell_name
-    chosen = [entry for entry in entries(place.section.model) if entry.choices]
-    return "+".join(f"IF({is_unknown(name(entry.name), entry)},1,0)" for entry in chosen)
+    tests = [
+        test
+        for entry in entries(place.section.model)
+        for test in is_wrong(name(entry.name), entry, f"unit_{place.section.key}_{entry.name}")
+    ]
+    return "+".join(f"IF({test},1,0)" for test in tests)
 
 
 def block_begun(place: BlockPlace) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from report.sheet.conditions import ORDERED
 from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
 from report.sheet.references import suggestion
 from report.sheet.schema import (
@@ -125,50 +126,26 @@ def _vertices(rows: list[DraftRow]) -> tuple[Point, ...]:
 
 
 def _rectangles(draft: Draft, where: Where) -> Iterator[Fault]:
-    outlines = _outlines(draft)
     for section in ("roof", *_PLACED):
         for index, row in enumerate(draft[section]):
             yield from _in_order(section, index, row, us_first(draft), where)
-            yield from _whole(section, index, row)
-            if section == "arrays" and row.get("id") not in outlines:
-                yield from _somewhere(index, row)
 
 
 def _in_order(
     section: str, index: int, row: DraftRow, is_us: bool, where: Where
 ) -> Iterator[Fault]:
-    for axis in "xy":
-        low, high = row.get(f"{axis}_from_m"), row.get(f"{axis}_to_m")
+    for first, last in ORDERED:
+        low, high = row.get(first), row.get(last)
         if low is None or high is None or low < high:
             continue
         given, least = (pair(value, Quantity.PLAN, is_us) for value in (high, low))
-        at = where(Place(section, index, f"{axis}_from_m"))
-        text = f"{axis} to is {given}; give more than {axis} from in {at}, {least}"
-        yield Fault(Place(section, index, f"{axis}_to_m"), text)
-
-
-def _whole(section: str, index: int, row: DraftRow) -> Iterator[Fault]:
-    blank = _blank_sides(row)
-    if not 0 < len(blank) < len(SIDES):
-        return
-    for side in blank:
-        text = f"{_label(side)} is missing; give all four sides of the rectangle, or none"
-        yield Fault(Place(section, index, side), text)
-
-
-def _blank_sides(row: DraftRow) -> list[str]:
-    return [side for side in SIDES if side in row and row[side] is None]
+        at = where(Place(section, index, first))
+        text = f"{_label(last)} is {given}; give more than {_label(first)} in {at}, {least}"
+        yield Fault(Place(section, index, last), text)
 
 
 def _label(side: str) -> str:
     return side.removesuffix("_m").replace("_", " ")
-
-
-def _somewhere(index: int, row: DraftRow) -> Iterator[Fault]:
-    """Yield an array that is nowhere in plan."""
-    if len(_blank_sides(row)) == len(SIDES):
-        wanted = "give all four sides of the rectangle, or an outline on the sheet Outlines"
-        yield Fault(Place("arrays", index, "x_from_m"), f"x from is missing; {wanted}")
 
 
 def _outline_rows(draft: Draft, where: Where) -> Iterator[Fault]:

@@ -55,10 +55,20 @@ _SAMPLES = (
     ("heading", style.WHITE, style.OPTIONAL_FILL, "Optional column."),
     ("1.566", style.INK, style.ANSWER_FILL, "Computed cell: a formula, not read as input."),
     ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
-    ("", "000000", _RED_FILL, "Required and still blank, or not in the list of choices."),
-    ("1.2", "000000", _AMBER_FILL, "Outside the usual range; a name unknown or given twice."),
+    (
+        "",
+        "000000",
+        _RED_FILL,
+        "Required and still blank, or refused: no number, out of range, no choice, unknown.",
+    ),
+    ("1.2", "000000", _AMBER_FILL, "Outside the usual range."),
     ("1.5", style.INK, _VIOLET_FILL, "Computed cell that has lost its formula."),
-    ("✓", marks.GREEN, style.ANSWER_FILL, "The row is complete."),
+    (
+        "✓",
+        marks.GREEN,
+        style.ANSWER_FILL,
+        "Each cell of the row is filled and accepted. roofslip check compares the rows.",
+    ),
 )
 
 

@@ -12,7 +12,8 @@ from pypdf import PdfReader
 from cells import cell
 from recalculated import converted, recalculated_sheets
 from report.sheet.fields import Place
-from report.sheet.marks import AMBER, VIOLET
+from report.sheet.marks import RED, VIOLET
+from report.sheet.needs import WRONG
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from sheets import at, blank, edit, make, of, project, put, same, type_into
@@ -21,8 +22,9 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 # Of Excel 2007 and later, and ISFORMULA of 2013, which is written with this prefix.
 PREFIXED = {"_xlfn.ISFORMULA"}
 FUNCTIONS = {
-    "ABS", "AND", "ATAN", "CHAR", "CODE", "COUNT", "COUNTA", "COUNTIF", "DEGREES", "FALSE", "FIND",
-    "IF", "IFERROR", "INDEX", "ISERROR", "ISFORMULA", "ISNUMBER", "LEFT", "LOWER", "MATCH", "MAX",
+    "ABS", "AND", "ATAN", "CELL", "CHAR", "CODE", "COUNT", "COUNTA", "COUNTIF", "DEGREES", "EXACT",
+    "FALSE", "FIND", "IF", "IFERROR", "INDEX", "INT", "ISERROR", "ISFORMULA", "ISNUMBER", "LEFT",
+    "LOWER", "MATCH", "MAX",
     "MID", "MIN", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "RADIANS", "ROUNDUP", "ROW", "ROWS",
     "SUBSTITUTE", "SUM", "SUMIF", "SUMPRODUCT", "TRIM", "UPPER",
 }  # fmt: skip
@@ -133,10 +135,10 @@ def pasted_column(book):
 def mistyped_names(book):
     """The rules are computed in columns of their own."""
     put(book, {f"Arrays/{row}/ID": name for row, name in ((1, "A1"), (2, "A2"), (3, "A1 "))})
-    compute(book, ("Arrays/{}/ID", AMBER))
+    compute(book, ("Arrays/{}/ID", RED))
     for row, (array, other) in enumerate((("A2", "A1"), ("A2", "RTU1"), ("A9", "A1")), start=1):
         put(book, of(f"Clearances/{row}", {"Array": array, "Object": other}))
-    compute(book, ("Clearances/{}/Array", AMBER), ("Clearances/{}/Object", AMBER))
+    compute(book, ("Clearances/{}/Array", RED), ("Clearances/{}/Object", RED))
 
 
 def typed_over(book):
@@ -168,14 +170,14 @@ def compute(book, *rules):
 
 
 def rule_of(sheet, coordinate, color):
-    """Return the formula of the conditional format whose range starts at a cell, by its fill."""
-    return next(
+    """Return the formula of the last conditional format that starts at a cell, by its fill."""
+    return [
         rule.formula[0]
         for area in sheet.conditional_formatting
         if str(area.sqref).split(":")[0] == coordinate
         for rule in area.rules
         if rule.dxf.fill and rule.dxf.fill.start_color.rgb == f"00{color}"
-    )
+    ][-1]
 
 
 # Together where no change touches what another is asked about: a book takes a second.
@@ -251,7 +253,7 @@ def test_a_half_filled_sheet_counts_what_is_missing(computed):
 def test_a_choice_that_is_none_of_the_list_is_no_complete_row(computed):
     book = computed[other_choices]
     # One wrong; capitals and blanks do not matter; no height.
-    assert statuses(book, "Objects") == [-1, 0, 1]
+    assert statuses(book, "Objects") == [-WRONG, 0, 1]
     assert state(book, "Objects") == "2 cells missing or wrong"
     assert state(book, "Site") == "7 cells missing or wrong"
     assert state(book, "Project") == "5 cells missing"
@@ -268,7 +270,7 @@ def test_a_pasted_column_needs_its_units_and_time_step(computed):
 
 
 @pytest.mark.nightly
-def test_a_name_given_twice_and_one_that_is_unknown_turn_amber(computed):
+def test_a_name_given_twice_and_one_that_is_unknown_turn_red(computed):
     book = computed[mistyped_names]
     rows = (1, 2, 3)
     assert [holds(book, f"Arrays/{row}/ID") for row in rows] == [True, False, True]

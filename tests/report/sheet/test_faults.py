@@ -221,9 +221,9 @@ CONTRADICTIONS = [
      "<Objects/RTU-1/y to>: y to is 70.00 ft (21.34 m); give more than y from in"
      " <Objects/RTU-1/y from>, 80.00 ft (24.38 m)"),
     ({"Motions/M2/Factor or PPA": None},
-     "<Motions/M2/Factor or PPA>: factor or PPA is missing; give the factor"),
+     "<Motions/M2/Factor or PPA>: factor or PPA is missing; give the factor, or the PPA in g"),
     ({"Motions/M3/Factor or PPA": None},
-     "<Motions/M3/Factor or PPA>: factor or PPA is missing; give the PPA in g"),
+     "<Motions/M3/Factor or PPA>: factor or PPA is missing; give the factor, or the PPA in g"),
     ({"Motions/M1/Transverse record": "records/x.csv"},
      "<Motions/M1/Transverse record>: transverse record is 'records/x.csv', the same as the"
      " horizontal record; give another record"),
@@ -236,8 +236,8 @@ CONTRADICTIONS = [
      "<Motions/M1/Low-pass corner>: low-pass corner is 20 Hz; give more than the high-pass"
      " corner, 20 Hz"),
     ({"Motions/M2/Recorded at": "ground"},
-     "<Building/Period T1>: period T1 is missing; give it, or a structure type:"
-     " <Motions/M2/Recorded at> is 'ground'"),
+     "<Building/Period T1>: period T1 is missing; give it, or a structure type: a motion is"
+     " recorded at the ground"),
     ({"Building/Period T2": 0.3},
      "<Building/Period T2>: period T2 is 0.3 s; give period T1 as well, or leave it blank"),
     ({"Building/Period T1": 0.2, "Building/Period T2": 0.3},

@@ -39,7 +39,7 @@ def test_a_workbook_without_the_block_is_read(tmp_path):
 
 def test_half_an_outline_is_refused(tmp_path):
     assert problems(type_into(make(tmp_path), sides(0, 300, 0))) == said(
-        "<Site/Roof y to>: y to is missing; give all four sides of the rectangle, or none"
+        "<Site/Roof y to>: roof y to is missing; give all four sides of the rectangle, or none"
     )
 
 
