@@ -1,18 +1,25 @@
-"""From workbook to package: one line for each step.
+"""From workbook to package: read, prepare, assess, support, fill, lay out, publish.
 
-Orders the steps and writes the files; each step is a function of a room below. Read `make`.
+Orders the steps; each is a function of a room below. A worker (`report.beside`) draws and writes
+what it can meanwhile. Read `make`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from report.assessment.changes import Changes
+    from report.assessment.evidence import Evidence
     from report.assessment.project import Assessment
+    from report.entities.results import Compared
+    from report.package.html import PendingPictures
+    from report.provenance.files import Source
+    from report.sheet.read import Sheet
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 
@@ -25,65 +32,115 @@ def make(
     out: Path | None,
     since: Path | None,
     progress: Callable[[str], None],
-    second: Executor,
+    worker: Executor,
     on_assessment: Callable[[Assessment], None] = lambda _: None,
 ) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
     """Read a workbook, run its motions, and write the package and the tables.
 
-    A second process (`report.beside`) draws and writes what it can meanwhile. `on_assessment` is
-    given the assessment before the package is made, which takes longer.
+    `on_assessment` is given the assessment before the package is made, which takes longer.
     """
-    second.submit(load)
-    from report.assessment.changes import NO_FORMER
+    worker.submit(load)
     from report.assessment.cost import cost
-    from report.assessment.evidence import plotted, support
     from report.assessment.project import assess
-    from report.drawing.dxf import write_dxf
-    from report.drawing.plan import plan_drawing
     from report.motions.prepare import prepare
-    from report.package.html import begin, pages
-    from report.provenance.files import attachments, fingerprint, sources
-    from report.results.compare import changes
-    from report.results.json import results_json
-    from report.results.publish import check_apart, check_writable, publish
-    from report.results.since import read_former
-    from report.results.tables import results_table
-    from report.sheet.read import read
-    from report.typeset.letters import check_letters
-    from report.typeset.pdf import draw_ahead, lay_out, pictures
+    from report.package.html import pages
+    from report.provenance.files import sources
+    from report.results.publish import publish
 
     progress("reading the workbook")
-    former = [read_former(path) for path in (since,) if path]
+    request = read(source, out, since)
+    shaking = prepare(request.sheet)
+    found = sources(request.sheet, shaking, since)
+    long_run_notice = cost(request.sheet.project, shaking)
+    progress(f"running the motions ({long_run_notice or 'the first run compiles the solver'})")
+    assessment = assess(request.sheet, shaking)
+    on_assessment(assessment)
+    supported = support(assessment, request, worker)
+    progress("writing the pages")
+    html = pages(assessment, supported.evidence, supported.changes, supported.pictures)
+    progress("laying out the package")
+    files = lay_out(html, assessment, supported.evidence, found, worker)
+    progress("writing the result tables")
+    publish(files, request.folder)
+    return assessment, request.folder, files, supported.changes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """What is asked for.
+
+    Attributes
+    ----------
+    former : tuple of Compared
+        The results that these are compared with, if any.
+    """
+
+    sheet: Sheet
+    folder: Path
+    former: tuple[Compared, ...]
+
+
+def read(source: Path, out: Path | None, since: Path | None) -> Request:
+    """Read a workbook and former results, and check that the package can be written."""
+    from report.results.publish import check_apart, check_writable
+    from report.results.since import read_former
+    from report.sheet.read import read
+    from report.typeset.letters import check_letters
+
+    former = tuple(read_former(path) for path in (since,) if path)
     sheet = read(source)
     folder = out or sheet.path.parent / "out"
     check_letters(sheet)
     check_writable(folder)
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
-    shaking = prepare(sheet)
-    found = sources(sheet, shaking, since)
-    long_run_notice = cost(sheet.project, shaking)
-    progress(f"running the motions ({long_run_notice or 'the first run compiles the solver'})")
-    assessment = assess(sheet, shaking)
-    changed = changes(former[0], assessment) if former else NO_FORMER
-    begun = begin(assessment, changed, second)
+    return Request(sheet=sheet, folder=folder, former=former)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Supported:
+    """What the package prints beside the assessment, and its pictures, which are being drawn."""
+
+    evidence: Evidence
+    changes: Changes
+    pictures: PendingPictures
+
+
+def support(assessment: Assessment, request: Request, worker: Executor) -> Supported:
+    """Compute what supports an assessment, while the worker draws what is known already."""
+    from report.assessment.changes import NO_FORMER
+    from report.assessment.evidence import plotted, support
+    from report.package.html import begin
+    from report.results.compare import changes
+
+    changed = changes(request.former[0], assessment) if request.former else NO_FORMER
+    pictures = begin(assessment, changed, worker)
     shown = plotted(assessment)
-    begun = begun.plot(shown)
-    on_assessment(assessment)
-    evidence = support(assessment, shown)
-    progress("writing the pages")
-    html = pages(assessment, evidence, changed, begun)
-    progress("laying out the package")
-    drawn = second.submit(draw_ahead, pictures(html))
-    results = second.submit(results_json, assessment, evidence)
-    plan = second.submit(write_dxf, plan_drawing(assessment))
-    table = second.submit(results_table, assessment, evidence.spectra)
-    short = fingerprint(sheet, shaking)
+    pictures = pictures.plot(shown)
+    return Supported(evidence=support(assessment, shown), changes=changed, pictures=pictures)
+
+
+def lay_out(
+    html: str,
+    assessment: Assessment,
+    evidence: Evidence,
+    found: Sequence[Source],
+    worker: Executor,
+) -> Mapping[str, bytes]:
+    """Return the files of the package; the worker writes tables while the pages are laid out."""
+    from report.drawing.dxf import write_dxf
+    from report.drawing.plan import plan_drawing
+    from report.provenance.files import attachments, fingerprint
+    from report.results.json import results_json
+    from report.results.tables import results_table
+    from report.typeset.pdf import draw_ahead, lay_out, pictures
+
+    drawn = worker.submit(draw_ahead, pictures(html))
+    results = worker.submit(results_json, assessment, evidence)
+    plan = worker.submit(write_dxf, plan_drawing(assessment))
+    table = worker.submit(results_table, assessment, evidence.spectra)
+    short = fingerprint(assessment.sheet, assessment.shaking)
     pdf = lay_out(html, drawn, lambda: attachments(found, results.result(), short))
-    progress("writing the result tables")
-    written = (pdf, plan.result(), table.result(), results.result())
-    files = dict(zip(OUTPUTS, written, strict=True))
-    publish(files, folder)
-    return assessment, folder, files, changed
+    return dict(zip(OUTPUTS, (pdf, plan.result(), table.result(), results.result()), strict=True))
 
 
 def load() -> None:

@@ -28,29 +28,29 @@ from report.typeset.pdf import TEMPLATES
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Begun:
+class PendingPictures:
     """What is drawn and typeset beside the computation; equations are by their LaTeX."""
 
     package: PackageData
-    second: Executor
+    worker: Executor
     pictures: tuple[Future[Pictures], ...]
     equations: Future[dict[str, Formula]]
 
-    def plot(self, shown: Plotted) -> Begun:
+    def plot(self, shown: Plotted) -> PendingPictures:
         """Begin with most figures."""
-        drawn = self.second.submit(draw_plotted, self.package, shown)
+        drawn = self.worker.submit(draw_plotted, self.package, shown)
         return replace(self, pictures=(*self.pictures, drawn))
 
 
-def begin(assessment: Assessment, changes: Changes, second: Executor) -> Begun:
+def begin(assessment: Assessment, changes: Changes, worker: Executor) -> PendingPictures:
     """Begin with what needs no evidence, while it is computed."""
     package = package_data(assessment, changes)
     steps = _latex((method.page(package), inputs.inputs(package)))
-    return Begun(
+    return PendingPictures(
         package=package,
-        second=second,
-        pictures=(second.submit(draw_assessment, package),),
-        equations=second.submit(formulas, steps),
+        worker=worker,
+        pictures=(worker.submit(draw_assessment, package),),
+        equations=worker.submit(formulas, steps),
     )
 
 
@@ -58,21 +58,21 @@ def pages(
     assessment: Assessment,
     evidence: Evidence,
     changes: Changes = NO_FORMER,
-    begun: Begun | None = None,
+    pending: PendingPictures | None = None,
 ) -> str:
     """Return the calculation package as HTML, with what changed if a former one is named.
 
     Parameters
     ----------
-    begun : Begun, optional
+    pending : PendingPictures, optional
         What `begin` returned, and then its `plot`.
     """
-    begun = begun or begin(assessment, changes, SameProcess()).plot(evidence)
-    package = begun.package
-    drawn = (*begun.pictures, begun.second.submit(draw_certainty, package, evidence.certainty))
+    pending = pending or begin(assessment, changes, SameProcess()).plot(evidence)
+    package = pending.package
+    drawn = (*pending.pictures, pending.worker.submit(draw_certainty, package, evidence.certainty))
     ids = (*_FRONT, *(page.id for page in pages_of(package)))
     content = _content(package, evidence, ids)
-    ready = begun.equations.result()
+    ready = pending.equations.result()
     pictures = {id: some for done in drawn for id, some in done.result().items()}
     return _html(package, content, pictures, ready)
 
