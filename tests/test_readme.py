@@ -145,7 +145,7 @@ def test_report_prints_each_array_and_where_the_files_are(reported):
     assert lines[0].split("  ")[0] == "array"
     assert [line.split()[0] for line in lines[1:4]] == ["A1", "A2", "A3"]
     assert all("81.6 in (2072 mm)" in line for line in lines[1:4])
-    assert all("  OK with conditions: " in line for line in lines[1:4])
+    assert all("  Condition: " in line for line in lines[1:4])
     for name in ("calc-package.pdf", "results.xlsx", "results.json"):
         assert f"projects/example/out/{name}" in lines
         assert (reported.out / name).stat().st_size > 1000

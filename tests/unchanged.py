@@ -195,7 +195,7 @@ def said(folder: Path, *, words: bool) -> dict[str, list[str]]:
             from openpyxl import load_workbook  # after report, which decides what it reads with
 
             for sheet in load_workbook(path).worksheets:
-                cells = _of_input(sheet) if path.name == "input.xlsx" else _cells(sheet)
+                cells = (_of_input if path.name == "input.xlsx" else _of_results)(sheet)
                 found[f"{path.name}!{sheet.title}"] = list(cells)
         elif path.is_file() and path.suffix in (".json", ".dxf"):
             found[path.name] = path.read_text(encoding="utf-8").splitlines()
@@ -224,6 +224,14 @@ def _cells(sheet: Any) -> Iterator[str]:
         yield f"{rule.sqref} {[one.formula for one in rule.rules]}"
     for rule in sheet.data_validations.dataValidation:
         yield f"{rule.sqref} {rule.formula1} {rule.prompt}"
+
+
+def _of_results(sheet: Any) -> Iterator[str]:
+    """Yield the cells of a table of results, without D/C and verdicts in one word, said anew."""
+    said_anew = {"Clearances": "L", "Requirements": "F", "Design": "S"}.get(sheet.title, "-")
+    for line in _cells(sheet):
+        if not line.startswith(said_anew):
+            yield line.replace("OK with conditions", "Condition")
 
 
 def _of_input(sheet: Any) -> Iterator[str]:

@@ -207,7 +207,7 @@ def _of_array(data: ProjectInput, rules: RuleSet, index: int, array: Array) -> I
     yield from _requirement(strength, Place("arrays", index, "interconnection_n"))
     if array.slack_m is None:
         text = f"{array.id}, electrical slack: not given; provide at least the design displacement"
-        yield limit(Place("arrays", index, "slack_m"), f"{text}: {Verdict.CONDITIONS.value}")
+        yield limit(Place("arrays", index, "slack_m"), f"{text}: {Verdict.CONDITIONS.word}")
 
 
 def _requirement(row: Row, place: Place) -> Iterator[Finding]:
@@ -215,4 +215,4 @@ def _requirement(row: Row, place: Place) -> Iterator[Finding]:
         subject = f"{row.subject}, " if row.subject else ""
         title = row.title[0].lower() + row.title[1:]
         text = f"{subject}{title}: {row.found}; {row.limit} required ({row.basis}): "
-        yield limit(place, f"{text}{row.verdict.value}. {row.remedy}")
+        yield limit(place, f"{text}{row.verdict.word}. {row.remedy}")

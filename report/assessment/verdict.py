@@ -28,8 +28,13 @@ class Verdict(StrEnum):
         """Whether it is not NG."""
         return self is not Verdict.NG
 
+    @property
+    def word(self) -> str:
+        """The verdict on anything but the whole project, in one word."""
+        return "Condition" if self is Verdict.CONDITIONS else self.value
 
-_BY_CONSEQUENCE = {Consequence.NG: Verdict.NG, Consequence.CONDITION: Verdict.CONDITIONS}
+
+BY_CONSEQUENCE = {Consequence.NG: Verdict.NG, Consequence.CONDITION: Verdict.CONDITIONS}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,7 +71,7 @@ class Row:
     @property
     def verdict(self) -> Verdict:
         """Verdict of this row alone."""
-        return Verdict.OK if self.is_satisfied else _BY_CONSEQUENCE[self.consequence]
+        return Verdict.OK if self.is_satisfied else BY_CONSEQUENCE[self.consequence]
 
 
 def worst(verdicts: Iterable[Verdict]) -> Verdict:

@@ -96,9 +96,9 @@ def _placed(
         raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
 
 
-def stamp(value: Verdict) -> Markup:
-    """Return a verdict, highlighted where it is not OK."""
-    return Markup('<b class="{}">{}</b>').format(value.name.lower(), value.value)
+def stamp(value: Verdict, text: str = "") -> Markup:
+    """Return a verdict, highlighted where it is not OK; that on the project as a text."""
+    return Markup('<b class="{}">{}</b>').format(value.name.lower(), text or value.word)
 
 
 def table_of(

@@ -100,7 +100,7 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
         item.both("design_m", fmt) + refused,
         item.governing_gap,
         item.largest_dc,
-        item.verdict + (f": {item.cause}" if item.cause else ""),
+        item.verdict.word + (f": {item.cause}" if item.cause else ""),
     )
 
 

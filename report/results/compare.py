@@ -258,7 +258,7 @@ def _requirements(former: Compared, now: Compared) -> Iterator[Change]:
     olds, news = (_keyed(one.requirements, key) for one in (former, now))
     for name in dict.fromkeys((*olds, *news)):
         shown = (
-            f"{rows[name].found}: {rows[name].verdict}" if name in rows else NOT_THERE
+            f"{rows[name].found}: {rows[name].verdict.word}" if name in rows else NOT_THERE
             for rows in (olds, news)
         )
         title = ", ".join(part for part in name[:2] if part)
@@ -267,8 +267,8 @@ def _requirements(former: Compared, now: Compared) -> Iterator[Change]:
 
 def _verdicts(former: Compared, now: Compared) -> Iterator[Change]:
     yield from _one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict)
-    before = {item.id: item.verdict for item in former.arrays}
-    after = {item.id: item.verdict for item in now.arrays}
+    before = {item.id: item.verdict.word for item in former.arrays}
+    after = {item.id: item.verdict.word for item in now.arrays}
     for name, verdict in after.items():
         old = before.get(name, NOT_THERE)
         yield from _one(ChangeKind.VERDICT, f"Array {name}", old, verdict)

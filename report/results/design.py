@@ -62,7 +62,7 @@ def write_design(
     for row, item in enumerate(assessment.arrays, start=4):
         _write_row(pages, sheet, row, assessment, item, peaks[item.id, Direction.ANY], inputs)
         _write_requirements(pages, sheet, row, assessment, item, inputs)
-        verdict = assessment.array_verdict(item).value
+        verdict = assessment.array_verdict(item).word
         formula = _verdict(row + 1, results[item.id])
         sheet.write_formula(row, 18, formula, pages.plain, verdict)
     _write_verdict(pages, sheet, assessment)
@@ -79,11 +79,11 @@ def _write_verdict(pages: Pages, sheet: Worksheet, assessment: Assessment) -> No
     )
     sheet.write_string(2, 0, "Verdict", pages.head)
     sheet.write_string(2, 2, "Other", pages.head)
-    sheet.write_string(2, 3, others.value, pages.plain)
+    sheet.write_string(2, 3, others.word, pages.plain)
     last = 4 + len(assessment.arrays)
     cells = ["D3", *(f"S{row}" for row in range(5, last + 1))]
     formula = f"=IF(OR({_any(cells, Verdict.NG)}),{_quoted(Verdict.NG)},"
-    formula += f"IF(OR({_any(cells, Verdict.CONDITIONS)}),{_quoted(Verdict.CONDITIONS)},"
+    formula += f'IF(OR({_any(cells, Verdict.CONDITIONS)}),"{Verdict.CONDITIONS}",'
     sheet.write_formula(
         2, 1, f"{formula}{_quoted(Verdict.OK)}))", pages.head, assessment.verdict.value
     )
@@ -94,7 +94,7 @@ def _any(cells: Sequence[str], verdict: Verdict) -> str:
 
 
 def _quoted(verdict: Verdict) -> str:
-    return f'"{verdict.value}"'
+    return f'"{verdict.word}"'
 
 
 def _verdict(r: int, results: Sequence[str]) -> str:
@@ -240,7 +240,7 @@ def _write_requirements(
             *(x.verdict for x in assessment.rows_of(item.id) if x.id not in _LIVE_ROWS),
         ]
     )
-    sheet.write_string(row, 20, others.value)
+    sheet.write_string(row, 20, others.word)
     _write_given(pages, sheet, row, 21, item.array.slack_m, INCH_M, 1)
     _write_given(pages, sheet, row, 22, item.array.weight_n, pound, 0)
     strength = f"MAX({inputs['interconnection_sds']}*B{r},{inputs['interconnection_min']})"

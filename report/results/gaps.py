@@ -18,6 +18,7 @@ from report.assessment.verdict import Verdict
 from report.results.directions import DirectionCells
 from report.results.inputs import InputCells
 from report.results.sheets import Pages, typed, write_headings
+from report.words.units import ratio
 from solver.model import INCH_M
 from solver.rules.provisions import SEPARATION_KEYS
 
@@ -96,9 +97,10 @@ def _write_row(
     ):
         shown = pages.marked(pages.numbers[decimals], mark)
         sheet.write_formula(row, column, formula, shown, value if has_value else "none")
-    found = item.demand_capacity if math.isfinite(item.demand_capacity) else "none"
-    ratio = f'=IF(ISTEXT(I{r}),"none",IF(K{r}>0,I{r}/K{r},"none"))'
-    sheet.write_formula(row, 11, ratio, pages.marked(pages.numbers[3], item.mark), found)
+    found = float(ratio(item.demand_capacity)) if math.isfinite(item.demand_capacity) else "none"
+    up = f"MAX(0,ROUNDUP(I{r}/K{r}-0.000000001,2))"  # as `report.words.units.ratio`
+    dc = f'=IF(ISTEXT(I{r}),"none",IF(K{r}>0,{up},"none"))'
+    sheet.write_formula(row, 11, dc, pages.marked(pages.numbers[2], item.mark), found)
     unknown = Verdict.NG if item.is_permitted else Verdict.NONE
     result = f'=IF(ISTEXT(I{r}),"{unknown}",IF(I{r}<=K{r},"OK","NG"))'
     sheet.write_formula(row, 12, result, pages.plain, item.verdict.value)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
-from report.assessment.verdict import Row, Verdict
+from report.assessment.verdict import BY_CONSEQUENCE, Row, Verdict
 from report.results.sheets import Pages, write_headings
 from solver.records.acceptance_row import AcceptanceRow
 from solver.rules.provisions import Check
@@ -42,13 +42,13 @@ def _rows(assessment: Assessment) -> Iterator[tuple[str, ...]]:
 
 def _requirement(row: Row) -> tuple[str, ...]:
     subject = row.subject or "Project"
-    return (subject, row.title, row.found, row.limit, row.basis, row.verdict.value, row.remedy)
+    return (subject, row.title, row.found, row.limit, row.basis, row.verdict.word, row.remedy)
 
 
 def _limit(item: str, check: Check) -> tuple[str, ...]:
     unit = {"deg": " deg", "m": " m", "count": "", "": ""}[check.measure]
     sign = "≤" if check.at_most else "≥"
-    word = Verdict.OK if check.ok else Verdict.NG
+    result = Verdict.OK if check.ok else Verdict.NG
     by_exception = f"over the limit, permitted: {check.provision.note}"
     return (
         item,
@@ -56,7 +56,7 @@ def _limit(item: str, check: Check) -> tuple[str, ...]:
         f"{check.value:.6g}{unit}",
         f"{sign} {check.limit:.6g}{unit}{OVERRIDDEN if check.provision.reason else ''}",
         check.provision.clause,
-        word.value,
+        result.word,
         by_exception if check.passes_by_exception else "",
     )
 
@@ -70,6 +70,6 @@ def _on_motions(row: AcceptanceRow) -> tuple[str, ...]:
         f"{row.found:.6g}{unit}{worst}",
         f"{'≥' if row.is_at_least else '≤'} {row.limit:.6g}{unit}",
         "limit of this program" if row.is_ours else "limit on motions for analysis",
-        "satisfied" if row.satisfied else f"not satisfied: {row.consequence.value}",
+        (Verdict.OK if row.satisfied else BY_CONSEQUENCE[row.consequence]).word,
         "",
     )

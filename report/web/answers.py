@@ -40,7 +40,7 @@ def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
     gaps = dict(enumerate(assessment.clearances))
 
     def verdict(found: Verdict) -> str | None:
-        return None if is_provisional else found.value
+        return None if is_provisional else found.word
 
     def array(item: ArrayResult, assessed: ArrayAssessment) -> Mapping[str, Any]:
         is_refused = item.is_refused and not is_provisional
@@ -68,7 +68,7 @@ def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
         "is_provisional": is_provisional,
-        "verdict": verdict(assessment.verdict),
+        "verdict": None if is_provisional else assessment.verdict.value,
         "verdict_text": None if is_provisional else verdict_sentence(package_data(assessment)),
         "reasons": [] if is_provisional else reasons(assessment),
         "scale_m": _scale_m(assessment),

@@ -5,7 +5,7 @@ import { html, replace, words } from "./make.js";
 /** Return the tag of a verdict: inverse for NG, boxed for conditions, as in the package. */
 export function tag(verdict) {
   if (verdict === null) return html("span", { class: "note" }, "–");
-  const looks = { NG: "tag is-ng", "OK with conditions": "tag is-conditions" };
+  const looks = { NG: "tag is-ng", Condition: "tag is-conditions", "OK with conditions": "tag is-conditions" };
   return html("strong", { class: looks[verdict] ?? "tag" }, verdict);
 }
 

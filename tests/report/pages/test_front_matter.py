@@ -81,7 +81,7 @@ def test_the_letter_counts_what_was_run():
     assert sum(gap.ok for gap in done.clearances) == 4
     assert page.line("Four of five clearances are satisfied.")
     verdicts = page.table("Results").column("Verdict")
-    assert verdicts == [done.array_verdict(a).value for a in done.arrays]
+    assert verdicts == [done.array_verdict(a).word for a in done.arrays]
     assert "departure" not in page
     assert "overridden" not in page
     one = scenes.package(arrays=[stand_in.array("A1", 1.0)], objects=[], clearances=[])

@@ -23,7 +23,7 @@ def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
     for key, title in (("letter", "Results"), ("summary", "Arrays")):
         one, other = printed(made, key).table(title).column("Verdict")
         assert one == "NG clearance A1 to RTU-9 not given"
-        assert other == "OK with conditions"
+        assert other == "Condition"
     assert any("NG: clearance A1 to RTU-9 not given" in line for line in summary(made.assessment))
 
 

@@ -75,7 +75,7 @@ def test_a_first_visit_shows_the_example_running_and_says_what_to_do(untouched):
     assert page.title().startswith(page.inner_text("h1"))
     assert "token" not in page.url
     # The project and its arrays, whose friction is not tested at their velocities; clearances.
-    assert verdicts(page) == ["OK with conditions"] * (1 + 3) + ["OK"] * 6
+    assert verdicts(page) == ["OK with conditions"] + ["Condition"] * 3 + ["OK"] * 6
     assert page.locator("#plan-drawing .array").count() == 3
     assert page.locator("#plan-drawing .callout").count() == 6
     assert page.locator("#bars tbody tr").count() == 7

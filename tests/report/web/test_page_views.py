@@ -234,7 +234,7 @@ CLEARANCES = """async (gap) => {
 }"""
 
 
-@pytest.mark.parametrize("verdict", ["NG", "OK with conditions"])
+@pytest.mark.parametrize("verdict", ["NG", "Condition"])
 def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(page, verdict):
     gap = {"array": "ARRAY-NW-01", "object": "PV existing 2014", "direction": "across"}
     gap |= {"provided": "", "provided_short": "96.0 in", "required": "", "ratio_text": "0.83"}
