@@ -18,24 +18,21 @@ def scene(az_g, *, ax_g=None, slope=0.0):
     return block(ax, az=G * np.array(az_g), dt=0.1, slope=slope, friction=0.5, g=G)
 
 
-def test_a_triangle_below_zero_is_seen_with_its_times_and_depth():
-    lift = uplift(scene([0.0, 0.0, -3.0, 0.0, 0.0]))
-    assert lift.lifts
-    assert (lift.n_min_g, lift.t_min_s, lift.times) == (-2.0, 0.2, 1)
-    assert lift.t_first_s == pytest.approx(0.1 + 0.1 / 3.0, rel=1e-15)
-    assert lift.duration_s == pytest.approx(0.4 / 3.0, rel=1e-15)
-
-
-def test_two_dips_and_one_that_lasts_are_added():
-    lift = uplift(scene([0.0, -2.0, 0.0, -2.0, -2.0, 0.0]))
-    assert (lift.times, lift.t_min_s) == (2, 0.1)
-    assert lift.duration_s == pytest.approx(0.05 * 4 + 0.1, rel=1e-14)
-
-
-def test_a_record_that_begins_below_zero_lifts_at_once():
-    lift = uplift(scene([-2.0, 0.0, -1.5]))
-    assert (lift.t_first_s, lift.times) == (0.0, 2)
-    assert lift.duration_s == pytest.approx(0.05 + 0.1 / 3.0, rel=1e-14)
+@pytest.mark.parametrize(
+    ("az_g", "n_min_g", "t_min_s", "t_first_s", "duration_s", "times"),
+    [
+        ([0.0, 0.0, -3.0, 0.0, 0.0], -2.0, 0.2, 0.4 / 3.0, 0.4 / 3.0, 1),
+        ([0.0, -2.0, 0.0, -2.0, -2.0, 0.0], -1.0, 0.1, 0.05, 0.3, 2),  # two dips, one that lasts
+        ([-2.0, 0.0, -1.5], -1.0, 0.0, 0.0, 0.05 + 0.1 / 3.0, 2),  # begins below zero
+    ],
+)
+def test_dips_below_zero_are_seen_with_their_times_and_depth(
+    az_g, n_min_g, t_min_s, t_first_s, duration_s, times
+):
+    lift = uplift(scene(az_g))
+    assert (lift.lifts, lift.n_min_g, lift.t_min_s, lift.times) == (True, n_min_g, t_min_s, times)
+    assert lift.t_first_s == pytest.approx(t_first_s, rel=1e-15)
+    assert lift.duration_s == pytest.approx(duration_s, rel=1e-14)
 
 
 @pytest.mark.parametrize("az_g", [[0.0, 0.5, -0.99], [0.0, -1.0, 0.0], [-1.0, -1.0, -1.0]])
