@@ -40,3 +40,30 @@ def shaking(seed, peak_mps2, seconds=10.0, dt=0.01):
     wave *= peak_mps2 / np.abs(wave).max()
     wave[0] = wave[-1] = 0.0
     return readonly(wave)
+
+
+SCENES = [
+    ([0.0, 4.0, 4.0, -8.0, 0.0, 0.0], [], 0.0, 0.2),
+    ([-4.0, 0.5, -8.0], [], 0.0, 0.2),
+    ([-4.0, 2.0, 2.0, -8.0], [], 0.0, 0.2),
+    ([2.0, 2.0, 2.0, -2.0, -2.0], [], 0.0, 0.2),
+    ([3.0, -3.0, 3.0, 3.0, -9.0, 5.0], [], 0.0, 0.0),
+    ([0.0, 0.0, 0.0, 0.0], [], 0.3, 0.1),
+    ([0.0, -6.0, 6.0, -6.0, 0.0, 0.0], [0.0, 2.0, -3.0, 1.0, 0.0, 0.0], 0.1, 0.4),
+    ([0.0, 0.0, -30.0, 0.0], [], 0.5, 0.4),
+    ([-30.0, 0.0, 0.0], [], 0.5, 0.4),
+    ([0.0, -20.0, 0.0, 12.0, 0.0], [], -0.6, 0.3),
+    # The speed comes down to touch zero at the vertex, within a rounding.
+    ([-4.0, 0.0, -4.0, -4.0], [], 0.0, 0.2),
+    ([0.0, -3.0, 1.0, -3.0, -3.0], [], 0.0, 0.1),
+    # Self-locking: no push can send it up the slope.
+    ([0.0, 8.0, 9.0, 0.0], [], 0.8, 1.5),
+    ([0.0, 8.0, 9.0, 0.0], [], 0.6, 0.75),
+    # The speed dips within an interval and stays above zero.
+    ([-8.0, -1.0, -8.0, 0.0], [], 0.0, 0.2),
+    ([0.0, 0.0, 0.0, -9.0, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0, 0.0], [], 0.1, 0.3),
+]
+"""Horizontal and vertical samples, sine of the slope, friction: together they reach every line.
+
+Pulses, reversals, dips to zero, equal samples, no friction, free sliding, long rests.
+"""

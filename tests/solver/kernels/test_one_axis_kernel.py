@@ -6,34 +6,10 @@ from itertools import product
 import numpy as np
 import pytest
 
-from blocks import readonly
+from blocks import SCENES, readonly
 from solver.kernels import one_axis, oscillator
 
 G = 10.0
-
-
-# Horizontal samples, vertical samples, sine of the slope, friction, chosen so that together they
-# reach every line: pulses, reversals, dips to zero, equal samples, no friction, free sliding.
-SCENES = [
-    ([0.0, 4.0, 4.0, -8.0, 0.0, 0.0], [], 0.0, 0.2),
-    ([-4.0, 0.5, -8.0], [], 0.0, 0.2),
-    ([-4.0, 2.0, 2.0, -8.0], [], 0.0, 0.2),
-    ([2.0, 2.0, 2.0, -2.0, -2.0], [], 0.0, 0.2),
-    ([3.0, -3.0, 3.0, 3.0, -9.0, 5.0], [], 0.0, 0.0),
-    ([0.0, 0.0, 0.0, 0.0], [], 0.3, 0.1),
-    ([0.0, -6.0, 6.0, -6.0, 0.0, 0.0], [0.0, 2.0, -3.0, 1.0, 0.0, 0.0], 0.1, 0.4),
-    ([0.0, 0.0, -30.0, 0.0], [], 0.5, 0.4),
-    ([-30.0, 0.0, 0.0], [], 0.5, 0.4),
-    ([0.0, -20.0, 0.0, 12.0, 0.0], [], -0.6, 0.3),
-    # The speed comes down to touch zero at the vertex, within a rounding.
-    ([-4.0, 0.0, -4.0, -4.0], [], 0.0, 0.2),
-    ([0.0, -3.0, 1.0, -3.0, -3.0], [], 0.0, 0.1),
-    # Self-locking: no push can send it up the slope.
-    ([0.0, 8.0, 9.0, 0.0], [], 0.8, 1.5),
-    ([0.0, 8.0, 9.0, 0.0], [], 0.6, 0.75),
-    # The speed dips within an interval and stays above zero.
-    ([-8.0, -1.0, -8.0, 0.0], [], 0.0, 0.2),
-]
 
 
 def quiet_then_shaken(n):

@@ -6,24 +6,11 @@ import os
 import numpy as np
 import pytest
 
-from blocks import readonly
+from blocks import SCENES, readonly
 from solver.kernels import rivals
 
 G = 10.0
 
-
-# Horizontal samples, vertical samples, sine of the slope, friction, chosen so that together they
-# reach every line: pulses, reversals, equal samples, no friction, free sliding, long rests.
-SCENES = [
-    ([0.0, 4.0, 4.0, -8.0, 0.0, 0.0], [], 0.0, 0.2),
-    ([-4.0, 0.5, -8.0], [], 0.0, 0.2),
-    ([2.0, 2.0, 2.0, -2.0, -2.0], [], 0.0, 0.2),
-    ([3.0, -3.0, 3.0, 3.0, -9.0, 5.0], [], 0.0, 0.0),
-    ([0.0, 0.0, 0.0, 0.0], [], 0.3, 0.1),
-    ([0.0, -6.0, 6.0, -6.0, 0.0, 0.0], [0.0, 2.0, -3.0, 1.0, 0.0, 0.0], 0.1, 0.4),
-    ([0.0, -20.0, 0.0, 12.0, 0.0], [], -0.6, 0.3),
-    ([0.0, 0.0, 0.0, -9.0, 0.0, 7.0, 0.0, 0.0, 0.0, 1.0, 0.0], [], 0.1, 0.3),
-]
 
 # Sub-steps and (omega h)^2 of a link, sound and not.
 SUBSTEPS = 5

@@ -64,13 +64,15 @@ def test_the_stepped_methods_are_better_with_smaller_sub_steps_on_both_sides_of_
 
 def test_no_tolerance_mends_what_a_large_velocity_spoils(maps):
     m = next(m for title, m in maps.items() if "tanh" in title)
-    assert (m.error_percent[:, -1] > 10.0).all()
-    assert m.error_percent[-1, 0] < m.error_percent[-1, -1]
+    off = m.error_percent
+    assert (off[:, -1] > 10.0).all()
+    assert (off[-1, 1:] > 0.5 * off[1, 1:]).all()
+    assert off[-1, 0] < 0.25 * off[-1, 1]
 
 
-def test_a_map_is_the_same_every_time(record):
-    chart, other = (stability.link_map(record, "penalty-explicit", quick=True) for _ in range(2))
-    np.testing.assert_array_equal(chart.error_percent, other.error_percent)
+def test_a_map_is_the_same_every_time(record, maps):
+    again = stability.link_map(record, "penalty-explicit", quick=True)
+    np.testing.assert_array_equal(again.error_percent, maps[again.title].error_percent)
 
 
 def test_at_the_critical_friction_the_ninth_digit_shows_and_elsewhere_it_does_not(record):
