@@ -54,13 +54,6 @@ def test_a_row_of_one_block_is_the_block_with_vertical_shaking(seed, slope, mu):
     assert result.stretch_m == result.link_force == 0.0
 
 
-def test_a_row_of_one_block_is_the_block_on_real_records(real_records):
-    for record, dt in real_records.values():
-        run = scene(record * (G / np.abs(record).max()), dt=dt)
-        result = slide_row(run, BlockRow(mus=(0.4,), stiffness_per_s2=1.0))
-        assert result.prd_m[0] == pytest.approx(result.rigid.prd_m, rel=1e-12)
-
-
 # Rigid limits
 
 

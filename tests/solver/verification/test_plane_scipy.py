@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 
-import numba
 import numpy as np
 import pytest
 
@@ -15,11 +14,7 @@ from solver.verification.rungs import stopped_scene
 from solver.verification.scenes import Case
 from solver.verification.triples import own_triples
 
-pytest.importorskip("scipy")
-pytestmark = [
-    pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes"),
-    pytest.mark.nightly("solver/kernels/two_axes.py", "solver/verification/"),
-]
+pytestmark = pytest.mark.nightly("solver/kernels/two_axes.py", "solver/verification/")
 
 
 def assert_followed(scene):

@@ -2,13 +2,10 @@
 
 import sys
 
-import numba
 import pytest
 
 from solver.verification import plane_scipy, plane_work
 from solver.verification.triples import own_triples
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="timings of compiled kernels")
 
 
 @pytest.fixture(scope="module")

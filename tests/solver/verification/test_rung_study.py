@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 
-import numba
 import numpy as np
 import pytest
 
@@ -21,8 +20,6 @@ from solver.verification.rung_evidence import (
     RungChange,
 )
 from solver.verification.triples import own_triples, readonly
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
 
 
 @pytest.fixture(scope="module")

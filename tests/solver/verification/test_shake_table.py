@@ -5,7 +5,6 @@ The slip is made: closed forms multiplied by a known factor. Nothing here was me
 
 import math
 
-import numba
 import numpy as np
 import pytest
 
@@ -17,8 +16,6 @@ from solver.verification.shake_table import compare
 from solver.verification.table_tests import MOST_TESTS, Data, table_tests
 
 GOOD = ("P1", "computed", "made", "x.csv", "", "", "0", "0.1", "100", "")
-
-compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
 
 
 @pytest.fixture
@@ -38,7 +35,6 @@ def faults(folder):
     return error.value.problems
 
 
-@compiled
 def test_ratios_are_those_with_which_the_tests_were_made(tmp_path):
     wanted = (0.8, 0.95, 1.0, 1.05, 1.2, 1.4)
     tables.write_folder(tmp_path, wanted)
@@ -51,7 +47,6 @@ def test_ratios_are_those_with_which_the_tests_were_made(tmp_path):
     assert {run.rung for run in table.runs} == {Rung.ONE_AXIS}
 
 
-@compiled
 @pytest.mark.parametrize(
     ("ratios", "accepted"),
     [
@@ -70,7 +65,6 @@ def test_the_acceptance_is_the_median_the_share_and_five_tests(tmp_path, ratios,
     assert (table.is_accepted, table.validates) == (accepted, accepted)
 
 
-@compiled
 def test_one_computed_slip_among_measured_ones_validates_nothing(tmp_path):
     rows = tables.write_folder(tmp_path, (1.0,) * 5, data="measured")
     tables.write_tests(tmp_path, [*rows[:4], changed(rows[4], {1: "computed"})])
@@ -78,7 +72,6 @@ def test_one_computed_slip_among_measured_ones_validates_nothing(tmp_path):
     assert (table.is_accepted, table.validates) == (True, False)
 
 
-@compiled
 def test_a_run_without_a_result_is_outside_and_leaves_no_median(tmp_path):
     rows = tables.write_folder(tmp_path, (1.0,) * 9)
     tables.write_record(tmp_path / "z.csv", trapezoid(-2.0 * G, 30, 400))
@@ -89,7 +82,6 @@ def test_a_run_without_a_result_is_outside_and_leaves_no_median(tmp_path):
     assert not table.is_accepted
 
 
-@compiled
 def test_a_test_without_measured_slip_has_no_ratio(tmp_path):
     rows = tables.write_folder(tmp_path, (1.0,) * 5)
     tables.write_tests(tmp_path, [*rows, changed(rows[0], {0: "still", 8: "0.5"})])
@@ -97,7 +89,6 @@ def test_a_test_without_measured_slip_has_no_ratio(tmp_path):
     assert (len(table.runs), table.ratios.size, table.is_accepted) == (6, 5, True)
 
 
-@compiled
 def test_three_axes_channels_static_friction_and_units_are_read(tmp_path):
     a = trapezoid(-4.0, 30, 100)
     lines = [f"{i * 0.01:.2f},{x!r},{0.3 * x!r},{0.1 * x!r}" for i, x in enumerate(a.tolist())]

@@ -1,13 +1,10 @@
 """Maps show failure where theory has it, and conditioning shows where no method can help."""
 
-import numba
 import numpy as np
 import pytest
 
 from solver.verification import stability
 from solver.verification.scenes import near_fault_pulse
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="thousands of runs")
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,5 @@
 """Static above kinetic friction: it fades with the difference, and jumps where it must."""
 
-import numba
 import numpy as np
 import pytest
 
@@ -9,8 +8,6 @@ from solver.sliding import one_axis, two_axes
 from solver.verification import rung_study, static_study
 from solver.verification.study import MODEL_CASES, TIGHT
 from solver.verification.triples import own_triples
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
 
 
 @pytest.fixture(scope="module")

@@ -2,15 +2,12 @@
 
 import shutil
 
-import numba
 import numpy as np
 import pytest
 
 from places import RECORDS, SAMPLES
 from solver.verification.scenes import own_records
 from solver.verification.triples import own_triples, recorded_triples
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
 
 (TRIPLE,) = own_triples(True)
 

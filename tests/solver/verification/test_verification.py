@@ -3,7 +3,6 @@
 import dataclasses
 import math
 
-import numba
 import numpy as np
 import pytest
 
@@ -15,10 +14,6 @@ from solver.verification import checks, crosschecks, paper_studies, plane_scipy,
 from solver.verification.evidence import DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
 from solver.verification.scenes import Case, near_fault_pulse, own_records, scale_to, shortened
-
-pytestmark = pytest.mark.skipif(
-    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
-)
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +42,7 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
 
 
 @pytest.mark.nightly("solver/verification/")
-def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(verification):
+def test_every_section_has_rows_with_a_source_and_a_tolerance_and_no_two_are_alike(verification):
     rows = verification.checks
     assert {row.section for row in rows} == {
         "Closed forms",
@@ -62,7 +57,8 @@ def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(veri
     assert all(row.source and row.unit and row.tolerance <= 0.025 for row in rows)
     digits = [row for row in rows if row.section == "Decimal arithmetic, 50 digits"]
     assert max(row.error for row in digits) <= 1e-12
-    assert len({(row.problem, row.quantity) for row in digits}) == len(digits)
+    names = [(row.section, row.problem, row.quantity) for row in rows]
+    assert len(set(names)) == len(names)
 
 
 @pytest.mark.nightly("solver/verification/")
@@ -75,12 +71,6 @@ def test_every_check_that_a_feature_names_ran_and_every_check_belongs_to_one(ver
     assert extra <= ran or not plane_scipy.is_installed()
     for status in statuses(verification.checks, ()):
         assert status.is_verified == bool(status.feature.checks), status
-
-
-@pytest.mark.nightly("solver/verification/")
-def test_no_two_rows_are_alike(verification):
-    names = [(row.section, row.problem, row.quantity) for row in verification.checks]
-    assert len(set(names)) == len(names)
 
 
 def test_a_solver_that_is_a_millionth_off_fails_the_checks_that_see_it(monkeypatch, pulse):

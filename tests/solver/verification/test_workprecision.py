@@ -2,9 +2,8 @@
 
 import itertools
 import math
-from types import MappingProxyType
+from dataclasses import replace
 
-import numba
 import numpy as np
 import pytest
 
@@ -12,8 +11,6 @@ from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification import study, workprecision
 from solver.verification.scenes import CASES, near_fault_pulse, prepared, shortened
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="timings of compiled kernels")
 
 
 @pytest.fixture(scope="module")
@@ -62,10 +59,9 @@ def test_every_point_that_came_through_has_a_time(points):
 
 
 def test_a_failed_run_is_a_hole_with_its_status(record, monkeypatch):
-    stiff = MappingProxyType({"stiffness_per_m": 1e8, "substeps": 1})
-    monkeypatch.setattr(workprecision, "settings", lambda *_, **__: [(1e8, stiff)])
-    link = {"penalty-explicit": METHODS["penalty-explicit"]}
-    monkeypatch.setattr(workprecision, "METHODS", link)
+    name = "penalty-explicit"
+    stiff = replace(METHODS[name], sweep=(1e8,), link_steps_per_radian=0.0)
+    monkeypatch.setattr(workprecision, "METHODS", {name: stiff})
     failed = list(workprecision.work_points([record], quick=True))
     assert len(failed) == 3
     for point in failed:
