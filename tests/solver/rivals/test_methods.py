@@ -109,27 +109,25 @@ FINE = {
 }
 
 
-@pytest.mark.parametrize("name", CEILINGS)
-def test_a_ramped_pulse_on_a_flat_roof_is_met_within_the_ceiling(name):
-    dt, plateau = 0.01, 20
-    expected = problems.pulse_travel(0.4 * G, 0.1 * G, plateau * dt, dt)
-    ax = trapezoid(0.4 * G, plateau, 150)
-    result = slide(ax, dt, slope_rad=0.0, mu=0.1, method=name, **FINE.get(name, {}))
-    assert result.prd_m == pytest.approx(expected, rel=CEILINGS[name])
-    assert result.up_m == pytest.approx(expected, rel=CEILINGS[name])
-    assert result.status is Status.OK
+FLAT, SLOPED = (0, 0.1, 0.4), (5, 0.4, 0.6)
 
 
-@pytest.mark.parametrize("vertical", [-0.3, 0.3])
-@pytest.mark.parametrize("name", [name for name in CEILINGS if METHODS[name].takes_vertical])
-def test_a_ramped_pulse_on_a_slope_with_vertical_shaking_is_met(name, vertical):
-    slope, dt, plateau = math.radians(5), 0.01, 30
-    drive, resist = problems.slope_pulse(slope, 0.4, 0.6, vertical, G)
-    ax, az = (trapezoid(a * G, plateau, 150) for a in (-0.6, vertical))
+@pytest.mark.parametrize(
+    ("name", "scene", "vertical"),
+    [
+        *((name, FLAT, 0.0) for name in CEILINGS),
+        *((n, SLOPED, a) for n in CEILINGS if METHODS[n].takes_vertical for a in (-0.3, 0.3)),
+    ],
+)
+def test_a_ramped_pulse_is_met_within_the_ceiling(name, scene, vertical):
+    (degrees, mu, amplitude), dt, plateau = scene, 0.01, 25
+    slope, az = math.radians(degrees), trapezoid(vertical * G, plateau, 150) if vertical else None
+    drive, resist = problems.slope_pulse(slope, mu, amplitude, vertical, G)
     expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
-    scene = {"slope_rad": slope, "mu": 0.4, "az_mps2": az, "method": name}
-    result = slide(ax, dt, **scene, **FINE.get(name, {}))
-    assert result.down_m == pytest.approx(expected, rel=CEILINGS[name])
+    ax, some = trapezoid(-amplitude * G, plateau, 150), {"method": name} | FINE.get(name, {})
+    result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, **some)
+    assert (result.prd_m, result.down_m) == pytest.approx((expected,) * 2, rel=CEILINGS[name])
+    assert result.status is Status.OK
 
 
 @pytest.mark.parametrize("name", ["paper", "linear", "penalty-explicit", "penalty-implicit"])
