@@ -386,7 +386,11 @@ def test_a_history_ends_where_the_result_says_and_follows_the_exact_one(noise, n
     history = slide_history(record, 0.01, **scene, method=name, **some)
     assert history.result == slide(record, 0.01, **scene, method=name, **some)
     assert history.u_m[-1] == pytest.approx(history.result.residual_m, rel=1e-9)
-    assert np.abs(history.u_m - exact.u_m).max() < 0.05 * exact.result.prd_m
+    near = 0.05 * exact.result.prd_m
+    assert np.abs(history.u_m - exact.u_m).max() < near
+    sides, wanted = ((r.down_m, r.up_m) for r in (history.result, exact.result))
+    assert min(wanted) > 2.0 * near
+    assert sides == pytest.approx(wanted, abs=near)
     assert bool(history.events) is (name == "exact")
 
 
